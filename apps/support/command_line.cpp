@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "command_line.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include <unistd.h>
+
+#include <pcl_als/common/errors.h>
+
+namespace po = boost::program_options;
+
+namespace pcl_als::app {
+
+CommandLine::CommandLine(std::string tool, std::string purpose, std::string synopsis,
+                         std::string example)
+    : tool_(std::move(tool)),
+      purpose_(std::move(purpose)),
+      synopsis_(std::move(synopsis)),
+      example_(std::move(example)),
+      options_("Options (one dash or two)", 100, 60) {}
+
+void CommandLine::addOptional(const char* name, const char* help) {
+  options_.add_options()(name, po::value<std::string>(), help);
+}
+
+void CommandLine::addFlag(const char* name, const char* help) {
+  options_.add_options()(name, help);
+}
+
+std::string CommandLine::help() const {
+  std::ostringstream text;
+  text << tool_ << ": " << purpose_ << "\n\nUsage: " << tool_ << ' ' << synopsis_ << "\n\n"
+       << options_ << "\nExample:\n  " << example_
+       << "\n\nExit status: 0 done, 1 wrong usage, 2 unusable input, 3 no reliable numerical "
+          "answer.\n";
+  return text.str();
+}
+
+bool CommandLine::parse(int argc, const char* const* argv) {
+  add<int>("threads", "number of threads; 0: all cores", 0);
+  addFlag("quiet", "print nothing but errors");
+  addFlag("help,h", "print this help");
+  addFlag("version", "print the version");
+  po::options_description all;
+  all.add(options_).add_options()("input", po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add("input", -1);
+  const int style =
+      (po::command_line_style::unix_style | po::command_line_style::allow_long_disguise) &
+      ~po::command_line_style::allow_guessing;
+  try {
+    po::store(
+        po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
+        values_);
+    po::notify(values_);
+  } catch (const po::error& error) {
+    throw UsageError(std::string(error.what()) + " (see " + tool_ + " -h)");
+  }
+  if (has("help")) {
+    std::cout << help();
+    return false;
+  }
+  if (has("version")) {
+    std::cout << tool_ << ' ' << PCL_ALS_VERSION << '\n';
+    return false;
+  }
+  if (values_.count("input") != 0) inputs_ = values_["input"].as<std::vector<std::string>>();
+  if (get<int>("threads") < 0) throw UsageError("option -threads: must be 0 or more");
+  return true;
+}
+
+bool CommandLine::has(const char* name) const {
+  return values_.count(name) != 0;
+}
+
+double CommandLine::number(const char* name, double low, double high, const char* unit) const {
+  const double value = get<double>(name);
+  if (std::isfinite(value) && value >= low && value <= high) return value;
+  std::ostringstream text;
+  text << "option -" << name << ": " << value << ' ' << unit << " is outside [" << low << ", "
+       << high << "]";
+  throw UsageError(text.str());
+}
+
+const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t high) const {
+  if (inputs_.size() >= low && inputs_.size() <= high) return inputs_;
+  throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
+}
+
+int CommandLine::threads() const {
+  return get<int>("threads");
+}
+
+Step::Step(std::string what, bool quiet)
+    : what_(std::move(what)),
+      quiet_(quiet),
+      terminal_(!quiet && isatty(STDERR_FILENO) != 0),
+      start_(std::chrono::steady_clock::now()) {}
+
+Step::~Step() {
+  if (terminal_ && last_percent_ >= 0 && !finished_) std::fputs("\r\033[K", stderr);
+}
+
+void Step::progress(double fraction) {
+  if (!terminal_) return;
+  const int percent = static_cast<int>(100.0 * fraction);
+  if (percent == last_percent_) return;
+  last_percent_ = percent;
+  const int filled = percent * 30 / 100;
+  std::fprintf(stderr, "\r%s [%.*s%*s] %3d %%", what_.c_str(), filled,
+               "##############################", 30 - filled, "", percent);
+}
+
+void Step::done(const std::string& counts) {
+  finished_ = true;
+  if (quiet_) return;
+  if (terminal_ && last_percent_ >= 0) std::fputs("\r\033[K", stderr);
+  const auto elapsed = std::chrono::steady_clock::now() - start_;
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(elapsed).count();
+  std::cout << what_ << " … " << counts << ", " << ms << " ms" << std::endl;
+}
+
+int run(const char* tool, const std::function<int()>& body) {
+  const auto failed = [tool](const char* message, int status) {
+    std::cerr << tool << ": " << message << std::endl;
+    return status;
+  };
+  try {
+    return body();
+  } catch (const UsageError& error) {
+    return failed(error.what(), kWrongUsage);
+  } catch (const std::bad_alloc&) {
+    return failed("not enough memory", kUnusableInput);
+  } catch (const std::exception& error) {
+    return failed(error.what(), kUnusableInput);
+  }
+}
+
+std::vector<std::string> splitList(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream stream(list);
+  for (std::string part; std::getline(stream, part, ',');) {
+    const auto first = part.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    parts.push_back(part.substr(first, part.find_last_not_of(" \t") - first + 1));
+  }
+  return parts;
+}
+
+std::string grouped(std::uint64_t count) {
+  std::string digits = std::to_string(count);
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), " ");
+  return digits;
+}
+
+}  // namespace pcl_als::app

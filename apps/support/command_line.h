@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <boost/program_options.hpp>
+
+namespace pcl_als::app {
+
+/// Exit statuses of every tool.
+enum ExitStatus { kDone = 0, kWrongUsage = 1, kUnusableInput = 2, kNoReliableAnswer = 3 };
+
+/** \brief Options of a tool: positional inputs and `-option value`, with one dash or two.
+ *
+ * `-h`, `-version`, `-quiet` and `-threads N` are common to all tools. A tool declares its own
+ * through options() and reads them with get(). Unknown options, missing values and values out of
+ * range are UsageError, naming the option.
+ */
+class CommandLine {
+ public:
+  /// \param tool "pcl_als_info"; \param purpose one sentence; \param synopsis "FILE…"; \param
+  /// example a full command
+  CommandLine(std::string tool, std::string purpose, std::string synopsis, std::string example);
+
+  /// Adds an option that takes a value; an empty \a default_text means "no value unless given".
+  template <typename T>
+  void add(const char* name, const char* help, const T& default_value);
+  void addOptional(const char* name, const char* help);  ///< text value, absent by default
+  void addFlag(const char* name, const char* help);
+
+  /// Parses; returns false when help or version was printed and the tool is done. Throws
+  /// UsageError.
+  bool parse(int argc, const char* const* argv);
+
+  template <typename T>
+  T get(const char* name) const;
+  bool has(const char* name) const;
+  std::string text(const char* name) const { return get<std::string>(name); }
+  /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
+  double number(const char* name, double low, double high, const char* unit) const;
+
+  /// Positional arguments; UsageError unless their number is in [low, high].
+  const std::vector<std::string>& inputs(std::size_t low, std::size_t high) const;
+  bool quiet() const { return has("quiet"); }
+  int threads() const;
+
+ private:
+  std::string help() const;
+
+  std::string tool_, purpose_, synopsis_, example_;
+  boost::program_options::options_description options_;
+  boost::program_options::variables_map values_;
+  std::vector<std::string> inputs_;
+};
+
+/** \brief Prints one line per step with counts and milliseconds to stdout, unless quiet.
+ *
+ * `Step step("Reading strip1.las", quiet); …; step.done("1843200 points");` gives
+ * `Reading strip1.las … 1843200 points, 112 ms`. On a terminal, progress() draws a bar on stderr
+ * meanwhile.
+ */
+class Step {
+ public:
+  Step(std::string what, bool quiet);
+  ~Step();
+  Step(const Step&) = delete;
+  Step& operator=(const Step&) = delete;
+  void progress(double fraction);
+  void done(const std::string& counts);
+
+ private:
+  std::string what_;
+  bool quiet_, terminal_, finished_ = false;
+  int last_percent_ = -1;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// Runs a tool's body and turns exceptions into one line on stderr ("pcl_als_info: …") and the exit
+/// status.
+int run(const char* tool, const std::function<int()>& body);
+
+/// "a, b, c" → {"a", "b", "c"}, without blanks and empty parts.
+std::vector<std::string> splitList(const std::string& list);
+
+/// 1843200 → "1 843 200".
+std::string grouped(std::uint64_t count);
+
+}  // namespace pcl_als::app
+
+#include "command_line.hpp"

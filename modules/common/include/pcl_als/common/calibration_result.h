@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/system_parameters.h>
+
+namespace pcl_als {
+
+enum class ParameterStatus { estimated, fixed, not_estimable };
+
+/// One system parameter of a calibration, in internal units (m, rad, 1). bias = assumed - true.
+struct ParameterEstimate {
+  double bias = 0.0;
+  double std = 0.0;         ///< honest standard deviation: what the pairs share is accounted for
+  double std_formal = 0.0;  ///< Habib et al. 2011, Eq. (26): pairs taken as independent
+  ParameterStatus status = ParameterStatus::fixed;
+  std::string reason;  ///< why it is fixed or not estimable; empty when estimated
+};
+
+/// One iteration of the adjustment.
+struct CalibrationIteration {
+  std::size_t correspondences = 0;
+  double sigma0 = 0.0;
+  double largest_update = 0.0;  ///< largest effect of the update on a ground point, metres
+};
+
+/// Fit of one overlapping pair of strips; normal distances of points to patches of the other strip,
+/// metres.
+struct PairFit {
+  std::string a, b;
+  std::size_t correspondences = 0;
+  double rms_before = 0.0, rms_after = 0.0, mean_before = 0.0, mean_after = 0.0;
+};
+
+/// Fit of one strip to control; vertical differences strip - control, metres.
+struct ControlFit {
+  std::string strip;
+  std::size_t points = 0;
+  double mean_before = 0.0, rms_before = 0.0, mean_after = 0.0, rms_after = 0.0;
+};
+
+/// The content of calibration.json.
+struct CalibrationResult {
+  std::string model = "quasi_rigorous";
+  std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
+  std::vector<SystemParameter> correlation_order;                   ///< the estimated ones
+  Eigen::MatrixXd correlation;                                      ///< in that order
+  double sigma0 = 0.0;
+  long redundancy = 0;
+  bool converged = false;
+  double line_fit_half_width =
+      0.0;  ///< seconds: the trajectory window the design used; apply uses the same
+  std::vector<CalibrationIteration> iterations;
+  std::vector<PairFit> pairs;
+  std::vector<ControlFit> control;
+  std::vector<std::string> warnings;
+  std::vector<std::string> inputs;
+
+  SystemVector biases() const;
+  ParameterEstimate& operator[](SystemParameter p) { return parameters[indexOf(p)]; }
+  const ParameterEstimate& operator[](SystemParameter p) const { return parameters[indexOf(p)]; }
+};
+
+std::string_view toString(ParameterStatus status);
+
+}  // namespace pcl_als

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#define PCL_NO_PRECOMPILE
+#include <cmath>
+#include <cstdint>
+
+#include <pcl/impl/point_types.hpp>
+#include <pcl/point_types.h>
+#include <pcl/register_point_struct.h>
+
+namespace pcl_als {
+
+/** \brief A LiDAR return: 32 bytes, relative to a LocalFrame.
+ *
+ * Registered with PCL, so PCD files and PCL's filters keep every field (see impl/centroid_point.hpp
+ * for what pcl::VoxelGrid does with the fields that have no mean, such as gps_time).
+ */
+struct EIGEN_ALIGN16 PointLidar {
+  PCL_ADD_POINT4D;  ///< x, y, z: metres from the LocalFrame's origin
+  double gps_time =
+      0.0;  ///< seconds; week seconds or adjusted standard GPS time, as the source file has it
+  float intensity = 0.0F;  ///< digital number of the source file
+  float scan_angle =
+      0.0F;  ///< degrees as recorded in the file, with the file's sign; never used in estimation
+  std::uint16_t point_source_id = 0;  ///< flight line (strip) number
+  std::uint8_t return_number = 1;     ///< 1 … number_of_returns
+  std::uint8_t number_of_returns = 1;
+  std::uint8_t classification = 0;  ///< ASPRS class code
+  std::uint8_t flags = 0;           ///< bits of PointFlag
+
+  PointLidar() { x = y = z = 0.0F, data[3] = 1.0F; }
+  PointLidar(float px, float py, float pz) { x = px, y = py, z = pz, data[3] = 1.0F; }
+  PCL_MAKE_ALIGNED_OPERATOR_NEW
+};
+
+/// Bits of PointLidar::flags, as LAS 1.4 names them; bits 6 and 7 hold the scanner channel.
+enum PointFlag : std::uint8_t {
+  kSynthetic = 1,
+  kKeyPoint = 2,
+  kWithheld = 4,
+  kOverlap = 8,
+  kScanDirection = 16,
+  kEdgeOfFlightLine = 32,
+};
+
+}  // namespace pcl_als
+
+POINT_CLOUD_REGISTER_POINT_STRUCT(
+    pcl_als::PointLidar,
+    (float, x, x)(float, y, y)(float, z, z)(double, gps_time, gps_time)(float, intensity,
+                                                                        intensity)(
+        float, scan_angle, scan_angle)(std::uint16_t, point_source_id,
+                                       point_source_id)(std::uint8_t, return_number, return_number)(
+        std::uint8_t, number_of_returns, number_of_returns)(std::uint8_t, classification,
+                                                            classification)(std::uint8_t, flags,
+                                                                            flags))
+
+#include <pcl_als/common/impl/centroid_point.hpp>

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <Eigen/Core>
+
+namespace pcl_als {
+
+/// One record of a trajectory, as read. Angles in radians (module trajectory states the rotation),
+/// NaN when unknown.
+struct TrajectorySample {
+  double time = 0.0;                                          ///< seconds
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();         ///< metres, ground frame
+  double roll = std::numeric_limits<double>::quiet_NaN();     ///< right wing down positive
+  double pitch = std::numeric_limits<double>::quiet_NaN();    ///< nose up positive
+  double heading = std::numeric_limits<double>::quiet_NaN();  ///< clockwise from grid north
+
+  bool hasAttitude() const {
+    return std::isfinite(roll) && std::isfinite(pitch) && std::isfinite(heading);
+  }
+};
+
+/// A surveyed point on the ground, used vertically: against the TIN patch above or below it.
+struct ControlPoint {
+  std::string id;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, ground frame
+  double sigma = 0.0;  ///< standard deviation of the height, metres; 0 when the file gives none
+};
+
+}  // namespace pcl_als

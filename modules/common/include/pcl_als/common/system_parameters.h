@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace pcl_als {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kRadiansPerDegree = kPi / 180.0;
+inline constexpr double kRadiansPerArcsec = kPi / 648000.0;
+
+/// The eight system parameters in the column order of the design block A of Habib et al. 2011, Eq.
+/// (8).
+enum class SystemParameter {
+  lever_arm_x,        ///< dX, metres, body frame (x right)
+  lever_arm_y,        ///< dY, metres, body frame (y forward)
+  lever_arm_z,        ///< dZ, metres, body frame (z up)
+  boresight_pitch,    ///< domega, radians inside, arc-seconds at interfaces
+  boresight_roll,     ///< dphi
+  boresight_heading,  ///< dkappa
+  range_bias,         ///< dr, metres
+  scan_angle_scale,   ///< dS, unitless; the biases are of S around its nominal 1
+};
+
+inline constexpr int kSystemParameterCount = 8;
+
+/// Biases (assumed - true) or standard deviations of the eight, in internal units (m, rad, 1),
+/// indexed by SystemParameter.
+using SystemVector = Eigen::Matrix<double, kSystemParameterCount, 1>;
+using SystemMatrix = Eigen::Matrix<double, kSystemParameterCount, kSystemParameterCount>;
+
+/// Name, interface unit and factor of one parameter: interface value = internal value /
+/// internal_per_unit.
+struct SystemParameterInfo {
+  SystemParameter parameter;
+  std::string_view name;  ///< as in calibration.json and -estimate
+  std::string_view unit;  ///< "m", "arcsec" or "1"
+  double internal_per_unit;
+};
+
+/// All eight, in order.
+const std::array<SystemParameterInfo, kSystemParameterCount>& systemParameters();
+
+inline int indexOf(SystemParameter p) {
+  return static_cast<int>(p);
+}
+inline const SystemParameterInfo& infoOf(SystemParameter p) {
+  return systemParameters()[indexOf(p)];
+}
+
+/// The parameter of that name; empty when there is none.
+std::optional<SystemParameter> systemParameterNamed(std::string_view name);
+
+}  // namespace pcl_als

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/system_parameters.h>
+
+namespace pcl_als {
+
+const std::array<SystemParameterInfo, kSystemParameterCount>& systemParameters() {
+  using P = SystemParameter;
+  static constexpr std::array<SystemParameterInfo, kSystemParameterCount> infos{{
+      {P::lever_arm_x, "lever_arm_x", "m", 1.0},
+      {P::lever_arm_y, "lever_arm_y", "m", 1.0},
+      {P::lever_arm_z, "lever_arm_z", "m", 1.0},
+      {P::boresight_pitch, "boresight_pitch", "arcsec", kRadiansPerArcsec},
+      {P::boresight_roll, "boresight_roll", "arcsec", kRadiansPerArcsec},
+      {P::boresight_heading, "boresight_heading", "arcsec", kRadiansPerArcsec},
+      {P::range_bias, "range_bias", "m", 1.0},
+      {P::scan_angle_scale, "scan_angle_scale", "1", 1.0},
+  }};
+  return infos;
+}
+
+std::optional<SystemParameter> systemParameterNamed(std::string_view name) {
+  for (const SystemParameterInfo& info : systemParameters()) {
+    if (info.name == name) return info.parameter;
+  }
+  return std::nullopt;
+}
+
+SystemVector CalibrationResult::biases() const {
+  SystemVector biases;
+  for (int i = 0; i < kSystemParameterCount; ++i) biases[i] = parameters[i].bias;
+  return biases;
+}
+
+std::string_view toString(ParameterStatus status) {
+  switch (status) {
+    case ParameterStatus::estimated:
+      return "estimated";
+    case ParameterStatus::fixed:
+      return "fixed";
+    case ParameterStatus::not_estimable:
+      return "not_estimable";
+  }
+  return "fixed";
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace pcl_als {
+
+/// How the times of a point file count, as its header declares it.
+enum class TimeKind { none, week_seconds, adjusted_standard };
+
+/// What a point file says of itself before its points are read.
+struct PointFileInfo {
+  std::filesystem::path path;
+  std::uint64_t point_count = 0;
+  Eigen::Vector3d minimum =
+      Eigen::Vector3d::Zero();  ///< header's bounding box, metres, ground frame
+  Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d resolution = Eigen::Vector3d::Constant(0.001);  ///< coordinate step, metres
+  std::string crs;  ///< WKT or "EPSG:…"; empty when unknown
+  TimeKind time_kind = TimeKind::none;
+  std::string format;  ///< "LAS 1.4, point format 6", "PCD binary"
+};
+
+/// Points as columns: ground frame in double, one entry per point in each.
+struct PointChunk {
+  std::vector<double> x, y, z, gps_time;
+  std::vector<float> intensity, scan_angle;
+  std::vector<std::uint16_t> point_source_id;
+  std::vector<std::uint8_t> return_number, number_of_returns, classification,
+      flags;  ///< flags: PointFlag
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t count);
+};
+
+/** \brief Reads the points of a .las, .laz or .pcd file chunk by chunk, in file order, in constant
+ * memory.
+ *
+ * Everything that is wrong with the file is an InputError that names file, what is wrong and what
+ * to do.
+ */
+class PointReader {
+ public:
+  static constexpr std::size_t kChunk = std::size_t{1} << 17;
+
+  virtual ~PointReader() = default;
+  /// Opens by extension; a .laz without LASzip support is an InputError that says how to get it.
+  static std::unique_ptr<PointReader> open(const std::filesystem::path& path);
+
+  virtual const PointFileInfo& info() const = 0;
+  /// The next at most kChunk points; false (and an empty chunk) at the end.
+  virtual bool read(PointChunk& chunk) = 0;
+};
+
+}  // namespace pcl_als

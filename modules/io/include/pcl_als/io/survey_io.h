@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/survey_types.h>
+
+namespace pcl_als {
+
+/** \brief Reads a trajectory: CSV (header with time,x,y,z[,roll,pitch,heading], any order,
+ * separator , ; tab or blanks; seconds, metres, degrees) or Applanix SBET (.out, .sbet; projected
+ * to \a crs with PROJ, meridian convergence applied to the heading = platform heading - wander
+ * angle).
+ *
+ * File order is kept. InputError names file and line (or record) and column. SBET without \a crs is
+ * a UsageError that names the option.
+ */
+std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
+                                             const std::string& crs = {});
+
+/// Reads control points: CSV id,x,y,z[,sigma], columns found by name. InputError names file, line
+/// and column.
+std::vector<ControlPoint> readControl(const std::filesystem::path& path);
+
+/// Writes / reads calibration.json (its schema is in the module's README). Angles are arc-seconds
+/// in the file.
+void writeCalibration(const std::filesystem::path& path, const CalibrationResult& result);
+CalibrationResult readCalibration(const std::filesystem::path& path);
+
+}  // namespace pcl_als

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/tin/tin.h>
+
+namespace pcl_als {
+
+/// A point's closest TIN patch (triangle).
+struct PatchMatch {
+  std::int32_t triangle = Tin::kNone;
+  Eigen::Vector3d normal;   ///< unit, upward
+  Eigen::Vector3d foot;     ///< the point projected onto the patch's plane
+  Eigen::Vector3d weights;  ///< barycentric coordinates of foot; all >= 0: inside
+  double signed_normal_distance =
+      0.0;  ///< normal . (point - foot), metres; positive above the patch
+};
+
+/// What the surface around a triangle is like: decides whether it is a patch worth measuring to.
+struct PatchQuality {
+  float longest_edge = 0.0F;  ///< metres, 3D
+  float slope = 0.0F;         ///< radians from horizontal
+  float roughness =
+      0.0F;  ///< RMS distance of the neighbourhood's vertices from their plane, metres
+  float bend =
+      0.0F;  ///< angle between the triangle's normal and the neighbourhood plane's normal, radians
+  std::uint16_t vertices =
+      0;                 ///< in the neighbourhood (the triangles that share a vertex with this one)
+  bool on_hull = false;  ///< touches the border of the TIN
+};
+
+/** \brief The triangles of a TIN as patches: unit normals, quality, and closest-patch search. */
+class PatchSurface {
+ public:
+  explicit PatchSurface(Tin tin);
+  const Tin& tin() const;
+  Eigen::Vector3d normal(std::int32_t triangle) const;  ///< unit, upward
+  PatchQuality quality(std::int32_t triangle) const;    ///< computed on request; constant time
+
+  /** \brief The patch conjugate to a point (Habib et al. 2011, section 2.3.1): the closest triangle
+   * in 3D, if the point's projection along its normal falls inside it and the normal distance is at
+   * most \a max_normal_distance. Empty when the closest triangle fails either condition or none is
+   * that close. Exact: equal to trying every triangle; of equally close ones the lowest index. */
+  std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance) const;
+
+  /// The patch above or below a point in plan (for vertical control); empty outside the hull. Its
+  /// signed_normal_distance is along the normal; weights are those of the vertical projection.
+  std::optional<PatchMatch> vertical(const Eigen::Vector3d& point) const;
+
+  void movePoints(std::vector<Eigen::Vector3d> points);  ///< as Tin::movePoints; normals follow
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,14 @@
+# The installed package: find_package(pcl_als) gives pcl_als::common, pcl_als::io, …
+include(CMakePackageConfigHelpers)
+set(PCL_ALS_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_als)
+
+install(EXPORT pcl_als-targets NAMESPACE pcl_als:: DESTINATION ${PCL_ALS_CONFIG_DIR})
+configure_package_config_file(share/cmake/pcl_als-config.cmake.in
+  ${CMAKE_BINARY_DIR}/pcl_als-config.cmake INSTALL_DESTINATION ${PCL_ALS_CONFIG_DIR})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/pcl_als-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${CMAKE_BINARY_DIR}/pcl_als-config.cmake
+  ${CMAKE_BINARY_DIR}/pcl_als-config-version.cmake
+  share/cmake/pcl_als_packages.cmake
+  DESTINATION ${PCL_ALS_CONFIG_DIR})

@@ -1,0 +1,32 @@
+# Build options and third-party packages, in one place.
+option(BUILD_SHARED_LIBS "Build shared libraries" ON)
+option(PCL_ALS_BUILD_BENCHMARKS "Build tests/benchmarks (needs google-benchmark)" OFF)
+option(PCL_ALS_BUILD_FUZZERS "Build tests/fuzz with libFuzzer (needs clang)" OFF)
+option(PCL_ALS_WITH_PROJ "Read SBET trajectories and reproject with PROJ" ON)
+option(PCL_ALS_WITH_LASZIP "Read and write .laz where LASzip is found" ON)
+set(PCL_ALS_SANITIZE "" CACHE STRING "Sanitizers for every target, e.g. address,undefined")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+
+find_program(PCL_ALS_CCACHE ccache)
+if(PCL_ALS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PCL_ALS_CCACHE})
+endif()
+
+add_compile_options(-Wall -Wextra)
+if(PCL_ALS_SANITIZE)
+  add_compile_options(-fsanitize=${PCL_ALS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${PCL_ALS_SANITIZE})
+endif()
+
+include(${CMAKE_CURRENT_LIST_DIR}/pcl_als_packages.cmake)

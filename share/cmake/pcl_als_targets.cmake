@@ -1,0 +1,57 @@
+# One call per module, tool and test. Unknown arguments are fatal, sources are listed by hand.
+include(GNUInstallDirs)
+
+function(_pcl_als_check_arguments caller unparsed)
+  if(unparsed)
+    message(FATAL_ERROR "${caller}: unknown arguments: ${unparsed}")
+  endif()
+endfunction()
+
+# als_add_module(NAME io SOURCES src/a.cpp … [MODULES common …] [PUBLIC …] [PRIVATE …] [DEFINITIONS …])
+#   MODULES  modules this one may include (checked by tests/architecture)
+#   PUBLIC   third-party targets seen in headers; PRIVATE: used in sources only
+function(als_add_module)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;MODULES;PUBLIC;PRIVATE;DEFINITIONS" ${ARGN})
+  _pcl_als_check_arguments(als_add_module "${ARG_UNPARSED_ARGUMENTS}")
+  set(target pcl_als_${ARG_NAME})
+  add_library(${target} ${ARG_SOURCES})
+  add_library(pcl_als::${ARG_NAME} ALIAS ${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
+  target_link_libraries(${target} PUBLIC ${ARG_MODULES} ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_compile_definitions(${target} PRIVATE ${ARG_DEFINITIONS})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  install(TARGETS ${target} EXPORT pcl_als-targets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# als_add_app(VERB calibrate SOURCES … MODULES …): the tool pcl_als_VERB
+function(als_add_app)
+  cmake_parse_arguments(ARG "" "VERB" "SOURCES;MODULES;PRIVATE" ${ARGN})
+  _pcl_als_check_arguments(als_add_app "${ARG_UNPARSED_ARGUMENTS}")
+  set(target pcl_als_app_${ARG_VERB})
+  add_executable(${target} ${ARG_SOURCES})
+  list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
+  target_link_libraries(${target} PRIVATE pcl_als_app_support ${ARG_MODULES} ${ARG_PRIVATE})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME pcl_als_${ARG_VERB}
+    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# als_add_test(NAME test_tin SOURCES … [MODULES …] [PRIVATE …]): a GoogleTest program of one module
+function(als_add_test)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;MODULES;PRIVATE" ${ARGN})
+  _pcl_als_check_arguments(als_add_test "${ARG_UNPARSED_ARGUMENTS}")
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
+  target_link_libraries(${ARG_NAME} PRIVATE ${ARG_MODULES} ${ARG_PRIVATE} GTest::gtest_main)
+  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+  target_compile_definitions(${ARG_NAME} PRIVATE
+    PCL_ALS_TEST_SCRATCH="${CMAKE_CURRENT_BINARY_DIR}/scratch"
+    PCL_ALS_TEST_DATA_DEFAULT="${PCL_ALS_TEST_DATA}")
+  add_test(NAME ${ARG_NAME} COMMAND ${ARG_NAME})
+endfunction()
