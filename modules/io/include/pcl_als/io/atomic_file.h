@@ -2,17 +2,30 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
 namespace pcl_als {
+
+namespace detail {
+struct TemporarySlot;
+}
 
 /** \brief An output file that appears under its name only when it is complete.
  *
  * Writing goes to a temporary file in the same folder; commit() flushes and renames it. Destroyed
  * without commit (an exception, an early return), or when the process is ended by SIGINT, SIGTERM
  * or SIGHUP, the temporary is removed and an existing file of that name is untouched. Every failure
- * (folder missing, read-only, disk full) is an InputError naming the file.
+ * (folder missing, read-only, disk full) is an InputError naming the file. kill -9 can leave
+ * `NAME.….partial` behind, never a half-written NAME. The signals are handled only where the
+ * program left them at their default; after the clean-up the default action follows.
+ *
+ * commit() does not fsync: it guards against failures of the program and of the file system's
+ * space, not against a power cut. A symbolic link as target is written through, the permissions of
+ * an existing target are kept, and a target that is no regular file (a folder, a device) is
+ * refused.
  */
 class AtomicFile {
  public:
@@ -25,11 +38,18 @@ class AtomicFile {
   const std::filesystem::path& temporaryPath() const { return temporary_; }
   void write(const void* data, std::size_t bytes);  ///< appends
   void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Writes at a position; may be called by several threads at once, unlike write().
+  void writeAt(std::uint64_t offset, const void* data, std::size_t bytes);
   void commit();
 
  private:
+  [[noreturn]] void fail(const char* what, int error) const;
+  void discard();
+
+  std::filesystem::path requested_;  ///< as the caller named it, for messages
   std::filesystem::path target_, temporary_;
   int descriptor_ = -1;
+  detail::TemporarySlot* slot_ = nullptr;
 };
 
 }  // namespace pcl_als

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pcl_als/io/las_header.h>
+#include <pcl_als/io/las_record.h>
+
+namespace pcl_als {
+
+/** \brief A .las or .laz file opened for reading its raw point records.
+ *
+ * The constructor checks header, VLRs, EVLRs and point range against the size of the file; nothing
+ * in the file is trusted. Memory does not grow with the file. Records of a .laz are packed as the
+ * plain LAS records they came from.
+ * \code
+ * LasFile file("strip1.las");
+ * std::vector<std::byte> records(n * file.header().record_length);
+ * file.readRecords(0, n, records.data());
+ * \endcode
+ */
+class LasFile {
+ public:
+  explicit LasFile(std::filesystem::path path);
+  ~LasFile();
+  LasFile(LasFile&&) noexcept;
+  LasFile& operator=(LasFile&&) = delete;
+
+  const std::filesystem::path& path() const;
+  const LasHeader& header() const;
+  const LasRecordLayout& layout() const;
+  const std::vector<LasVlrEntry>& vlrs() const;  ///< VLRs, then EVLRs, in file order
+  const std::vector<LasExtraField>& extraFields() const;
+  std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not say
+  std::uint64_t fileSize() const;
+  PointFileInfo info() const;
+
+  /// Payload of a VLR; InputError when it is longer than \a limit bytes.
+  std::vector<std::byte> payload(const LasVlrEntry& vlr,
+                                 std::size_t limit = std::size_t{1} << 26) const;
+  /// Any bytes of the file as they are.
+  void readBytes(std::uint64_t position, std::size_t bytes, std::byte* out) const;
+  /// Raw records [first, first + count). Several threads may call it at once for a .las; a .laz is
+  /// read by one thread and fast only in file order.
+  void readRecords(std::uint64_t first, std::size_t count, std::byte* out) const;
+  int descriptor() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include <Eigen/Core>
+
+#include <pcl_als/io/las_file.h>
+
+namespace pcl_als {
+
+/// A block of raw records that may be changed in place.
+struct LasRecordBlock {
+  std::byte* records = nullptr;
+  std::size_t count = 0;
+  std::size_t record_length = 0;
+  std::uint64_t first = 0;  ///< index of the first record in the file
+};
+
+/// Changes records. Called with several blocks at once, each exactly once, in no fixed order.
+using LasEdit = std::function<void(const LasRecordBlock&)>;
+
+struct LasRewriteResult {
+  std::uint64_t points = 0;
+  bool box_changed = false;  ///< the bounding box of the points differs from that of the input
+};
+
+/** \brief Copies a LAS file, changing only what \a edit changes in the point records.
+ *
+ * Everything else is kept byte for byte: header, VLRs, EVLRs, bytes between, waveform packets,
+ * extra bytes, bytes after the points, point order. The header's bounding box is rewritten where
+ * the box of the integer coordinates changed, from those coordinates. Memory is constant (a few MB
+ * per thread). Output through AtomicFile. .las and .laz in and out, by extension.
+ *
+ * UsageError when \a output is \a input.
+ */
+LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::filesystem::path& output,
+                            const LasEdit& edit, int threads = 0);
+LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& output,
+                            const LasEdit& edit, int threads = 0);
+
+}  // namespace pcl_als
