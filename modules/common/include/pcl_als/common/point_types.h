@@ -9,6 +9,7 @@
 #include <pcl/impl/point_types.hpp>
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
+#include <pcl_als/common/point_flag.h>
 
 namespace pcl_als {
 
@@ -33,16 +34,6 @@ struct EIGEN_ALIGN16 PointLidar {
   PointLidar() { x = y = z = 0.0F, data[3] = 1.0F; }
   PointLidar(float px, float py, float pz) { x = px, y = py, z = pz, data[3] = 1.0F; }
   PCL_MAKE_ALIGNED_OPERATOR_NEW
-};
-
-/// Bits of PointLidar::flags, as LAS 1.4 names them; bits 6 and 7 hold the scanner channel.
-enum PointFlag : std::uint8_t {
-  kSynthetic = 1,
-  kKeyPoint = 2,
-  kWithheld = 4,
-  kOverlap = 8,
-  kScanDirection = 16,
-  kEdgeOfFlightLine = 32,
 };
 
 }  // namespace pcl_als

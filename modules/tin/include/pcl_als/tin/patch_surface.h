@@ -24,6 +24,8 @@ struct PatchMatch {
 
 /// What the surface around a triangle is like: decides whether it is a patch worth measuring to.
 struct PatchQuality {
+  Eigen::Vector3d plane_normal;  ///< of the neighbourhood's plane, unit, upward: less noisy than
+                                 ///< the triangle's own
   float longest_edge = 0.0F;  ///< metres, 3D
   float slope = 0.0F;         ///< radians from horizontal
   float roughness =
@@ -38,6 +40,7 @@ struct PatchQuality {
 /** \brief The triangles of a TIN as patches: unit normals, quality, and closest-patch search. */
 class PatchSurface {
  public:
+  PatchSurface() = default;
   explicit PatchSurface(Tin tin);
   const Tin& tin() const;
   Eigen::Vector3d normal(std::int32_t triangle) const;  ///< unit, upward

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/calibration/noise_model.h>
+#include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+/// What makes a patch, or the surface around a point, worth measuring to.
+struct PatchLimits {
+  double edge_factor = 3.0;     ///< longest edge against the median edge of the strip's TIN in the area
+  double slope = 1.05;          ///< radians: steeper is a wall or a triangle across an eave
+  double roughness = 0.08;      ///< metres, RMS of the neighbourhood about its plane
+  int minimum_vertices = 7;     ///< in the neighbourhood
+};
+
+/** \brief The points of one area by strip, their TINs, and the pairs found between them.
+ *
+ * Fill with add() (different strips may be added from different threads), then prepare() once, then for every
+ * iteration correct() and match(). Memory: about 150 bytes per point.
+ */
+class AreaMatcher {
+ public:
+  AreaMatcher(const CalibrationArea& area, std::size_t strips) : area_(area), strips_(strips) {}
+
+  void add(int strip, const CalibrationPoint& point);
+  const CalibrationArea& area() const { return area_; }
+  std::size_t pointCount() const;
+
+  /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and aspects.
+  void prepare(const PatchLimits& limits, std::size_t candidates, double resolution);
+  /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for setting the limit).
+  void collectRoughness(std::vector<double>& values) const;
+
+  /// Reconstructs the points with Eq. (13); the TINs keep their topology.
+  void correct(const Trajectory& trajectory, const SystemVector& biases);
+
+  /// The pairs between these strips (both directions) whose corrected normal distance is at most \a threshold.
+  AreaObservations match(const std::vector<StripPair>& pairs, double threshold, const Trajectory& trajectory,
+                         const NoiseModel& noise) const;
+  /// The pairs of control points inside the area with the patches above or below them.
+  AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
+                                const Trajectory& trajectory, const NoiseModel& noise, double default_sigma) const;
+
+ private:
+  struct StripPart {
+    std::vector<Eigen::Vector3d> biased;  ///< ground frame, as read
+    std::vector<double> times;
+    std::vector<bool> single;
+    PatchSurface surface;
+    std::vector<std::int32_t> candidates;
+    double longest_edge = 0.0;  ///< metres, limit
+  };
+  class PointGeometry;
+
+  bool acceptable(const StripPart& part, const PatchQuality& quality) const;
+  void chooseCandidates(StripPart& part, std::size_t count) const;
+
+  CalibrationArea area_;
+  std::vector<StripPart> strips_;
+  PatchLimits limits_;
+};
+
+/// Finds the areas that cover a point, for filling AreaMatchers while files are read.
+class AreaIndex {
+ public:
+  explicit AreaIndex(const std::vector<CalibrationArea>& areas);
+  /// Indices of the areas whose square with margin may hold the position.
+  const std::vector<int>& candidates(const Eigen::Vector3d& position) const;
+
+ private:
+  std::unordered_map<std::int64_t, std::vector<int>> cells_;
+  std::vector<int> none_;
+};
+
+}  // namespace pcl_als

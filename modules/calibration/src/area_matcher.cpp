@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/modified_weight.h>
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kTooFew = 30;      // points of a strip in an area with margin that are not worth a TIN
+constexpr double kGentle = 0.26;         // radians: slopes on which the roughness of plain ground is measured
+constexpr int kAspects = 8;
+constexpr std::array<double, 3> kSlopeSteps{0.087, 0.26, 0.52};  // radians: 5, 15, 30 degrees
+
+/// Class of a surface's orientation: 0 for flat, then slope step times aspect.
+int orientationClass(const Eigen::Vector3d& normal) {
+  const double slope = std::atan2(std::hypot(normal.x(), normal.y()), normal.z());
+  if (slope < kSlopeSteps[0]) return 0;
+  const int step = slope < kSlopeSteps[1] ? 0 : slope < kSlopeSteps[2] ? 1 : 2;
+  const double turn = (std::atan2(normal.y(), normal.x()) + kPi) / (2.0 * kPi);
+  return 1 + step * kAspects + std::min(kAspects - 1, static_cast<int>(turn * kAspects));
+}
+
+/// How many to take of each class so that they are as even as the classes allow and the sum is at most total.
+std::vector<std::size_t> evenShares(const std::vector<std::vector<std::int32_t>>& classes, std::size_t total) {
+  std::vector<std::size_t> order(classes.size()), shares(classes.size(), 0);
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return classes[a].size() < classes[b].size(); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    shares[order[i]] = std::min(classes[order[i]].size(), total / (order.size() - i));
+    total -= shares[order[i]];
+  }
+  return shares;
+}
+
+}  // namespace
+
+void AreaMatcher::add(int strip, const CalibrationPoint& point) {
+  if (!area_.covers(point.position) || !isSurfacePoint(point)) return;
+  StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  part.biased.push_back(point.position);
+  part.times.push_back(point.time);
+  part.single.push_back(point.isSingle());
+}
+
+std::size_t AreaMatcher::pointCount() const {
+  std::size_t count = 0;
+  for (const StripPart& part : strips_) count += part.biased.size();
+  return count;
+}
+
+void AreaMatcher::prepare(const PatchLimits& limits, std::size_t candidates, double resolution) {
+  limits_ = limits;
+  for (StripPart& part : strips_) {
+    if (part.biased.size() < kTooFew) {
+      part = StripPart();
+      continue;
+    }
+    part.surface = PatchSurface(Tin(part.biased, resolution));
+    const Tin& tin = part.surface.tin();
+    std::vector<double> lengths;
+    for (const Tin::Triangle& triangle : tin.triangles()) {
+      for (int i = 0; i < 3; ++i) {
+        const Eigen::Vector3d edge = part.biased[triangle.vertex[i]] - part.biased[triangle.vertex[(i + 1) % 3]];
+        lengths.push_back(edge.head<2>().norm());
+      }
+    }
+    part.longest_edge = lengths.empty() ? 0.0 : limits.edge_factor * medianInPlace(lengths);
+    chooseCandidates(part, candidates);
+  }
+}
+
+bool AreaMatcher::acceptable(const StripPart& part, const PatchQuality& quality) const {
+  return !quality.on_hull && quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
+         quality.slope <= limits_.slope && quality.roughness <= limits_.roughness &&
+         quality.vertices >= limits_.minimum_vertices;
+}
+
+void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
+  std::vector<std::vector<std::int32_t>> classes(1 + kSlopeSteps.size() * kAspects);
+  std::int32_t hint = Tin::kNone;
+  for (std::size_t i = 0; i < part.biased.size(); ++i) {
+    if (!part.single[i] || !area_.contains(part.biased[i])) continue;
+    hint = part.surface.tin().locate(part.biased[i].x(), part.biased[i].y(), hint);
+    if (hint == Tin::kNone) continue;
+    const PatchQuality quality = part.surface.quality(hint);
+    if (!acceptable(part, quality)) continue;
+    classes[static_cast<std::size_t>(orientationClass(quality.plane_normal))].push_back(static_cast<std::int32_t>(i));
+  }
+  const std::vector<std::size_t> shares = evenShares(classes, count);
+  part.candidates.clear();
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    for (std::size_t k = 0; k < shares[c]; ++k) {
+      part.candidates.push_back(classes[c][k * classes[c].size() / shares[c]]);
+    }
+  }
+  std::sort(part.candidates.begin(), part.candidates.end());
+}
+
+void AreaMatcher::collectRoughness(std::vector<double>& values) const {
+  for (const StripPart& part : strips_) {
+    for (const std::int32_t i : part.candidates) {
+      const std::int32_t triangle = part.surface.tin().locate(part.biased[i].x(), part.biased[i].y());
+      const PatchQuality quality = part.surface.quality(triangle);
+      if (quality.slope < kGentle) values.push_back(quality.roughness);
+    }
+  }
+}
+
+void AreaMatcher::correct(const Trajectory& trajectory, const SystemVector& biases) {
+  for (StripPart& part : strips_) {
+    std::vector<Eigen::Vector3d> corrected = part.biased;
+    std::size_t cursor = 0;
+    FlightLine line;
+    for (std::size_t i = 0; i < corrected.size(); ++i) {
+      if (!trajectory.lineAt(part.times[i], line, cursor)) continue;
+      corrected[i] -= designBlock(scanGeometry(line, part.biased[i])) * biases;
+    }
+    if (!corrected.empty()) part.surface.movePoints(std::move(corrected));
+  }
+}
+
+/// Design block and covariance of one point of a strip, or of the interpolated foot in a patch.
+class AreaMatcher::PointGeometry {
+ public:
+  PointGeometry(const Trajectory& trajectory, const NoiseModel& noise) : trajectory_(trajectory), noise_(noise) {}
+
+  bool atPoint(const StripPart& part, std::int32_t index) {
+    time = part.times[index];
+    position = part.biased[index];
+    if (!trajectory_.lineAt(time, line_, cursor_)) return false;
+    const ScanGeometry geometry = scanGeometry(line_, position);
+    design = designBlock(geometry);
+    covariance = noise_.pointCovariance(geometry);
+    return true;
+  }
+
+  bool atFoot(const StripPart& part, const PatchMatch& match, PointGeometry& vertex) {
+    time = 0.0;
+    position.setZero();
+    design.setZero();
+    covariance.setZero();
+    for (int i = 0; i < 3; ++i) {
+      if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i])) return false;
+      const double weight = match.weights[i];
+      time += weight * vertex.time;
+      position += weight * vertex.position;
+      design += weight * vertex.design;
+      covariance += weight * weight * vertex.covariance;
+    }
+    return true;
+  }
+
+  double time = 0.0;
+  Eigen::Vector3d position;  ///< uncorrected
+  DesignBlock design;
+  Eigen::Matrix3d covariance;
+
+ private:
+  const Trajectory& trajectory_;
+  const NoiseModel& noise_;
+  FlightLine line_;
+  std::size_t cursor_ = 0;
+};
+
+AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
+                                    const Trajectory& trajectory, const NoiseModel& noise) const {
+  AreaObservations found;
+  PointGeometry point(trajectory, noise), foot(trajectory, noise), vertex(trajectory, noise);
+  for (std::size_t k = 0; k < 2 * pairs.size(); ++k) {
+    const StripPair& pair = pairs[k / 2];
+    PairObservation observation;
+    observation.a = k % 2 == 0 ? pair.first : pair.second;
+    observation.b = k % 2 == 0 ? pair.second : pair.first;
+    const StripPart& a = strips_[observation.a];
+    const StripPart& b = strips_[observation.b];
+    if (b.biased.empty()) continue;
+    for (const std::int32_t i : a.candidates) {
+      const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
+      if (!match) continue;
+      const PatchQuality quality = b.surface.quality(match->triangle);
+      if (!acceptable(b, quality) || !point.atPoint(a, i) || !foot.atFoot(b, *match, vertex)) continue;
+      observation.time_a = point.time;
+      observation.time_b = foot.time;
+      // The triangle says where the surface is, its neighbourhood how it is inclined: less noise in the normal.
+      observation.normal = quality.plane_normal;
+      observation.row_a = observation.normal.transpose() * point.design;
+      observation.row_b = observation.normal.transpose() * foot.design;
+      observation.misclosure = observation.normal.dot(point.position - foot.position);
+      observation.variance = normalVariance(point.covariance + foot.covariance, observation.normal);
+      found.push_back(observation);
+    }
+  }
+  return found;
+}
+
+AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& control, double threshold,
+                                           const Trajectory& trajectory, const NoiseModel& noise,
+                                           double default_sigma) const {
+  AreaObservations found;
+  PointGeometry foot(trajectory, noise), vertex(trajectory, noise);
+  for (const ControlPoint& point : control) {
+    if (!area_.contains(point.position)) continue;
+    for (std::size_t b = 0; b < strips_.size(); ++b) {
+      if (strips_[b].biased.empty()) continue;
+      const auto match = strips_[b].surface.vertical(point.position);
+      if (!match || std::abs(match->signed_normal_distance) > threshold) continue;
+      const PatchQuality quality = strips_[b].surface.quality(match->triangle);
+      if (!acceptable(strips_[b], quality) || !foot.atFoot(strips_[b], *match, vertex)) continue;
+      PairObservation observation;
+      observation.b = static_cast<int>(b);
+      observation.time_a = observation.time_b = foot.time;
+      observation.normal = quality.plane_normal;
+      observation.row_b = observation.normal.transpose() * foot.design;
+      observation.misclosure = observation.normal.dot(point.position - foot.position);
+      const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
+      const double up = observation.normal.z();
+      observation.variance = normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;
+      found.push_back(observation);
+    }
+  }
+  return found;
+}
+
+AreaIndex::AreaIndex(const std::vector<CalibrationArea>& areas) {
+  for (std::size_t index = 0; index < areas.size(); ++index) {
+    const CalibrationArea& area = areas[index];
+    const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / SurveyMap::kCell)); };
+    const Eigen::Vector2d low = area.minimum.array() - area.margin;
+    const Eigen::Vector2d high = area.minimum.array() + area.size + area.margin;
+    for (std::int64_t row = cell(low.y()); row <= cell(high.y()); ++row) {
+      for (std::int64_t column = cell(low.x()); column <= cell(high.x()); ++column) {
+        cells_[(row << 32) ^ (column & 0xffffffff)].push_back(static_cast<int>(index));
+      }
+    }
+  }
+}
+
+const std::vector<int>& AreaIndex::candidates(const Eigen::Vector3d& position) const {
+  const auto row = static_cast<std::int64_t>(std::floor(position.y() / SurveyMap::kCell));
+  const auto column = static_cast<std::int64_t>(std::floor(position.x() / SurveyMap::kCell));
+  const auto found = cells_.find((row << 32) ^ (column & 0xffffffff));
+  return found == cells_.end() ? none_ : found->second;
+}
+
+}  // namespace pcl_als

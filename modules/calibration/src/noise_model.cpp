@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <pcl_als/calibration/noise_model.h>
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als {
+
+void NoiseModel::validate() const {
+  const std::pair<const char*, double> values[] = {{"range noise (m)", range},
+                                                   {"angle noise (rad)", angle},
+                                                   {"position noise (m)", position},
+                                                   {"beam divergence (rad)", beam_divergence}};
+  for (const auto& [name, value] : values) {
+    if (std::isfinite(value) && value >= 0.0) continue;
+    std::ostringstream text;
+    text << name << " must be zero or more, is " << value;
+    throw UsageError(text.str());
+  }
+  if (range == 0.0 && position == 0.0) throw UsageError("range noise and position noise cannot both be zero");
+}
+
+Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
+  // The beam in the ground frame, straight down turned by beta about the flight direction.
+  const Eigen::Vector3d beam(-g.sin_beta * g.cos_kappa, -g.sin_beta * g.sin_kappa, -g.cos_beta);
+  const double distance = std::hypot(g.x, g.z);
+  const double along_sq = range * range;
+  // A quarter of the 1/e^2 diameter is the standard deviation of where in the footprint the return comes from.
+  const double footprint = 0.25 * beam_divergence;
+  const double across_sq = (angle * angle + footprint * footprint) * distance * distance;
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  return (across_sq + position * position) * identity + (along_sq - across_sq) * (beam * beam.transpose());
+}
+
+}  // namespace pcl_als
