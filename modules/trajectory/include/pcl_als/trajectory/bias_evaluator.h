@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+/// Points as columns: time in the trajectory's count of seconds, metres in the ground frame.
+struct PointColumns {
+  const double* time = nullptr;
+  const double* x = nullptr;
+  const double* y = nullptr;
+  const double* z = nullptr;
+};
+
+/// Columns that receive an effect on the ground coordinates, metres.
+struct EffectColumns {
+  double* x = nullptr;
+  double* y = nullptr;
+  double* z = nullptr;
+};
+
+/// Which points the trajectory could not serve, and why. Their effect is zero.
+struct CoverageCount {
+  std::size_t points = 0;  ///< all that were looked at
+  std::size_t before_start = 0, after_end = 0, in_gap = 0;
+  std::size_t without_time = 0;  ///< time not finite
+  std::size_t unsolved = 0;      ///< inverse only: not found to 1e-6 m
+  /// Earliest and latest time among those of before_start, after_end and in_gap, seconds.
+  double first_missed = std::numeric_limits<double>::infinity();
+  double last_missed = -std::numeric_limits<double>::infinity();
+
+  std::size_t missed() const { return before_start + after_end + in_gap + without_time; }
+  void merge(const CoverageCount& other);
+  /// "12 of 500 points have no trajectory: 10 before its start, 2 in gaps (their times …)"; for use
+  /// in messages when missed() or unsolved is not zero.
+  std::string describe(const Trajectory& trajectory) const;
+};
+
+/** \brief Effect A(point) delta of known biases on many points (Habib et al. 2011, Eq. (8) and
+ * (13)), and its inverse, with no trigonometry per point.
+ *
+ * Equal to designBlock(scanGeometry(line, point)) * biases for every point; sin and cos of beta
+ * come from x and z, and beta itself, needed only for a scan angle scale, from a polynomial with an
+ * error under 1e-10 rad. Points in order of time share the look-up of the trajectory and are
+ * computed by vector instructions; any other order gives the same results, slower.
+ *
+ * Const member functions may be called from several threads.
+ */
+class BiasEvaluator {
+ public:
+  /// \a biases: assumed - true, m, rad, 1. UsageError for values that are not finite or that no
+  /// mounted scanner has: angles of 0.1 rad, a scale of 0.1, lengths of 100 m and more.
+  BiasEvaluator(std::shared_ptr<const Trajectory> trajectory, const SystemVector& biases);
+
+  const Trajectory& trajectory() const { return *trajectory_; }
+  const SystemVector& biases() const { return biases_; }
+
+  /// effect = A(point) delta: corrected = point - effect, Eq. (13). Input and output columns of an
+  /// axis may be the same.
+  void effect(const PointColumns& points, std::size_t count, const EffectColumns& effect,
+              CoverageCount& coverage) const;
+
+  /// For corrected points: effect = A(point + effect) delta, so that point + effect is what
+  /// effect() leads back from. By fixed-point iteration until it changes by less than 1e-7 m.
+  void inverseEffect(const PointColumns& points, std::size_t count, const EffectColumns& effect,
+                     CoverageCount& coverage) const;
+
+ private:
+  void countMissed(double time, CoverageCount& coverage) const;
+
+  std::shared_ptr<const Trajectory> trajectory_;
+  SystemVector biases_;
+};
+
+}  // namespace pcl_als

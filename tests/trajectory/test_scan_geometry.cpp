@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <pcl_als/trajectory/scan_geometry.h>
+
+namespace pcl_als {
+namespace {
+
+FlightLine lineAlong(double east, double north) {
+  FlightLine line;
+  line.position = Eigen::Vector3d(1000.0, 2000.0, 1500.0);
+  const double length = std::hypot(east, north);
+  line.cos_kappa = north / length, line.sin_kappa = -east / length;
+  return line;
+}
+
+TEST(ScanGeometry, RightOfFlightIsPositiveForTheFourCourses) {
+  const struct {
+    double east, north, right_east, right_north;
+  } courses[] = {{0, 1, 1, 0}, {1, 0, 0, -1}, {0, -1, -1, 0}, {-1, 0, 0, 1}};
+  for (const auto& course : courses) {
+    const FlightLine line = lineAlong(course.east, course.north);
+    // 100 m to the right, 30 m ahead (a skewed scan line), 1000 m below.
+    const Eigen::Vector3d point =
+        line.position + Eigen::Vector3d(100.0 * course.right_east + 30.0 * course.east,
+                                        100.0 * course.right_north + 30.0 * course.north, -1000.0);
+    const ScanGeometry geometry = scanGeometry(line, point);
+    EXPECT_NEAR(geometry.x, 100.0, 1e-9);
+    EXPECT_NEAR(geometry.z, -1000.0, 1e-9);
+    EXPECT_NEAR(geometry.beta, -std::atan(0.1), 1e-12);
+  }
+}
+
+TEST(ScanGeometry, SinAndCosBelongToBeta) {
+  const FlightLine line = lineAlong(3.0, -4.0);
+  for (const double angle : {-170.0, -91.0, -20.0, 0.0, 33.0, 90.0, 120.0}) {
+    const double beta = angle * kRadiansPerDegree;
+    const Eigen::Vector3d point =
+        line.position + Eigen::Vector3d(-500.0 * std::sin(beta) * -0.8,
+                                        -500.0 * std::sin(beta) * -0.6, -500.0 * std::cos(beta));
+    const ScanGeometry geometry = scanGeometry(line, point);
+    EXPECT_NEAR(geometry.sin_beta, std::sin(beta), 1e-12) << angle;
+    EXPECT_NEAR(geometry.cos_beta, std::cos(beta), 1e-12) << angle;
+    EXPECT_NEAR(std::sin(geometry.beta - beta), 0.0, 1e-12) << angle;
+    // Eq. (2): x = -r sin(beta), z = -r cos(beta).
+    EXPECT_NEAR(geometry.x, -500.0 * geometry.sin_beta, 1e-9);
+    EXPECT_NEAR(geometry.z, -500.0 * geometry.cos_beta, 1e-9);
+  }
+}
+
+TEST(ScanGeometry, APointAtTheSensorHasNoAngle) {
+  const FlightLine line = lineAlong(0.0, 1.0);
+  const ScanGeometry geometry = scanGeometry(line, line.position);
+  EXPECT_EQ(geometry.beta, 0.0);
+  EXPECT_TRUE(designBlock(geometry).allFinite());
+}
+
+TEST(DesignBlock, EqualsEquation8ByHand) {
+  // Forward (-0.8, 0.6): c = 0.6, s = 0.8. A point 300 m right of and 400 m below the sensor.
+  FlightLine line;
+  line.position.setZero();
+  line.cos_kappa = 0.6, line.sin_kappa = 0.8;
+  const ScanGeometry geometry = scanGeometry(line, Eigen::Vector3d(180.0, 240.0, -400.0));
+  ASSERT_NEAR(geometry.x, 300.0, 1e-12);
+  const double beta = -0.64350110879328;  // -atan(3/4); sin -0.6, cos 0.8
+  DesignBlock expected;
+  expected << 0.6, -0.8, 0.0, -320.0, -240.0, -240.0, 0.36, -240.0 * beta,  //
+      0.8, 0.6, 0.0, 240.0, -320.0, 180.0, 0.48, -320.0 * beta,             //
+      0.0, 0.0, 1.0, 0.0, -300.0, 0.0, -0.8, -300.0 * beta;
+  // 1e-10: the digits of beta above times 320 m.
+  EXPECT_LT((designBlock(geometry) - expected).cwiseAbs().maxCoeff(), 1e-10)
+      << designBlock(geometry);
+}
+
+/// Eq. (2), written out by itself: parameters in the order of SystemParameter, the last one S - 1.
+Eigen::Vector3d equation2(double kappa, double range, double beta, const SystemVector& p) {
+  const Eigen::Matrix3d heading =
+      Eigen::AngleAxisd(kappa, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Vector3d lever(p[0], p[1], p[2]);
+  Eigen::Matrix3d boresight;
+  boresight << 1.0, -p[5], p[4], p[5], 1.0, -p[3], -p[4], p[3], 1.0;
+  const double angle = (1.0 + p[7]) * beta;
+  const Eigen::Vector3d beam(-(range + p[6]) * std::sin(angle), 0.0,
+                             -(range + p[6]) * std::cos(angle));
+  return Eigen::Vector3d(400.0, -300.0, 1200.0) + heading * lever + heading * boresight * beam;
+}
+
+TEST(DesignBlock, EqualsCentralDifferencesOfEquation2) {
+  for (const double kappa : {0.0, 1.0, 2.5, -2.0}) {
+    for (const double beta : {-0.4, -0.05, 0.0, 0.3}) {
+      const double range = 1300.0;
+      FlightLine line;
+      line.position = Eigen::Vector3d(400.0, -300.0, 1200.0);
+      line.cos_kappa = std::cos(kappa), line.sin_kappa = std::sin(kappa);
+      const DesignBlock design =
+          designBlock(scanGeometry(line, equation2(kappa, range, beta, SystemVector::Zero())));
+      for (int i = 0; i < kSystemParameterCount; ++i) {
+        SystemVector step = SystemVector::Zero();
+        step[i] = 1e-4;
+        const Eigen::Vector3d difference =
+            (equation2(kappa, range, beta, step) - equation2(kappa, range, beta, -step)) / 2e-4;
+        // Rounding: 1e3 m * 2e-16 / 1e-4; truncation (only of S): r beta^3 1e-8 / 6.
+        EXPECT_LT((design.col(i) - difference).norm(), 1e-6) << i << ' ' << kappa << ' ' << beta;
+      }
+    }
+  }
+}
+
+TEST(DesignBlock, DetectsAWrongSignOfBeta) {
+  FlightLine line = lineAlong(0.0, 1.0);
+  ScanGeometry geometry = scanGeometry(line, line.position + Eigen::Vector3d(200.0, 0.0, -900.0));
+  const DesignBlock right = designBlock(geometry);
+  geometry.beta = -geometry.beta, geometry.sin_beta = -geometry.sin_beta;
+  EXPECT_GT((designBlock(geometry) - right).norm(), 0.1);
+}
+
+}  // namespace
+}  // namespace pcl_als

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+#include "flights.h"
+
+namespace pcl_als {
+namespace {
+
+using test::circling;
+using test::sampled;
+using test::straight;
+using Coverage = Trajectory::Coverage;
+
+FlightLine lineOf(const Trajectory& trajectory, double time) {
+  FlightLine line;
+  std::size_t cursor = 0;
+  EXPECT_TRUE(trajectory.lineAt(time, line, cursor)) << time;
+  return line;
+}
+
+std::vector<TrajectorySample> joined(std::vector<TrajectorySample> a,
+                                     const std::vector<TrajectorySample>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+TEST(Trajectory, KappaIsMinusHeadingForTheFourCourses) {
+  const struct {
+    double course, cos_kappa, sin_kappa;
+  } expected[] = {{0, 1, 0}, {90, 0, -1}, {180, -1, 0}, {270, 0, 1}};
+  for (const auto& row : expected) {
+    const Trajectory trajectory(sampled(straight(row.course), 0.0, 10.0, 0.005));
+    const FlightLine line = lineOf(trajectory, 4.0);
+    // 1e-12: rounding of coordinates of 600 m over a window of 60 m.
+    EXPECT_NEAR(line.cos_kappa, row.cos_kappa, 1e-12) << row.course;
+    EXPECT_NEAR(line.sin_kappa, row.sin_kappa, 1e-12) << row.course;
+  }
+}
+
+TEST(Trajectory, PositionIsInterpolatedBetweenSamples) {
+  const Trajectory trajectory(sampled(straight(90), 0.0, 10.0, 0.5));
+  const FlightLine line = lineOf(trajectory, 3.2);
+  EXPECT_NEAR(line.position.x(), 192.0, 1e-11);
+  EXPECT_NEAR(line.position.y(), 0.0, 1e-11);
+  EXPECT_DOUBLE_EQ(line.position.z(), 1000.0);
+}
+
+TEST(Trajectory, TwoSamplesMakeALine) {
+  TrajectorySample a, b;
+  a.time = 5.0;
+  b.time = 7.0, b.position = {30.0, 40.0, 2.0};
+  const Trajectory trajectory({a, b});
+  const FlightLine line = lineOf(trajectory, 6.0);
+  EXPECT_TRUE(line.position.isApprox(Eigen::Vector3d(15.0, 20.0, 1.0)));
+  EXPECT_NEAR(line.cos_kappa, 0.8, 1e-15);  // (-sin, cos) = (0.6, 0.8)
+  EXPECT_NEAR(line.sin_kappa, -0.6, 1e-15);
+}
+
+TEST(Trajectory, AccelerationAlongTheLineLeavesItsDirection) {
+  const auto path = [](double t) -> Eigen::Vector3d {
+    return (40.0 * t + 1.5 * t * t) * Eigen::Vector3d(0.6, 0.8, 0.0);
+  };
+  const FlightLine line = lineOf(Trajectory(sampled(path, 0.0, 20.0, 0.005)), 7.1234);
+  EXPECT_NEAR(line.cos_kappa, 0.8, 1e-12);
+  EXPECT_NEAR(line.sin_kappa, -0.6, 1e-12);
+}
+
+TEST(Trajectory, DirectionOnACircleIsItsTangent) {
+  const Trajectory trajectory(sampled(circling, 0.0, 100.0, 0.005));
+  for (const double time : {0.6, 10.0, 31.4159, 77.7777}) {
+    const FlightLine line = lineOf(trajectory, time);
+    const double heading = 0.02 * time;
+    // By symmetry the line through a centred window is parallel to the tangent; between samples
+    // 5 ms apart (1e-4 rad) the interpolation adds less than 1e-12.
+    EXPECT_NEAR(line.cos_kappa, std::cos(heading), 1e-10);
+    EXPECT_NEAR(line.sin_kappa, -std::sin(heading), 1e-10);
+    // Sagitta of one step: 0.3^2 / (8 * 3000) m.
+    EXPECT_LT((line.position - circling(time)).norm(), 4e-6);
+  }
+}
+
+TEST(Trajectory, DirectionIsAUnitVectorInASharpTurnToo) {
+  const Trajectory trajectory(sampled(circling, 0.0, 100.0, 20.0));
+  const FlightLine line = lineOf(trajectory, 51.0);
+  EXPECT_NEAR(std::hypot(line.cos_kappa, line.sin_kappa), 1.0, 1e-15);
+}
+
+/// The fit at a sample in extended precision, straight from its definition.
+Eigen::Vector2d directVelocity(const std::vector<TrajectorySample>& samples, double time,
+                               double half_width) {
+  long double n = 0, t = 0, x = 0, y = 0, tt = 0, tx = 0, ty = 0;
+  const Eigen::Vector3d origin = samples.front().position;
+  for (const TrajectorySample& s : samples) {
+    if (s.time < time - half_width || s.time > time + half_width) continue;
+    const long double dt = static_cast<long double>(s.time) - time;
+    const long double dx = static_cast<long double>(s.position.x()) - origin.x();
+    const long double dy = static_cast<long double>(s.position.y()) - origin.y();
+    n += 1, t += dt, x += dx, y += dy, tt += dt * dt, tx += dt * dx, ty += dt * dy;
+  }
+  const long double determinant = n * tt - t * t;
+  return {static_cast<double>((n * tx - t * x) / determinant),
+          static_cast<double>((n * ty - t * y) / determinant)};
+}
+
+TEST(Trajectory, SlidingFitEqualsTheDirectOneAfterAnHourAtLargeCoordinates) {
+  const auto path = [](double t) -> Eigen::Vector3d {
+    return {583394.0 + 3000.0 * std::sin(t / 60.0), 5283100.0 + 50.0 * (t - 3e5), 498.0};
+  };
+  const auto samples = sampled(path, 3e5, 3e5 + 3600.0, 0.02);
+  const Trajectory trajectory(samples);
+  for (const std::size_t i : {0UL, 1UL, 777UL, 90001UL, samples.size() - 1}) {
+    const Eigen::Vector2d v = directVelocity(samples, samples[i].time, 0.5).normalized();
+    const FlightLine line = lineOf(trajectory, samples[i].time);
+    // Sums relative to an origin within the window: 1e3 m m s of sums of 50 terms, eps 1e-16.
+    EXPECT_NEAR(-line.sin_kappa, v.x(), 1e-12) << i;
+    EXPECT_NEAR(line.cos_kappa, v.y(), 1e-12) << i;
+  }
+}
+
+TEST(Trajectory, DirectionDoesNotDependOnWhereTheFlightWas) {
+  const Eigen::Vector3d shift(583394.0, 5283100.0, 498.0);
+  const FlightLine near = lineOf(Trajectory(sampled(straight(33), 0.0, 60.0, 0.005)), 30.0);
+  const FlightLine far = lineOf(Trajectory(sampled(straight(33, shift), 0.0, 60.0, 0.005)), 30.0);
+  // Coordinates of 5e6 m are rounded to 5e-10 m; over 60 m of line, averaged.
+  EXPECT_NEAR(near.cos_kappa, far.cos_kappa, 1e-11);
+  EXPECT_NEAR(near.sin_kappa, far.sin_kappa, 1e-11);
+}
+
+TEST(Trajectory, NoLineIsFittedAcrossAGap) {
+  const auto samples =
+      joined(sampled(straight(0), 0.0, 10.0, 0.01), sampled(straight(90), 12.0, 20.0, 0.01));
+  const Trajectory trajectory(samples);
+  ASSERT_EQ(trajectory.gaps().size(), 1U);
+  EXPECT_DOUBLE_EQ(trajectory.gaps()[0].from, 10.0);
+  EXPECT_DOUBLE_EQ(trajectory.gaps()[0].to, 12.0);
+  EXPECT_NEAR(lineOf(trajectory, 10.0).cos_kappa, 1.0, 1e-12);
+  EXPECT_NEAR(lineOf(trajectory, 12.0).sin_kappa, -1.0, 1e-12);
+  EXPECT_EQ(trajectory.coverage(10.0), Coverage::covered);
+  EXPECT_EQ(trajectory.coverage(11.0), Coverage::in_gap);
+  EXPECT_EQ(trajectory.coverage(12.0), Coverage::covered);
+}
+
+TEST(Trajectory, OutsideItsTimesThereIsNoLineAndNothingIsTouched) {
+  const Trajectory trajectory(sampled(straight(0), 100.0, 110.0, 0.01));
+  FlightLine line;
+  line.position = Eigen::Vector3d(1.0, 2.0, 3.0);
+  std::size_t cursor = 0;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double time : {99.9, 110.1, nan, infinity, -infinity}) {
+    EXPECT_FALSE(trajectory.lineAt(time, line, cursor)) << time;
+  }
+  EXPECT_EQ(line.position, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(trajectory.coverage(99.9), Coverage::before_start);
+  EXPECT_EQ(trajectory.coverage(110.1), Coverage::after_end);
+  EXPECT_EQ(trajectory.coverage(100.0), Coverage::covered);
+  EXPECT_EQ(trajectory.coverage(trajectory.endTime()), Coverage::covered);
+}
+
+TEST(Trajectory, LookUpsInAnyOrderEqualThoseInOrder) {
+  std::mt19937 random(7);
+  auto samples = sampled(circling, 0.0, 50.0, 0.005);
+  const auto later = sampled(circling, 4000.0, 4050.0, 0.01);  // most of the duration is a gap
+  samples = joined(samples, later);
+  const Trajectory trajectory(samples);
+  std::uniform_real_distribution<double> within(0.0, 50.0);
+  std::vector<double> times;
+  for (int i = 0; i < 2000; ++i) times.push_back(within(random) + (i % 2 == 0 ? 0.0 : 4000.0));
+  times.insert(times.end(), {0.0, 50.0, 4000.0, trajectory.endTime()});
+  std::size_t cursor = 0;
+  for (const double time : times) {
+    FlightLine line;
+    ASSERT_TRUE(trajectory.lineAt(time, line, cursor)) << time;
+    const FlightLine fresh = lineOf(trajectory, time);
+    EXPECT_EQ(line.position, fresh.position);
+    EXPECT_EQ(line.cos_kappa, fresh.cos_kappa);
+    EXPECT_LT((line.position - circling(time)).norm(), 2e-5);  // sagitta of a 0.6 m step
+  }
+}
+
+TEST(Trajectory, ASpanHoldsItsTime) {
+  const Trajectory trajectory(sampled(circling, 0.0, 50.0, 0.5));
+  FlightSpan span;
+  std::size_t cursor = 0;
+  ASSERT_TRUE(trajectory.spanAt(17.3, span, cursor));
+  EXPECT_EQ(span.from, 17.0);
+  EXPECT_EQ(span.to, 17.5);
+  EXPECT_LT((span.at(17.5).position - circling(17.5)).norm(), 1e-11);
+}
+
+TEST(Trajectory, UnsortedSamplesAreSortedAndReported) {
+  auto samples = sampled(circling, 0.0, 20.0, 0.1);
+  const Trajectory sorted(samples);
+  std::shuffle(samples.begin(), samples.end(), std::mt19937(3));
+  const Trajectory trajectory(samples);
+  EXPECT_EQ(lineOf(trajectory, 3.14).position, lineOf(sorted, 3.14).position);
+  EXPECT_TRUE(sorted.repairs().empty());
+  ASSERT_EQ(trajectory.repairs().size(), 1U);
+  EXPECT_NE(trajectory.repairs()[0].find("sorted"), std::string::npos);
+}
+
+TEST(Trajectory, SamplesOfOneTimeBecomeTheirMean) {
+  auto samples = sampled(straight(0), 0.0, 2.0, 0.5);
+  samples.push_back(samples[2]);
+  samples.push_back(samples[2]);
+  samples.back().position.z() += 0.3;
+  const Trajectory trajectory(samples);
+  EXPECT_EQ(trajectory.size(), 5U);
+  EXPECT_NEAR(lineOf(trajectory, 1.0).position.z(), 1000.1, 1e-9);
+  EXPECT_EQ(trajectory.repairs().size(), 2U);  // unsorted, repeated
+}
+
+TEST(Trajectory, SamplesOfOneTimeFarApartAreRefused) {
+  auto samples = sampled(straight(0), 0.0, 2.0, 0.5);
+  samples.push_back(samples.back());
+  samples.back().position.x() += 1.1;
+  try {
+    const Trajectory trajectory(samples);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("2.000000"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Trajectory, ASampleAloneBetweenGapsIsLeftOut) {
+  auto samples = joined(sampled(straight(0), 0.0, 5.0, 0.01), sampled(straight(0), 30.0, 30.0, 1));
+  samples = joined(samples, sampled(straight(0), 60.0, 65.0, 0.01));
+  const Trajectory trajectory(samples);
+  ASSERT_EQ(trajectory.gaps().size(), 1U);
+  EXPECT_EQ(trajectory.coverage(30.0), Coverage::in_gap);
+  EXPECT_EQ(trajectory.repairs().size(), 1U);
+}
+
+TEST(Trajectory, AWindowWithOneSampleTakesItsNeighbours) {
+  const Trajectory trajectory(sampled(circling, 0.0, 50.0, 2.0));
+  // Three samples, symmetric: the tangent again.
+  EXPECT_NEAR(lineOf(trajectory, 20.0).sin_kappa, -std::sin(0.4), 1e-12);
+  // Two at the end: the chord, whose direction is that of the middle of the step.
+  EXPECT_NEAR(lineOf(trajectory, 50.0).sin_kappa, -std::sin(0.02 * 49.0), 1e-12);
+}
+
+TEST(Trajectory, StandingBeforeTakeOffTakesTheFirstDirection) {
+  const auto path = [](double t) -> Eigen::Vector3d {
+    return {t < 10.0 ? 0.0 : 50.0 * (t - 10.0), 0.0, 0.0};
+  };
+  const Trajectory trajectory(sampled(path, 0.0, 20.0, 0.1));
+  EXPECT_NEAR(lineOf(trajectory, 2.0).sin_kappa, -1.0, 1e-12);
+  EXPECT_EQ(trajectory.repairs().size(), 1U);
+}
+
+TEST(Trajectory, RefusesWhatHasNoLine) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Trajectory(std::vector<TrajectorySample>{}), InputError);
+  EXPECT_THROW(Trajectory(std::vector<TrajectorySample>(3)), InputError);  // one time
+  EXPECT_THROW(Trajectory(sampled(straight(0), 1.0, 1.0, 1.0)), InputError);
+  const auto climb = [](double t) -> Eigen::Vector3d { return {5.0, 5.0, t}; };
+  EXPECT_THROW(Trajectory(sampled(climb, 0.0, 10.0, 0.1)), InputError);
+  auto samples = sampled(straight(0), 0.0, 10.0, 0.1);
+  samples[7].position.y() = nan;
+  EXPECT_THROW(Trajectory{samples}, InputError);
+  samples = sampled(straight(0), 0.0, 10.0, 0.1);
+  samples[7].time = nan;
+  EXPECT_THROW(Trajectory{samples}, InputError);
+  samples[7].time = 1e300;
+  EXPECT_THROW(Trajectory{samples}, InputError);
+}
+
+TEST(Trajectory, RefusesImpossibleOptions) {
+  const auto samples = sampled(straight(0), 0.0, 10.0, 0.1);
+  Trajectory::Options options;
+  options.line_fit_half_width = 0.0;
+  EXPECT_THROW(Trajectory(samples, options), UsageError);
+  options.line_fit_half_width = 0.5;
+  options.gap_threshold = -1.0;
+  EXPECT_THROW(Trajectory(samples, options), UsageError);
+  options.gap_threshold = 0.01;  // shorter than every step
+  EXPECT_THROW(Trajectory(samples, options), InputError);
+}
+
+TEST(Trajectory, KnowsWhetherAllSamplesHaveAttitude) {
+  auto samples = sampled(straight(0), 0.0, 1.0, 0.1);
+  EXPECT_FALSE(Trajectory(samples).hasAttitude());
+  for (auto& sample : samples) sample.roll = sample.pitch = sample.heading = 0.0;
+  EXPECT_TRUE(Trajectory(samples).hasAttitude());
+}
+
+}  // namespace
+}  // namespace pcl_als
