@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <array>
 #include <cmath>
 #include <map>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/parallel.h>
@@ -26,14 +27,16 @@ struct TouchedRow {
   TouchedRow(const PairObservation& observation, const TrajectoryErrors& errors) {
     row.head<kSystemParameterCount>() = observation.row();
     if (observation.a != PairObservation::kControl) {
-      place(0, errors.placeOf(observation.a, observation.time_a), observation.normal, observation.row_a, 1.0);
+      place(0, errors.placeOf(observation.a, observation.time_a), observation.normal,
+            observation.row_a, 1.0);
     }
-    place(2, errors.placeOf(observation.b, observation.time_b), observation.normal, observation.row_b, -1.0);
+    place(2, errors.placeOf(observation.b, observation.time_b), observation.normal,
+          observation.row_b, -1.0);
   }
 
  private:
-  void place(int slot, const TrajectoryErrors::Place& where, const Eigen::Vector3d& normal, const SystemRow& design,
-             double sign) {
+  void place(int slot, const TrajectoryErrors::Place& where, const Eigen::Vector3d& normal,
+             const SystemRow& design, double sign) {
     Eigen::Matrix<double, 1, kKnot> effect;
     effect << normal.transpose(), design.segment<3>(indexOf(SystemParameter::boresight_pitch));
     knots[slot] = where.knot;
@@ -51,7 +54,8 @@ struct PartialNormal {
   Eigen::Matrix<double, kLocal, 1> right = Eigen::Matrix<double, kLocal, 1>::Zero();
 };
 
-std::vector<PartialNormal> partialNormals(const AreaObservations& observations, const std::vector<double>& weights,
+std::vector<PartialNormal> partialNormals(const AreaObservations& observations,
+                                          const std::vector<double>& weights,
                                           const TrajectoryErrors& errors) {
   std::map<Knots, PartialNormal> partial;
   PartialNormal* current = nullptr;
@@ -90,11 +94,13 @@ struct FullNormal {
     for (int i = 0; i < kSlots; ++i) {
       if (part.knots[i] < 0) continue;
       const int local_i = kSystemParameterCount + i * kKnot;
-      tg.middleRows<kKnot>(part.knots[i] * kKnot) += part.matrix.block<kKnot, kSystemParameterCount>(local_i, 0);
+      tg.middleRows<kKnot>(part.knots[i] * kKnot) +=
+          part.matrix.block<kKnot, kSystemParameterCount>(local_i, 0);
       right_t.segment<kKnot>(part.knots[i] * kKnot) += part.right.segment<kKnot>(local_i);
       for (int j = 0; j < kSlots; ++j) {
         if (part.knots[j] < 0) continue;
-        auto& block = tt.try_emplace({part.knots[i], part.knots[j]}, Eigen::Matrix<double, kKnot, kKnot>::Zero())
+        auto& block = tt.try_emplace({part.knots[i], part.knots[j]},
+                                     Eigen::Matrix<double, kKnot, kKnot>::Zero())
                           .first->second;
         block += part.matrix.block<kKnot, kKnot>(local_i, kSystemParameterCount + j * kKnot);
       }
@@ -119,7 +125,8 @@ struct FullNormal {
 Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParameter>& chosen) {
   Eigen::MatrixXd part(chosen.size(), chosen.size());
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    for (std::size_t j = 0; j < chosen.size(); ++j) part(i, j) = matrix(indexOf(chosen[i]), indexOf(chosen[j]));
+    for (std::size_t j = 0; j < chosen.size(); ++j)
+      part(i, j) = matrix(indexOf(chosen[i]), indexOf(chosen[j]));
   }
   return part;
 }
@@ -127,36 +134,42 @@ Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParamete
 SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParameter>& chosen) {
   SystemMatrix matrix = SystemMatrix::Zero();
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    for (std::size_t j = 0; j < chosen.size(); ++j) matrix(indexOf(chosen[i]), indexOf(chosen[j])) = part(i, j);
+    for (std::size_t j = 0; j < chosen.size(); ++j)
+      matrix(indexOf(chosen[i]), indexOf(chosen[j])) = part(i, j);
   }
   return matrix;
 }
 
-/// Inverse of a symmetric matrix whose parameters have different units; false when it is numerically singular.
+/// Inverse of a symmetric matrix whose parameters have different units; false when it is
+/// numerically singular.
 bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse) {
   if (!matrix.allFinite() || (matrix.diagonal().array() <= 0.0).any()) return false;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
   constexpr double kSingular = 1e-11;  // of a matrix with a unit diagonal
   if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() < kSingular) return false;
-  inverse = scale.asDiagonal() * ldlt.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols())) *
+  inverse = scale.asDiagonal() *
+            ldlt.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols())) *
             scale.asDiagonal();
   return true;
 }
 
 }  // namespace
 
-Adjustment::Adjustment(const TrajectoryErrors& errors, int threads) : errors_(errors), threads_(threads) {}
+Adjustment::Adjustment(const TrajectoryErrors& errors, int threads)
+    : errors_(errors), threads_(threads) {}
 
 void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
                             const std::vector<std::vector<double>>& weights) {
   areas_ = &areas;
   weights_ = &weights;
   std::vector<std::vector<PartialNormal>> partial(areas.size());
-  parallelFor(areas.size(), threads_,
-              [&](std::size_t area) { partial[area] = partialNormals(areas[area], weights[area], errors_); });
+  parallelFor(areas.size(), threads_, [&](std::size_t area) {
+    partial[area] = partialNormals(areas[area], weights[area], errors_);
+  });
   FullNormal full(errors_.unknowns());
-  for (const auto& area : partial) {  // in area order: the sums do not depend on the number of threads
+  for (const auto& area :
+       partial) {  // in area order: the sums do not depend on the number of threads
     for (const PartialNormal& part : area) full.add(part);
   }
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation();
@@ -175,9 +188,11 @@ Eigen::VectorXd Adjustment::trajectoryErrorsOf(const SystemVector& biases) const
   return eliminated_right_ - elimination_ * biases;
 }
 
-double Adjustment::residual(const PairObservation& observation, const AdjustmentSolution& solution) const {
+double Adjustment::residual(const PairObservation& observation,
+                            const AdjustmentSolution& solution) const {
   const TouchedRow touched(observation, errors_);
-  double left = observation.misclosure - touched.row.head<kSystemParameterCount>() * solution.biases;
+  double left =
+      observation.misclosure - touched.row.head<kSystemParameterCount>() * solution.biases;
   for (int slot = 0; slot < kSlots; ++slot) {
     if (touched.knots[slot] < 0) continue;
     left -= touched.row.segment<kKnot>(kSystemParameterCount + slot * kKnot) *
@@ -211,12 +226,14 @@ SystemMatrix Adjustment::scoreScatter(const AdjustmentSolution& solution) const 
   return groups > 1.0 ? SystemMatrix(scatter * (groups / (groups - 1.0))) : scatter;
 }
 
-AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimate, const SystemVector& held) const {
+AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimate,
+                                     const SystemVector& held) const {
   AdjustmentSolution solution;
   solution.biases = held;
   for (const SystemParameter p : estimate) solution.biases[indexOf(p)] = 0.0;
   Eigen::MatrixXd inverse, formal;
-  if (!invert(sub(reduced_normal_, estimate), inverse) || !invert(sub(normal_, estimate), formal)) return solution;
+  if (!invert(sub(reduced_normal_, estimate), inverse) || !invert(sub(normal_, estimate), formal))
+    return solution;
   const SystemMatrix model = expanded(inverse, estimate);
   solution.biases += model * (reduced_right_side_ - reduced_normal_ * solution.biases);
   solution.trajectory_errors = trajectoryErrorsOf(solution.biases);

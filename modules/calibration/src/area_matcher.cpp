@@ -11,8 +11,10 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kTooFew = 30;      // points of a strip in an area with margin that are not worth a TIN
-constexpr double kGentle = 0.26;         // radians: slopes on which the roughness of plain ground is measured
+constexpr std::size_t kTooFew =
+    30;  // points of a strip in an area with margin that are not worth a TIN
+constexpr double kGentle =
+    0.26;  // radians: slopes on which the roughness of plain ground is measured
 constexpr int kAspects = 8;
 constexpr std::array<double, 3> kSlopeSteps{0.087, 0.26, 0.52};  // radians: 5, 15, 30 degrees
 
@@ -25,12 +27,15 @@ int orientationClass(const Eigen::Vector3d& normal) {
   return 1 + step * kAspects + std::min(kAspects - 1, static_cast<int>(turn * kAspects));
 }
 
-/// How many to take of each class so that they are as even as the classes allow and the sum is at most total.
-std::vector<std::size_t> evenShares(const std::vector<std::vector<std::int32_t>>& classes, std::size_t total) {
+/// How many to take of each class so that they are as even as the classes allow and the sum is at
+/// most total.
+std::vector<std::size_t> evenShares(const std::vector<std::vector<std::int32_t>>& classes,
+                                    std::size_t total) {
   std::vector<std::size_t> order(classes.size()), shares(classes.size(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return classes[a].size() < classes[b].size(); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return classes[a].size() < classes[b].size();
+  });
   for (std::size_t i = 0; i < order.size(); ++i) {
     shares[order[i]] = std::min(classes[order[i]].size(), total / (order.size() - i));
     total -= shares[order[i]];
@@ -66,7 +71,8 @@ void AreaMatcher::prepare(const PatchLimits& limits, std::size_t candidates, dou
     std::vector<double> lengths;
     for (const Tin::Triangle& triangle : tin.triangles()) {
       for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector3d edge = part.biased[triangle.vertex[i]] - part.biased[triangle.vertex[(i + 1) % 3]];
+        const Eigen::Vector3d edge =
+            part.biased[triangle.vertex[i]] - part.biased[triangle.vertex[(i + 1) % 3]];
         lengths.push_back(edge.head<2>().norm());
       }
     }
@@ -76,7 +82,8 @@ void AreaMatcher::prepare(const PatchLimits& limits, std::size_t candidates, dou
 }
 
 bool AreaMatcher::acceptable(const StripPart& part, const PatchQuality& quality) const {
-  return !quality.on_hull && quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
+  return !quality.on_hull &&
+         quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
          quality.slope <= limits_.slope && quality.roughness <= limits_.roughness &&
          quality.vertices >= limits_.minimum_vertices;
 }
@@ -90,7 +97,8 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
     if (hint == Tin::kNone) continue;
     const PatchQuality quality = part.surface.quality(hint);
     if (!acceptable(part, quality)) continue;
-    classes[static_cast<std::size_t>(orientationClass(quality.plane_normal))].push_back(static_cast<std::int32_t>(i));
+    classes[static_cast<std::size_t>(orientationClass(quality.plane_normal))].push_back(
+        static_cast<std::int32_t>(i));
   }
   const std::vector<std::size_t> shares = evenShares(classes, count);
   part.candidates.clear();
@@ -105,7 +113,8 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
 void AreaMatcher::collectRoughness(std::vector<double>& values) const {
   for (const StripPart& part : strips_) {
     for (const std::int32_t i : part.candidates) {
-      const std::int32_t triangle = part.surface.tin().locate(part.biased[i].x(), part.biased[i].y());
+      const std::int32_t triangle =
+          part.surface.tin().locate(part.biased[i].x(), part.biased[i].y());
       const PatchQuality quality = part.surface.quality(triangle);
       if (quality.slope < kGentle) values.push_back(quality.roughness);
     }
@@ -128,7 +137,8 @@ void AreaMatcher::correct(const Trajectory& trajectory, const SystemVector& bias
 /// Design block and covariance of one point of a strip, or of the interpolated foot in a patch.
 class AreaMatcher::PointGeometry {
  public:
-  PointGeometry(const Trajectory& trajectory, const NoiseModel& noise) : trajectory_(trajectory), noise_(noise) {}
+  PointGeometry(const Trajectory& trajectory, const NoiseModel& noise)
+      : trajectory_(trajectory), noise_(noise) {}
 
   bool atPoint(const StripPart& part, std::int32_t index) {
     time = part.times[index];
@@ -137,6 +147,8 @@ class AreaMatcher::PointGeometry {
     const ScanGeometry geometry = scanGeometry(line_, position);
     design = designBlock(geometry);
     covariance = noise_.pointCovariance(geometry);
+    lateral = std::abs(geometry.x);
+    height = std::abs(geometry.z);
     return true;
   }
 
@@ -146,13 +158,16 @@ class AreaMatcher::PointGeometry {
     design.setZero();
     covariance.setZero();
     for (int i = 0; i < 3; ++i) {
-      if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i])) return false;
+      if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i]))
+        return false;
       const double weight = match.weights[i];
       time += weight * vertex.time;
       position += weight * vertex.position;
       design += weight * vertex.design;
       covariance += weight * weight * vertex.covariance;
     }
+    lateral = vertex.lateral;
+    height = vertex.height;
     return true;
   }
 
@@ -160,6 +175,7 @@ class AreaMatcher::PointGeometry {
   Eigen::Vector3d position;  ///< uncorrected
   DesignBlock design;
   Eigen::Matrix3d covariance;
+  double lateral = 0.0, height = 0.0;
 
  private:
   const Trajectory& trajectory_;
@@ -184,10 +200,14 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
       if (!match) continue;
       const PatchQuality quality = b.surface.quality(match->triangle);
-      if (!acceptable(b, quality) || !point.atPoint(a, i) || !foot.atFoot(b, *match, vertex)) continue;
+      if (!acceptable(b, quality) || !point.atPoint(a, i) || !foot.atFoot(b, *match, vertex))
+        continue;
       observation.time_a = point.time;
       observation.time_b = foot.time;
-      // The triangle says where the surface is, its neighbourhood how it is inclined: less noise in the normal.
+      observation.lateral = foot.lateral;
+      observation.height = foot.height;
+      // The triangle says where the surface is, its neighbourhood how it is inclined: less noise in
+      // the normal.
       observation.normal = quality.plane_normal;
       observation.row_a = observation.normal.transpose() * point.design;
       observation.row_b = observation.normal.transpose() * foot.design;
@@ -199,9 +219,9 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
   return found;
 }
 
-AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& control, double threshold,
-                                           const Trajectory& trajectory, const NoiseModel& noise,
-                                           double default_sigma) const {
+AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& control,
+                                           double threshold, const Trajectory& trajectory,
+                                           const NoiseModel& noise, double default_sigma) const {
   AreaObservations found;
   PointGeometry foot(trajectory, noise), vertex(trajectory, noise);
   for (const ControlPoint& point : control) {
@@ -215,12 +235,15 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       PairObservation observation;
       observation.b = static_cast<int>(b);
       observation.time_a = observation.time_b = foot.time;
+      observation.lateral = foot.lateral;
+      observation.height = foot.height;
       observation.normal = quality.plane_normal;
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position);
       const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
       const double up = observation.normal.z();
-      observation.variance = normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;
+      observation.variance =
+          normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;
       found.push_back(observation);
     }
   }
@@ -230,7 +253,9 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
 AreaIndex::AreaIndex(const std::vector<CalibrationArea>& areas) {
   for (std::size_t index = 0; index < areas.size(); ++index) {
     const CalibrationArea& area = areas[index];
-    const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / SurveyMap::kCell)); };
+    const auto cell = [](double v) {
+      return static_cast<std::int64_t>(std::floor(v / SurveyMap::kCell));
+    };
     const Eigen::Vector2d low = area.minimum.array() - area.margin;
     const Eigen::Vector2d high = area.minimum.array() + area.size + area.margin;
     for (std::int64_t row = cell(low.y()); row <= cell(high.y()); ++row) {

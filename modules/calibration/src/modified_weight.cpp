@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <Eigen/Geometry>
 #include <cmath>
+
+#include <Eigen/Geometry>
 
 #include <pcl_als/calibration/modified_weight.h>
 
 namespace pcl_als {
 
 Eigen::Matrix3d patchRotation(const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d helper =
-      std::abs(normal.x()) < 0.7 ? Eigen::Vector3d(Eigen::Vector3d::UnitX()) : Eigen::Vector3d(Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d helper = std::abs(normal.x()) < 0.7
+                                     ? Eigen::Vector3d(Eigen::Vector3d::UnitX())
+                                     : Eigen::Vector3d(Eigen::Vector3d::UnitY());
   Eigen::Matrix3d rotation;
   rotation.row(2) = normal;
   rotation.row(0) = helper.cross(normal).normalized();

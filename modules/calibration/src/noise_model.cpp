@@ -21,7 +21,8 @@ void NoiseModel::validate() const {
     text << name << " must be zero or more, is " << value;
     throw UsageError(text.str());
   }
-  if (range == 0.0 && position == 0.0) throw UsageError("range noise and position noise cannot both be zero");
+  if (range == 0.0 && position == 0.0)
+    throw UsageError("range noise and position noise cannot both be zero");
 }
 
 Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
@@ -29,11 +30,13 @@ Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
   const Eigen::Vector3d beam(-g.sin_beta * g.cos_kappa, -g.sin_beta * g.sin_kappa, -g.cos_beta);
   const double distance = std::hypot(g.x, g.z);
   const double along_sq = range * range;
-  // A quarter of the 1/e^2 diameter is the standard deviation of where in the footprint the return comes from.
+  // A quarter of the 1/e^2 diameter is the standard deviation of where in the footprint the return
+  // comes from.
   const double footprint = 0.25 * beam_divergence;
   const double across_sq = (angle * angle + footprint * footprint) * distance * distance;
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  return (across_sq + position * position) * identity + (along_sq - across_sq) * (beam * beam.transpose());
+  return (across_sq + position * position) * identity +
+         (along_sq - across_sq) * (beam * beam.transpose());
 }
 
 }  // namespace pcl_als

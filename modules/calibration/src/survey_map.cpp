@@ -13,8 +13,9 @@
 namespace pcl_als {
 namespace {
 
-// Coordinates of a survey are multiples of its file's scale, so points lie exactly on cell borders that are counted
-// from one of them. Borders a fraction of a millimetre aside keep a point's cell the same when the whole block moves.
+// Coordinates of a survey are multiples of its file's scale, so points lie exactly on cell borders
+// that are counted from one of them. Borders a fraction of a millimetre aside keep a point's cell
+// the same when the whole block moves.
 constexpr double kAside = 0.00037;
 
 constexpr int kGroup = 4;  // areas per side of the groups that selectAreas spreads over
@@ -22,9 +23,15 @@ constexpr int kGroup = 4;  // areas per side of the groups that selectAreas spre
 std::int64_t packed(std::int32_t ix, std::int32_t iy) {
   return (static_cast<std::int64_t>(iy) << 32) | static_cast<std::uint32_t>(ix);
 }
-std::int32_t columnOf(std::int64_t key) { return static_cast<std::int32_t>(key & 0xffffffff); }
-std::int32_t rowOf(std::int64_t key) { return static_cast<std::int32_t>(key >> 32); }
-std::int32_t floorDiv(std::int32_t a, std::int32_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+std::int32_t columnOf(std::int64_t key) {
+  return static_cast<std::int32_t>(key & 0xffffffff);
+}
+std::int32_t rowOf(std::int64_t key) {
+  return static_cast<std::int32_t>(key >> 32);
+}
+std::int32_t floorDiv(std::int32_t a, std::int32_t b) {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
 std::int64_t coarser(std::int64_t key, int factor) {
   return packed(floorDiv(columnOf(key), factor), floorDiv(rowOf(key), factor));
 }
@@ -38,19 +45,22 @@ bool isSurfacePoint(const CalibrationPoint& point) {
   return point.isLast() && !vegetation && !noise && (point.flags & kWithheld) == 0;
 }
 
-SurveyMap::SurveyMap(std::size_t strips, const Eigen::Vector2d& anchor)
-    : anchor_(anchor - Eigen::Vector2d::Constant(kAside)), strips_(strips) {
-  for (StripCells& strip : strips_) {
-    strip.start = std::numeric_limits<double>::infinity();
-    strip.end = -std::numeric_limits<double>::infinity();
-  }
+SurveyMap::SurveyMap(const Eigen::Vector2d& anchor)
+    : anchor_(anchor - Eigen::Vector2d::Constant(kAside)) {}
+
+int SurveyMap::addStrip() {
+  strips_.emplace_back();
+  strips_.back().start = std::numeric_limits<double>::infinity();
+  strips_.back().end = -std::numeric_limits<double>::infinity();
+  return static_cast<int>(strips_.size()) - 1;
 }
 
 std::int64_t SurveyMap::keyOf(const Eigen::Vector3d& position) const {
   const double column = std::floor((position.x() - anchor_.x()) / kCell);
   const double row = std::floor((position.y() - anchor_.y()) / kCell);
   constexpr double kLimit = 1e9;  // far beyond the Earth: a coordinate like this is no coordinate
-  if (!(std::abs(column) < kLimit && std::abs(row) < kLimit)) throw InputError("a point lies 10 000 000 km away");
+  if (!(std::abs(column) < kLimit && std::abs(row) < kLimit))
+    throw InputError("a point lies 10 000 000 km away");
   return packed(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
 }
 
@@ -85,10 +95,12 @@ std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
   std::vector<Overlap> found;
   for (int a = 0; a < static_cast<int>(strips_.size()); ++a) {
     for (int b = a + 1; b < static_cast<int>(strips_.size()); ++b) {
-      const auto& small = strips_[a].cells.size() < strips_[b].cells.size() ? strips_[a].cells : strips_[b].cells;
+      const auto& small =
+          strips_[a].cells.size() < strips_[b].cells.size() ? strips_[a].cells : strips_[b].cells;
       const auto& large = &small == &strips_[a].cells ? strips_[b].cells : strips_[a].cells;
-      const auto common = std::count_if(small.begin(), small.end(),
-                                        [&](const auto& entry) { return large.count(entry.first) != 0; });
+      const auto common = std::count_if(small.begin(), small.end(), [&](const auto& entry) {
+        return large.count(entry.first) != 0;
+      });
       const double area = static_cast<double>(common) * kCell * kCell;
       if (area > 0.0 && area >= minimum_area) found.push_back({{a, b}, area});
     }
@@ -105,7 +117,8 @@ double SurveyMap::score(const Cell& a, const Cell& b) const {
   for (const Cell* cell : {&a, &b}) {
     if (cell->last_returns < kEnough || cell->multiple > kMostlySolid * cell->points) return 0.0;
     const double mean = cell->z_sum / cell->last_returns;
-    relief = std::min(relief, std::sqrt(std::max(0.0, cell->z_sq_sum / cell->last_returns - mean * mean)));
+    relief = std::min(relief,
+                      std::sqrt(std::max(0.0, cell->z_sq_sum / cell->last_returns - mean * mean)));
   }
   return kFlat + relief;
 }
@@ -133,12 +146,16 @@ std::vector<std::int64_t> ranked(const std::map<std::int64_t, double>& scores) {
 
 std::vector<CalibrationArea> SurveyMap::selectAreas(const std::vector<StripPair>& pairs,
                                                     const Selection& selection) const {
-  const int cells_per_area = std::max(1, static_cast<int>(std::lround(selection.area_size / kCell)));
+  const int cells_per_area =
+      std::max(1, static_cast<int>(std::lround(selection.area_size / kCell)));
   const double size = cells_per_area * kCell;
-  const double inflation = (size + 2.0 * selection.margin) * (size + 2.0 * selection.margin) / (size * size);
-  std::map<std::int64_t, double> points_of;  // expected points of an area with its margin, all strips
+  const double inflation =
+      (size + 2.0 * selection.margin) * (size + 2.0 * selection.margin) / (size * size);
+  std::map<std::int64_t, double>
+      points_of;  // expected points of an area with its margin, all strips
   for (const StripCells& strip : strips_) {
-    for (const auto& [key, cell] : strip.cells) points_of[coarser(key, cells_per_area)] += inflation * cell.points;
+    for (const auto& [key, cell] : strip.cells)
+      points_of[coarser(key, cells_per_area)] += inflation * cell.points;
   }
   std::vector<std::vector<std::int64_t>> wishes;
   for (const StripPair& pair : pairs) {
@@ -165,7 +182,8 @@ std::vector<CalibrationArea> SurveyMap::selectAreas(const std::vector<StripPair>
   }
   std::vector<CalibrationArea> areas;
   for (const std::int64_t key : chosen) {
-    areas.push_back({anchor_ + size * Eigen::Vector2d(columnOf(key), rowOf(key)), size, selection.margin});
+    areas.push_back(
+        {anchor_ + size * Eigen::Vector2d(columnOf(key), rowOf(key)), size, selection.margin});
   }
   return areas;
 }

@@ -10,11 +10,12 @@
 namespace pcl_als {
 
 void TrajectoryErrorModel::validate() const {
-  const std::pair<const char*, double> values[] = {{"trajectory position sigma (m)", position},
-                                                   {"trajectory roll and pitch sigma (rad)", roll_pitch},
-                                                   {"trajectory heading sigma (rad)", heading},
-                                                   {"trajectory correlation time (s)", correlation_time},
-                                                   {"trajectory knot spacing (s)", knot_spacing}};
+  const std::pair<const char*, double> values[] = {
+      {"trajectory position sigma (m)", position},
+      {"trajectory roll and pitch sigma (rad)", roll_pitch},
+      {"trajectory heading sigma (rad)", heading},
+      {"trajectory correlation time (s)", correlation_time},
+      {"trajectory knot spacing (s)", knot_spacing}};
   for (const auto& [name, value] : values) {
     if (std::isfinite(value) && value > 0.0) continue;
     std::ostringstream text;
@@ -43,7 +44,8 @@ TrajectoryErrors::TrajectoryErrors(const std::vector<std::pair<double, double>>&
 TrajectoryErrors::Place TrajectoryErrors::placeOf(int index, double time) const {
   const StripKnots& strip = strips_[static_cast<std::size_t>(index)];
   if (strip.count == 1) return {strip.first, strip.first, 0.0};
-  const double at = std::clamp((time - strip.start) / strip.spacing, 0.0, static_cast<double>(strip.count - 1));
+  const double at =
+      std::clamp((time - strip.start) / strip.spacing, 0.0, static_cast<double>(strip.count - 1));
   const int knot = std::min(static_cast<int>(at), strip.count - 2);
   return {strip.first + knot, strip.first + knot + 1, at - knot};
 }
@@ -54,7 +56,8 @@ Eigen::SparseMatrix<double> TrajectoryErrors::priorInformation() const {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int row_knot, int column_knot, double factor) {
     for (int i = 0; i < kPerKnot; ++i) {
-      entries.emplace_back(row_knot * kPerKnot + i, column_knot * kPerKnot + i, factor / (sigmas[i] * sigmas[i]));
+      entries.emplace_back(row_knot * kPerKnot + i, column_knot * kPerKnot + i,
+                           factor / (sigmas[i] * sigmas[i]));
     }
   };
   for (const StripKnots& strip : strips_) {

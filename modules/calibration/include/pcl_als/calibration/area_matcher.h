@@ -2,10 +2,11 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/calibration/noise_model.h>
@@ -19,16 +20,17 @@ namespace pcl_als {
 
 /// What makes a patch, or the surface around a point, worth measuring to.
 struct PatchLimits {
-  double edge_factor = 3.0;     ///< longest edge against the median edge of the strip's TIN in the area
-  double slope = 1.05;          ///< radians: steeper is a wall or a triangle across an eave
-  double roughness = 0.08;      ///< metres, RMS of the neighbourhood about its plane
-  int minimum_vertices = 7;     ///< in the neighbourhood
+  double edge_factor =
+      3.0;                  ///< longest edge against the median edge of the strip's TIN in the area
+  double slope = 1.05;      ///< radians: steeper is a wall or a triangle across an eave
+  double roughness = 0.08;  ///< metres, RMS of the neighbourhood about its plane
+  int minimum_vertices = 7;  ///< in the neighbourhood
 };
 
 /** \brief The points of one area by strip, their TINs, and the pairs found between them.
  *
- * Fill with add() (different strips may be added from different threads), then prepare() once, then for every
- * iteration correct() and match(). Memory: about 150 bytes per point.
+ * Fill with add() (different strips may be added from different threads), then prepare() once, then
+ * for every iteration correct() and match(). Memory: about 150 bytes per point.
  */
 class AreaMatcher {
  public:
@@ -38,20 +40,25 @@ class AreaMatcher {
   const CalibrationArea& area() const { return area_; }
   std::size_t pointCount() const;
 
-  /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and aspects.
+  /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
+  /// aspects.
   void prepare(const PatchLimits& limits, std::size_t candidates, double resolution);
-  /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for setting the limit).
+  /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for
+  /// setting the limit).
   void collectRoughness(std::vector<double>& values) const;
+  void limitRoughness(double roughness) { limits_.roughness = roughness; }
 
   /// Reconstructs the points with Eq. (13); the TINs keep their topology.
   void correct(const Trajectory& trajectory, const SystemVector& biases);
 
-  /// The pairs between these strips (both directions) whose corrected normal distance is at most \a threshold.
-  AreaObservations match(const std::vector<StripPair>& pairs, double threshold, const Trajectory& trajectory,
-                         const NoiseModel& noise) const;
+  /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
+  /// threshold.
+  AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
+                         const Trajectory& trajectory, const NoiseModel& noise) const;
   /// The pairs of control points inside the area with the patches above or below them.
   AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
-                                const Trajectory& trajectory, const NoiseModel& noise, double default_sigma) const;
+                                const Trajectory& trajectory, const NoiseModel& noise,
+                                double default_sigma) const;
 
  private:
   struct StripPart {

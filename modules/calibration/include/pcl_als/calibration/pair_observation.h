@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <pcl_als/common/system_parameters.h>
 
@@ -11,27 +12,32 @@ namespace pcl_als {
 
 using SystemRow = Eigen::Matrix<double, 1, kSystemParameterCount>;
 
-/** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs. (11), (12), (34)).
+/** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs.
+ * (11), (12), (34)).
  *
- * a is the strip of the point, b that of the patch. For control, a is kControl, the point is the control point and
- * row_a is zero.
+ * a is the strip of the point, b that of the patch. For control, a is kControl, the point is the
+ * control point and row_a is zero.
  */
 struct PairObservation {
   static constexpr int kControl = -1;
 
   int a = kControl, b = 0;
-  double time_a = 0.0, time_b = 0.0;  ///< firing times of the point and of the patch, seconds
+  double time_a = 0.0, time_b = 0.0;    ///< firing times of the point and of the patch, seconds
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
   Eigen::Vector3d normal;               ///< unit, upward, ground frame
   double misclosure = 0.0;              ///< n'(X_A - X_B) of the uncorrected coordinates, metres
   double variance = 0.0;                ///< n' Sigma n of the discrepancy, m^2
+  double lateral = 0.0,
+         height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 
   SystemRow row() const { return row_a - row_b; }
+  /// Normal distance of the corrected point above the corrected patch, metres.
+  double distance(const SystemVector& biases) const { return misclosure - row() * biases; }
 };
 
-/// The pairs found in one area: the unit that is computed at a time and, for the uncertainty, a group that may share
-/// an error the model does not know.
+/// The pairs found in one area: the unit that is computed at a time and, for the uncertainty, a
+/// group that may share an error the model does not know.
 using AreaObservations = std::vector<PairObservation>;
 
 }  // namespace pcl_als

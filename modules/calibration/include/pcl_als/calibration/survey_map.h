@@ -2,13 +2,15 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include <pcl_als/calibration/calibration_point.h>
 
@@ -19,15 +21,17 @@ using StripPair = std::pair<int, int>;
 
 /** \brief First look at a survey: which strips see which ground, and where calibrating is worth it.
  *
- * Points are added in any order, strip by strip (different strips may be added from different threads); kept is a few
- * sums for every 10 m cell a strip touches (48 bytes), never the points.
+ * Points are added in any order, strip by strip (different strips may be added from different
+ * threads); kept is a few sums for every 10 m cell a strip touches (48 bytes), never the points.
  */
 class SurveyMap {
  public:
   static constexpr double kCell = 10.0;  ///< metres
 
   /// \param anchor south-west corner the cells count from (metres, ground frame)
-  SurveyMap(std::size_t strips, const Eigen::Vector2d& anchor);
+  explicit SurveyMap(const Eigen::Vector2d& anchor);
+
+  int addStrip();  ///< its index; not while another thread adds points
 
   /// Adds points to a strip. Points that are not finite are not added and counted.
   void add(int strip, const CalibrationPoint* points, std::size_t count);
@@ -45,17 +49,20 @@ class SurveyMap {
   std::vector<Overlap> overlaps(double minimum_area) const;
 
   struct Selection {
-    double area_size = 50.0;               ///< metres
-    double margin = 8.0;                   ///< metres
-    std::size_t point_budget = 4'000'000;  ///< points in the chosen areas and their margins, all strips
+    double area_size = 50.0;  ///< metres
+    double margin = 8.0;      ///< metres
+    std::size_t point_budget =
+        4'000'000;  ///< points in the chosen areas and their margins, all strips
   };
-  /** \brief Areas seen by one of the pairs, best first within each part of the block, until the budget is used.
+  /** \brief Areas seen by one of the pairs, best first within each part of the block, until the
+   * budget is used.
    *
-   * The score of an area is its solid relief: height variation inside cells, without cells full of multiple returns.
-   * Each pair chooses in turn, one area from every 4 x 4 group of areas before a second from any, so that the choice
-   * spreads along and across the strips.
+   * The score of an area is its solid relief: height variation inside cells, without cells full of
+   * multiple returns. Each pair chooses in turn, one area from every 4 x 4 group of areas before a
+   * second from any, so that the choice spreads along and across the strips.
    */
-  std::vector<CalibrationArea> selectAreas(const std::vector<StripPair>& pairs, const Selection& selection) const;
+  std::vector<CalibrationArea> selectAreas(const std::vector<StripPair>& pairs,
+                                           const Selection& selection) const;
 
  private:
   struct Cell {
@@ -72,7 +79,7 @@ class SurveyMap {
   double score(const Cell& a, const Cell& b) const;
 
   Eigen::Vector2d anchor_;
-  std::vector<StripCells> strips_;
+  std::deque<StripCells> strips_;
 };
 
 }  // namespace pcl_als

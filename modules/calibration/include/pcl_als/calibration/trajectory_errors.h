@@ -2,10 +2,11 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <pcl_als/common/system_parameters.h>
 
@@ -13,16 +14,17 @@ namespace pcl_als {
 
 /** \brief What the trajectory of a strip may be wrong by, shared by all its points for some time.
  *
- * Each of six errors (east, north, up; pitch, roll, heading about the flight line) is a stationary Gauss-Markov
- * process: standard deviation sigma, correlation exp(-|dt| / correlation_time). Strips are independent.
- * Defaults: post-processed survey-grade GNSS/INS.
+ * Each of six errors (east, north, up; pitch, roll, heading about the flight line) is a stationary
+ * Gauss-Markov process: standard deviation sigma, correlation exp(-|dt| / correlation_time). Strips
+ * are independent. Defaults: post-processed survey-grade GNSS/INS.
  */
 struct TrajectoryErrorModel {
   double position = 0.02;                       ///< metres, each axis
   double roll_pitch = 8.0 * kRadiansPerArcsec;  ///< radians
   double heading = 16.0 * kRadiansPerArcsec;    ///< radians
   double correlation_time = 30.0;               ///< seconds
-  double knot_spacing = 10.0;                   ///< seconds, at most, between knots of the linear splines used for it
+  double knot_spacing =
+      10.0;  ///< seconds, at most, between knots of the linear splines used for it
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
@@ -33,7 +35,8 @@ class TrajectoryErrors {
   static constexpr int kPerKnot = 6;
 
   /// \param spans first and last firing time of every strip, seconds
-  TrajectoryErrors(const std::vector<std::pair<double, double>>& spans, const TrajectoryErrorModel& model);
+  TrajectoryErrors(const std::vector<std::pair<double, double>>& spans,
+                   const TrajectoryErrorModel& model);
 
   int knotCount() const { return knot_count_; }
   int unknowns() const { return knot_count_ * kPerKnot; }
@@ -46,7 +49,8 @@ class TrajectoryErrors {
   };
   Place placeOf(int strip, double time) const;
 
-  /// Information matrix of the prior, unknowns x unknowns, knot by knot (east north up pitch roll heading).
+  /// Information matrix of the prior, unknowns x unknowns, knot by knot (east north up pitch roll
+  /// heading).
   Eigen::SparseMatrix<double> priorInformation() const;
 
  private:

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als {
+
+/// Puts what the calibration found into a CalibrationResult, with a warning for all that a user
+/// must know.
+class CalibrationReport {
+ public:
+  CalibrationReport(const std::vector<std::string>& strip_ids, bool without_control);
+
+  /// Fit of pairs and control under \a biases; \a after selects which half of PairFit and
+  /// ControlFit is filled.
+  void addFit(const std::vector<AreaObservations>& observations, const SystemVector& biases,
+              bool after, CalibrationResult& result) const;
+
+  /// Parameters, standard deviations, correlations and statuses; \a requested is empty for
+  /// automatic choice.
+  void addParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
+                     CalibrationResult& result) const;
+
+ private:
+  const std::vector<std::string>& ids_;
+  bool without_control_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als {
+
+/** \brief Standard deviation from which on a parameter counts as not determined by the data.
+ *
+ * Chosen so that a wrong value of that size is no longer an improvement over leaving the parameter
+ * alone: about 10 cm on the ground from 1000 m.
+ */
+struct DeterminationLimits {
+  double lever_arm = 0.10;                       ///< metres
+  double roll_pitch = 30.0 * kRadiansPerArcsec;  ///< radians
+  double heading = 90.0 * kRadiansPerArcsec;     ///< radians
+  double range = 0.10;                           ///< metres
+  double scan_angle_scale = 3e-4;                ///< unitless
+
+  double of(SystemParameter p) const;
+};
+
+/// Which parameters are solved for, and why the others are not.
+struct ParameterChoice {
+  std::vector<SystemParameter> estimate;
+  std::array<ParameterStatus, kSystemParameterCount> status{};
+  std::array<std::string, kSystemParameterCount> reason;  ///< empty for an estimated parameter
+  AdjustmentSolution solution;                            ///< with exactly these
+};
+
+/** \brief Drops from \a wanted what the observations cannot determine, one by one, each with the
+ * reason.
+ *
+ * A parameter is not determined when the normal matrix is singular in a direction it takes part in,
+ * or when its standard deviation exceeds \a limit_factor times its limit. Of the parameters that
+ * one weak direction confuses, the one that can best be measured otherwise goes first: lever arm,
+ * then scale, range, heading, pitch, roll.
+ */
+ParameterChoice chooseParameters(const Adjustment& adjustment,
+                                 const std::vector<SystemParameter>& wanted,
+                                 const SystemVector& held, const DeterminationLimits& limits,
+                                 double limit_factor);
+
+/// "0.35 m", "12.4 arcsec", "0.00031": a value of a parameter in its interface unit.
+std::string inUnit(SystemParameter parameter, double value);
+
+}  // namespace pcl_als

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/calibration/trajectory_errors.h>
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als {
+
+/// Everything a calibration can be told. The defaults suit post-processed survey flights of
+/// 500-3000 m height.
+struct CalibrationSettings {
+  std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
+  NoiseModel noise;
+  TrajectoryErrorModel trajectory_errors;
+  DeterminationLimits limits;
+  PatchLimits patches;
+  SurveyMap::Selection selection;
+  std::size_t candidates =
+      400;  ///< points of a strip in an area that look for patches in the other strips
+  double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
+  double control_sigma = 0.02;        ///< metres, for control points whose file gives none
+  double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
+  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
+  double resolution = 0.001;          ///< metres, coordinate step of the files
+  int max_iterations = 20;
+  double convergence = 2e-4;  ///< metres: an update moves no point by more
+  int threads = 0;
+};
+
+/** \brief Quasi-rigorous geometric calibration of a LiDAR system (Habib et al. 2011, section 2).
+ *
+ * Estimates biases (assumed - true) of the system parameters from point-to-patch pairs in
+ * overlapping strips (Eq. (11), both directions) and vertical control (Eq. (12)) by modified least
+ * squares, reconstructing the points with Eq. (13) and pairing anew until the corrections vanish.
+ *
+ * The points are looked at twice, in any order, so that memory depends on the areas chosen and not
+ * on the survey: \code QuasiRigorousCalibration calibration(trajectory, settings, anchor); const
+ * int strip = calibration.addStrip("1");       // for every strip calibration.survey(strip, points,
+ * count);          // first look, all points calibration.chooseAreas(); calibration.load(strip,
+ * points, count);            // second look, all points again const CalibrationResult result =
+ * calibration.calibrate(); \endcode survey() and load() may run on several threads for different
+ * strips. Assumes a linear scanner, an almost vertical system and small boresight angles. Memory:
+ * 48 bytes per 10 m cell a strip touches, 150 per point in an area, 250 per pair.
+ */
+class QuasiRigorousCalibration {
+ public:
+  /// \param anchor south-west corner of the block (metres, ground frame), from which areas are
+  /// counted
+  QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
+                           const CalibrationSettings& settings, const Eigen::Vector2d& anchor);
+
+  int addStrip(const std::string& id);
+  void setControl(std::vector<ControlPoint> control) { control_ = std::move(control); }
+  /// Limits the pairs to these, by strip id; UsageError from chooseAreas() for an unknown id.
+  void setPairs(std::vector<std::pair<std::string, std::string>> pairs) {
+    wanted_pairs_ = std::move(pairs);
+  }
+
+  void survey(int strip, const CalibrationPoint* points, std::size_t count);
+  /// InputError when no strips overlap, or when a strip's times are not in the trajectory.
+  void chooseAreas();
+  void load(int strip, const CalibrationPoint* points, std::size_t count);
+  /// Called after every iteration.
+  void setProgress(std::function<void(const CalibrationIteration&)> progress) {
+    progress_ = std::move(progress);
+  }
+  /// result.converged tells whether to trust it; warnings say why not.
+  CalibrationResult calibrate();
+
+  const std::vector<CalibrationArea>& areas() const { return areas_; }
+  std::size_t loadedPoints() const;
+  std::vector<StripPair> const& pairs() const { return pairs_; }
+
+ private:
+  struct State;
+
+  void leaveOutSmallStrips();
+  void checkTrajectory() const;
+  void choosePairs();
+  int stripNamed(const std::string& id) const;
+  void prepare();
+  void pairUp(State& state) const;
+  void weigh(State& state) const;
+  void adjust(State& state) const;
+  void shrinkThreshold(State& state) const;
+  void iterate(State& state, CalibrationResult& result);
+
+  std::shared_ptr<const Trajectory> trajectory_;
+  CalibrationSettings settings_;
+  SurveyMap map_;
+  std::vector<std::string> ids_;
+  std::vector<bool> used_;
+  std::vector<ControlPoint> control_;
+  std::vector<std::pair<std::string, std::string>> wanted_pairs_;
+  std::vector<StripPair> pairs_;
+  std::vector<CalibrationArea> areas_;
+  std::size_t pair_areas_ = 0;  ///< the first ones of areas_; the others surround control points
+  std::unique_ptr<AreaIndex> index_;
+  std::vector<AreaMatcher> matchers_;
+  std::vector<std::string> warnings_;
+  std::function<void(const CalibrationIteration&)> progress_;
+};
+
+}  // namespace pcl_als

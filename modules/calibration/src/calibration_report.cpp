@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <pcl_als/calibration/calibration_report.h>
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als {
+namespace {
+
+PairFit& pairFit(CalibrationResult& result, const std::string& a, const std::string& b) {
+  const auto same = [&](const PairFit& fit) { return fit.a == a && fit.b == b; };
+  const auto found = std::find_if(result.pairs.begin(), result.pairs.end(), same);
+  if (found != result.pairs.end()) return *found;
+  PairFit fit;
+  fit.a = a;
+  fit.b = b;
+  result.pairs.push_back(fit);
+  return result.pairs.back();
+}
+
+ControlFit& controlFit(CalibrationResult& result, const std::string& strip) {
+  const auto same = [&](const ControlFit& fit) { return fit.strip == strip; };
+  const auto found = std::find_if(result.control.begin(), result.control.end(), same);
+  if (found != result.control.end()) return *found;
+  ControlFit fit;
+  fit.strip = strip;
+  result.control.push_back(fit);
+  return result.control.back();
+}
+
+}  // namespace
+
+CalibrationReport::CalibrationReport(const std::vector<std::string>& strip_ids,
+                                     bool without_control)
+    : ids_(strip_ids), without_control_(without_control) {}
+
+void CalibrationReport::addFit(const std::vector<AreaObservations>& observations,
+                               const SystemVector& biases, bool after,
+                               CalibrationResult& result) const {
+  std::map<std::pair<int, int>, RunningStatistics> statistics;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      const double distance = o.distance(biases);
+      // Means are of the first strip above the second; for control, of the strip above the point,
+      // vertically.
+      if (o.a == PairObservation::kControl) {
+        statistics[{o.a, o.b}].add(-distance / o.normal.z());
+      } else {
+        statistics[std::minmax(o.a, o.b)].add(o.a < o.b ? distance : -distance);
+      }
+    }
+  }
+  for (const auto& [strips, values] : statistics) {
+    if (strips.first == PairObservation::kControl) {
+      ControlFit& fit = controlFit(result, ids_[strips.second]);
+      fit.points = values.count();
+      (after ? fit.mean_after : fit.mean_before) = values.mean();
+      (after ? fit.rms_after : fit.rms_before) = values.rms();
+    } else {
+      PairFit& fit = pairFit(result, ids_[strips.first], ids_[strips.second]);
+      fit.correspondences = values.count();
+      (after ? fit.mean_after : fit.mean_before) = values.mean();
+      (after ? fit.rms_after : fit.rms_before) = values.rms();
+    }
+  }
+}
+
+void CalibrationReport::addParameters(const ParameterChoice& choice,
+                                      const std::vector<SystemParameter>& requested,
+                                      CalibrationResult& result) const {
+  const AdjustmentSolution& solution = choice.solution;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const int i = indexOf(info.parameter);
+    ParameterEstimate& parameter = result.parameters[i];
+    parameter.status = choice.status[i];
+    parameter.reason = choice.reason[i];
+    if (parameter.status == ParameterStatus::estimated) {
+      parameter.bias = solution.biases[i];
+      parameter.std = std::sqrt(solution.covariance(i, i));
+      parameter.std_formal = std::sqrt(solution.formal(i, i));
+      continue;
+    }
+    if (parameter.status == ParameterStatus::not_estimable) {
+      result.warnings.push_back(std::string(info.name) + " is not determined: " + parameter.reason);
+      if (!requested.empty()) result.converged = false;
+    } else if (!requested.empty()) {
+      parameter.reason = "not asked for";
+    } else if (info.parameter == SystemParameter::range_bias) {
+      parameter.status = ParameterStatus::not_estimable;
+      parameter.reason = "needs control: strips alone hardly see it";
+    } else {
+      parameter.reason = "not separable from range_bias, and strips alone never see it";
+    }
+  }
+  result.correlation_order = choice.estimate;
+  const auto size = static_cast<Eigen::Index>(choice.estimate.size());
+  result.correlation.resize(size, size);
+  for (Eigen::Index r = 0; r < size; ++r) {
+    for (Eigen::Index c = 0; c < size; ++c) {
+      const int i = indexOf(choice.estimate[static_cast<std::size_t>(r)]);
+      const int j = indexOf(choice.estimate[static_cast<std::size_t>(c)]);
+      result.correlation(r, c) = solution.covariance(i, j) /
+                                 std::sqrt(solution.covariance(i, i) * solution.covariance(j, j));
+    }
+  }
+  if (choice.estimate.empty()) {
+    result.converged = false;
+    result.warnings.push_back("no parameter can be determined from this block");
+  } else if (!result.converged) {
+    result.warnings.push_back(
+        "the adjustment did not reach a trustworthy end: do not apply this result");
+  }
+  if (without_control_)
+    result.warnings.push_back("without control the absolute height of the block is not checked");
+}
+
+}  // namespace pcl_als

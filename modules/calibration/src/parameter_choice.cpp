@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <Eigen/Eigenvalues>
+
+#include <pcl_als/calibration/parameter_choice.h>
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+
+/// Who goes first when several cannot be told apart.
+constexpr std::array<P, kSystemParameterCount> kDropOrder{
+    P::lever_arm_z, P::lever_arm_y,       P::lever_arm_x,     P::scan_angle_scale,
+    P::range_bias,  P::boresight_heading, P::boresight_pitch, P::boresight_roll};
+
+constexpr double kConfused = 0.9;  // correlation from which on two parameters are called confused
+constexpr double kTakesPart =
+    0.3;  // component of a unit vector: the parameter takes part in a weak direction
+
+std::string name(P p) {
+  return std::string(infoOf(p).name);
+}
+
+P firstToDrop(const std::vector<P>& candidates) {
+  return *std::find_first_of(kDropOrder.begin(), kDropOrder.end(), candidates.begin(),
+                             candidates.end());
+}
+
+std::string listed(const std::vector<P>& parameters, P except) {
+  std::string text;
+  for (const P p : parameters) {
+    if (p == except) continue;
+    text += (text.empty() ? "" : ", ") + name(p);
+  }
+  return text;
+}
+
+/// The parameters that take part in the direction in which a unit-diagonal normal matrix is
+/// weakest.
+std::vector<P> weakestDirection(const SystemMatrix& normal, const std::vector<P>& estimate) {
+  std::vector<P> dead;
+  for (const P p : estimate) {
+    if (!(normal(indexOf(p), indexOf(p)) > 0.0)) dead.push_back(p);
+  }
+  if (!dead.empty()) return dead;
+  Eigen::MatrixXd scaled(estimate.size(), estimate.size());
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    for (std::size_t j = 0; j < estimate.size(); ++j) {
+      const int a = indexOf(estimate[i]), b = indexOf(estimate[j]);
+      scaled(i, j) = normal(a, b) / std::sqrt(normal(a, a) * normal(b, b));
+    }
+  }
+  const Eigen::VectorXd weakest =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvectors().col(0);
+  std::vector<P> taking_part;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    if (std::abs(weakest[i]) >= kTakesPart) taking_part.push_back(estimate[i]);
+  }
+  return taking_part;
+}
+
+double correlation(const SystemMatrix& covariance, P a, P b) {
+  const int i = indexOf(a), j = indexOf(b);
+  return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+}
+
+/// What to drop of a solution whose standard deviations are too large; candidates empty when
+/// nothing is.
+std::vector<P> tooUncertain(const AdjustmentSolution& solution, const std::vector<P>& estimate,
+                            const DeterminationLimits& limits, double factor) {
+  std::vector<P> candidates;
+  for (const P p : estimate) {
+    const double limit = factor * limits.of(p);
+    if (std::sqrt(solution.covariance(indexOf(p), indexOf(p))) <= limit) continue;
+    candidates.push_back(p);
+    for (const P other : estimate) {
+      if (other != p && std::abs(correlation(solution.covariance, p, other)) > kConfused)
+        candidates.push_back(other);
+    }
+  }
+  return candidates;
+}
+
+std::string uncertainReason(const AdjustmentSolution& solution, const std::vector<P>& estimate,
+                            P dropped, const DeterminationLimits& limits, double factor) {
+  const SystemMatrix& covariance = solution.covariance;
+  std::ostringstream text;
+  text << "standard deviation would be "
+       << inUnit(dropped, std::sqrt(covariance(indexOf(dropped), indexOf(dropped))))
+       << ", more than " << inUnit(dropped, factor * limits.of(dropped)) << " is no determination";
+  P partner = dropped;
+  double strongest = 0.0;
+  for (const P other : estimate) {
+    if (other == dropped || std::abs(correlation(covariance, dropped, other)) <= strongest)
+      continue;
+    strongest = std::abs(correlation(covariance, dropped, other));
+    partner = other;
+  }
+  if (strongest < 0.5) return text.str();
+  text.precision(2);
+  text << std::fixed << " (correlation " << correlation(covariance, dropped, partner) << " with "
+       << name(partner) << ")";
+  return text.str();
+}
+
+}  // namespace
+
+double DeterminationLimits::of(SystemParameter p) const {
+  switch (p) {
+    case P::lever_arm_x:
+    case P::lever_arm_y:
+    case P::lever_arm_z:
+      return lever_arm;
+    case P::boresight_pitch:
+    case P::boresight_roll:
+      return roll_pitch;
+    case P::boresight_heading:
+      return heading;
+    case P::range_bias:
+      return range;
+    case P::scan_angle_scale:
+      return scan_angle_scale;
+  }
+  return 0.0;
+}
+
+std::string inUnit(SystemParameter parameter, double value) {
+  const SystemParameterInfo& info = infoOf(parameter);
+  std::ostringstream text;
+  text.precision(3);
+  text << value / info.internal_per_unit;
+  if (info.unit != "1") text << ' ' << info.unit;
+  return text.str();
+}
+
+ParameterChoice chooseParameters(const Adjustment& adjustment,
+                                 const std::vector<SystemParameter>& wanted,
+                                 const SystemVector& held, const DeterminationLimits& limits,
+                                 double limit_factor) {
+  ParameterChoice choice;
+  choice.estimate = wanted;
+  choice.status.fill(ParameterStatus::fixed);
+  for (const P p : wanted) choice.status[indexOf(p)] = ParameterStatus::estimated;
+  while (!choice.estimate.empty()) {
+    choice.solution = adjustment.solve(choice.estimate, held);
+    const std::vector<P> candidates =
+        choice.solution.solved
+            ? tooUncertain(choice.solution, choice.estimate, limits, limit_factor)
+            : weakestDirection(adjustment.reducedNormal(), choice.estimate);
+    if (candidates.empty()) return choice;
+    const P dropped = firstToDrop(candidates);
+    std::string& reason = choice.reason[indexOf(dropped)];
+    if (choice.solution.solved) {
+      reason = uncertainReason(choice.solution, choice.estimate, dropped, limits, limit_factor);
+    } else {
+      const std::string others = listed(candidates, dropped);
+      reason =
+          others.empty() ? "the observations do not depend on it" : "cannot be told from " + others;
+    }
+    choice.status[indexOf(dropped)] = ParameterStatus::not_estimable;
+    choice.estimate.erase(std::find(choice.estimate.begin(), choice.estimate.end(), dropped));
+  }
+  choice.solution = AdjustmentSolution();
+  choice.solution.biases = held;
+  return choice;
+}
+
+}  // namespace pcl_als

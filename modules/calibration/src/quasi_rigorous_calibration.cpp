@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <pcl_als/calibration/calibration_report.h>
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr double kControlAreaSize = 4.0;  // metres: a control point needs the patch around it only
+constexpr double kHuber = 1.5;    // standard deviations up to which an observation has full weight
+constexpr double kReject = 4.5;   // and from which it has none
+constexpr int kReweightings = 3;  // of one set of pairs
+constexpr std::size_t kEnoughForScale = 30;
+constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
+
+double robustWeight(double standardised) {
+  const double size = std::abs(standardised);
+  if (size > kReject) return 0.0;
+  return size <= kHuber ? 1.0 : kHuber / size;
+}
+
+std::string seconds(double from, double to) {
+  std::ostringstream text;
+  text.precision(3);
+  text << std::fixed << from << " … " << to << " s";
+  return text.str();
+}
+
+}  // namespace
+
+/// What changes from iteration to iteration.
+struct QuasiRigorousCalibration::State {
+  using Group =
+      std::pair<int, int>;  // strips of an observation, smaller first; kControl first for control
+
+  explicit State(const TrajectoryErrors& errors, int threads) : adjustment(errors, threads) {}
+
+  static Group groupOf(const PairObservation& o) {
+    return {std::min(o.a, o.b), std::max(o.a, o.b)};
+  }
+  std::size_t observationCount() const {
+    std::size_t count = 0;
+    for (const AreaObservations& area : observations) count += area.size();
+    return count;
+  }
+
+  Adjustment adjustment;
+  ParameterChoice choice;
+  double threshold = 0.0;
+  std::vector<AreaObservations> observations;
+  std::vector<std::vector<double>> weights;  ///< robust weight / noise scale^2
+  std::map<Group, double> noise_scale;       ///< scatter of a group against its noise model
+  double sigma0 = 0.0;
+  long redundancy = 0;
+};
+
+QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
+                                                   const CalibrationSettings& settings,
+                                                   const Eigen::Vector2d& anchor)
+    : trajectory_(std::move(trajectory)), settings_(settings), map_(anchor) {
+  settings_.noise.validate();
+  settings_.trajectory_errors.validate();
+}
+
+int QuasiRigorousCalibration::addStrip(const std::string& id) {
+  ids_.push_back(id);
+  used_.push_back(true);
+  return map_.addStrip();
+}
+
+void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
+                                      std::size_t count) {
+  map_.add(strip, points, count);
+}
+
+void QuasiRigorousCalibration::leaveOutSmallStrips() {
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    const std::size_t count = map_.pointCount(static_cast<int>(strip));
+    if (map_.invalidCount(static_cast<int>(strip)) > 0) {
+      warnings_.push_back("strip " + ids_[strip] + ": " +
+                          std::to_string(map_.invalidCount(static_cast<int>(strip))) +
+                          " points with a time or coordinate that is not finite were ignored");
+    }
+    if (count >= settings_.minimum_points) continue;
+    used_[strip] = false;
+    warnings_.push_back("strip " + ids_[strip] + " has only " + std::to_string(count) +
+                        " points and is left out");
+  }
+}
+
+void QuasiRigorousCalibration::checkTrajectory() const {
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    if (!used_[strip]) continue;
+    const double start = map_.startTime(static_cast<int>(strip)),
+                 end = map_.endTime(static_cast<int>(strip));
+    if (start < trajectory_->startTime() || end > trajectory_->endTime()) {
+      throw InputError("strip " + ids_[strip] + " was measured at " + seconds(start, end) +
+                       ", the trajectory covers " +
+                       seconds(trajectory_->startTime(), trajectory_->endTime()) +
+                       ": give the trajectory of this flight");
+    }
+    for (const Trajectory::Gap& gap : trajectory_->gaps()) {
+      if (gap.from >= end || gap.to <= start) continue;
+      throw InputError("the trajectory has a gap at " + seconds(gap.from, gap.to) +
+                       " under strip " + ids_[strip] + " (" + seconds(start, end) +
+                       "): give a complete trajectory or leave the strip out");
+    }
+  }
+}
+
+int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
+  const auto found = std::find(ids_.begin(), ids_.end(), id);
+  if (found != ids_.end()) return static_cast<int>(found - ids_.begin());
+  std::string known;
+  for (const std::string& name : ids_) known += (known.empty() ? "" : ", ") + name;
+  throw UsageError("pairs name strip '" + id + "', but the strips are " + known);
+}
+
+void QuasiRigorousCalibration::choosePairs() {
+  std::vector<StripPair> wanted;
+  for (const auto& [a, b] : wanted_pairs_) {
+    const int i = stripNamed(a), j = stripNamed(b);
+    if (i == j) throw UsageError("pairs name strip '" + a + "' with itself");
+    wanted.emplace_back(std::min(i, j), std::max(i, j));
+  }
+  pairs_.clear();
+  for (const SurveyMap::Overlap& overlap : map_.overlaps(settings_.minimum_overlap)) {
+    if (!used_[overlap.strips.first] || !used_[overlap.strips.second]) continue;
+    const bool chosen =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), overlap.strips) != wanted.end();
+    if (chosen) pairs_.push_back(overlap.strips);
+  }
+  for (const StripPair& pair : wanted) {
+    if (std::find(pairs_.begin(), pairs_.end(), pair) != pairs_.end()) continue;
+    warnings_.push_back("strips " + ids_[pair.first] + " and " + ids_[pair.second] +
+                        " do not overlap enough");
+  }
+  if (!pairs_.empty() || !control_.empty()) return;
+  const auto used = std::count(used_.begin(), used_.end(), true);
+  throw InputError(
+      used < 2 ? "fewer than two strips with enough points and no control: nothing to compare"
+               : "no two strips overlap and there is no control: nothing to compare");
+}
+
+void QuasiRigorousCalibration::chooseAreas() {
+  leaveOutSmallStrips();
+  checkTrajectory();
+  choosePairs();
+  areas_ = map_.selectAreas(pairs_, settings_.selection);
+  pair_areas_ = areas_.size();
+  for (const ControlPoint& point : control_) {
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlAreaSize);
+    areas_.push_back(
+        {point.position.head<2>() - half, kControlAreaSize, settings_.selection.margin});
+  }
+  index_ = std::make_unique<AreaIndex>(areas_);
+  matchers_.clear();
+  for (const CalibrationArea& area : areas_) matchers_.emplace_back(area, ids_.size());
+}
+
+void QuasiRigorousCalibration::load(int strip, const CalibrationPoint* points, std::size_t count) {
+  if (!used_[static_cast<std::size_t>(strip)]) return;
+  for (const CalibrationPoint* p = points; p != points + count; ++p) {
+    if (!p->position.allFinite() || !std::isfinite(p->time)) continue;
+    for (const int area : index_->candidates(p->position))
+      matchers_[static_cast<std::size_t>(area)].add(strip, *p);
+  }
+}
+
+std::size_t QuasiRigorousCalibration::loadedPoints() const {
+  std::size_t count = 0;
+  for (const AreaMatcher& matcher : matchers_) count += matcher.pointCount();
+  return count;
+}
+
+void QuasiRigorousCalibration::prepare() {
+  std::vector<std::vector<double>> roughness(matchers_.size());
+  parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
+    const bool control = i >= pair_areas_;
+    matchers_[i].prepare(settings_.patches, control ? 0 : settings_.candidates,
+                         settings_.resolution);
+    matchers_[i].collectRoughness(roughness[i]);
+  });
+  std::vector<double> all;
+  for (const auto& values : roughness) all.insert(all.end(), values.begin(), values.end());
+  if (all.empty()) return;
+  const double limit = std::min(settings_.patches.roughness, kRoughnessFactor * medianInPlace(all));
+  for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(limit);
+}
+
+void QuasiRigorousCalibration::pairUp(State& state) const {
+  state.observations.assign(matchers_.size(), {});
+  parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
+    const AreaMatcher& matcher = matchers_[i];
+    state.observations[i] =
+        i < pair_areas_
+            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise)
+            : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
+                                   settings_.noise, settings_.control_sigma);
+  });
+}
+
+void QuasiRigorousCalibration::weigh(State& state) const {
+  std::map<State::Group, std::vector<double>> standardised;
+  for (const AreaObservations& area : state.observations) {
+    for (const PairObservation& o : area) {
+      standardised[State::groupOf(o)].push_back(
+          state.adjustment.residual(o, state.choice.solution) / std::sqrt(o.variance));
+    }
+  }
+  for (auto& [group, values] : standardised) {
+    const double scale = values.size() >= kEnoughForScale ? robustSigma(values) : 1.0;
+    state.noise_scale[group] = std::max(scale, 1e-6);
+  }
+  double squares = 0.0;
+  std::size_t kept = 0;
+  state.weights.assign(state.observations.size(), {});
+  for (std::size_t area = 0; area < state.observations.size(); ++area) {
+    for (const PairObservation& o : state.observations[area]) {
+      const double scale = state.noise_scale[State::groupOf(o)];
+      const double value =
+          state.adjustment.residual(o, state.choice.solution) / std::sqrt(o.variance);
+      const double robust = robustWeight(value / scale);
+      state.weights[area].push_back(robust / (scale * scale));
+      if (robust == 0.0) continue;
+      squares += value * value;
+      ++kept;
+    }
+  }
+  state.redundancy = static_cast<long>(kept) - static_cast<long>(state.choice.estimate.size());
+  state.sigma0 =
+      state.redundancy > 0 ? std::sqrt(squares / static_cast<double>(state.redundancy)) : 0.0;
+}
+
+void QuasiRigorousCalibration::adjust(State& state) const {
+  std::vector<SystemParameter> wanted = settings_.estimate;
+  if (wanted.empty()) {
+    for (const SystemParameterInfo& info : systemParameters()) {
+      const bool needs_control = info.parameter == SystemParameter::range_bias;
+      if (info.parameter == SystemParameter::lever_arm_z || (needs_control && control_.empty()))
+        continue;
+      wanted.push_back(info.parameter);
+    }
+  }
+  // What was asked for by name is dropped only when it is hopeless.
+  const double factor = settings_.estimate.empty() ? 1.0 : 10.0;
+  for (int pass = 0; pass < kReweightings; ++pass) {
+    weigh(state);
+    state.adjustment.accumulate(state.observations, state.weights);
+    state.choice =
+        chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
+  }
+  weigh(state);
+}
+
+namespace {
+
+/// Largest movement of a ground point by a change of the biases, from the design rows of the
+/// observations, metres.
+double largestEffect(const std::vector<AreaObservations>& observations,
+                     const SystemVector& change) {
+  double x = 0.0, z = 0.0;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      x = std::max(x, o.lateral);
+      z = std::max(z, o.height);
+    }
+  }
+  ScanGeometry geometry;
+  geometry.x = x;
+  geometry.z = -z;
+  geometry.beta = -std::atan2(x, z);
+  geometry.sin_beta = std::sin(geometry.beta);
+  geometry.cos_beta = std::cos(geometry.beta);
+  return (designBlock(geometry).cwiseAbs() * change.cwiseAbs()).maxCoeff();
+}
+
+}  // namespace
+
+void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
+  constexpr double kSmallest = 0.25;  // metres
+  constexpr double kFactor = 6.0;
+  double widest = 0.0;
+  std::map<State::Group, std::vector<double>> distances;
+  for (const AreaObservations& area : state.observations) {
+    for (const PairObservation& o : area) {
+      distances[State::groupOf(o)].push_back(o.distance(state.choice.solution.biases));
+    }
+  }
+  for (const auto& [group, values] : distances) {
+    if (values.size() >= kEnoughForScale) widest = std::max(widest, robustSigma(values));
+  }
+  state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
+}
+
+void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
+  const SystemVector before = state.choice.solution.biases;
+  adjust(state);
+  const SystemVector& biases = state.choice.solution.biases;
+  const double effect = largestEffect(state.observations, biases - before);
+  result.iterations.push_back({state.observationCount(), state.sigma0, effect});
+  if (progress_) progress_(result.iterations.back());
+  result.converged = result.iterations.size() > 1 && effect < settings_.convergence;
+  parallelFor(matchers_.size(), settings_.threads,
+              [&](std::size_t i) { matchers_[i].correct(*trajectory_, biases); });
+  shrinkThreshold(state);
+}
+
+CalibrationResult QuasiRigorousCalibration::calibrate() {
+  prepare();
+  std::vector<std::pair<double, double>> spans;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const int strip = static_cast<int>(i);
+    spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
+                             : std::pair(0.0, 0.0));
+  }
+  const TrajectoryErrors errors(spans, settings_.trajectory_errors);
+  State state(errors, settings_.threads);
+  state.choice.solution.trajectory_errors = Eigen::VectorXd::Zero(errors.unknowns());
+  state.threshold = settings_.max_normal_distance;
+  CalibrationReport report(ids_, control_.empty());
+  CalibrationResult result;
+  pairUp(state);
+  report.addFit(state.observations, SystemVector::Zero(), false, result);
+  for (int i = 0; i < settings_.max_iterations && !result.converged && state.observationCount() > 0;
+       ++i) {
+    iterate(state, result);
+    if (!result.converged) pairUp(state);
+  }
+  result.sigma0 = state.sigma0;
+  result.redundancy = state.redundancy;
+  result.warnings = warnings_;
+  result.line_fit_half_width = trajectory_->lineFitHalfWidth();
+  report.addParameters(state.choice, settings_.estimate, result);
+  state.threshold = settings_.max_normal_distance;
+  pairUp(state);
+  report.addFit(state.observations, result.biases(), true, result);
+  return result;
+}
+
+}  // namespace pcl_als
