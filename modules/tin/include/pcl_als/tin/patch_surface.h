@@ -24,8 +24,6 @@ struct PatchMatch {
 
 /// What the surface around a triangle is like: decides whether it is a patch worth measuring to.
 struct PatchQuality {
-  Eigen::Vector3d plane_normal;  ///< of the neighbourhood's plane, unit, upward: less noisy than
-                                 ///< the triangle's own
   float longest_edge = 0.0F;  ///< metres, 3D
   float slope = 0.0F;         ///< radians from horizontal
   float roughness =
@@ -34,29 +32,54 @@ struct PatchQuality {
       0.0F;  ///< angle between the triangle's normal and the neighbourhood plane's normal, radians
   std::uint16_t vertices =
       0;                 ///< in the neighbourhood (the triangles that share a vertex with this one)
-  bool on_hull = false;  ///< touches the border of the TIN
+  bool on_hull = false;  ///< touches the border of the TIN: one of its vertices lies on it
 };
 
-/** \brief The triangles of a TIN as patches: unit normals, quality, and closest-patch search. */
+/** \brief The triangles of a TIN as patches: unit normals, quality, and closest-patch search.
+ *
+ * Everything const is thread-safe and computed from the points as they are at the call; nothing is
+ * stored beside the TIN.
+ *
+ * \code
+ * const PatchSurface surface(Tin(points, 0.001));
+ * std::int32_t hint = Tin::kNone;                       // one per thread
+ * for (const Eigen::Vector3d& p : other_strip)          // in the order they were measured
+ *   if (const auto match = surface.closest(p, 0.5, hint))
+ *     if (surface.quality(match->triangle).roughness < 0.05F) use(p, *match);
+ * \endcode
+ */
 class PatchSurface {
  public:
   PatchSurface() = default;
   explicit PatchSurface(Tin tin);
-  const Tin& tin() const;
+  const Tin& tin() const { return tin_; }
   Eigen::Vector3d normal(std::int32_t triangle) const;  ///< unit, upward
   PatchQuality quality(std::int32_t triangle) const;    ///< computed on request; constant time
 
   /** \brief The patch conjugate to a point (Habib et al. 2011, section 2.3.1): the closest triangle
    * in 3D, if the point's projection along its normal falls inside it and the normal distance is at
    * most \a max_normal_distance. Empty when the closest triangle fails either condition or none is
-   * that close. Exact: equal to trying every triangle; of equally close ones the lowest index. */
+   * that close. Exact: equal to trying every triangle; of equally close ones the lowest index.
+   *
+   * Projections that miss an edge by less than 1e-12 of the triangle count as on it. A point that
+   * is not finite has no patch. \a max_normal_distance: metres, > 0 (else UsageError); may be
+   * infinite.
+   */
   std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance) const;
+
+  /// The same, faster for points that come in spatial order: \a hint is the triangle under the
+  /// previous point (kNone at first) and becomes the one under this.
+  std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance,
+                                    std::int32_t& hint) const;
 
   /// The patch above or below a point in plan (for vertical control); empty outside the hull. Its
   /// signed_normal_distance is along the normal; weights are those of the vertical projection.
   std::optional<PatchMatch> vertical(const Eigen::Vector3d& point) const;
 
   void movePoints(std::vector<Eigen::Vector3d> points);  ///< as Tin::movePoints; normals follow
+
+ private:
+  Tin tin_;
 };
 
 }  // namespace pcl_als

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/tin/tin.h>
+
+#include "exact_orientation.h"
+
+namespace pcl_als {
+namespace {
+
+/// Points per cell of the starting grid: one byte of memory per point, a walk of two or three
+/// steps.
+constexpr double kPointsPerCell = 4.0;
+constexpr double kHintCells = 3.0;
+
+/// Gives every empty cell of a row the triangle of the cell before it, or of the first full one.
+bool fillRow(std::int32_t* row, std::int32_t columns) {
+  std::int32_t* const end = row + columns;
+  std::int32_t* const first =
+      std::find_if(row, end, [](std::int32_t t) { return t != Tin::kNone; });
+  if (first == end) return false;
+  std::fill(row, first, *first);
+  for (std::int32_t* cell = first + 1; cell < end; ++cell)
+    if (*cell == Tin::kNone) *cell = cell[-1];
+  return true;
+}
+
+}  // namespace
+
+void Tin::buildStartGrid(const Eigen::AlignedBox2d& extent) {
+  if (triangles_.empty()) return;
+  const Eigen::Vector2d size = extent.sizes();
+  const double most = std::max(1.0, static_cast<double>(points_.size()) / kPointsPerCell);
+  // Square cells; a very long and narrow TIN gets a single row of them.
+  const double cell = std::max(std::sqrt(size.x() * size.y() / most), size.maxCoeff() / most);
+  start_.origin = extent.min();
+  start_.cells_per_metre = 1.0 / cell;
+  start_.columns = static_cast<std::int32_t>(size.x() / cell) + 1;
+  start_.rows = static_cast<std::int32_t>(size.y() / cell) + 1;
+  auto& grid = start_.triangle;
+  grid.assign(static_cast<std::size_t>(start_.columns) * start_.rows, kNone);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Eigen::Vector2d at = points_[triangles_[t].vertex[0]].head<2>() - start_.origin;
+    const auto column = static_cast<std::size_t>(at.x() * start_.cells_per_metre);
+    const auto row = static_cast<std::size_t>(at.y() * start_.cells_per_metre);
+    std::int32_t& first = grid[row * start_.columns + column];
+    if (first == kNone) first = static_cast<std::int32_t>(t);
+  }
+  std::int32_t* filled = nullptr;
+  for (std::int32_t r = 0; r < start_.rows; ++r) {
+    std::int32_t* const row = &grid[static_cast<std::size_t>(r) * start_.columns];
+    if (fillRow(row, start_.columns)) {
+      for (std::int32_t* empty = filled == nullptr ? grid.data() : row; empty < row;
+           empty += start_.columns)
+        std::copy_n(row, start_.columns, empty);
+      filled = row;
+    } else if (filled != nullptr) {
+      std::copy_n(row - start_.columns, start_.columns, row);
+    }
+  }
+}
+
+std::int32_t Tin::startNear(double x, double y) const {
+  const double column = (x - start_.origin.x()) * start_.cells_per_metre;
+  const double row = (y - start_.origin.y()) * start_.cells_per_metre;
+  const double last_column = start_.columns - 1.0, last_row = start_.rows - 1.0;
+  const auto c = static_cast<std::size_t>(std::clamp(column, 0.0, last_column));
+  const auto r = static_cast<std::size_t>(std::clamp(row, 0.0, last_row));
+  return start_.triangle[r * start_.columns + c];
+}
+
+/// The hint unless it is so far away that the grid is the shorter way.
+std::int32_t Tin::startNear(double x, double y, std::int32_t hint) const {
+  if (hint == kNone) return startNear(x, y);
+  const Eigen::Vector3d& a = points_[triangles_[hint].vertex[0]];
+  const double cells = (std::abs(a.x() - x) + std::abs(a.y() - y)) * start_.cells_per_metre;
+  return cells < kHintCells ? hint : startNear(x, y);
+}
+
+Tin::Location Tin::walk(double x, double y, std::int32_t hint) const {
+  if (triangles_.empty() || !std::isfinite(x) || !std::isfinite(y)) return {};
+  std::int32_t at = startNear(x, y, hint), from = kNone;
+  // In a Delaunay triangulation such a walk never comes back to a triangle. The limit is for points
+  // that were moved and for hints from far away.
+  const double limit = 64.0 + 16.0 * std::sqrt(static_cast<double>(triangles_.size()));
+  for (double steps = 0.0; steps < limit; ++steps) {
+    const Triangle& t = triangles_[at];
+    const Eigen::Vector3d* v[3] = {&points_[t.vertex[0]], &points_[t.vertex[1]],
+                                   &points_[t.vertex[2]]};
+    std::array<double, 3> side{};
+    std::int32_t to = kNone;
+    bool outside = false;
+    for (int i = 0; i < 3 && to == kNone; ++i) {
+      if (t.neighbour[i] == from && from != kNone) {
+        side[i] = 1.0;  // the walk came in across this edge
+        continue;
+      }
+      const Eigen::Vector3d &a = *v[(i + 1) % 3], &b = *v[(i + 2) % 3];
+      side[i] = tin::orientation(a.x(), a.y(), b.x(), b.y(), x, y);
+      if (side[i] >= 0.0) continue;
+      to = t.neighbour[i];
+      outside = outside || to == kNone;
+    }
+    if (to == kNone) return outside ? Location{at, false} : Location{lowestHolder(at, side), true};
+    from = at;
+    at = to;
+  }
+  return searchAll(x, y);
+}
+
+/// Of the triangles that share the edge or vertex on which a position lies, the lowest index.
+std::int32_t Tin::lowestHolder(std::int32_t triangle, const std::array<double, 3>& sides) const {
+  std::int32_t lowest = triangle;
+  for (int i = 0; i < 3; ++i) {
+    if (sides[i] != 0.0) continue;
+    const std::int32_t across = triangles_[triangle].neighbour[i];
+    if (across != kNone) lowest = std::min(lowest, across);
+  }
+  const auto corner = [&](int i) { return sides[(i + 1) % 3] == 0.0 && sides[(i + 2) % 3] == 0.0; };
+  for (int i = 0; i < 3; ++i) {
+    if (!corner(i)) continue;
+    const std::int32_t vertex = triangles_[triangle].vertex[i];
+    for (const int turn : {1, 2}) {  // around the vertex one way, and from the hull the other
+      for (std::int32_t t = triangle;;) {
+        const auto& ring = triangles_[t].vertex;
+        const auto k = std::find(ring.begin(), ring.end(), vertex) - ring.begin();
+        t = triangles_[t].neighbour[(k + turn) % 3];
+        if (t == kNone || t == triangle) break;
+        lowest = std::min(lowest, t);
+      }
+    }
+  }
+  return lowest;
+}
+
+Tin::Location Tin::searchAll(double x, double y) const {
+  for (std::size_t k = 0; k < triangles_.size(); ++k) {
+    const auto& v = triangles_[k].vertex;
+    bool holds = true;
+    for (int i = 0; i < 3 && holds; ++i) {
+      const Eigen::Vector3d &a = points_[v[i]], &b = points_[v[(i + 1) % 3]];
+      holds = tin::orientation(a.x(), a.y(), b.x(), b.y(), x, y) >= 0.0;
+    }
+    if (holds) return {static_cast<std::int32_t>(k), true};
+  }
+  return {startNear(x, y), false};
+}
+
+std::int32_t Tin::locate(double x, double y, std::int32_t hint) const {
+  const Location found = walk(x, y, hint);
+  return found.inside ? found.triangle : kNone;
+}
+
+}  // namespace pcl_als
