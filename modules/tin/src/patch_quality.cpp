@@ -94,6 +94,7 @@ PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   quality.longest_edge = static_cast<float>(longestEdge(tin_, tin_.triangles()[triangle]));
   quality.slope = static_cast<float>(std::atan2(normal.head<2>().norm(), normal.z()));
   quality.roughness = static_cast<float>(plane.rms);
+  quality.plane_normal = plane.normal.z() < 0.0 ? Vector3d(-plane.normal) : plane.normal;
   quality.bend = static_cast<float>(angleBetween(normal, plane.normal));
   return quality;
 }

@@ -24,6 +24,8 @@ struct PatchMatch {
 
 /// What the surface around a triangle is like: decides whether it is a patch worth measuring to.
 struct PatchQuality {
+  /// Of the neighbourhood's plane, unit, upward: less noisy than the triangle's own.
+  Eigen::Vector3d plane_normal = Eigen::Vector3d::UnitZ();
   float longest_edge = 0.0F;  ///< metres, 3D
   float slope = 0.0F;         ///< radians from horizontal
   float roughness =
