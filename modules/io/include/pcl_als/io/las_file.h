@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/io/las_extra.h>
 #include <pcl_als/io/las_header.h>
 #include <pcl_als/io/las_record.h>
 

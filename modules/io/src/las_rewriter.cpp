@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <mutex>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/io/las_rewriter.h>
+
+#include "las_output.h"
+#include "las_tally.h"
+
+namespace pcl_als {
+namespace {
+
+// Blocks of about 1 MiB stay in the second-level cache from reading to writing.
+constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+constexpr std::size_t kBoxBytes = 48;
+
+/// Boxes before and after the edit, merged over blocks; the order does not matter.
+struct Boxes {
+  std::mutex mutex;
+  detail::LasBox before, after;
+
+  void add(const detail::LasBox& b, const detail::LasBox& a) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    before.add(b);
+    after.add(a);
+  }
+};
+
+class Rewrite {
+ public:
+  Rewrite(const LasFile& input, const std::filesystem::path& output, const LasEdit& edit)
+      : input_(input),
+        edit_(edit),
+        header_(input.header()),
+        per_block_(std::max<std::size_t>(1, kBlockBytes / header_.record_length)),
+        output_(output, readHead(), header_) {}
+
+  LasRewriteResult run(int threads) {
+    const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
+    // LASzip works in file order, with one thread at either end.
+    const bool in_order = header_.compressed || output_.compressed();
+    parallelFor(blocks, in_order ? 1 : threads, [this](std::size_t block) { rewriteBlock(block); });
+    copyTail();
+    LasRewriteResult result;
+    result.points = header_.point_count;
+    result.box_changed = !(boxes_.before == boxes_.after);
+    if (result.box_changed) storeBox();
+    output_.file().commit();
+    return result;
+  }
+
+ private:
+  std::vector<std::byte> readHead() const {
+    std::vector<std::byte> head(header_.offset_to_points);
+    input_.readBytes(0, head.size(), head.data());
+    return head;
+  }
+
+  void rewriteBlock(std::size_t block) {
+    thread_local std::vector<std::byte> buffer;
+    const std::uint64_t first = block * per_block_;
+    const std::size_t count = std::min<std::uint64_t>(per_block_, header_.point_count - first);
+    buffer.resize(per_block_ * header_.record_length);
+    input_.readRecords(first, count, buffer.data());
+    detail::LasBox before, after;
+    before.add(buffer.data(), count, header_.record_length);
+    edit_({buffer.data(), count, header_.record_length, first});
+    after.add(buffer.data(), count, header_.record_length);
+    boxes_.add(before, after);
+    if (output_.compressed())
+      output_.append(buffer.data(), count);
+    else
+      output_.putAt(first, buffer.data(), count);
+  }
+
+  /// Everything behind the points: EVLRs, waveform packets, unknown bytes.
+  void copyTail() {
+    std::uint64_t at = header_.offset_to_points + header_.point_count * header_.record_length;
+    std::vector<std::byte> buffer(kBlockBytes);
+    while (at < input_.fileSize()) {
+      const std::size_t bytes = std::min<std::uint64_t>(buffer.size(), input_.fileSize() - at);
+      input_.readBytes(at, bytes, buffer.data());
+      output_.file().writeAt(at, buffer.data(), bytes);
+      at += bytes;
+    }
+  }
+
+  void storeBox() {
+    LasHeader changed = header_;
+    boxes_.after.store(changed);
+    const std::vector<std::byte> bytes = serialiseLasHeader(changed);
+    output_.file().writeAt(kLasBoxPosition, &bytes[kLasBoxPosition], kBoxBytes);
+  }
+
+  const LasFile& input_;
+  const LasEdit& edit_;
+  const LasHeader header_;
+  const std::size_t per_block_;
+  detail::LasOutput output_;
+  Boxes boxes_;
+};
+
+}  // namespace
+
+LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& output,
+                            const LasEdit& edit, int threads) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(input.path(), output, absent))
+    throw UsageError(output.string() + ": input and output are the same file");
+  return Rewrite(input, output, edit).run(threads);
+}
+
+LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::filesystem::path& output,
+                            const LasEdit& edit, int threads) {
+  return rewriteLas(LasFile(input), output, edit, threads);
+}
+
+}  // namespace pcl_als
