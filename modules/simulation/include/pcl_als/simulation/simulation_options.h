@@ -22,12 +22,15 @@ struct NoiseOptions {
   double roll_pitch = 0.0;         ///< radians, trajectory, first-order Gauss-Markov
   double heading = 0.0;            ///< radians, trajectory, first-order Gauss-Markov
   double correlation_time = 20.0;  ///< seconds, of the trajectory errors
+  double intensity = 0.0;          ///< relative, white, one value per return
   double control = 0.0;            ///< metres, heights of the control points
-  bool footprint = false;          ///< returns are formed over the beam's footprint, not its axis
+  bool footprint = false;  ///< returns are formed over the beam's footprint, not along its axis
 
-  /// "none", "range" (2 cm, nothing else) or "realistic" (range 2 cm, encoder 2 arcsec, footprint,
-  /// control 1 cm, trajectory 1.5 cm, 8 arcsec roll and pitch, 16 arcsec heading over 20 s).
-  /// UsageError for another name.
+  bool trajectory() const { return position > 0.0 || roll_pitch > 0.0 || heading > 0.0; }
+
+  /// "none"; "range": 2 cm, nothing else; "realistic": range 2 cm, encoder 3 arcsec, intensity 3 %,
+  /// control 1 cm, footprint, trajectory 1.5 cm, 8 arcsec roll and pitch, 16 arcsec heading over
+  /// 20 s. UsageError for another name.
   static NoiseOptions named(std::string_view level);
 };
 
@@ -37,7 +40,7 @@ struct ScannerOptions {
   double divergence = 0.33e-3;        ///< full angle between the 1/e^2 points of the beam, radians
   int max_returns = 5;                ///< per pulse, 1 … 15
   double return_separation = 1.5;     ///< metres: two echoes closer than this come as one
-  double detection_threshold = 0.05;  ///< share of a return's energy in a full one, below: not seen
+  double detection_threshold = 0.05;  ///< share of the pulse's energy that a return needs
   double gain = 10000.0;  ///< digital number of a full-footprint target of reflectance 1, normal to
                           ///< the beam, at 1000 m in vacuum
 };
@@ -95,9 +98,11 @@ struct SimulationOptions {
 
   /// "paper" (six lines of Habib et al. 2011 over 1 km x 2 km, 11 million pulses) or "small" (five
   /// lines, 0.9 million), with the paper's kind of biases and no noise. \a scale multiplies the
-  /// lengths of the lines, \a density the pulses per square metre. UsageError for another name or a
-  /// factor out of range.
-  static SimulationOptions preset(std::string_view name, double scale = 1.0, double density = 1.0);
+  /// lengths of the lines, \a density the pulses per square metre; the lines are spaced so that
+  /// their overlaps hold for the \a field_of_view (radians). UsageError for another name or a value
+  /// out of range.
+  static SimulationOptions preset(std::string_view name, double scale = 1.0, double density = 1.0,
+                                  double field_of_view = ScannerOptions().field_of_view);
 
   /// UsageError naming the first value that is impossible.
   void check() const;

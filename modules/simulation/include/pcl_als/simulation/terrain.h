@@ -27,8 +27,8 @@ class Terrain {
   double height(double x, double y, Eigen::Vector2d& gradient) const;
   Eigen::Vector3d normal(double x, double y) const;
 
-  /// Distance along the ray to the surface; \a guess is any distance near it (metres). Newton's
-  /// method kept in the bracket that the slope bound gives; residual below 1e-9 m.
+  /// Distance along a downward ray to the surface, metres: Newton's method kept in the bracket of
+  /// the lowest and highest height; residual below 1e-9 m.
   double intersect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
   double maximumSlope() const { return maximum_slope_; }  ///< tangent

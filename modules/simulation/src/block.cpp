@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "random.h"
+
+namespace pcl_als::simulation {
+
+namespace {
+
+double halfSwath(const PlannedLine& line, const SimulationOptions& options) {
+  return line.height * std::tan(0.5 * options.scanner.field_of_view);
+}
+
+/// Bounding rectangle of the planned swaths.
+std::pair<Eigen::Vector2d, Eigen::Vector2d> plannedRectangle(const SimulationOptions& options) {
+  Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e30), upper = -lower;
+  for (const PlannedLine& line : options.lines) {
+    const Eigen::Vector2d course = (line.end - line.start).normalized();
+    const Eigen::Vector2d reach =
+        halfSwath(line, options) * Eigen::Vector2d(std::abs(course.y()), std::abs(course.x()));
+    lower = lower.cwiseMin(line.start.cwiseMin(line.end) - reach);
+    upper = upper.cwiseMax(line.start.cwiseMax(line.end) + reach);
+  }
+  return {lower, upper};
+}
+
+/// Random places of the block: an endless sequence from a key.
+class Places {
+ public:
+  Places(const SimulationOptions& options, std::uint64_t key)
+      : random_(key), rectangle_(plannedRectangle(options)) {}
+  Eigen::Vector2d next() {
+    const double x = random_.uniform(rectangle_.first.x(), rectangle_.second.x());
+    return {x, random_.uniform(rectangle_.first.y(), rectangle_.second.y())};
+  }
+  Random& random() { return random_; }
+
+ private:
+  Random random_;
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> rectangle_;
+};
+
+bool farFromAll(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& others,
+                double distance) {
+  return std::none_of(others.begin(), others.end(), [&](const Eigen::Vector2d& other) {
+    return (other - place).norm() < distance;
+  });
+}
+
+/// Bare, clear of objects, not steep, under at least two swaths.
+bool suitsControl(const Eigen::Vector2d& place, const Scene& scene,
+                  const SimulationOptions& options) {
+  const std::size_t wanted = std::min<std::size_t>(2, options.lines.size());
+  if (swathsOver(place, options, 20.0) < static_cast<int>(wanted)) return false;
+  if (!scene.isOpen(place, 6.0)) return false;
+  constexpr double kSteepest = 0.9848;  // cosine of 10 degrees
+  return scene.terrain().normal(place.x(), place.y()).z() > kSteepest;
+}
+
+/// The cover seen from above, where it is the same all around; else nothing.
+bool uniformCover(const Eigen::Vector2d& place, const Scene& scene, LandCover& cover) {
+  cover = scene.topCover(place.x(), place.y());
+  const double radius = cover == LandCover::tree ? 0.7 : 1.5;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.25 * kPi * i;
+    const LandCover there =
+        scene.topCover(place.x() + radius * std::cos(angle), place.y() + radius * std::sin(angle));
+    if (classNameOf(there) != classNameOf(cover)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::pair<Eigen::Vector2d, Eigen::Vector2d> sceneRectangle(const SimulationOptions& options) {
+  auto [lower, upper] = plannedRectangle(options);
+  double margin = 0.0;
+  for (const PlannedLine& line : options.lines) {
+    // Terrain up to 80 m below the mean, the aircraft off its line, tilted and crabbing.
+    const double height = line.height + 80.0;
+    const double tilt = std::abs(options.mean_pitch) + options.attitude_amplitude +
+                        options.mounting.segment<3>(3).cwiseAbs().maxCoeff();
+    const double half = height * std::tan(0.5 * options.scanner.field_of_view + tilt);
+    const double aside = half - halfSwath(line, options);
+    const double ahead = height * std::tan(tilt) + half * std::sin(options.largest_crab);
+    margin = std::max({margin, aside + 15.0, ahead + 15.0});
+  }
+  lower = ((lower.array() - margin) / 10.0).floor() * 10.0;
+  upper = ((upper.array() + margin) / 10.0).ceil() * 10.0;
+  return {lower, upper};
+}
+
+int swathsOver(const Eigen::Vector2d& place, const SimulationOptions& options, double margin) {
+  int count = 0;
+  for (const PlannedLine& line : options.lines) {
+    const double length = (line.end - line.start).norm();
+    const Eigen::Vector2d course = (line.end - line.start) / length;
+    const Eigen::Vector2d from_start = place - line.start;
+    const double along = from_start.dot(course);
+    const double aside = std::abs(from_start.x() * course.y() - from_start.y() * course.x());
+    if (along > margin && along < length - margin && aside < halfSwath(line, options) - margin)
+      ++count;
+  }
+  return count;
+}
+
+std::vector<ControlPoint> chooseControlPoints(const Scene& scene,
+                                              const SimulationOptions& options) {
+  std::vector<ControlPoint> points;
+  std::vector<Eigen::Vector2d> taken;
+  const auto wanted = static_cast<std::size_t>(options.control_points);
+  Places places(options, keyOf({options.seed, 0xC0}));
+  const auto [lower, upper] = plannedRectangle(options);
+  double distance =
+      std::sqrt((upper - lower).prod() / std::max<double>(1.0, options.control_points));
+  constexpr int kTries = 4000;  // then the points may stand closer together
+  for (int round = 0; round < 12 && points.size() < wanted; ++round, distance *= 0.7)
+    for (int i = 0; i < kTries && points.size() < wanted; ++i) {
+      const Eigen::Vector2d place = places.next();
+      if (!farFromAll(place, taken, distance) || !suitsControl(place, scene, options)) continue;
+      taken.push_back(place);
+      ControlPoint& point = points.emplace_back();
+      char id[16];
+      std::snprintf(id, sizeof id, "GCP%02zu", points.size());
+      point.id = id;
+      const double height = scene.terrain().height(place.x(), place.y());
+      point.position = options.origin + Eigen::Vector3d(place.x(), place.y(), height);
+      point.position.z() += options.noise.control * places.random().normal();
+      point.sigma = options.noise.control;
+    }
+  return points;
+}
+
+std::vector<LandCoverSite> chooseSites(const Scene& scene, const SimulationOptions& options,
+                                       int per_class, int set) {
+  std::vector<LandCoverSite> sites;
+  std::map<std::string_view, int> count;
+  Places places(options, keyOf({options.seed, 0x517E5, static_cast<std::uint64_t>(set)}));
+  constexpr int kClasses = 4;
+  const long tries = 2000L * per_class;
+  for (long i = 0; i < tries && sites.size() < std::size_t(kClasses) * per_class; ++i) {
+    const Eigen::Vector2d place = places.next();
+    LandCover cover = LandCover::grass;
+    if (swathsOver(place, options, 20.0) < 1 || !uniformCover(place, scene, cover)) continue;
+    if (++count[classNameOf(cover)] > per_class) continue;
+    sites.push_back({options.origin.x() + place.x(), options.origin.y() + place.y(), cover});
+  }
+  return sites;
+}
+
+}  // namespace pcl_als::simulation

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "flown_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "random.h"
+
+namespace pcl_als::simulation {
+
+namespace {
+
+/// A slow smooth motion: three sines of random period and phase, never beyond the amplitude.
+class Sway {
+ public:
+  Sway(double amplitude, double shortest, double longest, Random& random) {
+    constexpr std::array<double, 3> kShares = {0.5, 0.3, 0.2};
+    for (std::size_t i = 0; i < 3; ++i)
+      waves_[i] = {amplitude * kShares[i], 2.0 * kPi / random.uniform(shortest, longest),
+                   random.uniform(0.0, 2.0 * kPi)};
+  }
+  double at(double t) const {
+    double sum = 0.0;
+    for (const Wave& w : waves_) sum += w.amplitude * std::sin(w.rate * t + w.phase);
+    return sum;
+  }
+  double slopeAt(double t) const {
+    double sum = 0.0;
+    for (const Wave& w : waves_) sum += w.amplitude * w.rate * std::cos(w.rate * t + w.phase);
+    return sum;
+  }
+
+ private:
+  struct Wave {
+    double amplitude, rate, phase;
+  };
+  std::array<Wave, 3> waves_{};
+};
+
+/// First-order Gauss-Markov: exponentially correlated, stationary from the first value.
+class GaussMarkov {
+ public:
+  GaussMarkov(double sigma, double step, double correlation_time, Random& random)
+      : keep_(std::exp(-step / correlation_time)),
+        drive_(sigma * std::sqrt(1.0 - keep_ * keep_)),
+        value_(sigma * random.normal()) {}
+  double next(Random& random) {
+    const double value = value_;
+    value_ = keep_ * value_ + drive_ * random.normal();
+    return value;
+  }
+
+ private:
+  double keep_, drive_, value_;
+};
+
+/// How the pilot and the air move the aircraft along a line.
+class Motion {
+ public:
+  Motion(const PlannedLine& plan, const SimulationOptions& options, double wind)
+      : Motion(plan, options, wind, Random(keyOf({options.seed, 0xF117, plan.id}))) {}
+
+  /// \param t seconds since the first pulse
+  Pose at(double t) const {
+    const double along = speed_ * t + along_.at(t), aside = aside_.at(t);
+    const Eigen::Vector2d right(course_.y(), -course_.x());
+    const Eigen::Vector2d plan = start_ + along * course_ + aside * right;
+    const Eigen::Vector2d velocity =
+        (speed_ + along_.slopeAt(t)) * course_ + aside_.slopeAt(t) * right;
+    Pose pose;
+    pose.position = {plan.x(), plan.y(), height_ + up_.at(t)};
+    pose.heading = std::atan2(velocity.x(), velocity.y());
+    if (vertical_) return pose;
+    pose.roll = roll_.at(t);
+    pose.pitch = mean_pitch_ + pitch_.at(t);
+    pose.heading += crab_ + yaw_.at(t);
+    return pose;
+  }
+
+ private:
+  Motion(const PlannedLine& plan, const SimulationOptions& options, double wind, Random random)
+      : start_(plan.start),
+        course_((plan.end - plan.start).normalized()),
+        speed_(plan.speed),
+        height_(plan.height),
+        mean_pitch_(options.mean_pitch),
+        vertical_(options.vertical),
+        along_(2.0, 20.0, 60.0, random),
+        aside_(3.0, 25.0, 70.0, random),
+        up_(2.0, 20.0, 60.0, random),
+        roll_(options.attitude_amplitude, 4.0, 18.0, random),
+        pitch_(options.attitude_amplitude, 4.0, 18.0, random),
+        yaw_(0.15 * options.largest_crab, 5.0, 20.0, random) {
+    const double course = std::atan2(course_.x(), course_.y());
+    crab_ = 0.85 * options.largest_crab * std::sin(course - wind);
+  }
+
+  Eigen::Vector2d start_, course_;
+  double speed_, height_, mean_pitch_, crab_ = 0.0;
+  bool vertical_;
+  Sway along_, aside_, up_, roll_, pitch_, yaw_;
+};
+
+}  // namespace
+
+FlownLine::FlownLine(const PlannedLine& plan, const SimulationOptions& options, double first_time,
+                     double wind)
+    : plan_(plan), first_time_(first_time), rate_(options.trajectory_rate) {
+  const double swath = 2.0 * plan.height * std::tan(0.5 * options.scanner.field_of_view);
+  const double duration = (plan.end - plan.start).norm() / plan.speed;
+  pulse_rate_ = plan.density * swath * plan.speed;
+  scan_line_rate_ = std::sqrt(plan.density) * plan.speed;  // as far apart as pulses along a line
+  pulse_count_ = static_cast<std::uint64_t>(duration * pulse_rate_);
+  const Motion motion(plan, options, wind);
+  const auto samples = static_cast<std::size_t>(std::ceil((duration + 2.0 * kLead) * rate_)) + 1;
+  true_.reserve(samples);
+  for (std::size_t i = 0; i < samples; ++i)
+    true_.push_back(motion.at(static_cast<double>(i) / rate_ - kLead));
+  for (std::size_t i = 1; i < samples; ++i)  // continuous across north
+    true_[i].heading +=
+        2.0 * kPi * std::round((true_[i - 1].heading - true_[i].heading) / (2.0 * kPi));
+  written_ = true_;
+  if (options.noise.trajectory()) addErrors(options.noise, keyOf({options.seed, 0x6A55, plan.id}));
+}
+
+void FlownLine::addErrors(const NoiseOptions& noise, std::uint64_t key) {
+  Random random(key);
+  const auto process = [&](double sigma) {
+    return GaussMarkov(sigma, 1.0 / rate_, noise.correlation_time, random);
+  };
+  std::array<GaussMarkov, 6> errors = {process(noise.position),   process(noise.position),
+                                       process(noise.position),   process(noise.roll_pitch),
+                                       process(noise.roll_pitch), process(noise.heading)};
+  for (Pose& pose : written_) {
+    for (int axis = 0; axis < 3; ++axis) pose.position[axis] += errors[axis].next(random);
+    pose.roll += errors[3].next(random);
+    pose.pitch += errors[4].next(random);
+    pose.heading += errors[5].next(random);
+  }
+}
+
+double FlownLine::lastTime() const {
+  return first_time_ + static_cast<double>(true_.size() - 1) / rate_;
+}
+
+Pose FlownLine::interpolate(const std::vector<Pose>& table, double time) const {
+  const double place = std::max(0.0, (time - first_time_) * rate_);
+  const std::size_t before = std::min(static_cast<std::size_t>(place), table.size() - 2);
+  const double share = place - static_cast<double>(before);
+  const Pose &a = table[before], &b = table[before + 1];
+  Pose pose;
+  pose.position = a.position + share * (b.position - a.position);
+  pose.roll = a.roll + share * (b.roll - a.roll);
+  pose.pitch = a.pitch + share * (b.pitch - a.pitch);
+  pose.heading = a.heading + share * (b.heading - a.heading);
+  return pose;
+}
+
+void FlownLine::append(const Eigen::Vector3d& origin, bool written,
+                       std::vector<TrajectorySample>& samples) const {
+  const std::vector<Pose>& table = written ? written_ : true_;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    TrajectorySample& sample = samples.emplace_back();
+    sample.time = first_time_ + static_cast<double>(i) / rate_;
+    sample.position = origin + table[i].position;
+    sample.roll = table[i].roll;
+    sample.pitch = table[i].pitch;
+    sample.heading = table[i].heading - 2.0 * kPi * std::floor(table[i].heading / (2.0 * kPi));
+  }
+}
+
+ScanPattern::Reading ScanPattern::at(std::uint64_t pulse) const {
+  const double phase = static_cast<double>(pulse) * sweeps_per_pulse_;
+  const double sweep = std::floor(phase), part = phase - sweep;
+  const bool to_right = std::fmod(sweep, 2.0) == 0.0;
+  const double angle = half_ * (1.0 - 2.0 * part);
+  const double next = std::floor(static_cast<double>(pulse + 1) * sweeps_per_pulse_);
+  return {to_right ? angle : -angle, to_right, next != sweep};
+}
+
+}  // namespace pcl_als::simulation

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/simulation/simulation_options.h>
+
+namespace pcl_als::simulation {
+
+namespace {
+
+void require(double value, double low, double high, const std::string& what) {
+  if (std::isfinite(value) && value >= low && value <= high) return;
+  std::ostringstream text;
+  text << "simulation: " << what << ' ' << value << " is outside [" << low << ", " << high << ']';
+  throw UsageError(text.str());
+}
+
+double numberIn(std::string_view text, std::string_view entry) {
+  double value = 0.0;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error == std::errc() && end == last && std::isfinite(value)) return value;
+  throw UsageError("bias '" + std::string(entry) + "': '" + std::string(text) +
+                   "' is not a number");
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+void setBias(std::string_view entry, SystemVector& bias) {
+  const auto equals = entry.find('=');
+  if (equals == std::string_view::npos)
+    throw UsageError("bias '" + std::string(entry) + "': expected NAME=VALUE");
+  const std::string_view name = trimmed(entry.substr(0, equals));
+  const auto parameter = systemParameterNamed(name);
+  if (!parameter) {
+    std::string known;
+    for (const SystemParameterInfo& info : systemParameters())
+      known += (known.empty() ? "" : ", ") + std::string(info.name);
+    throw UsageError("bias '" + std::string(name) + "': no such parameter; there are " + known);
+  }
+  bias[indexOf(*parameter)] =
+      numberIn(trimmed(entry.substr(equals + 1)), entry) * infoOf(*parameter).internal_per_unit;
+}
+
+void checkLine(const PlannedLine& line) {
+  const std::string name = "line " + std::to_string(line.id) + ": ";
+  require((line.end - line.start).norm(), 1.0, 200000.0, name + "length (m)");
+  require(line.height, 100.0, 6000.0, name + "height (m)");
+  require(line.speed, 10.0, 300.0, name + "speed (m/s)");
+  require(line.density, 1e-4, 200.0, name + "density (pulses/m2)");
+}
+
+}  // namespace
+
+NoiseOptions NoiseOptions::named(std::string_view level) {
+  NoiseOptions noise;
+  if (level == "none") return noise;
+  noise.range = 0.02;
+  if (level == "range") return noise;
+  if (level != "realistic")
+    throw UsageError("noise '" + std::string(level) + "': there are none, range, realistic");
+  noise.scan_angle = 3.0 * kRadiansPerArcsec;
+  noise.position = 0.015;
+  noise.roll_pitch = 8.0 * kRadiansPerArcsec;
+  noise.heading = 16.0 * kRadiansPerArcsec;
+  noise.intensity = 0.03;
+  noise.control = 0.01;
+  noise.footprint = true;
+  return noise;
+}
+
+void setBiases(std::string_view text, SystemVector& bias) {
+  for (bool first = true; !text.empty(); first = false) {
+    const auto comma = text.find(',');
+    const std::string_view entry = trimmed(text.substr(0, comma));
+    text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
+    if (entry.empty()) continue;
+    if (first && entry == "none")
+      bias.setZero();
+    else
+      setBias(entry, bias);
+  }
+}
+
+void SimulationOptions::check() const {
+  constexpr double kLargest = 5.0 * kRadiansPerDegree;
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    const SystemParameterInfo& info = systemParameters()[static_cast<std::size_t>(i)];
+    const double limit = info.unit == "arcsec" ? kLargest : info.unit == "m" ? 20.0 : 0.05;
+    const double per_unit = info.internal_per_unit;
+    const std::string name(info.name);
+    require(bias[i] / per_unit, -limit / per_unit, limit / per_unit, "bias of " + name);
+    require(mounting[i] / per_unit, -limit / per_unit, limit / per_unit, "true " + name);
+  }
+  require(origin.norm(), 0.0, 1e8, "distance of the origin (m)");
+  require(start_time, 0.0, 604800.0, "start time (s of week)");
+  require(trajectory_rate, 1.0, 2000.0, "trajectory rate (Hz)");
+  require(line_interval, 0.0, 36000.0, "interval of lines (s)");
+  require(attitude_amplitude, 0.0, kLargest, "attitude amplitude (rad)");
+  require(mean_pitch, -kLargest, kLargest, "mean pitch (rad)");
+  require(largest_crab, 0.0, 2.0 * kLargest, "crab (rad)");
+  require(control_points, 0, 100000, "number of control points");
+  require(noise.range, 0.0, 1.0, "range noise (m)");
+  require(noise.scan_angle, 0.0, 0.01, "scan angle noise (rad)");
+  require(noise.position, 0.0, 10.0, "position noise (m)");
+  require(noise.roll_pitch, 0.0, 0.01, "roll and pitch noise (rad)");
+  require(noise.heading, 0.0, 0.02, "heading noise (rad)");
+  require(noise.correlation_time, 0.1, 1e5, "correlation time (s)");
+  require(noise.intensity, 0.0, 1.0, "intensity noise");
+  require(noise.control, 0.0, 1.0, "control noise (m)");
+  require(scanner.field_of_view / kRadiansPerDegree, 1.0, 75.0, "field of view (degrees)");
+  require(scanner.divergence, 0.0, 0.01, "beam divergence (rad)");
+  require(scanner.max_returns, 1, 15, "largest number of returns");
+  require(scanner.return_separation, 0.01, 20.0, "separation of returns (m)");
+  require(scanner.detection_threshold, 0.0, 0.5, "detection threshold");
+  require(scanner.gain, 1.0, 1e7, "gain");
+  require(atmosphere.visibility_km, 0.1, 500.0, "visibility (km)");
+  require(atmosphere.temperature_c, -60.0, 60.0, "temperature (C)");
+  require(atmosphere.pressure_kpa, 20.0, 120.0, "pressure (kPa)");
+  require(scene.relief, 0.0, 1.5, "relief factor");
+  require(scene.buildings, 0.0, 2.0, "buildings factor");
+  require(scene.trees, 0.0, 4.0, "trees factor");
+  if (lines.empty()) throw UsageError("simulation: no flight line is planned");
+  for (const PlannedLine& line : lines) checkLine(line);
+}
+
+}  // namespace pcl_als::simulation
