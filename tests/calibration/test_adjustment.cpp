@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+const std::vector<P> kSix{P::lever_arm_x,    P::lever_arm_y,       P::boresight_pitch,
+                          P::boresight_roll, P::boresight_heading, P::scan_angle_scale};
+
+TrajectoryErrorModel model(double correlation_time = 30.0) {
+  TrajectoryErrorModel errors;
+  errors.correlation_time = correlation_time;
+  return errors;
+}
+
+/// Rows with the sizes that real ones have, two strips of 25 s, misclosures of given biases plus
+/// noise.
+std::vector<AreaObservations> simulated(const SystemVector& biases, double noise, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  std::vector<AreaObservations> areas(20);
+  for (AreaObservations& area : areas) {
+    for (int i = 0; i < 50; ++i) {
+      PairObservation o;
+      o.a = i % 2, o.b = 1 - o.a;
+      o.time_a = 25.0 * uniform(random), o.time_b = 100.0 + 25.0 * uniform(random);
+      if (o.a == 1) std::swap(o.time_a, o.time_b);
+      o.normal = Eigen::Vector3d(0.3 * normal(random), 0.3 * normal(random), 1.0).normalized();
+      for (int p = 0; p < kSystemParameterCount; ++p) {
+        const bool angle = p >= 3 && p <= 5;
+        o.row_a[p] = (angle || p == 7 ? 300.0 : 0.3) * normal(random);
+        o.row_b[p] = (angle || p == 7 ? 300.0 : 0.3) * normal(random);
+      }
+      o.row_a[indexOf(P::lever_arm_z)] = o.row_b[indexOf(P::lever_arm_z)] = o.normal.z();
+      o.variance = 0.0004;
+      o.misclosure = o.row() * biases + noise * normal(random);
+      area.push_back(o);
+    }
+  }
+  return areas;
+}
+
+std::vector<std::vector<double>> unitWeights(const std::vector<AreaObservations>& areas) {
+  std::vector<std::vector<double>> weights;
+  for (const AreaObservations& area : areas) weights.emplace_back(area.size(), 1.0);
+  return weights;
+}
+
+SystemVector someBiases() {
+  SystemVector biases;
+  biases << 0.03, -0.05, 0.0, -1.4e-4, 4.3e-4, 2e-5, 0.0, 1e-4;
+  return biases;
+}
+
+TEST(TrajectoryErrors, PriorIsTheGaussMarkovCovariance) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 105.0}}, model());
+  ASSERT_EQ(errors.knotCount(), 4 + 2);  // 25 s at 10 s: three steps of 8.33 s; 5 s: one step
+  const Eigen::MatrixXd covariance = Eigen::MatrixXd(errors.priorInformation()).inverse();
+  const double step = 25.0 / 3.0;
+  EXPECT_NEAR(covariance(0, 0), 4e-4, 1e-15);  // 2 cm
+  EXPECT_NEAR(covariance(0, 12), 4e-4 * std::exp(-2.0 * step / 30.0),
+              1e-15);                          // east, two knots later
+  EXPECT_NEAR(covariance(0, 24), 0.0, 1e-18);  // another strip
+  EXPECT_NEAR(covariance(5, 5), std::pow(16.0 * kRadiansPerArcsec, 2), 1e-20);
+}
+
+TEST(TrajectoryErrors, PlacesTimesBetweenKnots) {
+  const TrajectoryErrors errors({{0.0, 20.0}, {50.0, 50.0}}, model());
+  const auto inside = errors.placeOf(0, 12.5);
+  EXPECT_EQ(inside.knot, 1);
+  EXPECT_EQ(inside.next_knot, 2);
+  EXPECT_DOUBLE_EQ(inside.next, 0.25);
+  EXPECT_DOUBLE_EQ(errors.placeOf(0, 99.0).next, 1.0);  // clamped
+  EXPECT_EQ(errors.placeOf(1, 50.0).knot, errors.placeOf(1, 50.0).next_knot);
+}
+
+TEST(TrajectoryErrors, RefusesAnImpossibleModel) {
+  TrajectoryErrorModel errors;
+  errors.heading = 0.0;
+  EXPECT_THROW(errors.validate(), UsageError);
+}
+
+TEST(Adjustment, RecoversBiasesFromExactObservations) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const auto areas = simulated(someBiases(), 0.0, 1);
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+  ASSERT_TRUE(solution.solved);
+  for (int i = 0; i < kSystemParameterCount; ++i)
+    EXPECT_NEAR(solution.biases[i], someBiases()[i], 1e-10);
+  EXPECT_LT(std::abs(adjustment.residual(areas[3][7], solution)), 1e-9);
+}
+
+/// All unknowns in one dense normal matrix: what the elimination must be equal to.
+TEST(Adjustment, EqualsTheDenseSolution) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const auto areas = simulated(someBiases(), 0.02, 2);
+  const auto weights = unitWeights(areas);
+  const int unknowns = 8 + errors.unknowns();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+  normal.bottomRightCorner(errors.unknowns(), errors.unknowns()) =
+      Eigen::MatrixXd(errors.priorInformation());
+  for (const AreaObservations& area : areas) {
+    for (const PairObservation& o : area) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns);
+      row.head<8>() = o.row().transpose();
+      const auto place = [&](int strip, double time, const SystemRow& design, double sign) {
+        const auto where = errors.placeOf(strip, time);
+        Eigen::Matrix<double, 6, 1> effect;
+        effect << o.normal, design.segment<3>(3).transpose();
+        row.segment<6>(8 + 6 * where.knot) += sign * (1.0 - where.next) * effect;
+        row.segment<6>(8 + 6 * where.next_knot) += sign * where.next * effect;
+      };
+      place(o.a, o.time_a, o.row_a, 1.0);
+      place(o.b, o.time_b, o.row_b, -1.0);
+      normal += row * row.transpose() / o.variance;
+      right += row * o.misclosure / o.variance;
+    }
+  }
+  for (const P fixed : {P::lever_arm_z, P::range_bias})
+    normal(indexOf(fixed), indexOf(fixed)) += 1e20;
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd inverse = scale.asDiagonal() *
+                                  (scale.asDiagonal() * normal * scale.asDiagonal()).inverse() *
+                                  scale.asDiagonal();
+  const Eigen::VectorXd expected = inverse * right;
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+  for (const P p : kSix) {
+    const double std = std::sqrt(inverse(indexOf(p), indexOf(p)));
+    EXPECT_NEAR(solution.biases[indexOf(p)], expected[indexOf(p)],
+                1e-6 * std);  // rounding of two routes
+    EXPECT_GE(std::sqrt(solution.covariance(indexOf(p), indexOf(p))), std * (1.0 - 1e-6));
+    EXPECT_LT(std::sqrt(solution.formal(indexOf(p), indexOf(p))), std);
+  }
+  EXPECT_LT((solution.trajectory_errors - expected.tail(errors.unknowns())).norm(),
+            1e-6 * expected.tail(errors.unknowns()).norm());
+}
+
+/// Two hundred blocks of white noise: the estimates scatter as the covariance says.
+TEST(Adjustment, ScattersAsItsCovarianceSays) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  constexpr int kBlocks = 200;
+  SystemVector squares = SystemVector::Zero();
+  for (int block = 0; block < kBlocks; ++block) {
+    const auto areas = simulated(someBiases(), 0.02, 100 + block);
+    const auto weights = unitWeights(areas);
+    Adjustment adjustment(errors, 1);
+    adjustment.accumulate(areas, weights);
+    const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+    for (const P p : kSix) {
+      const int i = indexOf(p);
+      squares[i] += std::pow(solution.biases[i] - someBiases()[i], 2) / solution.covariance(i, i);
+    }
+  }
+  // Trajectory errors are in the model but not in the data, so the scatter is at most what is said;
+  // a chi-square of 200 exceeds 1.25 times its mean in less than one of 100 cases.
+  for (const P p : kSix) EXPECT_LT(squares[indexOf(p)] / kBlocks, 1.25) << infoOf(p).name;
+}
+
+TEST(Adjustment, HoldsWhatIsNotEstimated) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const auto areas = simulated(someBiases(), 0.0, 3);
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  SystemVector held = SystemVector::Zero();
+  held[indexOf(P::lever_arm_x)] = 0.03;
+  held[indexOf(P::lever_arm_y)] = -0.05;
+  held[indexOf(P::scan_angle_scale)] = 1e-4;
+  held[indexOf(P::boresight_heading)] = 2e-5;
+  const AdjustmentSolution solution =
+      adjustment.solve({P::boresight_pitch, P::boresight_roll}, held);
+  EXPECT_DOUBLE_EQ(solution.biases[indexOf(P::lever_arm_x)], 0.03);
+  EXPECT_NEAR(solution.biases[indexOf(P::boresight_pitch)], -1.4e-4, 1e-10);
+  EXPECT_NEAR(solution.biases[indexOf(P::boresight_roll)], 4.3e-4, 1e-10);
+}
+
+TEST(Adjustment, DoesNotDependOnTheNumberOfThreads) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const auto areas = simulated(someBiases(), 0.02, 4);
+  const auto weights = unitWeights(areas);
+  Adjustment one(errors, 1), eight(errors, 8);
+  one.accumulate(areas, weights);
+  eight.accumulate(areas, weights);
+  EXPECT_EQ(one.solve(kSix, SystemVector::Zero()).biases,
+            eight.solve(kSix, SystemVector::Zero()).biases);
+}
+
+TEST(ParameterChoice, DropsWhatTheObservationsDoNotSee) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  auto areas = simulated(someBiases(), 0.0, 5);
+  for (AreaObservations& area : areas) {
+    for (PairObservation& o : area)
+      o.row_a[indexOf(P::lever_arm_x)] = o.row_b[indexOf(P::lever_arm_x)] = 0.0;
+  }
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  const ParameterChoice choice =
+      chooseParameters(adjustment, kSix, SystemVector::Zero(), DeterminationLimits(), 1.0);
+  EXPECT_EQ(choice.status[indexOf(P::lever_arm_x)], ParameterStatus::not_estimable);
+  EXPECT_EQ(choice.reason[indexOf(P::lever_arm_x)], "the observations do not depend on it");
+  EXPECT_EQ(choice.estimate.size(), 5U);
+  EXPECT_EQ(choice.status[indexOf(P::range_bias)], ParameterStatus::fixed);  // was not wanted
+}
+
+TEST(ParameterChoice, OfTwoThatLookAlikeTheLeverArmGoes) {
+  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  auto areas = simulated(someBiases(), 0.02, 6);
+  for (AreaObservations& area : areas) {
+    for (PairObservation& o :
+         area) {  // a single flying height: pitch moves points as a lever arm does
+      o.row_a[indexOf(P::lever_arm_y)] = o.row_a[indexOf(P::boresight_pitch)] / 1000.0;
+      o.row_b[indexOf(P::lever_arm_y)] = o.row_b[indexOf(P::boresight_pitch)] / 1000.0;
+    }
+  }
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  const ParameterChoice choice =
+      chooseParameters(adjustment, kSix, SystemVector::Zero(), DeterminationLimits(), 1.0);
+  EXPECT_EQ(choice.status[indexOf(P::lever_arm_y)], ParameterStatus::not_estimable);
+  EXPECT_NE(choice.reason[indexOf(P::lever_arm_y)].find("boresight_pitch"), std::string::npos);
+  EXPECT_EQ(choice.status[indexOf(P::boresight_pitch)], ParameterStatus::estimated);
+}
+
+TEST(ParameterChoice, WritesValuesInTheirUnit) {
+  EXPECT_EQ(inUnit(P::lever_arm_x, 0.1234), "0.123 m");
+  EXPECT_EQ(inUnit(P::boresight_roll, 10.0 * kRadiansPerArcsec), "10 arcsec");
+  EXPECT_EQ(inUnit(P::scan_angle_scale, 3e-4), "0.0003");
+}
+
+}  // namespace
+}  // namespace pcl_als
