@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als::detail {
+
+inline constexpr std::string_view kCalibrationFormat = "pcl_als calibration";
+inline constexpr int kCalibrationVersion = 1;
+
+/// The text of a calibration.json. UsageError for a bias that is not finite; any other number that
+/// is not becomes null.
+std::string calibrationToJson(const CalibrationResult& result);
+
+/// Reads it back; \a name is the file, for messages.
+CalibrationResult calibrationFromJson(const std::string& text, const std::string& name);
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "calibration_json.h"
+#include "csv_table.h"
+
+namespace pcl_als {
+namespace detail {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A value of the file with the way to it, so that a message can say "parameters.range_bias.unit".
+class Node {
+ public:
+  Node(const Json& json, std::string file, std::string path = {})
+      : json_(&json), file_(std::move(file)), path_(std::move(path)) {}
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError(file_ + ": " + (path_.empty() ? "" : "'" + path_ + "' ") + what);
+  }
+  bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
+  Node operator[](const std::string& key) const {
+    if (!json_->is_object()) refuse("must be an object");
+    const std::string path = path_.empty() ? key : path_ + "." + key;
+    if (!json_->contains(key)) Node(*json_, file_, path).refuse("is missing");
+    return {(*json_)[key], file_, path};
+  }
+  std::vector<Node> items() const {
+    if (!json_->is_array()) refuse("must be a list");
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < json_->size(); ++i) {
+      nodes.emplace_back((*json_)[i], file_, path_ + "[" + std::to_string(i) + "]");
+    }
+    return nodes;
+  }
+  double number() const {
+    if (!json_->is_number()) refuse("must be a number");
+    const double value = json_->get<double>();
+    if (!std::isfinite(value)) refuse("must be a finite number");
+    return value;
+  }
+  double numberOrNan() const {
+    return json_->is_null() ? std::numeric_limits<double>::quiet_NaN() : number();
+  }
+  std::size_t count() const {
+    if (!json_->is_number_unsigned()) refuse("must be a whole number, 0 or more");
+    return json_->get<std::size_t>();
+  }
+  long whole() const {
+    if (!json_->is_number_integer()) refuse("must be a whole number");
+    return json_->get<long>();
+  }
+  bool truth() const {
+    if (!json_->is_boolean()) refuse("must be true or false");
+    return json_->get<bool>();
+  }
+  std::string text() const {
+    if (!json_->is_string()) refuse("must be a text");
+    return json_->get<std::string>();
+  }
+
+ private:
+  const Json* json_;
+  std::string file_, path_;
+};
+
+ParameterStatus statusOf(const Node& node) {
+  const std::string text = node.text();
+  for (const auto status :
+       {ParameterStatus::estimated, ParameterStatus::fixed, ParameterStatus::not_estimable}) {
+    if (text == toString(status)) return status;
+  }
+  node.refuse("is '" + text + "'; it must be estimated, fixed or not_estimable");
+}
+
+void readParameters(const Node& parameters, CalibrationResult& result) {
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const Node node = parameters[std::string(info.name)];
+    ParameterEstimate& estimate = result[info.parameter];
+    const std::string unit = node["unit"].text();
+    if (unit != info.unit) {
+      node["unit"].refuse("is '" + unit + "'; it must be '" + std::string(info.unit) + "'");
+    }
+    estimate.bias = node["bias"].number() * info.internal_per_unit;
+    if (node.has("std")) estimate.std = node["std"].numberOrNan() * info.internal_per_unit;
+    if (node.has("std_formal")) {
+      estimate.std_formal = node["std_formal"].numberOrNan() * info.internal_per_unit;
+    }
+    if (node.has("status")) estimate.status = statusOf(node["status"]);
+    if (node.has("reason")) estimate.reason = node["reason"].text();
+  }
+}
+
+void readCorrelation(const Node& correlation, CalibrationResult& result) {
+  for (const Node& name : correlation["order"].items()) {
+    const auto parameter = systemParameterNamed(name.text());
+    if (!parameter) name.refuse("names no system parameter: '" + name.text() + "'");
+    result.correlation_order.push_back(*parameter);
+  }
+  const std::vector<Node> rows = correlation["matrix"].items();
+  const auto size = static_cast<Eigen::Index>(rows.size());
+  if (rows.size() != result.correlation_order.size()) {
+    correlation["matrix"].refuse("must have one row for each name of 'correlation.order'");
+  }
+  result.correlation.resize(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const std::vector<Node> values = rows[static_cast<std::size_t>(i)].items();
+    if (values.size() != rows.size()) rows[static_cast<std::size_t>(i)].refuse("must be as long");
+    for (Eigen::Index k = 0; k < size; ++k) {
+      result.correlation(i, k) = values[static_cast<std::size_t>(k)].numberOrNan();
+    }
+  }
+}
+
+void readIterations(const Node& iterations, CalibrationResult& result) {
+  for (const Node& node : iterations.items()) {
+    result.iterations.push_back({node["correspondences"].count(), node["sigma0"].numberOrNan(),
+                                 node["largest_update"].numberOrNan()});
+  }
+}
+
+void readPairs(const Node& pairs, CalibrationResult& result) {
+  for (const Node& node : pairs.items()) {
+    PairFit pair;
+    pair.a = node["a"].text();
+    pair.b = node["b"].text();
+    pair.correspondences = node["correspondences"].count();
+    pair.rms_before = node["rms_before_m"].numberOrNan();
+    pair.rms_after = node["rms_after_m"].numberOrNan();
+    pair.mean_before = node["mean_before_m"].numberOrNan();
+    pair.mean_after = node["mean_after_m"].numberOrNan();
+    result.pairs.push_back(std::move(pair));
+  }
+}
+
+void readControlFits(const Node& control, CalibrationResult& result) {
+  for (const Node& node : control.items()) {
+    ControlFit fit;
+    fit.strip = node["strip"].text();
+    fit.points = node["points"].count();
+    fit.mean_before = node["mean_before_m"].numberOrNan();
+    fit.rms_before = node["rms_before_m"].numberOrNan();
+    fit.mean_after = node["mean_after_m"].numberOrNan();
+    fit.rms_after = node["rms_after_m"].numberOrNan();
+    result.control.push_back(std::move(fit));
+  }
+}
+
+std::vector<std::string> textsOf(const Node& list) {
+  std::vector<std::string> texts;
+  for (const Node& node : list.items()) texts.push_back(node.text());
+  return texts;
+}
+
+Json parse(const std::string& text, const std::string& name) {
+  try {
+    return Json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    const std::string what = error.what();
+    // "[json.exception.parse_error.101] parse error at …": the part a user can act on.
+    const std::size_t end = what.find("] ");
+    throw InputError(
+        name + ": is not valid JSON: " + (end == std::string::npos ? what : what.substr(end + 2)));
+  }
+}
+
+void checkFormat(const Node& root, const std::string& name) {
+  if (!root.has("format") || root["format"].text() != kCalibrationFormat) {
+    throw InputError(name + ": 'format' is not '" + std::string(kCalibrationFormat) +
+                     "'; not a calibration file");
+  }
+  const long version = root["version"].whole();
+  if (version == kCalibrationVersion) return;
+  root["version"].refuse("is " + std::to_string(version) + "; this version of pcl_als reads " +
+                         std::to_string(kCalibrationVersion));
+}
+
+}  // namespace
+
+CalibrationResult calibrationFromJson(const std::string& text, const std::string& name) {
+  const Json json = parse(text, name);
+  const Node root(json, name);
+  checkFormat(root, name);
+  CalibrationResult result;
+  readParameters(root["parameters"], result);
+  // Applying a calibration takes the parameters only: a file made by hand may stop here.
+  if (root.has("model")) result.model = root["model"].text();
+  if (root.has("correlation")) readCorrelation(root["correlation"], result);
+  if (root.has("sigma0")) result.sigma0 = root["sigma0"].numberOrNan();
+  if (root.has("redundancy")) result.redundancy = root["redundancy"].whole();
+  if (root.has("converged")) result.converged = root["converged"].truth();
+  if (root.has("line_fit_half_width_s")) {
+    const Node width = root["line_fit_half_width_s"];
+    result.line_fit_half_width = width.number();
+    if (result.line_fit_half_width < 0.0) width.refuse("must not be negative");
+  }
+  if (root.has("iterations")) readIterations(root["iterations"], result);
+  if (root.has("pairs")) readPairs(root["pairs"], result);
+  if (root.has("control")) readControlFits(root["control"], result);
+  if (root.has("warnings")) result.warnings = textsOf(root["warnings"]);
+  if (root.has("inputs")) result.inputs = textsOf(root["inputs"]);
+  return result;
+}
+
+}  // namespace detail
+
+CalibrationResult readCalibration(const std::filesystem::path& path) {
+  return detail::calibrationFromJson(detail::readWholeFile(path), path.string());
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "calibration_json.h"
+
+namespace pcl_als {
+namespace detail {
+namespace {
+
+// Keys stay in the order of the schema. Numbers are written with the fewest digits (at most 17)
+// that read back to the same double.
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json parametersOf(const CalibrationResult& result) {
+  Json parameters = Json::object();
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    if (!std::isfinite(estimate.bias)) {
+      throw UsageError("calibration: the bias of " + std::string(info.name) +
+                       " is not a finite number and cannot be written");
+    }
+    Json entry;
+    entry["bias"] = number(estimate.bias / info.internal_per_unit);
+    entry["std"] = number(estimate.std / info.internal_per_unit);
+    entry["std_formal"] = number(estimate.std_formal / info.internal_per_unit);
+    entry["unit"] = info.unit;
+    entry["status"] = toString(estimate.status);
+    if (!estimate.reason.empty()) entry["reason"] = estimate.reason;
+    parameters[std::string(info.name)] = std::move(entry);
+  }
+  return parameters;
+}
+
+Json correlationOf(const CalibrationResult& result) {
+  Json order = Json::array(), matrix = Json::array();
+  for (const SystemParameter parameter : result.correlation_order) {
+    order.push_back(infoOf(parameter).name);
+  }
+  for (Eigen::Index row = 0; row < result.correlation.rows(); ++row) {
+    Json values = Json::array();
+    for (Eigen::Index column = 0; column < result.correlation.cols(); ++column) {
+      values.push_back(number(result.correlation(row, column)));
+    }
+    matrix.push_back(std::move(values));
+  }
+  return Json{{"order", std::move(order)}, {"matrix", std::move(matrix)}};
+}
+
+Json iterationsOf(const CalibrationResult& result) {
+  Json iterations = Json::array();
+  for (const CalibrationIteration& iteration : result.iterations) {
+    iterations.push_back(Json{{"correspondences", iteration.correspondences},
+                              {"sigma0", number(iteration.sigma0)},
+                              {"largest_update", number(iteration.largest_update)}});
+  }
+  return iterations;
+}
+
+Json pairsOf(const CalibrationResult& result) {
+  Json pairs = Json::array();
+  for (const PairFit& pair : result.pairs) {
+    pairs.push_back(Json{{"a", pair.a},
+                         {"b", pair.b},
+                         {"correspondences", pair.correspondences},
+                         {"rms_before_m", number(pair.rms_before)},
+                         {"rms_after_m", number(pair.rms_after)},
+                         {"mean_before_m", number(pair.mean_before)},
+                         {"mean_after_m", number(pair.mean_after)}});
+  }
+  return pairs;
+}
+
+Json controlOf(const CalibrationResult& result) {
+  Json control = Json::array();
+  for (const ControlFit& fit : result.control) {
+    control.push_back(Json{{"strip", fit.strip},
+                           {"points", fit.points},
+                           {"mean_before_m", number(fit.mean_before)},
+                           {"rms_before_m", number(fit.rms_before)},
+                           {"mean_after_m", number(fit.mean_after)},
+                           {"rms_after_m", number(fit.rms_after)}});
+  }
+  return control;
+}
+
+}  // namespace
+
+std::string calibrationToJson(const CalibrationResult& result) {
+  Json root;
+  root["format"] = kCalibrationFormat;
+  root["version"] = kCalibrationVersion;
+  root["model"] = result.model;
+  root["parameters"] = parametersOf(result);
+  root["correlation"] = correlationOf(result);
+  root["sigma0"] = number(result.sigma0);
+  root["redundancy"] = result.redundancy;
+  root["converged"] = result.converged;
+  root["line_fit_half_width_s"] = number(result.line_fit_half_width);
+  root["iterations"] = iterationsOf(result);
+  root["pairs"] = pairsOf(result);
+  root["control"] = controlOf(result);
+  root["warnings"] = result.warnings;
+  root["inputs"] = result.inputs;
+  root["tool_version"] = PCL_ALS_VERSION;
+  // A file name may hold bytes that are no UTF-8.
+  return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace detail
+
+void writeCalibration(const std::filesystem::path& path, const CalibrationResult& result) {
+  const std::string text = detail::calibrationToJson(result);
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace pcl_als

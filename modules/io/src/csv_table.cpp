@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "csv_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <system_error>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\v\f";
+
+std::string_view trimmed(std::string_view text, std::string_view what) {
+  const std::size_t first = text.find_first_not_of(what);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(what) - first + 1);
+}
+
+std::string_view fieldOf(std::string_view text) {
+  text = trimmed(text, kBlanks);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    text = trimmed(text.substr(1, text.size() - 2), kBlanks);
+  }
+  return text;
+}
+
+std::string lowered(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+/// A piece of a file that is fit for a message: short, printable.
+std::string quotable(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string quoted(text.substr(0, kLongest));
+  for (char& c : quoted) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  }
+  return text.size() > kLongest ? quoted + "..." : quoted;
+}
+
+char separatorOf(std::string_view header) {
+  for (const char candidate : {',', ';', '\t'}) {
+    if (header.find(candidate) != std::string_view::npos) return candidate;
+  }
+  return ' ';
+}
+
+bool parse(std::string_view text, double& value) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+std::string readWholeFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw InputError(path.string() + ": no such file");
+  }
+  if (std::filesystem::is_directory(path, error)) {
+    throw InputError(path.string() + ": is a folder, not a file");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string content;
+  if (stream) {
+    const auto size = std::filesystem::file_size(path, error);
+    if (!error) content.reserve(size);
+    content.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  }
+  if (!stream || stream.bad()) throw InputError(path.string() + ": cannot be read");
+  return content;
+}
+
+CsvTable::CsvTable(const std::filesystem::path& path)
+    : name_(path.string()), content_(readWholeFile(path)), rest_(content_) {
+  if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
+  std::string_view header;
+  if (!nextLine(header)) throw InputError(name_ + ": is empty; a header line is needed");
+  separator_ = separatorOf(header);
+  split(header);
+  for (const std::string_view field : fields_) columns_.push_back(lowered(field));
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const auto first = std::find(columns_.begin(), columns_.end(), columns_[i]);
+    if (columns_[i].empty() || first == columns_.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+    throw InputError(name_ + ": line " + std::to_string(line_) + ": column '" +
+                     quotable(columns_[i]) + "' appears twice");
+  }
+}
+
+std::size_t CsvTable::optional(std::string_view name) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), name);
+  return found == columns_.end() ? npos : static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::size_t CsvTable::required(std::string_view name) const {
+  const std::size_t column = optional(name);
+  if (column != npos) return column;
+  std::string header;
+  for (const std::string& present : columns_) header += (header.empty() ? "" : ",") + present;
+  throw InputError(name_ + ": line " + std::to_string(line_) + ": no column '" + std::string(name) +
+                   "' in the header '" + quotable(header) + "'");
+}
+
+bool CsvTable::nextLine(std::string_view& line) {
+  while (!rest_.empty()) {
+    const std::size_t end = rest_.find('\n');
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    ++line_;
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    const std::string_view text = trimmed(line, kBlanks);
+    if (!text.empty() && text.front() != '#') return true;
+  }
+  return false;
+}
+
+void CsvTable::split(std::string_view line) {
+  fields_.clear();
+  if (separator_ == ' ') {
+    for (line = trimmed(line, kBlanks); !line.empty();) {
+      const std::size_t end = line.find_first_of(kBlanks);
+      fields_.push_back(fieldOf(line.substr(0, end)));
+      line =
+          end == std::string_view::npos ? std::string_view() : trimmed(line.substr(end), kBlanks);
+    }
+    return;
+  }
+  for (std::size_t end = 0; end != std::string_view::npos;) {
+    end = line.find(separator_);
+    fields_.push_back(fieldOf(line.substr(0, end)));
+    if (end != std::string_view::npos) line.remove_prefix(end + 1);
+  }
+}
+
+bool CsvTable::next() {
+  std::string_view line;
+  if (!nextLine(line)) return false;
+  split(line);
+  // A separator at the end of a line adds no column.
+  if (fields_.size() == columns_.size() + 1 && fields_.back().empty()) fields_.pop_back();
+  if (fields_.size() == columns_.size()) return true;
+  throw InputError(name_ + ": line " + std::to_string(line_) + ": " +
+                   std::to_string(fields_.size()) + " column(s), the header has " +
+                   std::to_string(columns_.size()));
+}
+
+double CsvTable::number(std::size_t column) const {
+  double value = 0.0;
+  if (!parse(fields_[column], value)) refuse(column, "is not a number");
+  if (!std::isfinite(value)) refuse(column, "is not a finite number");
+  return value;
+}
+
+double CsvTable::numberOrNan(std::size_t column) const {
+  const std::string_view text = fields_[column];
+  if (text.empty() || lowered(text) == "nan") return std::numeric_limits<double>::quiet_NaN();
+  return number(column);
+}
+
+void CsvTable::refuse(std::size_t column, const std::string& what) const {
+  throw InputError(name_ + ": line " + std::to_string(line_) + ", column '" + columns_[column] +
+                   "': '" + quotable(fields_[column]) + "' " + what);
+}
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcl_als::detail {
+
+/// The bytes of a file; InputError naming it when it cannot be read.
+std::string readWholeFile(const std::filesystem::path& path);
+
+/** \brief A text table with a header line, read record by record.
+ *
+ * Separator , ; tab or blanks, as the header has it; columns are found by name (case ignored,
+ * quotes and blanks around a field dropped). A UTF-8 byte order mark, CRLF line ends, empty lines
+ * and lines that begin with # are skipped. Every error is an InputError that names file, line and
+ * column.
+ */
+class CsvTable {
+ public:
+  explicit CsvTable(const std::filesystem::path& path);
+
+  /// Number of the column; InputError when the header lacks it.
+  std::size_t required(std::string_view name) const;
+  /// Number of the column, or npos.
+  std::size_t optional(std::string_view name) const;
+  static constexpr std::size_t npos = static_cast<std::size_t>(-1);
+
+  /// Reads the next record; false at the end. InputError when its fields are not as many as the
+  /// header's.
+  bool next();
+  /// A field of the record as it stands.
+  std::string_view text(std::size_t column) const { return fields_[column]; }
+  /// A finite number.
+  double number(std::size_t column) const;
+  /// A finite number, or NaN where the field is empty or says nan.
+  double numberOrNan(std::size_t column) const;
+  /// Throws the InputError "FILE: line L, column 'c': 'text' WHAT".
+  [[noreturn]] void refuse(std::size_t column, const std::string& what) const;
+
+ private:
+  bool nextLine(std::string_view& line);
+  void split(std::string_view line);
+
+  std::string name_, content_;
+  std::string_view rest_;
+  std::size_t line_ = 0;
+  char separator_ = ',';
+  std::vector<std::string> columns_;
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace pcl_als::detail

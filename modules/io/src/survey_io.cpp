@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/io/survey_io.h>
+
+#include "sbet.h"
+#include "trajectory_csv.h"
+#include "week_rollover.h"
+
+namespace pcl_als {
+namespace {
+
+bool isSbet(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension == ".out" || extension == ".sbet";
+}
+
+}  // namespace
+
+std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
+                                             const std::string& crs) {
+  std::vector<TrajectorySample> samples =
+      isSbet(path) ? detail::readSbet(path, crs) : detail::readTrajectoryCsv(path);
+  detail::unwrapWeek(samples);
+  return samples;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/time_reference.h>
+
+#include "week_rollover.h"
+
+namespace pcl_als {
+namespace {
+
+/// How seconds may be counted.
+enum class Scale { week, adjusted, gps };
+
+const char* nameOf(Scale scale) {
+  switch (scale) {
+    case Scale::week:
+      return "seconds of the GPS week";
+    case Scale::adjusted:
+      return "adjusted standard GPS time";
+    case Scale::gps:
+      return "GPS seconds";
+  }
+  return "";
+}
+
+/// Seconds that turn an absolute scale into GPS seconds.
+double originOf(Scale scale) {
+  return scale == Scale::adjusted ? kAdjustedOffset : 0.0;
+}
+
+/// Week seconds may run on past the end of the week, not much further.
+bool looksLikeWeek(const TimeRange& range) {
+  return range.first >= 0.0 && range.last <= 2.0 * kSecondsPerWeek;
+}
+
+/// Scales that values may be in, the likeliest first: as adjusted time, 1e9 s would be in 2043; as
+/// GPS seconds, less would be before September 2011, when few wrote them.
+std::vector<Scale> scalesOf(const TimeRange& range, TimeKind declared) {
+  if (range.last >= kAdjustedOffset) return {Scale::gps, Scale::adjusted};
+  if (!looksLikeWeek(range)) return {Scale::adjusted, Scale::gps};
+  if (declared == TimeKind::adjusted_standard) return {Scale::adjusted, Scale::week};
+  return {Scale::week, Scale::adjusted};
+}
+
+double middle(const TimeRange& range) {
+  return 0.5 * (range.first + range.last);
+}
+
+/// A way to bring the two together.
+struct Candidate {
+  Scale points, trajectory;
+  double offset;
+  std::optional<long> week;
+};
+
+Candidate candidate(Scale p, const TimeRange& points, Scale t, const TimeRange& trajectory,
+                    std::optional<int> gps_week) {
+  const double origins = originOf(p) - originOf(t);
+  if (p != Scale::week && t != Scale::week) return {p, t, origins, std::nullopt};
+  const double apart = middle(trajectory) - middle(points) - origins;
+  if (p == Scale::week && t == Scale::week) {
+    const double weeks = std::clamp(std::round(apart / kSecondsPerWeek), -1.0, 1.0);
+    return {p, t, weeks * kSecondsPerWeek, std::nullopt};
+  }
+  const double sign = p == Scale::week ? 1.0 : -1.0;
+  const long week = gps_week ? *gps_week : std::lround(sign * apart / kSecondsPerWeek);
+  return {p, t, origins + sign * static_cast<double>(week) * kSecondsPerWeek, week};
+}
+
+std::optional<Candidate> firstThatMeets(const TimeRange& points, TimeKind kind,
+                                        const TimeRange& trajectory, std::optional<int> gps_week) {
+  for (const Scale p : scalesOf(points, kind)) {
+    for (const Scale t : scalesOf(trajectory, TimeKind::none)) {
+      const Candidate next = candidate(p, points, t, trajectory, gps_week);
+      if (points.last + next.offset >= trajectory.first &&
+          points.first + next.offset <= trajectory.last) {
+        return next;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::string rangesText(const std::string& name, const TimeRange& points,
+                       const TimeRange& trajectory) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": its times, %.3f to %.3f s, do not overlap the trajectory's, %.3f to %.3f s",
+                points.first, points.last, trajectory.first, trajectory.last);
+  return name + text;
+}
+
+void refuseUnusable(const std::string& name, const TimeRange& points, const TimeRange& trajectory) {
+  if (trajectory.empty()) throw InputError(name + ": the trajectory has no times");
+  if (points.empty()) throw InputError(name + ": has no point with a finite time");
+  if (points.first == 0.0 && points.last == 0.0) {
+    throw InputError(name + ": the time of every point is zero; GPS times are needed");
+  }
+}
+
+std::string remarkOf(const std::string& name, const Candidate& best) {
+  if (best.offset == 0.0) return {};
+  std::string text =
+      name + ": times are " + nameOf(best.points) + ", the trajectory's " + nameOf(best.trajectory);
+  if (best.week) text += ", GPS week " + std::to_string(*best.week);
+  char added[60];
+  std::snprintf(added, sizeof added, ": %+.0f s", best.offset);
+  return text + added;
+}
+
+}  // namespace
+
+TimeAlignment reconcileTimes(const std::string& name, const TimeRange& points, TimeKind kind,
+                             const TimeRange& trajectory, std::optional<int> gps_week) {
+  refuseUnusable(name, points, trajectory);
+  const std::optional<Candidate> best = firstThatMeets(points, kind, trajectory, gps_week);
+  if (!best) {
+    throw InputError(rangesText(name, points, trajectory) +
+                     (gps_week ? " in GPS week " + std::to_string(*gps_week) : std::string()));
+  }
+  TimeAlignment alignment;
+  alignment.offset = best->offset;
+  if (best->points == Scale::week) {
+    alignment.wrap_below = trajectory.first - 0.5 * kSecondsPerWeek;
+    alignment.wrap_above = trajectory.last + 0.5 * kSecondsPerWeek;
+  }
+  alignment.remark = remarkOf(name, *best);
+  return alignment;
+}
+
+namespace detail {
+
+void unwrapWeek(std::vector<TrajectorySample>& samples) {
+  std::size_t crossings = 0, crossing = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (!isWeekRollover(samples[i - 1].time, samples[i].time)) continue;
+    ++crossings;
+    crossing = i;
+  }
+  if (crossings != 1) return;
+  for (std::size_t i = crossing; i < samples.size(); ++i) samples[i].time += kSecondsPerWeek;
+}
+
+}  // namespace detail
+}  // namespace pcl_als

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "test_files.h"
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+
+CalibrationResult example() {
+  CalibrationResult result;
+  result[P::boresight_roll] = {90.0 * kRadiansPerArcsec, 0.5 * kRadiansPerArcsec,
+                               0.1 * kRadiansPerArcsec, ParameterStatus::estimated, ""};
+  result[P::range_bias] = {-0.12, 0.003, 0.0001, ParameterStatus::estimated, ""};
+  result[P::lever_arm_z] = {0.0, 0.0, 0.0, ParameterStatus::not_estimable, "dZ cancels"};
+  result.correlation_order = {P::boresight_roll, P::range_bias};
+  result.correlation = (Eigen::MatrixXd(2, 2) << 1.0, -0.25, -0.25, 1.0).finished();
+  result.sigma0 = 1.0 / 3.0;
+  result.redundancy = 123456;
+  result.converged = true;
+  result.line_fit_half_width = 0.5;
+  result.iterations = {{1000, 2.5, 0.75}, {1001, 1.0, 1e-5}};
+  result.pairs = {{"1", "2", 500, 0.5, 0.02, -0.1, 1e-4}};
+  result.control = {{"1", 37, 0.1, 0.2, 0.3, 0.4}};
+  result.warnings = {"quoted \"text\""};
+  result.inputs = {"strip1.las", "a\xff.las"};  // the second is no UTF-8
+  return result;
+}
+
+std::string textOf(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::string exampleText() {
+  const auto path = test::scratch("calibration_json") / "calibration.json";
+  writeCalibration(path, example());
+  return textOf(path);
+}
+
+/// The message of reading the example with \a from replaced by \a to.
+std::string refusal(const std::string& from, const std::string& to) {
+  std::string text = exampleText();
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const auto path = test::scratch("calibration_json") / "changed.json";
+  std::ofstream(path, std::ios::binary) << text;
+  try {
+    readCalibration(path);
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("changed.json: "), std::string::npos) << error.what();
+    return error.what();
+  }
+  return {};
+}
+
+TEST(CalibrationJson, ReadsBackWhatItWrote) {
+  const auto path = test::scratch("calibration_json") / "calibration.json";
+  const CalibrationResult written = example();
+  writeCalibration(path, written);
+  const CalibrationResult read = readCalibration(path);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate &a = written[info.parameter], &b = read[info.parameter];
+    // The angles go through arc-seconds: one rounding each way.
+    EXPECT_DOUBLE_EQ(a.bias, b.bias) << info.name;
+    EXPECT_DOUBLE_EQ(a.std, b.std);
+    EXPECT_DOUBLE_EQ(a.std_formal, b.std_formal);
+    EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.reason, b.reason);
+  }
+  EXPECT_EQ(read.model, written.model);
+  EXPECT_EQ(read.correlation_order, written.correlation_order);
+  EXPECT_EQ(read.correlation, written.correlation);
+  EXPECT_EQ(read.sigma0, written.sigma0);  // to the last bit
+  EXPECT_EQ(read.redundancy, written.redundancy);
+  EXPECT_TRUE(read.converged);
+  EXPECT_EQ(read.line_fit_half_width, 0.5);
+  ASSERT_EQ(read.iterations.size(), 2U);
+  EXPECT_EQ(read.iterations[1].largest_update, 1e-5);
+  ASSERT_EQ(read.pairs.size(), 1U);
+  EXPECT_EQ(read.pairs[0].b, "2");
+  EXPECT_EQ(read.pairs[0].rms_after, 0.02);
+  ASSERT_EQ(read.control.size(), 1U);
+  EXPECT_EQ(read.control[0].rms_after, 0.4);
+  EXPECT_EQ(read.warnings, written.warnings);
+  EXPECT_EQ(read.inputs[0], written.inputs[0]);
+}
+
+TEST(CalibrationJson, UsesTheInterfacesNamesAndUnits) {
+  const std::string text = exampleText();
+  for (const char* part :
+       {"\"format\": \"pcl_als calibration\"", "\"version\": 1", "\"model\": \"quasi_rigorous\"",
+        "\"unit\": \"arcsec\"", "\"status\": \"not_estimable\"", "\"std_formal\": ",
+        "\"line_fit_half_width_s\": 0.5", "\"redundancy\": 123456", "\"converged\": true",
+        "\"rms_before_m\": 0.5", "\"mean_after_m\": ", "\"tool_version\": \""}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
+  }
+  const std::size_t roll = text.find("\"boresight_roll\"");
+  const std::size_t bias = text.find("\"bias\": ", roll);
+  EXPECT_NEAR(std::stod(text.substr(bias + 8)), 90.0, 1e-12);
+}
+
+TEST(CalibrationJson, UnknownStandardDeviationsAreNull) {
+  CalibrationResult result = example();
+  result[P::lever_arm_z].std = std::nan("");
+  const auto path = test::scratch("calibration_json") / "calibration.json";
+  writeCalibration(path, result);
+  EXPECT_NE(textOf(path).find("\"std\": null"), std::string::npos);
+  EXPECT_TRUE(std::isnan(readCalibration(path)[P::lever_arm_z].std));
+}
+
+TEST(CalibrationJson, ABiasThatIsNotFiniteIsNotWritten) {
+  CalibrationResult result = example();
+  result[P::range_bias].bias = std::nan("");
+  const auto path = test::scratch("calibration_json") / "calibration.json";
+  EXPECT_THROW(writeCalibration(path, result), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(CalibrationJson, ParametersAloneAreEnough) {
+  std::string text = exampleText();
+  const std::size_t end = text.find("\"correlation\"");
+  text = text.substr(0, end) + "\"sigma0\": 1}";
+  const auto path = test::scratch("calibration_json") / "short.json";
+  std::ofstream(path) << text;
+  EXPECT_DOUBLE_EQ(readCalibration(path).biases()[6], -0.12);
+}
+
+TEST(CalibrationJson, ErrorsNameTheKey) {
+  const struct {
+    const char *from, *to, *expected;
+  } cases[] = {
+      {"pcl_als calibration", "other", "not a calibration file"},
+      {"\"format\"", "\"forma\"", "not a calibration file"},
+      {"\"version\": 1", "\"version\": 2", "'version' is 2"},
+      {"\"version\": 1", "\"version\": \"1\"", "'version' must be a whole number"},
+      {"\"range_bias\"", "\"range\"", "'parameters.range_bias' is missing"},
+      {"\"unit\": \"arcsec\"", "\"unit\": \"deg\"", "'parameters.boresight_pitch.unit' is 'deg'"},
+      {"\"bias\": -0.12", "\"bias\": null", "'parameters.range_bias.bias' must be a number"},
+      {"\"bias\": -0.12", "\"bias\": \"-0.12\"", "'parameters.range_bias.bias' must be a number"},
+      {"\"bias\": -0.12", "\"bias\": 1e999", "is not valid JSON"},
+      {"\"bias\": -0.12", "\"bias\": NaN", "is not valid JSON"},
+      {"\"bias\": -0.12", "\"bia\": 1", "'parameters.range_bias.bias' is missing"},
+      {"\"status\": \"fixed\"", "\"status\": \"free\"",
+       "must be estimated, fixed or not_estimable"},
+      {"\"line_fit_half_width_s\": 0.5", "\"line_fit_half_width_s\": -1", "must not be negative"},
+      {"\"converged\": true", "\"converged\": 1", "'converged' must be true or false"},
+      {"\"pairs\": [", "\"pairs\": [3, ", "'pairs[0]' must be an object"},
+      {"\"order\": [", "\"order\": [\"dx\", ", "names no system parameter: 'dx'"},
+      {"{", "", "is not valid JSON"},
+  };
+  for (const auto& row : cases) {
+    const std::string message = refusal(row.from, row.to);
+    EXPECT_NE(message.find(row.expected), std::string::npos) << row.expected << " / " << message;
+  }
+}
+
+TEST(CalibrationJson, AFolderThatDoesNotExistIsNamed) {
+  const auto path = test::scratch("calibration_json") / "none" / "calibration.json";
+  try {
+    writeCalibration(path, example());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("none"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace pcl_als

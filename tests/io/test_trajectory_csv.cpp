@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "test_files.h"
+
+namespace pcl_als {
+namespace {
+
+/// Writes \a text to a file of its own.
+std::filesystem::path file(const std::string& text) {
+  const auto path = test::scratch("trajectory_csv") / "trajectory.csv";
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+/// The message of the InputError that reading \a text gives; empty when it gives none.
+std::string refusal(const std::string& text) {
+  try {
+    readTrajectory(file(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void expectTwoSamples(const std::vector<TrajectorySample>& samples) {
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_EQ(samples[0].time, 401000.005);
+  EXPECT_EQ(samples[0].position, Eigen::Vector3d(700402.3197, 5661069.72, -2.5));
+  EXPECT_EQ(samples[1].time, 401000.01);
+  EXPECT_EQ(samples[1].position.x(), 1e5);
+}
+
+TEST(TrajectoryCsv, ReadsWithoutAttitude) {
+  const auto samples = readTrajectory(
+      file("time,x,y,z\n401000.005,700402.3197,5661069.72,-2.5\n401000.01,1e5,2,3\n"));
+  expectTwoSamples(samples);
+  EXPECT_FALSE(samples[0].hasAttitude());
+}
+
+TEST(TrajectoryCsv, AnglesBecomeRadians) {
+  const auto samples =
+      readTrajectory(file("heading,time,pitch,x,y,z,roll,comment\n270,1,-1,10,20,30,2,fine day\n"));
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_EQ(samples[0].position, Eigen::Vector3d(10, 20, 30));
+  EXPECT_DOUBLE_EQ(samples[0].heading, 1.5 * kPi);
+  EXPECT_DOUBLE_EQ(samples[0].pitch, -kPi / 180.0);
+  EXPECT_DOUBLE_EQ(samples[0].roll, kPi / 90.0);
+}
+
+TEST(TrajectoryCsv, AcceptsEverySeparatorAndLineEnd) {
+  for (const std::string separator : {",", ";", "\t", " ", "   ", " , "}) {
+    for (const std::string end : {"\n", "\r\n"}) {
+      std::string text = "Time,\"X\",y,Z";
+      text += end + "401000.005,700402.3197,5661069.72,-2.5" + end + "401000.01,+1e5,2,3" + end;
+      std::string replaced;
+      for (const char c : text) replaced += c == ',' ? separator : std::string(1, c);
+      expectTwoSamples(readTrajectory(file(replaced)));
+    }
+  }
+}
+
+TEST(TrajectoryCsv, SkipsByteOrderMarkCommentsAndEmptyLines) {
+  expectTwoSamples(
+      readTrajectory(file("\xEF\xBB\xBF# made by hand\n\ntime,x,y,z\n# first\n"
+                          "401000.005,700402.3197,5661069.72,-2.5,\n\n401000.01,1e5,2,3")));
+}
+
+TEST(TrajectoryCsv, UnknownAttitudeIsNan) {
+  const auto samples =
+      readTrajectory(file("time,x,y,z,roll,pitch,heading\n1,2,3,4,nan,,5\n2,2,3,4,1,2,3\n"));
+  EXPECT_FALSE(samples[0].hasAttitude());
+  EXPECT_TRUE(samples[1].hasAttitude());
+}
+
+TEST(TrajectoryCsv, KeepsFileOrder) {
+  const auto samples = readTrajectory(file("time,x,y,z\n3,0,0,0\n1,0,0,0\n2,0,0,0\n"));
+  EXPECT_EQ(samples[0].time, 3.0);
+  EXPECT_EQ(samples[1].time, 1.0);
+}
+
+TEST(TrajectoryCsv, RunsOnAcrossTheEndOfTheWeek) {
+  const auto samples = readTrajectory(file("time,x,y,z\n604799.5,0,0,0\n0,0,0,0\n0.5,0,0,0\n"));
+  EXPECT_EQ(samples[0].time, 604799.5);
+  EXPECT_EQ(samples[1].time, 604800.0);
+  EXPECT_EQ(samples[2].time, 604800.5);
+}
+
+TEST(TrajectoryCsv, ErrorsNameFileLineAndColumn) {
+  const struct {
+    const char *text, *expected;
+  } cases[] = {
+      {"", "is empty"},
+      {"# only a comment\n", "is empty"},
+      {"time,x,y,z\n", "has a header but no records"},
+      {"time,x,z\n1,2,3\n", "line 1: no column 'y' in the header 'time,x,z'"},
+      {"time,x,y,x\n1,2,3,4\n", "line 1: column 'x' appears twice"},
+      {"time,x,y,z\n1,2,3,4\n2,2,abc,4\n", "line 3, column 'y': 'abc' is not a number"},
+      {"time,x,y,z\n1,2,3,4m\n", "line 2, column 'z': '4m' is not a number"},
+      {"time;x;y;z\n1;2,5;3;4\n", "line 2, column 'x': '2,5' is not a number"},
+      {"time,x,y,z\n#\n1,2,,4\n", "line 3, column 'y': '' is not a number"},
+      {"time,x,y,z\n1,2,3\n", "line 2: 3 column(s), the header has 4"},
+      {"time,x,y,z\n1,2,3,4,5\n", "line 2: 5 column(s), the header has 4"},
+      {"time,x,y,z\nnan,2,3,4\n", "line 2, column 'time': 'nan' is not a finite number"},
+      {"time,x,y,z\n1,inf,3,4\n", "line 2, column 'x': 'inf' is not a finite number"},
+      {"time,x,y,z\n1,1e999,3,4\n", "line 2, column 'x': '1e999' is not a number"},
+      {"time,x,y,z,roll\n1,2,3,4,-inf\n", "column 'roll': '-inf' is not a finite number"},
+      {"1,2,3,4\n2,2,3,4\n", "no column 'time'"},
+  };
+  for (const auto& row : cases) {
+    const std::string message = refusal(row.text);
+    EXPECT_NE(message.find(row.expected), std::string::npos) << row.expected << " / " << message;
+    EXPECT_NE(message.find("trajectory.csv: "), std::string::npos) << message;
+  }
+}
+
+TEST(TrajectoryCsv, BytesThatAreNoTextAreQuotedSafely) {
+  const std::string message = refusal(std::string("time,x,y,z\n1,2,\x01\0\x1b[31m,4\n", 24));
+  EXPECT_NE(message.find("'??"), std::string::npos) << message;
+}
+
+TEST(TrajectoryCsv, MissingFileAndFolderAreNamed) {
+  const auto folder = test::scratch("trajectory_csv_folder");
+  EXPECT_THROW(readTrajectory(folder), InputError);
+  EXPECT_THROW(readTrajectory(folder / "none.csv"), InputError);
+}
+
+TEST(TrajectoryCsv, ReadsTheHeliosTrajectory) {
+  const auto path = test::testData("helios/trajectory.csv");
+  PCL_ALS_REQUIRE_DATA(path);
+  const auto samples = readTrajectory(*path);
+  EXPECT_GT(samples.size(), 10000U);
+  EXPECT_EQ(samples[0].position, Eigen::Vector3d(700402.3211, 5661070.0, 2212.5018));
+  EXPECT_DOUBLE_EQ(samples[0].heading, 179.3794220 * kRadiansPerDegree);
+}
+
+}  // namespace
+}  // namespace pcl_als
