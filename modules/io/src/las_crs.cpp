@@ -16,7 +16,6 @@ namespace pcl_als::detail {
 namespace {
 
 constexpr const char* kProjection = "LASF_Projection";
-constexpr std::uint16_t kWktRecord = 2112, kGeoKeyRecord = 34735;
 constexpr std::uint16_t kModelTypeKey = 1024, kGeographicKey = 2048, kProjectedKey = 3072;
 constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kUserDefined = 32767;
 constexpr std::size_t kLargestRecord = std::size_t{1} << 24;

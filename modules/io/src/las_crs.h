@@ -2,12 +2,15 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <pcl_als/io/las_file.h>
 
 namespace pcl_als::detail {
+
+inline constexpr std::uint16_t kWktRecord = 2112, kGeoKeyRecord = 34735;
 
 /// The CRS of a file's WKT or GeoTIFF records: WKT or "EPSG:n"; empty when there is none.
 std::string readLasCrs(const LasFile& file);

@@ -3,28 +3,71 @@
 #include "las_output.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <sys/stat.h>
 
-namespace pcl_als::detail {
+#include "file_kind.h"
 
-bool wantsLaz(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".laz";
+namespace pcl_als::detail {
+namespace {
+
+constexpr std::size_t kOffsetToPoints = 96, kVlrCount = 100, kFormat = 104;
+constexpr std::uint8_t kCompressed = 0x80;
+
+/// Stores the fields of the header that the LASzip record changes.
+void storeChanged(LasHead& head, bool compressed) {
+  const LasHeader& h = head.header;
+  storeLas(&head.bytes[kOffsetToPoints], h.offset_to_points);
+  storeLas(&head.bytes[kVlrCount], h.vlr_count);
+  const std::uint8_t format = compressed ? h.point_format | kCompressed : h.point_format;
+  storeLas(&head.bytes[kFormat], format);
 }
 
-LasOutput::LasOutput(const std::filesystem::path& path, const std::vector<std::byte>& head,
-                     const LasHeader& header)
-    : file_(path),
-      offset_to_points_(header.offset_to_points),
-      record_length_(header.record_length) {
-  if (wantsLaz(path))
-    laz_ = createLazWriter(file_.temporaryPath().string(), head, header, path.string());
-  else
-    file_.write(head.data(), head.size());
+void insertLaszipRecord(LasHead& head, const std::vector<std::byte>& vlr) {
+  head.bytes.insert(head.bytes.begin() + static_cast<std::ptrdiff_t>(head.vlrs_end), vlr.begin(),
+                    vlr.end());
+  head.header.offset_to_points += static_cast<std::uint32_t>(vlr.size());
+  head.header.vlr_count += 1;
+  storeChanged(head, true);
+}
+
+}  // namespace
+
+LasHead readLasHead(const LasFile& file) {
+  LasHead head;
+  head.header = file.header();
+  head.bytes.resize(head.header.offset_to_points);
+  file.readBytes(0, head.bytes.size(), head.bytes.data());
+  head.vlrs_end = head.header.header_size;
+  const LasVlrEntry* laszip = nullptr;
+  for (const LasVlrEntry& vlr : file.vlrs()) {
+    if (vlr.extended) continue;
+    head.vlrs_end = vlr.position + vlr.length;
+    if (vlr.user_id == kLaszipUser && vlr.record_id == kLaszipRecord) laszip = &vlr;
+  }
+  if (!head.header.compressed) return head;
+  head.header.compressed = false;
+  if (laszip != nullptr) {
+    const auto first = static_cast<std::ptrdiff_t>(laszip->position - kLasVlrHeader);
+    const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + laszip->length);
+    head.bytes.erase(head.bytes.begin() + first, head.bytes.begin() + first + size);
+    head.vlrs_end -= static_cast<std::size_t>(size);
+    head.header.offset_to_points -= static_cast<std::uint32_t>(size);
+    head.header.vlr_count -= 1;
+  }
+  storeChanged(head, false);
+  return head;
+}
+
+LasOutput::LasOutput(const std::filesystem::path& path, LasHead head)
+    : file_(path), record_length_(head.header.record_length) {
+  if (isLaz(path)) {
+    laz_ = makeLazWriter(head.header, path.string());
+    insertLaszipRecord(head, laz_->vlr());
+  }
+  offset_to_points_ = head.header.offset_to_points;
+  file_.write(head.bytes.data(), head.bytes.size());
+  if (laz_) laz_->begin(file_.temporaryPath().string(), offset_to_points_);
 }
 
 void LasOutput::append(const std::byte* records, std::size_t count) {
@@ -38,7 +81,7 @@ void LasOutput::putAt(std::uint64_t first, const std::byte* records, std::size_t
   file_.writeAt(offset_to_points_ + first * record_length_, records, count * record_length_);
 }
 
-std::uint64_t LasOutput::endOfPoints() {
+std::uint64_t LasOutput::endPoints() {
   if (laz_) laz_->finish();
   laz_.reset();
   struct stat status {};
@@ -46,15 +89,8 @@ std::uint64_t LasOutput::endOfPoints() {
   return static_cast<std::uint64_t>(status.st_size);
 }
 
-void LasOutput::finish(const LasHeader& header) {
-  endOfPoints();
-  // Only what became known at the end: LASzip has changed other fields of the header.
-  const std::vector<std::byte> bytes = serialiseLasHeader(header);
-  constexpr std::size_t counts = 107, counts_end = 131, tail = 235;
-  file_.writeAt(counts, &bytes[counts], counts_end - counts);
-  file_.writeAt(kLasBoxPosition, &bytes[kLasBoxPosition], 48);
-  if (header.version_minor >= 4) file_.writeAt(tail, &bytes[tail], 375 - tail);
-  file_.commit();
+void LasOutput::put(std::uint64_t position, const std::byte* bytes, std::size_t count) {
+  file_.writeAt(position, bytes, count);
 }
 
 }  // namespace pcl_als::detail

@@ -9,28 +9,37 @@
 #include <vector>
 
 #include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/las_header.h>
 
 #include "laz.h"
 
 namespace pcl_als::detail {
 
+/// What comes before the points of a plain LAS file: header block, VLRs, bytes between.
+struct LasHead {
+  std::vector<std::byte> bytes;
+  LasHeader header;
+  std::size_t vlrs_end = 0;  ///< where the VLRs end in `bytes`
+};
+
+/// The head of an existing file; of a compressed one as if it were plain.
+LasHead readLasHead(const LasFile& file);
+
 /// Plain or compressed (by extension .laz) point records into an AtomicFile.
 class LasOutput {
  public:
-  /// \param head header block, VLRs and the bytes between them and the points, as in plain LAS
-  LasOutput(const std::filesystem::path& path, const std::vector<std::byte>& head,
-            const LasHeader& header);
+  LasOutput(const std::filesystem::path& path, LasHead head);
 
   void append(const std::byte* records, std::size_t count);
   /// Plain LAS only: records at an index; by several threads at once.
   void putAt(std::uint64_t first, const std::byte* records, std::size_t count);
   bool compressed() const { return laz_ != nullptr; }
-  AtomicFile& file() { return file_; }
-  std::uint64_t endOfPoints();  ///< ends the points (of a compressed file); where the file ends now
+  std::uint64_t endPoints();  ///< no more points; the position behind the last
 
-  /// Stores counts and bounding box of \a header and makes the file appear.
-  void finish(const LasHeader& header);
+  /// Bytes at a position of the file, behind the points or in the header.
+  void put(std::uint64_t position, const std::byte* bytes, std::size_t count);
+  void commit() { file_.commit(); }
 
  private:
   AtomicFile file_;
@@ -38,7 +47,5 @@ class LasOutput {
   std::uint64_t offset_to_points_;
   std::size_t record_length_;
 };
-
-bool wantsLaz(const std::filesystem::path& path);
 
 }  // namespace pcl_als::detail

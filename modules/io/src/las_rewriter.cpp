@@ -15,7 +15,7 @@ namespace {
 
 // Blocks of about 1 MiB stay in the second-level cache from reading to writing.
 constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
-constexpr std::size_t kBoxBytes = 48;
+constexpr std::size_t kBoxBytes = 48, kWaveformStart = 227, kEvlrStart = 235;
 
 /// Boxes before and after the edit, merged over blocks; the order does not matter.
 struct Boxes {
@@ -36,7 +36,7 @@ class Rewrite {
         edit_(edit),
         header_(input.header()),
         per_block_(std::max<std::size_t>(1, kBlockBytes / header_.record_length)),
-        output_(output, readHead(), header_) {}
+        output_(output, detail::readLasHead(input)) {}
 
   LasRewriteResult run(int threads) {
     const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
@@ -48,17 +48,11 @@ class Rewrite {
     result.points = header_.point_count;
     result.box_changed = !(boxes_.before == boxes_.after);
     if (result.box_changed) storeBox();
-    output_.file().commit();
+    output_.commit();
     return result;
   }
 
  private:
-  std::vector<std::byte> readHead() const {
-    std::vector<std::byte> head(header_.offset_to_points);
-    input_.readBytes(0, head.size(), head.data());
-    return head;
-  }
-
   void rewriteBlock(std::size_t block) {
     thread_local std::vector<std::byte> buffer;
     const std::uint64_t first = block * per_block_;
@@ -76,23 +70,44 @@ class Rewrite {
       output_.putAt(first, buffer.data(), count);
   }
 
+  /// Where the bytes behind the points begin. Behind compressed points only what the header points
+  /// at can be told from LASzip's own tables.
+  std::uint64_t tailOfInput() const {
+    if (!header_.compressed)
+      return header_.offset_to_points + header_.point_count * header_.record_length;
+    std::uint64_t tail = input_.fileSize();
+    if (header_.evlr_count > 0) tail = std::min(tail, header_.evlr_start);
+    if (header_.waveform_start > header_.offset_to_points)
+      tail = std::min(tail, header_.waveform_start);
+    return tail;
+  }
+
   /// Everything behind the points: EVLRs, waveform packets, unknown bytes.
   void copyTail() {
-    std::uint64_t at = header_.offset_to_points + header_.point_count * header_.record_length;
+    const std::uint64_t from = tailOfInput(), to = output_.endPoints();
     std::vector<std::byte> buffer(kBlockBytes);
-    while (at < input_.fileSize()) {
+    for (std::uint64_t at = from; at < input_.fileSize();) {
       const std::size_t bytes = std::min<std::uint64_t>(buffer.size(), input_.fileSize() - at);
       input_.readBytes(at, bytes, buffer.data());
-      output_.file().writeAt(at, buffer.data(), bytes);
+      output_.put(to + (at - from), buffer.data(), bytes);
       at += bytes;
     }
+    if (from == to) return;
+    if (header_.version_minor >= 3 && header_.waveform_start >= from)
+      movePosition(kWaveformStart, header_.waveform_start + (to - from));
+    if (header_.version_minor >= 4 && header_.evlr_count > 0)
+      movePosition(kEvlrStart, header_.evlr_start + (to - from));
+  }
+
+  void movePosition(std::size_t field, std::uint64_t position) {
+    output_.put(field, reinterpret_cast<const std::byte*>(&position), sizeof position);
   }
 
   void storeBox() {
     LasHeader changed = header_;
     boxes_.after.store(changed);
     const std::vector<std::byte> bytes = serialiseLasHeader(changed);
-    output_.file().writeAt(kLasBoxPosition, &bytes[kLasBoxPosition], kBoxBytes);
+    output_.put(kLasBoxPosition, &bytes[kLasBoxPosition], kBoxBytes);
   }
 
   const LasFile& input_;

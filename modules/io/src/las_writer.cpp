@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <limits>
@@ -20,7 +21,6 @@ struct LasWriter::State {
   LasHeader header;
   LasRecordLayout layout;
   std::vector<LasExtraField> extra_fields;
-  std::vector<LasVlr> vlrs;
   detail::LasTally tally;
   std::vector<std::byte> buffer;
   std::optional<detail::LasOutput> output;
@@ -28,6 +28,7 @@ struct LasWriter::State {
 
 namespace {
 
+constexpr std::size_t kLegacyCounts = 107, kLegacyCountsEnd = 131, kCounts = 247, kCountsEnd = 375;
 constexpr int kMostFormat[] = {1, 1, 3, 5, 10};
 
 void checkOptions(const LasWriterOptions& options) {
@@ -65,16 +66,10 @@ void stampDate(LasHeader& header) {
   header.creation_year = static_cast<std::uint16_t>(date.tm_year + 1900);
 }
 
-bool hasWkt(const std::vector<LasVlr>& vlrs) {
-  for (const LasVlr& vlr : vlrs)
-    if (vlr.user_id == "LASF_Projection" && vlr.record_id == 2112) return true;
-  return false;
-}
-
-bool hasGeoKeys(const std::vector<LasVlr>& vlrs) {
-  for (const LasVlr& vlr : vlrs)
-    if (vlr.user_id == "LASF_Projection" && vlr.record_id == 34735) return true;
-  return false;
+bool hasCrsRecord(const std::vector<LasVlr>& vlrs, std::uint16_t id) {
+  return std::any_of(vlrs.begin(), vlrs.end(), [id](const LasVlr& vlr) {
+    return vlr.user_id == "LASF_Projection" && vlr.record_id == id;
+  });
 }
 
 std::vector<LasVlr> collectVlrs(const LasWriterOptions& options,
@@ -94,7 +89,8 @@ LasHeader makeHeader(const LasWriterOptions& options, const std::vector<LasVlr>&
   if (options.time_kind == TimeKind::adjusted_standard)
     h.global_encoding |= kLasAdjustedStandardTime;
   // Formats 6-10 have to declare WKT, even where no CRS is known.
-  if (hasWkt(vlrs) || (options.point_format >= 6 && !hasGeoKeys(vlrs)))
+  if (hasCrsRecord(vlrs, detail::kWktRecord) ||
+      (options.point_format >= 6 && !hasCrsRecord(vlrs, detail::kGeoKeyRecord)))
     h.global_encoding |= kLasWkt;
   h.system_id = options.system_id;
   h.generating_software = options.generating_software;
@@ -119,16 +115,17 @@ LasWriter::LasWriter(const std::filesystem::path& path, const LasWriterOptions& 
   s.layout = LasRecordLayout::of(options.point_format);
   s.extra_fields = options.extra_fields;
   const std::uint16_t length = placeExtraFields(s.layout, s.extra_fields);
-  s.vlrs = collectVlrs(options, s.extra_fields);
+  const std::vector<LasVlr> vlrs = collectVlrs(options, s.extra_fields);
   std::vector<std::byte> vlr_bytes;
-  for (const LasVlr& vlr : s.vlrs) {
+  for (const LasVlr& vlr : vlrs) {
     const std::vector<std::byte> bytes = serialiseLasVlr(vlr);
     vlr_bytes.insert(vlr_bytes.end(), bytes.begin(), bytes.end());
   }
-  s.header = makeHeader(options, s.vlrs, vlr_bytes.size(), length);
-  std::vector<std::byte> head = serialiseLasHeader(s.header);
-  head.insert(head.end(), vlr_bytes.begin(), vlr_bytes.end());
-  s.output.emplace(path, head, s.header);
+  s.header = makeHeader(options, vlrs, vlr_bytes.size(), length);
+  detail::LasHead head{serialiseLasHeader(s.header), s.header, 0};
+  head.bytes.insert(head.bytes.end(), vlr_bytes.begin(), vlr_bytes.end());
+  head.vlrs_end = head.bytes.size();
+  s.output.emplace(path, std::move(head));
 }
 
 LasWriter::~LasWriter() = default;
@@ -179,7 +176,16 @@ void LasWriter::finish() {
       s.header.point_count > std::numeric_limits<std::uint32_t>::max())
     throw InputError(s.name + ": LAS 1." + std::to_string(s.header.version_minor) +
                      " cannot hold more than 4294967295 points; use LAS 1.4");
-  s.output->finish(s.header);
+  s.output->endPoints();
+  // Only what became known at the end: LASzip may have changed other fields of the header.
+  const std::vector<std::byte> bytes = serialiseLasHeader(s.header);
+  const auto put = [&](std::size_t begin, std::size_t end) {
+    s.output->put(begin, &bytes[begin], end - begin);
+  };
+  put(kLegacyCounts, kLegacyCountsEnd);
+  put(kLasBoxPosition, kLasBoxPosition + 48);
+  if (s.header.version_minor >= 4) put(kCounts, kCountsEnd);
+  s.output->commit();
 }
 
 }  // namespace pcl_als

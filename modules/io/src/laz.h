@@ -23,10 +23,13 @@ class LazReader {
   virtual void read(std::uint64_t first, std::size_t count, std::byte* out) = 0;
 };
 
-/// Packed records compressed into a file that LASzip creates; finish() closes it.
+/// Packed records compressed into an existing file, from begin() on.
 class LazWriter {
  public:
   virtual ~LazWriter() = default;
+  /// The VLR (header and payload) that the file needs among its others.
+  virtual std::vector<std::byte> vlr() = 0;
+  virtual void begin(const std::string& path, std::uint64_t offset_to_points) = 0;
   virtual void write(const std::byte* records, std::size_t count) = 0;
   virtual void finish() = 0;
 };
@@ -35,10 +38,6 @@ bool lazSupported();
 /// \param name for messages. InputError without LASzip support, telling how to get it.
 std::unique_ptr<LazReader> openLazReader(const std::string& path, const LasHeader& header,
                                          const std::string& name);
-/** \param head header block, VLRs and the bytes between them and the points, as in plain LAS; what
- * follows the points (EVLRs) is the caller's to append. */
-std::unique_ptr<LazWriter> createLazWriter(const std::string& path,
-                                           const std::vector<std::byte>& head,
-                                           const LasHeader& header, const std::string& name);
+std::unique_ptr<LazWriter> makeLazWriter(const LasHeader& header, const std::string& name);
 
 }  // namespace pcl_als::detail

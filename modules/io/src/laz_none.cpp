@@ -26,8 +26,7 @@ std::unique_ptr<LazReader> openLazReader(const std::string&, const LasHeader&,
   refuse(name);
 }
 
-std::unique_ptr<LazWriter> createLazWriter(const std::string&, const std::vector<std::byte>&,
-                                           const LasHeader&, const std::string& name) {
+std::unique_ptr<LazWriter> makeLazWriter(const LasHeader&, const std::string& name) {
   refuse(name);
 }
 
