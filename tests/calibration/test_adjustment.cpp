@@ -17,8 +17,8 @@ using P = SystemParameter;
 const std::vector<P> kSix{P::lever_arm_x,    P::lever_arm_y,       P::boresight_pitch,
                           P::boresight_roll, P::boresight_heading, P::scan_angle_scale};
 
-TrajectoryErrorModel model(double correlation_time = 30.0) {
-  TrajectoryErrorModel errors;
+SharedErrorModel model(double correlation_time = 30.0) {
+  SharedErrorModel errors;
   errors.correlation_time = correlation_time;
   return errors;
 }
@@ -63,8 +63,8 @@ SystemVector someBiases() {
   return biases;
 }
 
-TEST(TrajectoryErrors, PriorIsTheGaussMarkovCovariance) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 105.0}}, model());
+TEST(SharedErrors, PriorIsTheGaussMarkovCovariance) {
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 105.0}}, model());
   ASSERT_EQ(errors.knotCount(), 4 + 2);  // 25 s at 10 s: three steps of 8.33 s; 5 s: one step
   const Eigen::MatrixXd covariance = Eigen::MatrixXd(errors.priorInformation()).inverse();
   const double step = 25.0 / 3.0;
@@ -75,8 +75,8 @@ TEST(TrajectoryErrors, PriorIsTheGaussMarkovCovariance) {
   EXPECT_NEAR(covariance(5, 5), std::pow(16.0 * kRadiansPerArcsec, 2), 1e-20);
 }
 
-TEST(TrajectoryErrors, PlacesTimesBetweenKnots) {
-  const TrajectoryErrors errors({{0.0, 20.0}, {50.0, 50.0}}, model());
+TEST(SharedErrors, PlacesTimesBetweenKnots) {
+  const SharedErrors errors({{0.0, 20.0}, {50.0, 50.0}}, model());
   const auto inside = errors.placeOf(0, 12.5);
   EXPECT_EQ(inside.knot, 1);
   EXPECT_EQ(inside.next_knot, 2);
@@ -85,14 +85,14 @@ TEST(TrajectoryErrors, PlacesTimesBetweenKnots) {
   EXPECT_EQ(errors.placeOf(1, 50.0).knot, errors.placeOf(1, 50.0).next_knot);
 }
 
-TEST(TrajectoryErrors, RefusesAnImpossibleModel) {
-  TrajectoryErrorModel errors;
+TEST(SharedErrors, RefusesAnImpossibleModel) {
+  SharedErrorModel errors;
   errors.heading = 0.0;
   EXPECT_THROW(errors.validate(), UsageError);
 }
 
 TEST(Adjustment, RecoversBiasesFromExactObservations) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.0, 1);
   const auto weights = unitWeights(areas);
   Adjustment adjustment(errors);
@@ -106,7 +106,7 @@ TEST(Adjustment, RecoversBiasesFromExactObservations) {
 
 /// All unknowns in one dense normal matrix: what the elimination must be equal to.
 TEST(Adjustment, EqualsTheDenseSolution) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.02, 2);
   const auto weights = unitWeights(areas);
   const int unknowns = 8 + errors.unknowns();
@@ -148,13 +148,13 @@ TEST(Adjustment, EqualsTheDenseSolution) {
     EXPECT_GE(std::sqrt(solution.covariance(indexOf(p), indexOf(p))), std * (1.0 - 1e-6));
     EXPECT_LT(std::sqrt(solution.formal(indexOf(p), indexOf(p))), std);
   }
-  EXPECT_LT((solution.trajectory_errors - expected.tail(errors.unknowns())).norm(),
+  EXPECT_LT((solution.shared - expected.tail(errors.unknowns())).norm(),
             1e-6 * expected.tail(errors.unknowns()).norm());
 }
 
 /// Two hundred blocks of white noise: the estimates scatter as the covariance says.
 TEST(Adjustment, ScattersAsItsCovarianceSays) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   constexpr int kBlocks = 200;
   SystemVector squares = SystemVector::Zero();
   for (int block = 0; block < kBlocks; ++block) {
@@ -174,7 +174,7 @@ TEST(Adjustment, ScattersAsItsCovarianceSays) {
 }
 
 TEST(Adjustment, HoldsWhatIsNotEstimated) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.0, 3);
   const auto weights = unitWeights(areas);
   Adjustment adjustment(errors);
@@ -192,7 +192,7 @@ TEST(Adjustment, HoldsWhatIsNotEstimated) {
 }
 
 TEST(Adjustment, DoesNotDependOnTheNumberOfThreads) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.02, 4);
   const auto weights = unitWeights(areas);
   Adjustment one(errors, 1), eight(errors, 8);
@@ -203,7 +203,7 @@ TEST(Adjustment, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(ParameterChoice, DropsWhatTheObservationsDoNotSee) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   auto areas = simulated(someBiases(), 0.0, 5);
   for (AreaObservations& area : areas) {
     for (PairObservation& o : area)
@@ -221,7 +221,7 @@ TEST(ParameterChoice, DropsWhatTheObservationsDoNotSee) {
 }
 
 TEST(ParameterChoice, OfTwoThatLookAlikeTheLeverArmGoes) {
-  const TrajectoryErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   auto areas = simulated(someBiases(), 0.02, 6);
   for (AreaObservations& area : areas) {
     for (PairObservation& o :

@@ -17,14 +17,16 @@ constexpr double kGentle =
     0.26;  // radians: slopes on which the roughness of plain ground is measured
 constexpr int kAspects = 8;
 constexpr std::array<double, 3> kSlopeSteps{0.087, 0.26, 0.52};  // radians: 5, 15, 30 degrees
+constexpr std::size_t kClasses = 1 + kSlopeSteps.size() * kAspects;
 
 /// Class of a surface's orientation: 0 for flat, then slope step times aspect.
-int orientationClass(const Eigen::Vector3d& normal) {
+std::size_t orientationClass(const Eigen::Vector3d& normal) {
   const double slope = std::atan2(std::hypot(normal.x(), normal.y()), normal.z());
   if (slope < kSlopeSteps[0]) return 0;
   const int step = slope < kSlopeSteps[1] ? 0 : slope < kSlopeSteps[2] ? 1 : 2;
   const double turn = (std::atan2(normal.y(), normal.x()) + kPi) / (2.0 * kPi);
-  return 1 + step * kAspects + std::min(kAspects - 1, static_cast<int>(turn * kAspects));
+  return static_cast<std::size_t>(1 + step * kAspects +
+                                  std::min(kAspects - 1, static_cast<int>(turn * kAspects)));
 }
 
 /// How many to take of each class so that they are as even as the classes allow and the sum is at
@@ -88,17 +90,36 @@ bool AreaMatcher::acceptable(const StripPart& part, const PatchQuality& quality)
          quality.vertices >= limits_.minimum_vertices;
 }
 
+std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const StripPart& part) const {
+  std::vector<std::vector<std::int32_t>> classes(kClasses);
+  std::vector<bool> seen(part.biased.size(), false);
+  const auto& triangles = part.surface.tin().triangles();
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::int32_t point = triangles[t].vertex[0];
+    if (seen[point] || !part.single[point] || !area_.contains(part.biased[point])) continue;
+    seen[point] = true;
+    const auto triangle = static_cast<std::int32_t>(t);
+    classes[orientationClass(part.surface.normal(triangle))].push_back(triangle);
+  }
+  return classes;
+}
+
 void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
-  std::vector<std::vector<std::int32_t>> classes(1 + kSlopeSteps.size() * kAspects);
-  std::int32_t hint = Tin::kNone;
-  for (std::size_t i = 0; i < part.biased.size(); ++i) {
-    if (!part.single[i] || !area_.contains(part.biased[i])) continue;
-    hint = part.surface.tin().locate(part.biased[i].x(), part.biased[i].y(), hint);
-    if (hint == Tin::kNone) continue;
-    const PatchQuality quality = part.surface.quality(hint);
-    if (!acceptable(part, quality)) continue;
-    classes[static_cast<std::size_t>(orientationClass(quality.plane_normal))].push_back(
-        static_cast<std::int32_t>(i));
+  // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
+  // is there.
+  constexpr std::size_t kLooks = 4;
+  const auto rough = trianglesByClass(part);
+  std::vector<std::vector<std::int32_t>> classes(kClasses);
+  const std::vector<std::size_t> looks = evenShares(rough, kLooks * count);
+  for (std::size_t c = 0; c < rough.size(); ++c) {
+    for (std::size_t k = 0; k < looks[c]; ++k) {
+      const std::int32_t triangle = rough[c][k * rough[c].size() / looks[c]];
+      const PatchQuality quality = part.surface.quality(triangle);
+      if (!acceptable(part, quality)) continue;
+      classes[orientationClass(quality.plane_normal)].push_back(
+          part.surface.tin().triangles()[triangle].vertex[0]);
+      if (quality.slope < kGentle) part.roughness.push_back(quality.roughness);
+    }
   }
   const std::vector<std::size_t> shares = evenShares(classes, count);
   part.candidates.clear();
@@ -112,12 +133,7 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
 
 void AreaMatcher::collectRoughness(std::vector<double>& values) const {
   for (const StripPart& part : strips_) {
-    for (const std::int32_t i : part.candidates) {
-      const std::int32_t triangle =
-          part.surface.tin().locate(part.biased[i].x(), part.biased[i].y());
-      const PatchQuality quality = part.surface.quality(triangle);
-      if (quality.slope < kGentle) values.push_back(quality.roughness);
-    }
+    values.insert(values.end(), part.roughness.begin(), part.roughness.end());
   }
 }
 
@@ -147,6 +163,8 @@ class AreaMatcher::PointGeometry {
     const ScanGeometry geometry = scanGeometry(line_, position);
     design = designBlock(geometry);
     covariance = noise_.pointCovariance(geometry);
+    beam = Eigen::Vector3d(-geometry.sin_beta * geometry.cos_kappa,
+                           -geometry.sin_beta * geometry.sin_kappa, -geometry.cos_beta);
     lateral = std::abs(geometry.x);
     height = std::abs(geometry.z);
     return true;
@@ -166,6 +184,7 @@ class AreaMatcher::PointGeometry {
       design += weight * vertex.design;
       covariance += weight * weight * vertex.covariance;
     }
+    beam = vertex.beam;
     lateral = vertex.lateral;
     height = vertex.height;
     return true;
@@ -175,7 +194,16 @@ class AreaMatcher::PointGeometry {
   Eigen::Vector3d position;  ///< uncorrected
   DesignBlock design;
   Eigen::Matrix3d covariance;
+  Eigen::Vector3d beam;  ///< unit, downward
   double lateral = 0.0, height = 0.0;
+
+  /// Effect on the normal distance of the pulse's stretch over the footprint, n'u range divergence
+  /// tan(incidence).
+  double stretch(const Eigen::Vector3d& normal) const {
+    const double cosine = -normal.dot(beam);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    return -std::hypot(lateral, height) * noise_.beam_divergence * sine;
+  }
 
  private:
   const Trajectory& trajectory_;
@@ -213,6 +241,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position);
       observation.variance = normalVariance(point.covariance + foot.covariance, observation.normal);
+      observation.stretch = point.stretch(observation.normal) - foot.stretch(observation.normal);
       found.push_back(observation);
     }
   }
@@ -240,6 +269,7 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.normal = quality.plane_normal;
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position);
+      observation.stretch = -foot.stretch(observation.normal);
       const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
       const double up = observation.normal.z();
       observation.variance =

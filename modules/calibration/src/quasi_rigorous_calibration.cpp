@@ -41,7 +41,7 @@ struct QuasiRigorousCalibration::State {
   using Group =
       std::pair<int, int>;  // strips of an observation, smaller first; kControl first for control
 
-  explicit State(const TrajectoryErrors& errors, int threads) : adjustment(errors, threads) {}
+  explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
 
   static Group groupOf(const PairObservation& o) {
     return {std::min(o.a, o.b), std::max(o.a, o.b)};
@@ -54,6 +54,7 @@ struct QuasiRigorousCalibration::State {
 
   Adjustment adjustment;
   ParameterChoice choice;
+  bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   std::vector<std::vector<double>> weights;  ///< robust weight / noise scale^2
@@ -67,7 +68,7 @@ QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Traject
                                                    const Eigen::Vector2d& anchor)
     : trajectory_(std::move(trajectory)), settings_(settings), map_(anchor) {
   settings_.noise.validate();
-  settings_.trajectory_errors.validate();
+  settings_.shared_errors.validate();
 }
 
 int QuasiRigorousCalibration::addStrip(const std::string& id) {
@@ -257,6 +258,8 @@ void QuasiRigorousCalibration::adjust(State& state) const {
     state.adjustment.accumulate(state.observations, state.weights);
     state.choice =
         chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
+    if (pass > 0 || !state.levels_open || state.choice.estimate.empty()) continue;
+    state.adjustment.setLevels(mostLikelyLevels(state.adjustment, state.choice.estimate));
   }
   weigh(state);
 }
@@ -303,12 +306,14 @@ void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
 
 void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
+  // The levels need residuals near their final size, and must rest for the iteration to converge.
+  state.levels_open = result.iterations.size() == 1 || result.iterations.size() == 2;
   adjust(state);
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
   result.iterations.push_back({state.observationCount(), state.sigma0, effect});
   if (progress_) progress_(result.iterations.back());
-  result.converged = result.iterations.size() > 1 && effect < settings_.convergence;
+  result.converged = result.iterations.size() > 3 && effect < settings_.convergence;
   parallelFor(matchers_.size(), settings_.threads,
               [&](std::size_t i) { matchers_[i].correct(*trajectory_, biases); });
   shrinkThreshold(state);
@@ -322,9 +327,9 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
     spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
                              : std::pair(0.0, 0.0));
   }
-  const TrajectoryErrors errors(spans, settings_.trajectory_errors);
+  const SharedErrors errors(spans, settings_.shared_errors);
   State state(errors, settings_.threads);
-  state.choice.solution.trajectory_errors = Eigen::VectorXd::Zero(errors.unknowns());
+  state.choice.solution.shared = Eigen::VectorXd::Zero(errors.unknowns());
   state.threshold = settings_.max_normal_distance;
   CalibrationReport report(ids_, control_.empty());
   CalibrationResult result;

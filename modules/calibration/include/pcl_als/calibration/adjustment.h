@@ -2,12 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <pcl_als/calibration/pair_observation.h>
-#include <pcl_als/calibration/trajectory_errors.h>
+#include <pcl_als/calibration/shared_errors.h>
 
 namespace pcl_als {
 
@@ -15,16 +16,16 @@ namespace pcl_als {
 struct AdjustmentSolution {
   bool solved = false;  ///< false: the normal matrix is singular for the chosen parameters
   SystemVector biases = SystemVector::Zero();
-  SystemMatrix formal = SystemMatrix::Zero();  ///< Eq. (26): pairs independent, trajectory exact
+  SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): pairs independent, nothing shared
   SystemMatrix covariance = SystemMatrix::Zero();  ///< the honest one, see Adjustment
-  Eigen::VectorXd trajectory_errors;               ///< by knot: east north up pitch roll heading
+  Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
 };
 
-/** \brief Modified least squares adjustment (Habib et al. 2011, Eqs. (25), (26)) with trajectory
- * errors as nuisance.
+/** \brief Modified least squares adjustment (Habib et al. 2011, Eqs. (25), (26)) with shared errors
+ * as nuisance.
  *
  * Every pair is one equation n'(y - A delta) = n'(t_A - t_B) + e of weight w / variance, where t
- * are the errors of the two strips' trajectories. They are eliminated from the normal equations
+ * are the errors that the points of a strip share. They are eliminated from the normal equations
  * (sparse: overlapping strips, neighbouring knots), which leaves N delta = h for the eight
  * parameters.
  *
@@ -35,38 +36,57 @@ struct AdjustmentSolution {
  */
 class Adjustment {
  public:
-  explicit Adjustment(const TrajectoryErrors& errors, int threads = 0);
+  explicit Adjustment(const SharedErrors& errors, int threads = 0);
+  ~Adjustment();
 
   /// \param weights one for every observation of every area: robust weight / noise scale^2. Both
   /// must outlive solve().
   void accumulate(const std::vector<AreaObservations>& areas,
                   const std::vector<std::vector<double>>& weights);
+  void setLevels(const SharedErrorLevels& levels);
+  const SharedErrorLevels& levels() const { return levels_; }
+
+  /// -2 ln of the likelihood that the observations have these levels of shared errors (restricted:
+  /// whatever the values of the parameters in \a estimate); a constant is left out. Infinite where
+  /// the parameters cannot be solved for.
+  double deviance(const SharedErrorLevels& levels,
+                  const std::vector<SystemParameter>& estimate) const;
 
   /// Solves for the parameters in \a estimate; the others are held at their value in \a held.
   AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
                            const SystemVector& held) const;
 
-  /// N of all eight parameters with the trajectory errors eliminated (internal units): what the
-  /// data determine.
-  const SystemMatrix& reducedNormal() const { return reduced_normal_; }
+  /// N of all eight parameters with the shared errors eliminated (internal units): what the data
+  /// determine.
+  const SystemMatrix& reducedNormal() const;
 
   /// What a solution leaves of an observation's misclosure, metres.
   double residual(const PairObservation& observation, const AdjustmentSolution& solution) const;
 
  private:
-  using Gradient = Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount>;
+  struct Normal;   // the whole system
+  struct Reduced;  // the shared errors eliminated
 
-  Eigen::VectorXd trajectoryErrorsOf(const SystemVector& biases) const;
+  Reduced reduce(const SharedErrorLevels& levels) const;
   SystemMatrix scoreScatter(const AdjustmentSolution& solution) const;
 
-  const TrajectoryErrors& errors_;
+  const SharedErrors& errors_;
   int threads_;
+  SharedErrorLevels levels_;
   const std::vector<AreaObservations>* areas_ = nullptr;
   const std::vector<std::vector<double>>* weights_ = nullptr;
-  SystemMatrix normal_, reduced_normal_, prior_share_;
-  SystemVector right_side_, reduced_right_side_;
-  Gradient elimination_;              ///< N_tt^-1 N_tg, unknowns x 8
-  Eigen::VectorXd eliminated_right_;  ///< N_tt^-1 h_t
+  std::unique_ptr<Normal> normal_;
+  std::unique_ptr<Reduced> reduced_;
 };
+
+/** \brief The levels of shared errors that the observations show best (restricted maximum
+ * likelihood).
+ *
+ * Searched by powers of two between 1/4096 and 8 times the model's variances, one kind after the
+ * other until none changes. The model counts as one observation of each level, right within a
+ * factor of e^2: where the observations say nothing, it stays.
+ */
+SharedErrorLevels mostLikelyLevels(const Adjustment& adjustment,
+                                   const std::vector<SystemParameter>& estimate);
 
 }  // namespace pcl_als

@@ -67,11 +67,14 @@ class AreaMatcher {
     std::vector<bool> single;
     PatchSurface surface;
     std::vector<std::int32_t> candidates;
-    double longest_edge = 0.0;  ///< metres, limit
+    std::vector<double> roughness;  ///< metres, of the neighbourhoods looked at on gentle slopes
+    double longest_edge = 0.0;      ///< metres, limit
   };
   class PointGeometry;
 
   bool acceptable(const StripPart& part, const PatchQuality& quality) const;
+  /// Triangles with their first vertex inside the area, one for every vertex, by orientation.
+  std::vector<std::vector<std::int32_t>> trianglesByClass(const StripPart& part) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
   CalibrationArea area_;

@@ -13,7 +13,7 @@ namespace pcl_als {
  * The covariance of a ground point is built in the frame of its pulse: range noise along the beam,
  * pointing noise times range across it, the footprint's share of it where the surface is not
  * perpendicular to the beam, and the short-term noise of the trajectory in all directions. What a
- * strip's points share (slow trajectory errors) is not noise: see TrajectoryErrorModel.
+ * strip's points share (slow trajectory errors) is not noise: see SharedErrorModel.
  */
 struct NoiseModel {
   double range = 0.02;  ///< metres, standard deviation along the beam

@@ -28,6 +28,7 @@ struct PairObservation {
   Eigen::Vector3d normal;               ///< unit, upward, ground frame
   double misclosure = 0.0;              ///< n'(X_A - X_B) of the uncorrected coordinates, metres
   double variance = 0.0;                ///< n' Sigma n of the discrepancy, m^2
+  double stretch = 0.0;  ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 

@@ -11,8 +11,8 @@
 
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/calibration/survey_map.h>
-#include <pcl_als/calibration/trajectory_errors.h>
 #include <pcl_als/common/calibration_result.h>
 
 namespace pcl_als {
@@ -22,7 +22,7 @@ namespace pcl_als {
 struct CalibrationSettings {
   std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
   NoiseModel noise;
-  TrajectoryErrorModel trajectory_errors;
+  SharedErrorModel shared_errors;
   DeterminationLimits limits;
   PatchLimits patches;
   SurveyMap::Selection selection;

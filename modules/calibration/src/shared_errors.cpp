@@ -4,18 +4,19 @@
 #include <cmath>
 #include <sstream>
 
-#include <pcl_als/calibration/trajectory_errors.h>
+#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/errors.h>
 
 namespace pcl_als {
 
-void TrajectoryErrorModel::validate() const {
+void SharedErrorModel::validate() const {
   const std::pair<const char*, double> values[] = {
       {"trajectory position sigma (m)", position},
       {"trajectory roll and pitch sigma (rad)", roll_pitch},
       {"trajectory heading sigma (rad)", heading},
       {"trajectory correlation time (s)", correlation_time},
-      {"trajectory knot spacing (s)", knot_spacing}};
+      {"trajectory knot spacing (s)", knot_spacing},
+      {"ranging share", ranging_incidence}};
   for (const auto& [name, value] : values) {
     if (std::isfinite(value) && value > 0.0) continue;
     std::ostringstream text;
@@ -24,8 +25,8 @@ void TrajectoryErrorModel::validate() const {
   }
 }
 
-TrajectoryErrors::TrajectoryErrors(const std::vector<std::pair<double, double>>& spans,
-                                   const TrajectoryErrorModel& model)
+SharedErrors::SharedErrors(const std::vector<std::pair<double, double>>& spans,
+                           const SharedErrorModel& model)
     : model_(model) {
   model_.validate();
   for (const auto& [start, end] : spans) {
@@ -41,7 +42,7 @@ TrajectoryErrors::TrajectoryErrors(const std::vector<std::pair<double, double>>&
   }
 }
 
-TrajectoryErrors::Place TrajectoryErrors::placeOf(int index, double time) const {
+SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
   const StripKnots& strip = strips_[static_cast<std::size_t>(index)];
   if (strip.count == 1) return {strip.first, strip.first, 0.0};
   const double at =
@@ -50,14 +51,17 @@ TrajectoryErrors::Place TrajectoryErrors::placeOf(int index, double time) const 
   return {strip.first + knot, strip.first + knot + 1, at - knot};
 }
 
-Eigen::SparseMatrix<double> TrajectoryErrors::priorInformation() const {
-  const double sigmas[kPerKnot] = {model_.position,   model_.position,   model_.position,
-                                   model_.roll_pitch, model_.roll_pitch, model_.heading};
+Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
+  const double position = model_.position * model_.position * levels.position;
+  const double roll_pitch = model_.roll_pitch * model_.roll_pitch * levels.roll_pitch;
+  const double heading = model_.heading * model_.heading * levels.heading;
+  const double variances[kPerKnot] = {position,   position,   position,
+                                      roll_pitch, roll_pitch, heading};
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int row_knot, int column_knot, double factor) {
     for (int i = 0; i < kPerKnot; ++i) {
       entries.emplace_back(row_knot * kPerKnot + i, column_knot * kPerKnot + i,
-                           factor / (sigmas[i] * sigmas[i]));
+                           factor / variances[i]);
     }
   };
   for (const StripKnots& strip : strips_) {
@@ -71,6 +75,11 @@ Eigen::SparseMatrix<double> TrajectoryErrors::priorInformation() const {
       add(strip.first + k, strip.first + k + 1, -scale * rho);
       add(strip.first + k + 1, strip.first + k, -scale * rho);
     }
+  }
+  for (int i = 0; i < kPerKnot; ++i) {
+    const int at = instrumentBlock() * kPerKnot + i;
+    entries.emplace_back(
+        at, at, i == 0 ? 1.0 / (model_.ranging_incidence * model_.ranging_incidence) : 1.0);
   }
   Eigen::SparseMatrix<double> information(unknowns(), unknowns());
   information.setFromTriplets(entries.begin(), entries.end());

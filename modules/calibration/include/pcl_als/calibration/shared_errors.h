@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <pcl_als/common/system_parameters.h>
+
+namespace pcl_als {
+
+/** \brief What observations may be wrong by together: errors that do not average out over a strip's
+ * points.
+ *
+ * Trajectory: each of six errors of a strip (east, north, up; pitch, roll, heading about the flight
+ * line) is a stationary Gauss-Markov process with the given standard deviation and correlation
+ * exp(-|dt| / correlation_time). Strips are independent. Defaults: post-processed survey-grade
+ * GNSS/INS.
+ *
+ * Ranging: a pulse that meets a surface at incidence theta comes back stretched over d = range *
+ * divergence * tan(theta), and what the instrument calls its time shifts with it, by an unknown
+ * share of d common to all points.
+ */
+struct SharedErrorModel {
+  double position = 0.02;                       ///< metres, each axis
+  double roll_pitch = 8.0 * kRadiansPerArcsec;  ///< radians
+  double heading = 16.0 * kRadiansPerArcsec;    ///< radians
+  double correlation_time = 30.0;               ///< seconds
+  double knot_spacing =
+      10.0;  ///< seconds, at most, between knots of the linear splines used for the trajectory
+  double ranging_incidence = 0.1;  ///< share of the stretch d
+
+  void validate() const;  ///< UsageError naming a value that is not positive and finite
+};
+
+/// How much of the model's variance the observations show, by kind of trajectory error.
+struct SharedErrorLevels {
+  double position = 1.0, roll_pitch = 1.0, heading = 1.0;
+};
+
+/// The unknowns of the model: six at every knot of every strip (linear in time between knots), then
+/// one block of six for the instrument, of which the first is the ranging share and the others are
+/// unused.
+class SharedErrors {
+ public:
+  static constexpr int kPerKnot = 6;
+
+  /// \param spans first and last firing time of every strip, seconds
+  SharedErrors(const std::vector<std::pair<double, double>>& spans, const SharedErrorModel& model);
+
+  int knotCount() const { return knot_count_; }
+  int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
+  int unknowns() const { return (knot_count_ + 1) * kPerKnot; }
+
+  /// Where a time lies between two knots of its strip.
+  struct Place {
+    int knot = 0;       ///< the knot at or before the time, counted over all strips
+    int next_knot = 0;  ///< the one after; the same for a strip with a single knot
+    double next = 0.0;  ///< share of next_knot, 0 … 1
+  };
+  Place placeOf(int strip, double time) const;
+
+  /// Information matrix of the prior, unknowns x unknowns, knot by knot (east north up pitch roll
+  /// heading).
+  Eigen::SparseMatrix<double> priorInformation(
+      const SharedErrorLevels& levels = SharedErrorLevels()) const;
+
+ private:
+  struct StripKnots {
+    double start = 0.0, spacing = 1.0;
+    int first = 0, count = 1;
+  };
+  std::vector<StripKnots> strips_;
+  int knot_count_ = 0;
+  SharedErrorModel model_;
+};
+
+}  // namespace pcl_als
