@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/io/time_reference.h>
+#include <pcl_als/common/time_alignment.h>
 
 namespace pcl_als::detail {
 

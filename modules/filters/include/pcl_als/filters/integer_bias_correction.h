@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
+
+namespace pcl_als {
+
+/** \brief Eq. (13) of Habib et al. 2011 on packed records with integer coordinates, in place.
+ *
+ * The engine of LAS to LAS correction. A record begins with X, Y, Z (int32, little-endian); ground
+ * = raw scale + offset. The effect A(point) delta is computed in double, divided by the scale,
+ * rounded to the nearest integer and subtracted (added with invert): no other byte changes, and
+ * zero biases change none. Points without a trajectory are counted and left as they are.
+ *
+ * Undoing a correction (invert after apply) returns each integer to within one unit: either way
+ * rounds once.
+ *
+ * apply() may be called from several threads on different records; results do not depend on how
+ * records are divided among calls that begin at multiples of kTile.
+ */
+class IntegerBiasCorrection {
+ public:
+  struct Layout {
+    std::size_t record_length = 0;  ///< bytes
+    std::size_t time_position = 0;  ///< byte of the GPS time (double, little-endian) in a record
+    Eigen::Vector3d scale, offset;  ///< metres
+  };
+  /// Points that are computed together; their columns fit the first-level cache.
+  static constexpr std::size_t kTile = 256;
+
+  /// \a name: the file, for messages. UsageError without an evaluator, InputError for a scale that
+  /// is not positive and finite.
+  IntegerBiasCorrection(std::string name, std::shared_ptr<const BiasEvaluator> evaluator,
+                        const Layout& layout, TimeAlignment alignment, bool invert);
+
+  /// Corrects \a count records. \a first: index of the first one in the file. InputError naming the
+  /// point whose new coordinate does not fit an int32; records before it are changed then.
+  CoverageCount apply(std::byte* records, std::size_t count, std::uint64_t first) const;
+
+ private:
+  struct Tile;
+  void gather(const std::byte* records, std::size_t count, Tile& tile) const;
+  void scatter(std::byte* records, std::size_t count, std::uint64_t first, Tile& tile) const;
+  [[noreturn]] void refuseOverflow(const std::byte* records, std::size_t count, std::uint64_t first,
+                                   int axis, const double* steps) const;
+
+  std::string name_;
+  std::shared_ptr<const BiasEvaluator> evaluator_;
+  Layout layout_;
+  TimeAlignment alignment_;
+  bool invert_;
+};
+
+}  // namespace pcl_als
