@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+
+#include <pcl/common/copy_point.h>
+
+#include <pcl_als/common/strip.h>
+
+namespace pcl_als {
+
+/** \brief Writes a strip as binary PCD with every field of PointLidar.
+ *
+ * The frame's origin is the file's VIEWPOINT (ground = VIEWPOINT + point), strip id and CRS are
+ * comment lines; every value survives to the last bit. PCL's own readers and tools take the file
+ * as any PCD; through PCL's float VIEWPOINT the origin stays exact where it is a multiple of 10 m
+ * (see LocalFrame). AtomicFile; InputError names the file.
+ */
+void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip);
+
+/** \brief Reads any PCD with float or double x, y, z; fields are found by name, those that are
+ * missing keep PointLidar's defaults, points without finite coordinates are left out.
+ *
+ * The id is that of savePcd; else the point source id where all points have the same and it is not
+ * 0; else the file's stem. Coordinates stored as double get a frame around their centre.
+ */
+Strip<PointLidar> loadPcd(const std::filesystem::path& path);
+
+}  // namespace pcl_als

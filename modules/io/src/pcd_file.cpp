@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "pcd_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr std::size_t kLongestHeader = std::size_t{1} << 20;
+
+PcdHeader readHeader(const InputFile& file) {
+  std::string text(std::min<std::uint64_t>(kLongestHeader, file.size()), '\0');
+  file.read(0, text.size(), text.data());
+  return parsePcdHeader(text, file.size(), file.name());
+}
+
+template <typename T>
+double elementAs(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return static_cast<double>(value);
+}
+
+/// Reads one element of a field as double.
+using Element = double (*)(const std::byte*);
+
+Element elementOf(const PcdField& field) {
+  if (field.type == 'F') return field.size == 4 ? elementAs<float> : elementAs<double>;
+  const bool with_sign = field.type == 'I';
+  switch (field.size) {
+    case 1:
+      return with_sign ? elementAs<std::int8_t> : elementAs<std::uint8_t>;
+    case 2:
+      return with_sign ? elementAs<std::int16_t> : elementAs<std::uint16_t>;
+    case 4:
+      return with_sign ? elementAs<std::int32_t> : elementAs<std::uint32_t>;
+    default:
+      return with_sign ? elementAs<std::int64_t> : elementAs<std::uint64_t>;
+  }
+}
+
+/// A block of packed records of one file.
+struct Block {
+  const PcdHeader& header;
+  const std::byte* records;
+  std::size_t count;
+  const std::string& file;
+
+  /// Fills a column from the field of that name, or with \a missing where the file has none.
+  template <typename T>
+  void column(const char* name, T missing, std::vector<T>& out) const {
+    out.assign(count, missing);
+    const PcdField* field = header.find(name);
+    if (field == nullptr) return;
+    const Element element = elementOf(*field);
+    const std::byte* at = records + field->offset;
+    for (std::size_t i = 0; i < count; ++i, at += header.record_length)
+      out[i] = fitting<T>(element(at), *field);
+  }
+
+ private:
+  template <typename T>
+  T fitting(double value, const PcdField& field) const {
+    if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value);
+    if (value >= 0.0 && value <= static_cast<double>(std::numeric_limits<T>::max()))
+      return static_cast<T>(value);
+    throw InputError(file + ": field " + field.name + " holds " + std::to_string(value) +
+                     ", which is out of its range (0 to " +
+                     std::to_string(std::numeric_limits<T>::max()) + ")");
+  }
+};
+
+template <typename T>
+void keepOnly(const std::vector<std::size_t>& rows, std::vector<T>& column) {
+  for (std::size_t i = 0; i < rows.size(); ++i) column[i] = column[rows[i]];
+}
+
+void dropInvalid(PointChunk& chunk) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < chunk.size(); ++i)
+    if (std::isfinite(chunk.x[i]) && std::isfinite(chunk.y[i]) && std::isfinite(chunk.z[i]))
+      rows.push_back(i);
+  if (rows.size() == chunk.size()) return;
+  for (auto* column : {&chunk.x, &chunk.y, &chunk.z, &chunk.gps_time}) keepOnly(rows, *column);
+  for (auto* column : {&chunk.intensity, &chunk.scan_angle}) keepOnly(rows, *column);
+  keepOnly(rows, chunk.point_source_id);
+  for (auto* column :
+       {&chunk.return_number, &chunk.number_of_returns, &chunk.classification, &chunk.flags})
+    keepOnly(rows, *column);
+  chunk.resize(rows.size());
+}
+
+}  // namespace
+
+PcdFile::PcdFile(const std::filesystem::path& path) : file_(path), header_(readHeader(file_)) {
+  checkFields();
+  rewind();
+}
+
+PcdFile::~PcdFile() = default;
+
+void PcdFile::checkFields() const {
+  for (const char* axis : {"x", "y", "z"}) {
+    const PcdField* field = header_.find(axis);
+    if (field == nullptr || field->type != 'F')
+      throw InputError(file_.name() + ": the PCD has no field " + axis + " of type F");
+  }
+  const PcdField* time = header_.find("gps_time");
+  if (time != nullptr && (time->type != 'F' || time->size != 8))
+    throw InputError(file_.name() +
+                     ": the PCD's gps_time is not of type F 8 (double); a float of week seconds "
+                     "has steps of 0.03 s, two metres of flight");
+}
+
+void PcdFile::rewind() {
+  records_ = openPcdRecords(file_, header_);
+  position_ = 0;
+}
+
+bool PcdFile::read(std::size_t records, PointChunk& chunk) {
+  const std::size_t count = std::min<std::uint64_t>(records, header_.points - position_);
+  buffer_.resize(count * header_.record_length);
+  if (count > 0) records_->next(count, buffer_.data());
+  position_ += count;
+  const Block block{header_, buffer_.data(), count, file_.name()};
+  block.column("x", 0.0, chunk.x);
+  block.column("y", 0.0, chunk.y);
+  block.column("z", 0.0, chunk.z);
+  block.column("gps_time", 0.0, chunk.gps_time);
+  block.column("intensity", 0.0F, chunk.intensity);
+  block.column("scan_angle", 0.0F, chunk.scan_angle);
+  block.column("point_source_id", std::uint16_t{0}, chunk.point_source_id);
+  block.column("return_number", std::uint8_t{1}, chunk.return_number);
+  block.column("number_of_returns", std::uint8_t{1}, chunk.number_of_returns);
+  block.column("classification", std::uint8_t{0}, chunk.classification);
+  block.column("flags", std::uint8_t{0}, chunk.flags);
+  dropInvalid(chunk);
+  return count > 0;
+}
+
+}  // namespace pcl_als::detail

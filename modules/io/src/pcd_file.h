@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <pcl_als/io/point_reader.h>
+
+#include "input_file.h"
+#include "pcd_header.h"
+
+namespace pcl_als::detail {
+
+/// Packed records of a PCD file in file order, whichever of the three ways it stores them.
+class PcdRecords {
+ public:
+  virtual ~PcdRecords() = default;
+  virtual void next(std::size_t count, std::byte* out) = 0;
+};
+
+/** \brief The points of a PCD file as columns, coordinates relative to the file's VIEWPOINT.
+ *
+ * Points without finite coordinates are left out. Constant memory for ascii and binary; a
+ * binary_compressed file is one compressed block and is held in memory as a whole.
+ */
+class PcdFile {
+ public:
+  explicit PcdFile(const std::filesystem::path& path);
+  ~PcdFile();
+  PcdFile(const PcdFile&) = delete;
+  PcdFile& operator=(const PcdFile&) = delete;
+
+  const PcdHeader& header() const { return header_; }
+  const std::string& name() const { return file_.name(); }
+  /// The next points out of at most \a records records; false at the end of the file.
+  bool read(std::size_t records, PointChunk& chunk);
+  void rewind();
+
+ private:
+  void checkFields() const;
+
+  InputFile file_;
+  PcdHeader header_;
+  std::unique_ptr<PcdRecords> records_;
+  std::uint64_t position_ = 0;
+  std::vector<std::byte> buffer_;
+};
+
+/// The three ways of storing records.
+std::unique_ptr<PcdRecords> openPcdRecords(const InputFile& file, const PcdHeader& header);
+
+}  // namespace pcl_als::detail

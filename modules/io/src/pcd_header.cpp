@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "pcd_header.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+
+#include "number_text.h"
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
+
+/// Goes through the header's lines; one member per key word.
+class HeaderParser {
+ public:
+  HeaderParser(const std::string& text, std::uint64_t file_size, const std::string& name)
+      : text_(text), file_size_(file_size), name_(name) {}
+
+  PcdHeader parse() {
+    std::size_t at = 0;
+    while (!complete_) {
+      const std::size_t end = text_.find('\n', at);
+      if (end == std::string::npos) fail("the PCD header has no DATA line");
+      std::string line = text_.substr(at, end - at);
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      at = end + 1;
+      takeLine(line);
+    }
+    header_.data_position = at;
+    finish();
+    return header_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+  void takeLine(const std::string& line) {
+    if (line.rfind(kPcdCrsComment, 0) == 0)
+      header_.crs = line.substr(std::string(kPcdCrsComment).size());
+    if (line.rfind(kPcdStripComment, 0) == 0)
+      header_.strip_id = line.substr(std::string(kPcdStripComment).size());
+    if (line.empty() || line[0] == '#') return;
+    std::istringstream stream(line);
+    std::string key;
+    stream >> key;
+    std::vector<std::string> values;
+    for (std::string value; stream >> value;) values.push_back(value);
+    takeEntry(key, values);
+  }
+
+  void takeEntry(const std::string& key, const std::vector<std::string>& values) {
+    if (key == "VERSION") return;
+    if (key == "FIELDS" || key == "COLUMNS") return takeNames(values);
+    if (key == "SIZE")
+      return takeEach(key, values,
+                      [this](PcdField& field, const std::string& v) { field.size = count(v); });
+    if (key == "TYPE")
+      return takeEach(key, values,
+                      [](PcdField& field, const std::string& v) { field.type = v[0]; });
+    if (key == "COUNT")
+      return takeEach(key, values,
+                      [this](PcdField& field, const std::string& v) { field.count = count(v); });
+    if (key == "WIDTH") return takeCount(values, width_);
+    if (key == "HEIGHT") return takeCount(values, height_);
+    if (key == "POINTS") return takeCount(values, points_);
+    if (key == "VIEWPOINT") return takeViewpoint(values);
+    if (key == "DATA") return takeData(values);
+    fail("is not a PCD file (unknown header line '" + key.substr(0, 32) + "')");
+  }
+
+  std::uint64_t count(const std::string& text) const {
+    const auto value = parseUnsigned(text);
+    if (!value) fail("the PCD header has '" + text.substr(0, 32) + "' where a count belongs");
+    return *value;
+  }
+
+  void takeCount(const std::vector<std::string>& values, std::uint64_t& to) const {
+    to = count(values.empty() ? std::string() : values[0]);
+  }
+
+  void takeNames(const std::vector<std::string>& values) {
+    header_.fields.clear();
+    for (const std::string& value : values) {
+      header_.fields.emplace_back();
+      header_.fields.back().name = value;
+    }
+  }
+
+  template <typename Take>
+  void takeEach(const std::string& key, const std::vector<std::string>& values, Take take) {
+    if (values.size() != header_.fields.size())
+      fail("the PCD header's " + key + " line has " + std::to_string(values.size()) +
+           " entries for " + std::to_string(header_.fields.size()) + " fields");
+    for (std::size_t i = 0; i < values.size(); ++i) take(header_.fields[i], values[i]);
+  }
+
+  void takeViewpoint(const std::vector<std::string>& values) {
+    std::vector<double> numbers;
+    for (const std::string& value : values) numbers.push_back(parseNumber(value).value_or(NAN));
+    if (numbers.size() != 7 ||
+        !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
+      fail("the PCD header's VIEWPOINT is not seven numbers");
+    if (numbers[3] != 1.0 || numbers[4] != 0.0 || numbers[5] != 0.0 || numbers[6] != 0.0)
+      fail("the PCD's VIEWPOINT is rotated; only a shift (… 1 0 0 0) can be the origin of a cloud");
+    header_.viewpoint = {numbers[0], numbers[1], numbers[2]};
+  }
+
+  void takeData(const std::vector<std::string>& values) {
+    const std::string kind = values.empty() ? "" : values[0];
+    if (kind == "ascii")
+      header_.data = PcdData::ascii;
+    else if (kind == "binary")
+      header_.data = PcdData::binary;
+    else if (kind == "binary_compressed")
+      header_.data = PcdData::binary_compressed;
+    else
+      fail("the PCD header's DATA is '" + kind.substr(0, 32) + "'");
+    complete_ = true;
+  }
+
+  void checkField(const PcdField& field) const {
+    const bool real = field.type == 'F' && (field.size == 4 || field.size == 8);
+    const bool whole = (field.type == 'I' || field.type == 'U') &&
+                       (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
+    if (!real && !whole)
+      fail("PCD field " + field.name + ": type " + std::string(1, field.type) + " of " +
+           std::to_string(field.size) + " bytes is unknown");
+    if (field.count == 0 || field.count > kLargestRecord)
+      fail("PCD field " + field.name + ": its COUNT is " + std::to_string(field.count));
+  }
+
+  void finish() {
+    if (header_.fields.empty()) fail("the PCD header has no FIELDS line");
+    for (PcdField& field : header_.fields) {
+      checkField(field);
+      field.offset = header_.record_length;
+      header_.record_length += field.size * field.count;
+      if (header_.record_length > kLargestRecord) fail("the PCD's records are too long");
+    }
+    header_.points = points_;
+    if (width_ != kUnset && height_ != kUnset) {
+      if (height_ != 0 && width_ > (std::uint64_t{1} << 40U) / height_)
+        fail("the PCD header's WIDTH and HEIGHT are too large");
+      if (points_ != kUnset && points_ != width_ * height_)
+        fail("the PCD header's POINTS differ from WIDTH times HEIGHT");
+      header_.points = width_ * height_;
+    }
+    if (header_.points == kUnset) fail("the PCD header does not say how many points there are");
+    checkRoom();
+  }
+
+  void checkRoom() const {
+    const std::uint64_t room = file_size_ - std::min(file_size_, header_.data_position);
+    if (header_.data == PcdData::binary_compressed) return;  // its own sizes are checked later
+    // An ASCII record has at least a digit and a separator per field; the last one may be missing.
+    const bool ascii = header_.data == PcdData::ascii;
+    const std::uint64_t most =
+        ascii ? (room + 1) / (2 * header_.fields.size()) : room / header_.record_length;
+    if (header_.points > most)
+      fail("the header declares " + std::to_string(header_.points) +
+           " points but the file can hold at most " + std::to_string(most) + " (truncated copy?)");
+  }
+
+  static constexpr std::uint64_t kUnset = ~std::uint64_t{0};
+  const std::string& text_;
+  std::uint64_t file_size_;
+  const std::string& name_;
+  PcdHeader header_;
+  std::uint64_t width_ = kUnset, height_ = kUnset, points_ = kUnset;
+  bool complete_ = false;
+};
+
+}  // namespace
+
+const PcdField* PcdHeader::find(const std::string& name) const {
+  const auto field =
+      std::find_if(fields.begin(), fields.end(), [&](const PcdField& f) { return f.name == name; });
+  return field == fields.end() ? nullptr : &*field;
+}
+
+const char* PcdHeader::dataName() const {
+  if (data == PcdData::ascii) return "ascii";
+  return data == PcdData::binary ? "binary" : "binary_compressed";
+}
+
+PcdHeader parsePcdHeader(const std::string& text, std::uint64_t file_size,
+                         const std::string& name) {
+  if (file_size == 0) throw InputError(name + ": the file is empty");
+  return HeaderParser(text, file_size, name).parse();
+}
+
+}  // namespace pcl_als::detail
