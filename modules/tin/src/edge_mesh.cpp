@@ -5,8 +5,6 @@
 namespace pcl_als::tin {
 namespace {
 
-constexpr std::int32_t kUnseen = -2;
-
 /// One edge that leaves each vertex.
 std::vector<Edge> firstEdges(const EdgeMesh& mesh, std::size_t vertices) {
   std::vector<Edge> first(vertices, kNoEdge);
@@ -17,20 +15,20 @@ std::vector<Edge> firstEdges(const EdgeMesh& mesh, std::size_t vertices) {
 
 }  // namespace
 
-std::vector<Tin::Triangle> trianglesOf(const EdgeMesh& mesh, Edge outer, std::size_t vertices) {
-  std::vector<std::int32_t> face(mesh.end(), kUnseen);  // to the left of each edge
-  Edge e = outer;
-  do face[e] = Tin::kNone;
-  while ((e = mesh.aroundFace(e)) != outer);
-
+std::vector<Tin::Triangle> trianglesOf(EdgeMesh& mesh, Edge outer, std::size_t vertices) {
+  for (Edge e = outer; !mesh.hasFace(e);) {
+    const Edge after = mesh.aroundFace(e);
+    mesh.setFace(e, Tin::kNone);
+    e = after;
+  }
   std::vector<Tin::Triangle> triangles;
   triangles.reserve(2 * vertices);
   for (const Edge first : firstEdges(mesh, vertices)) {
     Edge a = first;
     do {
-      if (face[a] == kUnseen) {
+      if (!mesh.hasFace(a)) {
         const Edge b = mesh.aroundFace(a), c = mesh.aroundFace(b);
-        face[a] = face[b] = face[c] = static_cast<std::int32_t>(triangles.size());
+        for (const Edge e : {a, b, c}) mesh.setFace(e, static_cast<std::int32_t>(triangles.size()));
         // Neighbours hold the edge seen from across until all faces have a number.
         triangles.push_back({{mesh.destination(c), mesh.destination(a), mesh.destination(b)},
                              {twin(b), twin(c), twin(a)}});
@@ -39,7 +37,7 @@ std::vector<Tin::Triangle> trianglesOf(const EdgeMesh& mesh, Edge outer, std::si
     } while (a != first);
   }
   for (Tin::Triangle& t : triangles)
-    for (std::int32_t& n : t.neighbour) n = face[n];
+    for (std::int32_t& n : t.neighbour) n = mesh.face(n);
   return triangles;
 }
 

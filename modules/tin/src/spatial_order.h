@@ -9,16 +9,18 @@
 
 namespace pcl_als::tin {
 
-/** \brief The distinct plan positions in Morton (Z) order: neighbours in plan are mostly neighbours
- * in memory, and the codes are a quadtree that the triangulation divides along. */
+/// Position along the Morton (Z) curve: even bits from x, odd bits from y.
+std::uint64_t mortonCode(PlanPoint p);
+PlanPoint planPointOf(std::uint64_t code);  ///< the inverse
+
+/** \brief The distinct plan positions in Morton order: neighbours in plan are mostly neighbours in
+ * memory, and the codes are a quadtree that the triangulation divides along. */
 struct SpatialOrder {
-  std::vector<std::uint64_t> code;  ///< ascending and distinct; even bits from x, odd bits from y
+  std::vector<std::uint64_t> code;  ///< ascending and distinct
   std::vector<std::int32_t> point;  ///< input index of each; the first of those that coincide
 };
 
-SpatialOrder spatialOrder(const std::vector<PlanPoint>& points);
-
-/// The position that a Morton code stands for.
-PlanPoint planPointOf(std::uint64_t code);
+/// \param codes Morton codes in input order. Linear time; working memory 16 bytes per point.
+SpatialOrder spatialOrder(const std::vector<std::uint64_t>& codes);
 
 }  // namespace pcl_als::tin

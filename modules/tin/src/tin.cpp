@@ -13,7 +13,6 @@
 namespace pcl_als {
 namespace {
 
-using tin::PlanPoint;
 using Lattice2 = Eigen::Matrix<std::int64_t, 2, 1>;
 
 /// Beyond this many resolutions from zero a double no longer holds every lattice position.
@@ -56,14 +55,15 @@ Lattice2 latticeOrigin(const Eigen::AlignedBox2d& extent, double resolution) {
   throw UsageError(message.str());
 }
 
-std::vector<PlanPoint> latticePoints(const std::vector<Eigen::Vector3d>& points,
-                                     const Eigen::AlignedBox2d& extent, double resolution) {
+std::vector<std::uint64_t> mortonCodes(const std::vector<Eigen::Vector3d>& points,
+                                       const Eigen::AlignedBox2d& extent, double resolution) {
   const Lattice2 origin = latticeOrigin(extent, resolution);
-  std::vector<PlanPoint> lattice(points.size());
+  std::vector<std::uint64_t> codes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    lattice[i] = {static_cast<std::int32_t>(latticeOf(points[i].x(), resolution) - origin.x()),
-                  static_cast<std::int32_t>(latticeOf(points[i].y(), resolution) - origin.y())};
-  return lattice;
+    codes[i] = tin::mortonCode(
+        {static_cast<std::int32_t>(latticeOf(points[i].x(), resolution) - origin.x()),
+         static_cast<std::int32_t>(latticeOf(points[i].y(), resolution) - origin.y())});
+  return codes;
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ Tin::Tin(std::vector<Eigen::Vector3d> points, double resolution)
                      std::to_string(kMostPoints) + "; build it in tiles");
   const Eigen::AlignedBox2d extent = planExtent(points_);
   if (points_.empty()) return;
-  const tin::SpatialOrder order = tin::spatialOrder(latticePoints(points_, extent, resolution));
+  const tin::SpatialOrder order = tin::spatialOrder(mortonCodes(points_, extent, resolution));
   merged_ = points_.size() - order.point.size();
   triangles_ = tin::delaunayTriangles(order);
   buildStartGrid(extent);
