@@ -19,6 +19,8 @@ constexpr double kHuber = 1.5;    // standard deviations up to which an observat
 constexpr double kReject = 4.5;   // and from which it has none
 constexpr int kReweightings = 3;  // of one set of pairs
 constexpr std::size_t kEnoughForScale = 30;
+// A TIN between points is never better than some millimetres: pairs that fit better are no better.
+constexpr double kLeastScale = 0.25;
 constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
 
 double robustWeight(double standardised) {
@@ -219,7 +221,7 @@ void QuasiRigorousCalibration::weigh(State& state) const {
   }
   for (auto& [group, values] : standardised) {
     const double scale = values.size() >= kEnoughForScale ? robustSigma(values) : 1.0;
-    state.noise_scale[group] = std::max(scale, 1e-6);
+    state.noise_scale[group] = std::max(scale, kLeastScale);
   }
   double squares = 0.0;
   std::size_t kept = 0;
