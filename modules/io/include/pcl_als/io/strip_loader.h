@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <pcl/common/copy_point.h>
+
+#include <pcl_als/common/strip.h>
+
+namespace pcl_als {
+
+/** \brief Reads point files (.las, .laz, .pcd) whole and sorts their points into strips.
+ *
+ * Strips are told apart and named by StripNaming and come in its order; points keep file order. A
+ * strip that reaches further than LocalFrame::kReach from its centre comes as several parts with
+ * the same id, cut by a grid of 5 km, each relative to the centre of its square. Memory: 32 bytes
+ * per point. Files are read twice.
+ *
+ * InputError when files declare different kinds of GPS time or different EPSG codes.
+ */
+std::vector<Strip<PointLidar>> loadStrips(const std::vector<std::filesystem::path>& files);
+
+}  // namespace pcl_als

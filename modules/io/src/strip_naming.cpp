@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/strip_naming.h>
+
+namespace pcl_als {
+namespace {
+
+using Files = std::vector<PointFileSources>;
+
+bool sameSingleId(const Files& files) {
+  if (files.size() < 2) return false;
+  return std::all_of(files.begin(), files.end(), [&](const PointFileSources& file) {
+    return file.sources.size() == 1 && files[0].sources.size() == 1 &&
+           file.sources[0].id == files[0].sources[0].id;
+  });
+}
+
+/// Times that follow each other, each file's beginning at most kLargestGap after the others' end.
+bool timesConnect(const Files& files) {
+  std::vector<std::pair<double, double>> ranges;
+  for (const PointFileSources& file : files)
+    ranges.emplace_back(file.sources[0].first_time, file.sources[0].last_time);
+  std::sort(ranges.begin(), ranges.end());
+  double end = ranges[0].second;
+  for (const auto& [first, last] : ranges) {
+    if (!(first <= end + StripNaming::kLargestGap)) return false;
+    end = std::max(end, last);
+  }
+  return end > ranges[0].first;  // times that are all the same are no times
+}
+
+/// Names that files need for their own points; whatever is taken makes them longer.
+std::string ownName(const std::filesystem::path& path, const std::set<std::string>& taken) {
+  for (const std::string& name : {path.stem().string(), path.filename().string(), path.string()})
+    if (taken.count(name) == 0) return name;
+  int copy = 2;
+  while (taken.count(path.string() + "#" + std::to_string(copy)) != 0) ++copy;
+  return path.string() + "#" + std::to_string(copy);
+}
+
+}  // namespace
+
+StripNaming::StripNaming(const Files& files) {
+  const bool by_file = sameSingleId(files) && !timesConnect(files);
+  std::set<std::string> taken;
+  for (const PointFileSources& file : files)
+    for (const PointSource& source : file.sources)
+      if (source.id != 0 && !by_file) taken.insert(std::to_string(source.id));
+  for (std::size_t f = 0; f < files.size(); ++f)
+    for (const PointSource& source : files[f].sources) {
+      const bool own = source.id == 0 || by_file;
+      const std::string name = own ? ownName(files[f].info.path, taken) : std::to_string(source.id);
+      if (own) taken.insert(name);
+      strips_[{f, source.id}] = name;
+      if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+    }
+}
+
+const std::string& StripNaming::nameOf(std::size_t file, std::uint16_t id) const {
+  const auto found = strips_.find({file, id});
+  if (found != strips_.end()) return found->second;
+  throw UsageError("file " + std::to_string(file) + " has no points of source id " +
+                   std::to_string(id));
+}
+
+PointFileSources surveySources(const std::filesystem::path& path) {
+  const auto reader = PointReader::open(path);
+  PointFileSources file{reader->info(), {}};
+  std::map<std::uint16_t, PointSource> sources;
+  PointChunk chunk;
+  while (reader->read(chunk))
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
+      const double time = chunk.gps_time[i];
+      const std::uint16_t id = chunk.point_source_id[i];
+      auto found = sources.find(id);
+      if (found == sources.end())
+        found = sources.insert({id, PointSource{id, 0, time, time, point, point}}).first;
+      PointSource& source = found->second;
+      ++source.points;
+      source.first_time = std::min(source.first_time, time);
+      source.last_time = std::max(source.last_time, time);
+      source.minimum = source.minimum.cwiseMin(point);
+      source.maximum = source.maximum.cwiseMax(point);
+    }
+  for (const auto& entry : sources) file.sources.push_back(entry.second);
+  return file;
+}
+
+}  // namespace pcl_als
