@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "point_file_correction.h"
+
+#include <algorithm>
+#include <cctype>
+#include <mutex>
+#include <vector>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/filters/integer_bias_correction.h>
+#include <pcl_als/filters/system_bias_correction.h>
+#include <pcl_als/io/las_file.h>
+#include <pcl_als/io/las_rewriter.h>
+#include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/time_reference.h>
+
+namespace pcl_als::app {
+namespace {
+
+/// Times of points; a time of zero, which stands for "none", only where there is no other.
+class TimeSpread {
+ public:
+  void add(double time) { (time == 0.0 ? zeros_ : range_).add(time); }
+  TimeRange range() const { return range_.empty() ? zeros_ : range_; }
+
+ private:
+  TimeRange range_, zeros_;
+};
+
+TimeRange rangeOf(const Trajectory& trajectory) {
+  return {trajectory.startTime(), trajectory.endTime()};
+}
+
+/// Times of \a probes runs of \a run points, spread over the file.
+TimeRange probedTimes(const LasFile& file, std::uint64_t probes, std::uint64_t run) {
+  const std::uint64_t count = file.header().point_count;
+  const std::size_t length = file.header().record_length;
+  std::vector<std::byte> records(std::min(run, count) * length);
+  TimeSpread times;
+  for (std::uint64_t probe = 0; probe < probes; ++probe) {
+    const std::uint64_t first =
+        probe + 1 == probes ? count - std::min(run, count) : count / probes * probe;
+    const std::uint64_t size = std::min(run, count - first);
+    file.readRecords(first, size, records.data());
+    for (std::uint64_t i = 0; i < size; ++i) {
+      times.add(loadLas<double>(&records[i * length + file.layout().gps_time]));
+    }
+  }
+  return times.range();
+}
+
+/// The whole week of a file shows in few of its points; all are looked at only where few miss.
+TimeAlignment alignmentOf(const LasFile& file, const PointFileCorrection& correction) {
+  constexpr std::uint64_t kBlock = std::uint64_t{1} << 16;
+  const std::string name = file.path().string();
+  const TimeRange trajectory = rangeOf(*correction.trajectory);
+  const TimeKind kind = file.info().time_kind;
+  // Each probe of a compressed file unpacks a chunk of it.
+  const std::uint64_t probes = file.header().compressed ? 8 : 1000;
+  try {
+    const TimeRange few = probedTimes(file, std::min(probes, file.header().point_count), 1);
+    return reconcileTimes(name, few, kind, trajectory, correction.gps_week);
+  } catch (const InputError&) {
+    const std::uint64_t blocks = (file.header().point_count + kBlock - 1) / kBlock;
+    const TimeRange all = probedTimes(file, blocks + 1, kBlock);
+    return reconcileTimes(name, all, kind, trajectory, correction.gps_week);
+  }
+}
+
+/// Points that the correction could not serve end the run, unless they may stay as they are.
+void checkCoverage(const std::string& name, const CoverageCount& coverage,
+                   const PointFileCorrection& correction) {
+  if (coverage.unsolved == 0 && (coverage.missed() == 0 || correction.keep_uncovered)) return;
+  throw InputError(name + ": " + coverage.describe(*correction.trajectory));
+}
+
+/// Adds up what blocks report, from any thread.
+class Tally {
+ public:
+  Tally(std::uint64_t expected, const std::function<void(double)>& progress)
+      : expected_(expected), progress_(progress) {}
+
+  /// Returns true for the part that completes the file.
+  bool add(const CoverageCount& part) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    coverage_.merge(part);
+    progress_(static_cast<double>(coverage_.points) / static_cast<double>(expected_));
+    return coverage_.points == expected_;
+  }
+  const CoverageCount& coverage() const { return coverage_; }
+
+ private:
+  std::mutex mutex_;
+  CoverageCount coverage_;
+  std::uint64_t expected_;
+  const std::function<void(double)>& progress_;
+};
+
+IntegerBiasCorrection integerCorrection(const LasFile& file, const PointFileCorrection& correction,
+                                        TimeAlignment alignment) {
+  const LasHeader& header = file.header();
+  return {file.path().string(),
+          std::make_shared<BiasEvaluator>(correction.trajectory, correction.biases),
+          {header.record_length, static_cast<std::size_t>(file.layout().gps_time), header.scale,
+           header.offset},
+          std::move(alignment),
+          correction.invert};
+}
+
+PointFileCorrectionResult correctLas(const std::filesystem::path& input,
+                                     const std::filesystem::path& output,
+                                     const PointFileCorrection& correction,
+                                     const std::function<void(double)>& progress) {
+  const LasFile file(input);
+  const std::string name = input.string();
+  if (file.layout().gps_time < 0) {
+    throw InputError(name + ": point format " + std::to_string(file.layout().format) +
+                     " has no GPS time; the correction needs it");
+  }
+  PointFileCorrectionResult result;
+  TimeAlignment alignment;
+  if (file.header().point_count > 0) alignment = alignmentOf(file, correction);
+  result.time_remark = alignment.remark;
+  const IntegerBiasCorrection engine = integerCorrection(file, correction, std::move(alignment));
+  Tally tally(file.header().point_count, progress);
+  const LasEdit edit = [&](const LasRecordBlock& block) {
+    const bool complete = tally.add(engine.apply(block.records, block.count, block.first));
+    // With the counts of all points, but before the output gets its name.
+    if (complete) checkCoverage(name, tally.coverage(), correction);
+  };
+  result.points = rewriteLas(file, output, edit, correction.threads).points;
+  result.coverage = tally.coverage();
+  return result;
+}
+
+PointFileCorrectionResult correctPcd(const std::filesystem::path& input,
+                                     const std::filesystem::path& output,
+                                     const PointFileCorrection& correction) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(input, output, absent)) {
+    throw UsageError(output.string() + ": input and output are the same file");
+  }
+  Strip<PointLidar> strip = loadPcd(input);
+  PointFileCorrectionResult result;
+  result.points = strip.cloud->size();
+  SystemBiasCorrection<PointLidar> filter;
+  if (!strip.cloud->empty()) {
+    TimeSpread times;
+    for (const PointLidar& point : *strip.cloud) times.add(point.gps_time);
+    filter.setTimeAlignment(reconcileTimes(input.string(), times.range(), TimeKind::none,
+                                           rangeOf(*correction.trajectory), correction.gps_week));
+  }
+  result.time_remark = filter.getTimeAlignment().remark;
+  filter.setTrajectory(correction.trajectory);
+  filter.setLocalFrame(strip.frame);
+  filter.setBiases(correction.biases);
+  filter.setInvert(correction.invert);
+  filter.setKeepUncovered(true);  // checked below, with the file's name
+  filter.setNumberOfThreads(correction.threads);
+  filter.setInputCloud(strip.cloud);
+  pcl::PointCloud<PointLidar>::Ptr corrected(new pcl::PointCloud<PointLidar>);
+  filter.filter(*corrected);
+  result.coverage = filter.getCoverage();
+  checkCoverage(input.string(), result.coverage, correction);
+  strip.cloud = corrected;
+  savePcd(output, strip);
+  return result;
+}
+
+std::string extensionOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+PointFileCorrectionResult correctPointFile(const std::filesystem::path& input,
+                                           const std::filesystem::path& output,
+                                           const PointFileCorrection& correction,
+                                           const std::function<void(double)>& progress) {
+  const bool pcd_in = extensionOf(input) == ".pcd", pcd_out = extensionOf(output) == ".pcd";
+  if (pcd_in != pcd_out) {
+    throw UsageError(output.string() + ": input and output must be of one kind, .las/.laz or .pcd");
+  }
+  return pcd_in ? correctPcd(input, output, correction)
+                : correctLas(input, output, correction, progress);
+}
+
+}  // namespace pcl_als::app
