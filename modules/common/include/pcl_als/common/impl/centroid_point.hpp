@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <pcl/common/centroid.h>
+#include <pcl/common/copy_point.h>
 
 namespace pcl {
 
