@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/parallel.h>
+
+namespace pcl_als {
+namespace {
+
+TEST(ParallelFor, RunsEveryChunkOnce) {
+  for (const int threads : {0, 1, 2, 7}) {
+    std::vector<std::atomic<int>> runs(1000);
+    parallelFor(runs.size(), threads, [&](std::size_t chunk) { ++runs[chunk]; });
+    for (const auto& count : runs) EXPECT_EQ(count, 1);
+  }
+}
+
+TEST(ParallelFor, OneThreadGoesInOrder) {
+  std::vector<std::size_t> order;
+  parallelFor(5, 1, [&](std::size_t chunk) { order.push_back(chunk); });
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(ParallelFor, NoChunksNoCalls) {
+  parallelFor(0, 4, [](std::size_t) { FAIL() << "called without chunks"; });
+}
+
+TEST(ParallelFor, RethrowsTheExceptionOfABody) {
+  for (const int threads : {1, 4}) {
+    try {
+      parallelFor(100, threads, [](std::size_t chunk) {
+        if (chunk == 37) throw std::runtime_error("chunk 37");
+      });
+      FAIL() << "no exception with " << threads << " threads";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "chunk 37");
+    }
+  }
+}
+
+TEST(ParallelFor, StopsSoonAfterAnException) {
+  std::atomic<int> runs{0};
+  EXPECT_THROW(parallelFor(1000000, 2,
+                           [&](std::size_t) {
+                             ++runs;
+                             throw std::logic_error("stop");
+                           }),
+               std::logic_error);
+  EXPECT_LE(runs, 2);  // one for each thread
+}
+
+TEST(ParallelFor, SumPerChunkIsTheSameForAnyNumberOfThreads) {
+  const auto sum = [](int threads) {
+    std::vector<double> part(64);
+    parallelFor(part.size(), threads, [&](std::size_t chunk) {
+      for (int i = 1; i <= 1000; ++i) part[chunk] += 1.0 / (static_cast<double>(chunk) * 1000 + i);
+    });
+    double total = 0.0;
+    for (const double value : part) total += value;
+    return total;
+  };
+  EXPECT_EQ(sum(1), sum(8));  // to the last bit: combined in chunk order
+}
+
+TEST(ThreadCount, TakesTheRequestOrTheMachine) {
+  EXPECT_EQ(threadCount(3), 3U);
+  EXPECT_GE(threadCount(0), 1U);
+}
+
+}  // namespace
+}  // namespace pcl_als

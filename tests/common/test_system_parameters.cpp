@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/system_parameters.h>
+
+namespace pcl_als {
+namespace {
+
+TEST(SystemParameters, AreTheEightInTheOrderOfTheDesignBlock) {
+  const char* const names[] = {"lever_arm_x",     "lever_arm_y",     "lever_arm_z",
+                               "boresight_pitch", "boresight_roll",  "boresight_heading",
+                               "range_bias",      "scan_angle_scale"};
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    const SystemParameterInfo& info = systemParameters()[i];
+    EXPECT_EQ(indexOf(info.parameter), i);
+    EXPECT_EQ(info.name, names[i]);
+    EXPECT_EQ(systemParameterNamed(names[i]), info.parameter);
+  }
+}
+
+TEST(SystemParameters, UnitsOfTheInterface) {
+  EXPECT_EQ(infoOf(SystemParameter::boresight_roll).unit, "arcsec");
+  // 3600 arc-seconds are a degree.
+  EXPECT_NEAR(3600.0 * infoOf(SystemParameter::boresight_roll).internal_per_unit, kPi / 180.0,
+              1e-17);
+  EXPECT_EQ(infoOf(SystemParameter::range_bias).unit, "m");
+  EXPECT_EQ(infoOf(SystemParameter::range_bias).internal_per_unit, 1.0);
+  EXPECT_EQ(infoOf(SystemParameter::scan_angle_scale).unit, "1");
+}
+
+TEST(SystemParameters, UnknownNamesAreNone) {
+  EXPECT_FALSE(systemParameterNamed("boresight"));
+  EXPECT_FALSE(systemParameterNamed(""));
+  EXPECT_FALSE(systemParameterNamed("Boresight_roll"));
+}
+
+TEST(CalibrationResult, StartsWithNothingEstimated) {
+  const CalibrationResult result;
+  EXPECT_EQ(result.biases(), SystemVector(SystemVector::Zero()));
+  for (const ParameterEstimate& parameter : result.parameters)
+    EXPECT_EQ(parameter.status, ParameterStatus::fixed);
+  EXPECT_FALSE(result.converged);
+}
+
+TEST(CalibrationResult, BiasesAreIndexedByParameter) {
+  CalibrationResult result;
+  result[SystemParameter::range_bias].bias = 0.12;
+  SystemVector expected = SystemVector::Zero();
+  expected[6] = 0.12;
+  EXPECT_EQ(result.biases(), expected);
+}
+
+TEST(ParameterStatus, NamesAreThoseOfTheFile) {
+  EXPECT_EQ(toString(ParameterStatus::estimated), "estimated");
+  EXPECT_EQ(toString(ParameterStatus::fixed), "fixed");
+  EXPECT_EQ(toString(ParameterStatus::not_estimable), "not_estimable");
+}
+
+}  // namespace
+}  // namespace pcl_als
