@@ -18,6 +18,7 @@ using detail::textField;
 
 constexpr std::size_t kShortestHeader = 227;
 constexpr std::uint8_t kCompressionBits = 0xC0;
+constexpr double kLargestScale = 1e6;  // metres; also keeps every coordinate finite
 constexpr double kLegacyLimit = 4294967295.0;
 
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
@@ -74,9 +75,9 @@ void readNewerFields(const std::byte* bytes, LasHeader& h) {
 void checkNumbers(const LasHeader& h, const std::string& name) {
   static const char* const axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(h.scale[axis]) || h.scale[axis] <= 0.0)
+    if (!(h.scale[axis] > 0.0 && h.scale[axis] <= kLargestScale))
       fail(name, std::string("the LAS header's ") + axes[axis] + " scale is " +
-                     std::to_string(h.scale[axis]) + "; it must be a positive number");
+                     std::to_string(h.scale[axis]) + "; it must be a positive number of metres");
     if (!std::isfinite(h.offset[axis]))
       fail(name, std::string("the LAS header's ") + axes[axis] + " offset is not a number");
   }
