@@ -2,7 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#ifndef PCL_NO_PRECOMPILE
 #define PCL_NO_PRECOMPILE
+#endif
 #include <cmath>
 #include <cstdint>
 
