@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
@@ -14,6 +15,7 @@ namespace pcl_als::detail {
 namespace {
 
 constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
+constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 40U;
 
 /// Goes through the header's lines; one member per key word.
 class HeaderParser {
@@ -79,7 +81,7 @@ class HeaderParser {
     return *value;
   }
 
-  void takeCount(const std::vector<std::string>& values, std::uint64_t& to) const {
+  void takeCount(const std::vector<std::string>& values, std::optional<std::uint64_t>& to) const {
     to = count(values.empty() ? std::string() : values[0]);
   }
 
@@ -142,15 +144,15 @@ class HeaderParser {
       header_.record_length += field.size * field.count;
       if (header_.record_length > kLargestRecord) fail("the PCD's records are too long");
     }
-    header_.points = points_;
-    if (width_ != kUnset && height_ != kUnset) {
-      if (height_ != 0 && width_ > (std::uint64_t{1} << 40U) / height_)
+    if (!points_ && !(width_ && height_))
+      fail("the PCD header does not say how many points there are");
+    if (width_ && height_) {
+      if (*height_ != 0 && *width_ > kMostPoints / *height_)
         fail("the PCD header's WIDTH and HEIGHT are too large");
-      if (points_ != kUnset && points_ != width_ * height_)
+      if (points_ && *points_ != *width_ * *height_)
         fail("the PCD header's POINTS differ from WIDTH times HEIGHT");
-      header_.points = width_ * height_;
     }
-    if (header_.points == kUnset) fail("the PCD header does not say how many points there are");
+    header_.points = points_ ? *points_ : *width_ * *height_;
     checkRoom();
   }
 
@@ -166,12 +168,11 @@ class HeaderParser {
            " points but the file can hold at most " + std::to_string(most) + " (truncated copy?)");
   }
 
-  static constexpr std::uint64_t kUnset = ~std::uint64_t{0};
   const std::string& text_;
   std::uint64_t file_size_;
   const std::string& name_;
   PcdHeader header_;
-  std::uint64_t width_ = kUnset, height_ = kUnset, points_ = kUnset;
+  std::optional<std::uint64_t> width_, height_, points_;
   bool complete_ = false;
 };
 

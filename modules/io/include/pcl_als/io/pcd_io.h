@@ -4,8 +4,6 @@
 
 #include <filesystem>
 
-#include <pcl/common/copy_point.h>
-
 #include <pcl_als/common/strip.h>
 
 namespace pcl_als {

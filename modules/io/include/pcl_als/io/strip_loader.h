@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <vector>
 
-#include <pcl/common/copy_point.h>
-
 #include <pcl_als/common/strip.h>
 
 namespace pcl_als {
@@ -15,7 +13,7 @@ namespace pcl_als {
  *
  * Strips are told apart and named by StripNaming and come in its order; points keep file order. A
  * strip that reaches further than LocalFrame::kReach from its centre comes as several parts with
- * the same id, cut by a grid of 5 km, each relative to the centre of its square. Memory: 32 bytes
+ * the same id, cut by a grid of 5 km, each relative to the centre of its square. Memory: 48 bytes
  * per point. Files are read twice.
  *
  * InputError when files declare different kinds of GPS time or different EPSG codes.

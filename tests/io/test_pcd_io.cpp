@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/point_flag.h>
+#include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
+
+#include "las_bytes.h"
+#include "test_files.h"
+
+namespace pcl_als {
+namespace {
+
+Strip<PointLidar> someStrip(std::size_t count) {
+  Strip<PointLidar> strip;
+  strip.id = "57138";
+  strip.frame.origin = {583390.0, 5283100.0, 500.0};
+  strip.frame.crs = "EPSG:25832";
+  for (std::size_t i = 0; i < count; ++i) {
+    const float k = static_cast<float>(i);
+    PointLidar p(0.1F + k / 3.0F, -1234.567F + k / 7.0F, k / 1000.0F);
+    p.gps_time = std::nextafter(387654321.123456, 4e8) + 1e-6 * static_cast<double>(i);
+    p.intensity = k;
+    p.scan_angle = -0.006F * k;
+    p.point_source_id = 57138;
+    p.return_number = static_cast<std::uint8_t>(i % 4 + 1);
+    p.number_of_returns = 4;
+    p.classification = static_cast<std::uint8_t>(i % 256);
+    p.flags = kEdgeOfFlightLine | kSynthetic;
+    strip.cloud->push_back(p);
+  }
+  return strip;
+}
+
+void expectSame(const pcl::PointCloud<PointLidar>& a, const pcl::PointCloud<PointLidar>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  // From x to flags; the bytes behind them are padding.
+  constexpr std::size_t kBytes = offsetof(PointLidar, flags) + 1;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_EQ(std::memcmp(&a[i], &b[i], kBytes), 0) << "point " << i;
+}
+
+TEST(PcdIo, KeepsEveryBit) {
+  const auto folder = test::scratch("pcd_bits");
+  const Strip<PointLidar> strip = someStrip(70000);  // more than one block
+  savePcd(folder / "a.pcd", strip);
+  const Strip<PointLidar> back = loadPcd(folder / "a.pcd");
+  EXPECT_EQ(back.id, strip.id);
+  EXPECT_EQ(back.frame.origin, strip.frame.origin);
+  EXPECT_EQ(back.frame.crs, strip.frame.crs);
+  expectSame(*back.cloud, *strip.cloud);
+}
+
+TEST(PcdIo, KeepsAnOriginThatFloatsCannotHold) {
+  const auto folder = test::scratch("pcd_origin");
+  Strip<PointLidar> strip = someStrip(3);
+  strip.frame.origin = {583394.123456789, 5283100.987654321, 1.0 / 3.0};
+  savePcd(folder / "a.pcd", strip);
+  EXPECT_EQ(loadPcd(folder / "a.pcd").frame.origin, strip.frame.origin);
+}
+
+TEST(PcdIo, PclReadsWhatWeWrite) {
+  const auto folder = test::scratch("pcd_pcl_reads");
+  const Strip<PointLidar> strip = someStrip(100);
+  savePcd(folder / "a.pcd", strip);
+  pcl::PointCloud<PointLidar> all;
+  ASSERT_EQ(pcl::io::loadPCDFile((folder / "a.pcd").string(), all), 0);
+  expectSame(all, *strip.cloud);
+  pcl::PointCloud<pcl::PointXYZI> some;
+  ASSERT_EQ(pcl::io::loadPCDFile((folder / "a.pcd").string(), some), 0);
+  EXPECT_EQ(some[99].intensity, 99.0F);
+  EXPECT_EQ(some.sensor_origin_.head<3>().cast<double>(), strip.frame.origin);
+}
+
+TEST(PcdIo, WeReadWhatPclWrites) {
+  const auto folder = test::scratch("pcd_pcl_writes");
+  const Strip<PointLidar> strip = someStrip(3000);
+  strip.cloud->sensor_origin_.head<3>() = strip.frame.origin.cast<float>();
+  const pcl::PointCloud<PointLidar>& cloud = *strip.cloud;
+  pcl::PCDWriter writer;
+  ASSERT_EQ(writer.writeBinary((folder / "binary.pcd").string(), cloud), 0);
+  ASSERT_EQ(writer.writeBinaryCompressed((folder / "compressed.pcd").string(), cloud), 0);
+  ASSERT_EQ(writer.writeASCII((folder / "ascii.pcd").string(), cloud, 17), 0);
+  for (const char* name : {"binary.pcd", "compressed.pcd", "ascii.pcd"}) {
+    SCOPED_TRACE(name);
+    const Strip<PointLidar> back = loadPcd(folder / name);
+    EXPECT_EQ(back.frame.origin, strip.frame.origin);
+    EXPECT_EQ(back.id, "57138");  // from the point source ids
+    expectSame(*back.cloud, cloud);
+  }
+}
+
+TEST(PcdIo, MissingFieldsKeepTheirDefaults) {
+  const auto folder = test::scratch("pcd_missing");
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  cloud.push_back({1.0F, 2.0F, 3.0F});
+  cloud.push_back({NAN, 2.0F, 3.0F});
+  pcl::io::savePCDFileBinary((folder / "line7.pcd").string(), cloud);
+  const Strip<PointLidar> strip = loadPcd(folder / "line7.pcd");
+  ASSERT_EQ(strip.cloud->size(), 1U);  // the point without coordinates is left out
+  EXPECT_EQ(strip.id, "line7");
+  EXPECT_EQ((*strip.cloud)[0].z, 3.0F);
+  EXPECT_EQ((*strip.cloud)[0].gps_time, 0.0);
+  EXPECT_EQ((*strip.cloud)[0].return_number, 1);
+}
+
+TEST(PcdIo, TextIdAndCrsStayOneLine) {
+  const auto folder = test::scratch("pcd_comment");
+  Strip<PointLidar> strip = someStrip(2);
+  strip.id = "line\n7";
+  strip.frame.crs = "PROJCS[\n  x]";
+  savePcd(folder / "a.pcd", strip);
+  EXPECT_EQ(loadPcd(folder / "a.pcd").id, "line 7");
+  EXPECT_EQ(loadPcd(folder / "a.pcd").frame.crs, "PROJCS[   x]");
+}
+
+TEST(PcdIo, AnEmptyCloudIsNoError) {
+  const auto folder = test::scratch("pcd_empty");
+  savePcd(folder / "a.pcd", someStrip(0));
+  EXPECT_TRUE(loadPcd(folder / "a.pcd").cloud->empty());
+}
+
+const std::string kHead =
+    "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z gps_time\nSIZE 4 4 4 8\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+    "WIDTH 2\nHEIGHT 1\nVIEWPOINT 100 200 0 1 0 0 0\nPOINTS 2\nDATA ascii\n";
+const std::string kPoints = "1 2 3 230038.25\n4.5 5 6e0 230039\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(PcdReader, GivesGroundCoordinatesBoxAndKindOfTime) {
+  const auto folder = test::scratch("pcd_reader");
+  test::writeBytes(folder / "a.pcd", kHead + kPoints);
+  const auto reader = PointReader::open(folder / "a.pcd");
+  EXPECT_EQ(reader->info().format, "PCD ascii");
+  EXPECT_EQ(reader->info().point_count, 2U);
+  EXPECT_EQ(reader->info().minimum, Eigen::Vector3d(101, 202, 3));
+  EXPECT_EQ(reader->info().maximum, Eigen::Vector3d(104.5, 205, 6));
+  EXPECT_EQ(reader->info().time_kind, TimeKind::week_seconds);
+  PointChunk chunk;
+  ASSERT_TRUE(reader->read(chunk));
+  EXPECT_EQ(chunk.x, (std::vector<double>{101.0, 104.5}));
+  EXPECT_EQ(chunk.gps_time, (std::vector<double>{230038.25, 230039.0}));
+  EXPECT_FALSE(reader->read(chunk));
+  EXPECT_EQ(chunk.size(), 0U);
+}
+
+TEST(PcdReader, TimesOutsideTheWeekAreStandardTime) {
+  const auto folder = test::scratch("pcd_reader_time");
+  test::writeBytes(folder / "a.pcd", kHead + replaced(kPoints, "230039", "380000000"));
+  EXPECT_EQ(PointReader::open(folder / "a.pcd")->info().time_kind, TimeKind::adjusted_standard);
+}
+
+TEST(PcdIo, DoublesGetAFrameAroundTheirCentre) {
+  const auto folder = test::scratch("pcd_double");
+  test::writeBytes(folder / "a.pcd",
+                   "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+                   "POINTS 2\nDATA ascii\n583394.125 5283100.25 498\n583396.125 5283104.25 502\n");
+  const Strip<PointLidar> strip = loadPcd(folder / "a.pcd");
+  EXPECT_EQ(strip.frame.origin, Eigen::Vector3d(583400, 5283100, 500));
+  EXPECT_EQ(strip.frame.toGround((*strip.cloud)[1].getVector3fMap()),
+            Eigen::Vector3d(583396.125, 5283104.25, 502));
+}
+
+struct PcdFault {
+  const char* name;
+  std::string bytes;
+  const char* message;
+};
+
+const PcdFault kFaults[] = {
+    {"Empty", "", "the file is empty"},
+    {"NotPcd", "LASF\n\n", "is not a PCD file"},
+    {"NoData", "FIELDS x y z\n", "has no DATA line"},
+    {"NoFields", "WIDTH 1\nHEIGHT 1\nDATA ascii\n", "no FIELDS line"},
+    {"NoCount", "FIELDS x\nSIZE 4\nTYPE F\nDATA ascii\n", "how many points"},
+    {"NoZ", replaced(kHead, "y z", "y h") + kPoints, "no field z of type F"},
+    {"IntegerX", replaced(kHead, "TYPE F", "TYPE I") + kPoints, "no field x of type F"},
+    {"FloatTime", replaced(kHead, "4 4 4 8", "4 4 4 4") + kPoints, "gps_time is not of type F 8"},
+    {"SizesShort", replaced(kHead, "4 4 4 8", "4 4 4") + kPoints, "SIZE line has 3 entries for 4"},
+    {"SizeWord", replaced(kHead, "4 4 4 8", "4 4 4 eight") + kPoints, "'eight' where a count"},
+    {"SizeThree", replaced(kHead, "4 4 4 8", "4 4 3 8") + kPoints, "type F of 3 bytes"},
+    {"CountZero", replaced(kHead, "COUNT 1", "COUNT 0") + kPoints, "its COUNT is 0"},
+    {"CountHuge", replaced(kHead, "COUNT 1", "COUNT 99999999") + kPoints, "COUNT is 99999999"},
+    {"Type", replaced(kHead, "TYPE F", "TYPE X") + kPoints, "type X"},
+    {"Rotated", replaced(kHead, "1 0 0 0", "0 1 0 0") + kPoints, "VIEWPOINT is rotated"},
+    {"Viewpoint", replaced(kHead, "100 200", "nan 200") + kPoints, "not seven numbers"},
+    {"Contradiction", replaced(kHead, "POINTS 2", "POINTS 3") + kPoints, "POINTS differ"},
+    {"CountLies", replaced(replaced(kHead, "POINTS 2", "POINTS 9"), "WIDTH 2", "WIDTH 9") + kPoints,
+     "at most 4 (truncated copy?)"},
+    {"WidthHuge",
+     replaced(replaced(kHead, "HEIGHT 1", "HEIGHT 18446744073709551615"), "POINTS 2", "POINTS 9"),
+     "too large"},
+    {"Cut", kHead + "1 2 3 230038.25\n4.5 5 6", "ends at point 1 of 2"},
+    {"Text", kHead + replaced(kPoints, "4.5", "abc"), "point 1, field x: 'abc'"},
+    {"DataKind", replaced(kHead, "ascii", "base64") + kPoints, "DATA is 'base64'"},
+    {"BinaryCut", replaced(kHead, "ascii", "binary") + std::string(30, 'x'), "at most 1"},
+    {"CompressedCut", replaced(kHead, "ascii", "binary_compressed") + "abc", "ends before"},
+    {"CompressedSize", replaced(kHead, "ascii", "binary_compressed") + std::string(8, '\0'),
+     "not of the size"},
+    {"CompressedGarbage",
+     replaced(kHead, "ascii", "binary_compressed") +
+         test::Bytes().u32(6).u32(40).text("\xff\xff\xff\xff", 6).str(),
+     "compressed data are corrupt"},
+};
+
+class PcdFaulty : public testing::TestWithParam<PcdFault> {};
+
+TEST_P(PcdFaulty, IsAnInputErrorThatNamesFileAndFault) {
+  const auto folder = test::scratch("pcd_faulty");
+  test::writeBytes(folder / "bad.pcd", GetParam().bytes);
+  try {
+    loadPcd(folder / "bad.pcd");
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("bad.pcd: "), std::string::npos) << message;
+    EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, PcdFaulty, testing::ValuesIn(kFaults),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(PcdReader, ValuesOutOfRangeAreRefusedByName) {
+  const auto folder = test::scratch("pcd_range");
+  test::writeBytes(folder / "a.pcd",
+                   "FIELDS x y z point_source_id\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
+                   "WIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 70000\n");
+  try {
+    loadPcd(folder / "a.pcd");
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("field point_source_id holds 70000"),
+              std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pcl_als
