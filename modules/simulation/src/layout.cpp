@@ -87,7 +87,8 @@ class Planner {
     const long meshes_along = std::lround(std::ceil(reach / kMeshLength));
     const auto eachMesh = [&](const auto& action) {
       for (long row = -meshes_along; row <= meshes_along; ++row)
-        for (long column = -meshes_across; column <= meshes_across; ++column) action(column, row);
+        for (long column = -meshes_across; column <= meshes_across; ++column)
+          if (reachesScene(column, row)) action(column, row);
     };
     eachMesh([&](long column, long row) { paintStreets(column, row); });
     eachMesh([&](long column, long row) { build(column, row); });
@@ -106,6 +107,12 @@ class Planner {
            : draw < 0.62 ? Use::hall
            : draw < 0.71 ? Use::wood
                          : Use::open;
+  }
+  /// False for a mesh that is wholly outside: its middle is further away than it is long.
+  bool reachesScene(long column, long row) const {
+    return inside(warp_(kMeshWidth * (static_cast<double>(column) + 0.5),
+                        kMeshLength * (static_cast<double>(row) + 0.5)),
+                  -kMeshLength);
   }
   bool inside(const Eigen::Vector2d& place, double margin) const {
     return (place - minimum_).minCoeff() > margin && (maximum_ - place).minCoeff() > margin;

@@ -14,18 +14,26 @@ namespace {
 
 constexpr double kNode = 10.0;       ///< metres between the nodes of the spline
 constexpr double kHillCell = 400.0;  ///< metres: one hill in each
+constexpr long kHillReach = 2;       ///< cells: a hill ends 5.5 radii from its top
 
 struct Ridge {
   double height, kx, ky, phase;
 };
 struct Hill {
   double height, x, y, radius;
+
+  double at(double px, double py) const {
+    const double distance_sq = ((px - x) * (px - x) + (py - y) * (py - y)) / (radius * radius);
+    return distance_sq < 30.0 ? height * std::exp(-0.5 * distance_sq) : 0.0;
+  }
 };
 
 /// Long ridges of falling height and length, and a hill or hollow in every cell of 400 m.
 struct Relief {
   std::vector<Ridge> ridges;
-  std::vector<Hill> hills;
+  std::vector<Hill> hills;  ///< cell after cell
+  Eigen::Vector2d first_cell{0, 0};
+  long columns = 0, rows = 0;
 
   Relief(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, std::uint64_t seed) {
     constexpr std::array<std::array<double, 2>, 5> kRidges = {
@@ -38,11 +46,14 @@ struct Relief {
       ridges.push_back({kRidges[i][0], wave * std::cos(azimuth), wave * std::sin(azimuth),
                         random.uniform(0.0, 2.0 * kPi)});
     }
-    const Eigen::Vector2d first = (minimum / kHillCell).array().floor() - 1.0;
-    const Eigen::Vector2d last = (maximum / kHillCell).array().floor() + 1.0;
-    for (double row = first.y(); row <= last.y(); ++row)
-      for (double column = first.x(); column <= last.x(); ++column)
-        hills.push_back(hillOf(column, row, seed));
+    first_cell = (minimum / kHillCell).array().floor() - kHillReach;
+    const Eigen::Vector2d last = (maximum / kHillCell).array().floor() + kHillReach;
+    columns = std::lround(last.x() - first_cell.x()) + 1;
+    rows = std::lround(last.y() - first_cell.y()) + 1;
+    for (long row = 0; row < rows; ++row)
+      for (long column = 0; column < columns; ++column)
+        hills.push_back(hillOf(first_cell.x() + static_cast<double>(column),
+                               first_cell.y() + static_cast<double>(row), seed));
   }
 
   /// The hill of a cell depends on the cell only: a wider scene keeps the hills of a smaller one.
@@ -50,7 +61,7 @@ struct Relief {
     Random random(keyOf({seed, 0x811, static_cast<std::uint64_t>(std::lround(column)),
                          static_cast<std::uint64_t>(std::lround(row))}));
     const double radius = random.uniform(50.0, 90.0);
-    const double height = radius * random.uniform(0.15, 0.34);
+    const double height = radius * random.uniform(0.18, 0.44);
     const double x = kHillCell * (column + random.uniform());
     const double y = kHillCell * (row + random.uniform());
     return {random.chance(0.3) ? -height : height, x, y, radius};
@@ -59,11 +70,12 @@ struct Relief {
   double at(double x, double y) const {
     double z = 0.0;
     for (const Ridge& r : ridges) z += r.height * std::sin(r.kx * x + r.ky * y + r.phase);
-    for (const Hill& h : hills) {
-      const double distance_sq =
-          ((x - h.x) * (x - h.x) + (y - h.y) * (y - h.y)) / (h.radius * h.radius);
-      if (distance_sq < 30.0) z += h.height * std::exp(-0.5 * distance_sq);
-    }
+    const long column = std::lround(std::floor(x / kHillCell) - first_cell.x());
+    const long row = std::lround(std::floor(y / kHillCell) - first_cell.y());
+    for (long j = std::max(0L, row - kHillReach); j <= std::min(rows - 1, row + kHillReach); ++j)
+      for (long i = std::max(0L, column - kHillReach);
+           i <= std::min(columns - 1, column + kHillReach); ++i)
+        z += hills[static_cast<std::size_t>(j * columns + i)].at(x, y);
     return z;
   }
 };
