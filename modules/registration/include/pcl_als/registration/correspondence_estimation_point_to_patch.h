@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <pcl/registration/correspondence_estimation.h>
+
+#include <pcl_als/common/point_types.h>
+#include <pcl_als/registration/patch_match_provider.h>
+
+namespace pcl_als {
+
+/** \brief Finds for each source point the TIN patch of the target that is conjugate to it (Habib et
+ * al. 2011, section 2.3.1), for any pcl::Registration.
+ *
+ * A patch is conjugate to a point if it is the closest triangle of the target's 2.5D Delaunay TIN,
+ * the normal distance is at most a limit and the point's projection falls inside it. Each
+ * pcl::Correspondence then holds
+ *   index_query  the source point,
+ *   index_match  the vertex of the patch nearest to the projection: the pseudo-conjugate point of
+ *                Eq. (20), for which any vertex would do as only the normal direction counts,
+ *   distance     the **squared normal distance**, m^2: squared as everywhere in PCL, and from the
+ *                patch, not from that vertex.
+ * getMatches() gives patch, normal, foot and signed normal distance beside them.
+ *
+ * Frames: both clouds in one local frame, z up, metres. Assumes a surface that has one height at a
+ * plan position: under overhangs and in trees the TIN is no surface, which
+ * CorrespondenceRejectorPatch recognises. The target's TIN is built when the target was set anew;
+ * pcl::Registration does that once for each align(). Points that are not finite are left out of
+ * both clouds. A target of fewer than three points, or in one line, has no patches: no
+ * correspondences. Memory: 73 bytes per target point, 4 per source point and 96 per correspondence.
+ *
+ * \code
+ * using Estimation = CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal>;
+ * pcl::shared_ptr<Estimation> estimation(new Estimation);
+ * estimation->setMaximumNormalDistance(0.5);
+ * icp.setCorrespondenceEstimation(estimation);
+ * pcl::shared_ptr<CorrespondenceRejectorPatch> rejector(new CorrespondenceRejectorPatch);
+ * rejector->setMatchProvider(estimation);
+ * icp.addCorrespondenceRejector(rejector);
+ * \endcode
+ */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class CorrespondenceEstimationPointToPatch
+    : public pcl::registration::CorrespondenceEstimationBase<PointSource, PointTarget, Scalar>,
+      public PatchMatchProvider {
+ public:
+  using Base = pcl::registration::CorrespondenceEstimationBase<PointSource, PointTarget, Scalar>;
+  using Ptr = pcl::shared_ptr<CorrespondenceEstimationPointToPatch>;
+  using ConstPtr = pcl::shared_ptr<const CorrespondenceEstimationPointToPatch>;
+
+  CorrespondenceEstimationPointToPatch() {
+    this->corr_name_ = "CorrespondenceEstimationPointToPatch";
+  }
+
+  /// Metres, > 0; the smaller of this and the distance given by the registration holds. Default 1.
+  void setMaximumNormalDistance(double metres);
+  double getMaximumNormalDistance() const { return maximum_normal_distance_; }
+
+  /// Step of plan coordinates, metres, > 0: points closer than that are one vertex. Default 0.001.
+  void setResolution(double metres);
+  double getResolution() const { return resolution_; }
+
+  /// Threads of the search; 0: as many as the machine has. The result does not depend on it.
+  /// Default 1.
+  void setNumberOfThreads(int threads);
+  int getNumberOfThreads() const { return threads_; }
+
+  /// \param max_distance metres, of the normal distance. UsageError without source or target.
+  void determineCorrespondences(pcl::Correspondences& correspondences,
+                                double max_distance = std::numeric_limits<double>::max()) override;
+
+  /// Of these, the ones that hold in both directions: the patch of the source's own TIN that is
+  /// conjugate to index_match has index_query as a vertex. Builds a TIN of the source each time.
+  void determineReciprocalCorrespondences(
+      pcl::Correspondences& correspondences,
+      double max_distance = std::numeric_limits<double>::max()) override;
+
+  typename Base::Ptr clone() const override;
+
+  /// The patches of the latest correspondences, in their order.
+  const std::vector<PatchMatch>& getMatches() const { return matches_; }
+  CloudSurface::ConstPtr getSurface() const override { return surface_; }
+  const PatchMatch* findMatch(pcl::index_t source_point) const override;
+
+ private:
+  bool prepare();
+  void search(pcl::Correspondences& correspondences, double limit);
+  void keepReciprocal(pcl::Correspondences& correspondences, double limit);
+  pcl::index_t pseudoConjugate(const PatchMatch& match) const;
+
+  double maximum_normal_distance_ = 1.0;
+  double resolution_ = 0.001;
+  int threads_ = 1;
+  CloudSurface::ConstPtr surface_;
+  std::vector<PatchMatch> matches_;
+  std::vector<std::int32_t> match_of_point_;  ///< index into matches_ by source point; -1: none
+};
+
+}  // namespace pcl_als
+
+#include <pcl_als/registration/impl/correspondence_estimation_point_to_patch.hpp>
+
+namespace pcl_als {
+
+// Of the library; any other registered point type with x, y, z is instantiated where it is used.
+#define PCL_ALS_POINT_TO_PATCH(prefix, PointT)                                       \
+  prefix template class CorrespondenceEstimationPointToPatch<PointT, PointT, float>; \
+  prefix template class CorrespondenceEstimationPointToPatch<PointT, PointT, double>;
+
+#ifndef PCL_ALS_REGISTRATION_SOURCE
+PCL_ALS_POINT_TO_PATCH(extern, PointLidar)
+PCL_ALS_POINT_TO_PATCH(extern, pcl::PointXYZ)
+PCL_ALS_POINT_TO_PATCH(extern, pcl::PointXYZI)
+PCL_ALS_POINT_TO_PATCH(extern, pcl::PointNormal)
+PCL_ALS_POINT_TO_PATCH(extern, pcl::PointXYZINormal)
+#endif
+
+}  // namespace pcl_als

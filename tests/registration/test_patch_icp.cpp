@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// Correspondences and rejector inside pcl::IterativeClosestPoint, two clouds of roofs and terrain
+// with a known motion between them.
+#include <gtest/gtest.h>
+#include <pcl/common/transforms.h>
+#include <pcl/registration/icp.h>
+#include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
+
+#include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
+#include <pcl_als/registration/correspondence_rejection_patch.h>
+
+#include "cloud_support.h"
+#include "surface_sets.h"
+
+namespace pcl_als {
+namespace {
+
+using PointT = pcl::PointNormal;
+using Cloud = pcl::PointCloud<PointT>;
+using Icp = pcl::IterativeClosestPoint<PointT, PointT, double>;
+using Estimation = CorrespondenceEstimationPointToPatch<PointT, PointT, double>;
+
+/// The scene, with at each point the mean normal of the triangles around it.
+Cloud::Ptr sceneWithNormals(int count, double noise, unsigned seed) {
+  const PatchSurface surface(Tin(test::scenePoints(count, noise, seed)));
+  const Cloud::Ptr cloud = test::cloudOf<PointT>(surface.tin().points());
+  for (std::size_t t = 0; t < surface.tin().triangles().size(); ++t)
+    for (const std::int32_t v : surface.tin().triangles()[t].vertex)
+      (*cloud)[v].getNormalVector3fMap() +=
+          surface.normal(static_cast<std::int32_t>(t)).cast<float>();
+  for (PointT& p : *cloud) p.getNormalVector3fMap().normalize();
+  return cloud;
+}
+
+/// 0.2, -0.3 and 0.4 degrees about the axes through the scene's centre, then 0.4, -0.3, 0.2 m.
+Eigen::Matrix4d knownMotion() {
+  const double degree = 0.017453292519943295;
+  const Eigen::Vector3d centre(30.0, 30.0, 3.0);
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.translate(centre + Eigen::Vector3d(0.4, -0.3, 0.2));
+  motion.rotate(Eigen::AngleAxisd(0.4 * degree, Eigen::Vector3d::UnitZ()));
+  motion.rotate(Eigen::AngleAxisd(-0.3 * degree, Eigen::Vector3d::UnitY()));
+  motion.rotate(Eigen::AngleAxisd(0.2 * degree, Eigen::Vector3d::UnitX()));
+  motion.translate(-centre);
+  return motion.matrix();
+}
+
+/// Shift at the scene's centre (m) and rotation (rad) that remain of a motion.
+struct Remainder {
+  double shift, rotation;
+};
+Remainder remainder(const Eigen::Matrix4d& motion) {
+  const Eigen::Vector4d centre(30.0, 30.0, 3.0, 1.0);
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(motion.topLeftCorner<3, 3>()));
+  return {(motion * centre - centre).head<3>().norm(), std::abs(turn.angle())};
+}
+
+/// 2 cm of noise on 4000 patches that face three ways: shift to 1 mm, rotation (over an arm of 20
+/// m) to 1e-4 rad. Vertex normals, which the point-to-plane estimation uses, are noisier than
+/// patches.
+constexpr double kShift = 0.005, kRotation = 3e-4;
+
+class PatchIcp : public testing::Test {
+ protected:
+  PatchIcp() : target_(sceneWithNormals(20000, 0.02, 1)), source_(new Cloud) {
+    pcl::transformPointCloudWithNormals(*sceneWithNormals(20000, 0.02, 2), *source_,
+                                        Eigen::Matrix4d(knownMotion().inverse()));
+    estimation_->setMaximumNormalDistance(2.0);
+    icp_.setCorrespondenceEstimation(estimation_);
+    icp_.setTransformationEstimation(
+        pcl::shared_ptr<
+            pcl::registration::TransformationEstimationPointToPlaneLLS<PointT, PointT, double>>(
+            new pcl::registration::TransformationEstimationPointToPlaneLLS<PointT, PointT,
+                                                                           double>));
+    icp_.setInputSource(source_);
+    icp_.setInputTarget(target_);
+    icp_.setMaximumIterations(40);
+    icp_.setTransformationEpsilon(1e-12);
+  }
+
+  Remainder align() {
+    Cloud aligned;
+    icp_.align(aligned);
+    EXPECT_TRUE(icp_.hasConverged());
+    return remainder(icp_.getFinalTransformation() * knownMotion().inverse());
+  }
+
+  Cloud::Ptr target_, source_;
+  pcl::shared_ptr<Estimation> estimation_{new Estimation};
+  pcl::shared_ptr<CorrespondenceRejectorPatch> rejector_{new CorrespondenceRejectorPatch};
+  Icp icp_;
+};
+
+TEST_F(PatchIcp, StartIsFarOutsideTheTolerances) {
+  const Remainder start = remainder(knownMotion().inverse());
+  EXPECT_GT(start.shift, 100.0 * kShift);
+  EXPECT_GT(start.rotation, 20.0 * kRotation);
+}
+
+TEST_F(PatchIcp, ConvergesWithTheEstimationsPatches) {
+  rejector_->setMatchProvider(estimation_);
+  icp_.addCorrespondenceRejector(rejector_);
+  const Remainder left = align();
+  EXPECT_LT(left.shift, kShift);
+  EXPECT_LT(left.rotation, kRotation);
+  EXPECT_GT(rejector_->getResult().kept, 4000U);
+}
+
+TEST_F(PatchIcp, ConvergesWithPatchesTheRejectorFinds) {
+  icp_.addCorrespondenceRejector(rejector_);
+  const Remainder left = align();
+  EXPECT_LT(left.shift, kShift);
+  EXPECT_LT(left.rotation, kRotation);
+}
+
+TEST_F(PatchIcp, ConvergesWithReciprocalCorrespondences) {
+  rejector_->setMatchProvider(estimation_);
+  icp_.addCorrespondenceRejector(rejector_);
+  icp_.setUseReciprocalCorrespondences(true);
+  const Remainder left = align();
+  EXPECT_LT(left.shift, kShift);
+  EXPECT_LT(left.rotation, kRotation);
+}
+
+TEST_F(PatchIcp, RejectorServesNearestNeighbourCorrespondences) {
+  icp_.setCorrespondenceEstimation(
+      pcl::shared_ptr<pcl::registration::CorrespondenceEstimation<PointT, PointT, double>>(
+          new pcl::registration::CorrespondenceEstimation<PointT, PointT, double>));
+  icp_.addCorrespondenceRejector(rejector_);
+  const Remainder left = align();
+  EXPECT_LT(left.shift, kShift);
+}
+
+TEST_F(PatchIcp, WithoutTheRejectorTheAnswerIsWorse) {
+  const Remainder without = align();
+  rejector_->setMatchProvider(estimation_);
+  icp_.addCorrespondenceRejector(rejector_);
+  EXPECT_GT(without.shift, align().shift);
+}
+
+}  // namespace
+}  // namespace pcl_als
