@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <system_error>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/simulation/simulation_options.h>
+#include <pcl_als/simulation/simulator.h>
+
+#include "command_line.h"
+#include "simulation_files.h"
+
+namespace {
+
+using namespace pcl_als;
+using namespace pcl_als::app;
+using simulation::NoiseOptions;
+using simulation::SimulationOptions;
+using simulation::Simulator;
+
+CommandLine declare() {
+  CommandLine line("pcl_als_simulate",
+                   "simulates an airborne laser scanning block with known system biases.",
+                   "-output DIR [-preset paper|small] [-noise none|range|realistic] [-bias …]",
+                   "pcl_als_simulate -output block -preset small -noise range -seed 3 "
+                   "-bias boresight_roll=60,range_bias=0.1");
+  line.addOptional("output",
+                   "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
+                   "checkpoints.csv and truth.json; made if missing (needed)");
+  line.add<std::string>("preset",
+                        "paper: six lines over 1 km x 2 km at 1150 m and 540 m, 11 million points; "
+                        "small: five lines, 0.9 million points",
+                        "paper");
+  line.add<double>("scale", "factor on the lengths of the lines, 0.05 to 10", 1.0);
+  line.add<double>("density", "factor on the pulses per square metre, 0.01 to 50", 1.0);
+  line.add<std::uint64_t>("seed", "of scene, flight and noise", 1);
+  line.add<std::string>("noise",
+                        "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
+                        "control and slowly drifting trajectory errors",
+                        "none");
+  line.addOptional("bias",
+                   "NAME=VALUE,…: assumed - true in m, arcsec or 1, names as in calibration.json; "
+                   "replaces the preset's lever_arm_x=0.05, lever_arm_y=-0.05, "
+                   "boresight_pitch=-30, boresight_roll=-90, boresight_heading=40, "
+                   "range_bias=0.12, scan_angle_scale=1e-4; 'none' sets all to zero, also as "
+                   "first entry");
+  line.addFlag("vertical", "fly without attitude motion and crab");
+  line.add<double>("fov", "full field of view, degrees, 10 to 60", 40.0);
+  line.addOptional("origin",
+                   "X,Y,Z: ground coordinates of the block's middle, m (default: "
+                   "700000,5660000,1000)");
+  line.add<std::string>("crs", "CRS written to the files", "EPSG:32611");
+  line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
+  line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
+  line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
+  line.add<std::string>("time",
+                        "of the points: week (seconds) or adjusted (standard GPS time); the "
+                        "trajectory has seconds of the week",
+                        "week");
+  line.addFlag("truth_points",
+               "extra bytes bias_x, bias_y, bias_z: what the biases did to each point, m");
+  line.add<std::string>("format", "of the strips: las, or laz where built with LASzip", "las");
+  return line;
+}
+
+Eigen::Vector3d parseOrigin(const std::string& text) {
+  const std::vector<std::string> parts = splitList(text);
+  Eigen::Vector3d origin;
+  bool good = parts.size() == 3;
+  for (int i = 0; good && i < 3; ++i) {
+    const char* last = parts[i].data() + parts[i].size();
+    const auto [end, error] = std::from_chars(parts[i].data(), last, origin[i]);
+    good = error == std::errc() && end == last && std::isfinite(origin[i]);
+  }
+  if (good) return origin;
+  throw UsageError("option -origin: '" + text + "' is not X,Y,Z in metres");
+}
+
+SimulationOptions optionsFrom(const CommandLine& line) {
+  auto options =
+      SimulationOptions::preset(line.text("preset"), line.number("scale", 0.05, 10.0, "(factor)"),
+                                line.number("density", 0.01, 50.0, "(factor)"),
+                                line.number("fov", 10.0, 60.0, "degrees") * kRadiansPerDegree);
+  options.seed = line.get<std::uint64_t>("seed");
+  options.noise = NoiseOptions::named(line.text("noise"));
+  if (line.has("bias")) simulation::setBiases(line.text("bias"), options.bias);
+  options.vertical = line.has("vertical");
+  if (line.has("origin")) options.origin = parseOrigin(line.text("origin"));
+  options.crs = line.text("crs");
+  options.scene.relief = line.number("relief", 0.0, 1.5, "(factor)");
+  options.scene.buildings = line.number("buildings", 0.0, 1.0, "(factor)");
+  options.scene.trees = line.number("trees", 0.0, 4.0, "(factor)");
+  options.check();
+  return options;
+}
+
+/// One of two words of an option.
+bool isSecond(const CommandLine& line, const char* name, const char* first, const char* second) {
+  const std::string value = line.text(name);
+  if (value == first) return false;
+  if (value == second) return true;
+  throw UsageError(std::string("option -") + name + ": '" + value + "' is neither " + first +
+                   " nor " + second);
+}
+
+std::filesystem::path outputFolder(const CommandLine& line) {
+  if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_simulate -h)");
+  const std::filesystem::path folder = line.text("output");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::is_directory(folder)) return folder;
+  throw InputError(folder.string() + ": cannot make this folder" +
+                   (error ? ": " + error.message() : std::string()));
+}
+
+int simulate(int argc, const char* const* argv) {
+  CommandLine line = declare();
+  if (!line.parse(argc, argv)) return kDone;
+  line.inputs(0, 0);
+  const SimulationOptions options = optionsFrom(line);
+  StripFileOptions files;
+  files.adjusted_time = isSecond(line, "time", "week", "adjusted");
+  files.compressed = isSecond(line, "format", "las", "laz");
+  files.bias_columns = line.has("truth_points");
+  files.folder = outputFolder(line);
+
+  Step building("Building the scene", line.quiet());
+  const Simulator simulator(options);
+  building.done(grouped(simulator.scene().buildings().size()) + " houses, " +
+                grouped(simulator.scene().treeCount()) + " trees");
+  Step survey("Writing trajectory and control", line.quiet());
+  survey.done(writeSurveyFiles(simulator, files.folder));
+  std::vector<StripSummary> strips;
+  for (std::size_t i = 0; i < simulator.stripCount(); ++i) {
+    const std::string name = files.nameOf(options.lines[i].id);
+    Step step("Simulating " + name, line.quiet());
+    strips.push_back(writeStrip(simulator, i, files, line.threads(),
+                                [&step](double share) { step.progress(share); }));
+    step.done(grouped(strips.back().points) + " points");
+  }
+  writeTruth(simulator, line.text("noise"), files, strips);
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run("pcl_als_simulate", [&] { return simulate(argc, argv); });
+}

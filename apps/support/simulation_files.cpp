@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "simulation_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/las_writer.h>
+#include <pcl_als/simulation/radiometry.h>
+
+#include "command_line.h"
+
+namespace pcl_als::app {
+
+namespace {
+
+using simulation::SimulatedPoint;
+using simulation::SimulationOptions;
+using simulation::Simulator;
+
+using Columns = std::vector<std::vector<double>>;
+
+LasWriterOptions lasOptionsOf(const SimulationOptions& options, std::uint16_t strip,
+                              const StripFileOptions& files) {
+  LasWriterOptions las;
+  las.offset = options.origin.array().floor();
+  las.crs = options.crs;
+  las.time_kind = files.adjusted_time ? TimeKind::adjusted_standard : TimeKind::week_seconds;
+  las.file_source_id = strip;
+  las.system_id = "SIMULATION";
+  las.generating_software = "pcl_als_simulate";
+  LasExtraField reflectance;
+  reflectance.name = "reflectance";
+  reflectance.description = "true, diffuse, at 1064 nm";
+  las.extra_fields.push_back(reflectance);
+  if (!files.bias_columns) return las;
+  for (const char* name : {"bias_x", "bias_y", "bias_z"}) {
+    LasExtraField field;
+    field.name = name;
+    field.description = "written - with true system, m";
+    field.type = LasExtraType::i32;
+    field.scale = 1e-4;
+    las.extra_fields.push_back(field);
+  }
+  return las;
+}
+
+void fill(const std::vector<SimulatedPoint>& points, double time_shift, PointChunk& chunk) {
+  chunk.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SimulatedPoint& p = points[i];
+    chunk.x[i] = p.position.x();
+    chunk.y[i] = p.position.y();
+    chunk.z[i] = p.position.z();
+    chunk.gps_time[i] = p.time + time_shift;
+    chunk.intensity[i] = p.intensity;
+    chunk.scan_angle[i] = p.scan_angle;
+    chunk.point_source_id[i] = p.strip;
+    chunk.return_number[i] = p.return_number;
+    chunk.number_of_returns[i] = p.number_of_returns;
+    chunk.classification[i] = p.classification;
+    chunk.flags[i] = p.flags;
+  }
+}
+
+void fill(const std::vector<SimulatedPoint>& points, Columns& columns) {
+  for (auto& column : columns) column.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    columns[0][i] = points[i].reflectance;
+    for (std::size_t axis = 1; axis < columns.size(); ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis - 1);
+      columns[axis][i] = points[i].position[k] - points[i].unbiased[k];
+    }
+  }
+}
+
+/// printf of numbers into a line of a text file.
+template <typename... Values>
+void appendLine(std::string& text, const char* format, Values... values) {
+  char line[256];
+  const int length = std::snprintf(line, sizeof line, format, values...);
+  text.append(line, static_cast<std::size_t>(length));
+}
+
+void save(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+std::string trajectoryText(const std::vector<TrajectorySample>& samples) {
+  std::string text = "time,x,y,z,roll,pitch,heading\n";
+  for (const TrajectorySample& s : samples)
+    appendLine(text, "%.6f,%.5f,%.5f,%.5f,%.8f,%.8f,%.8f\n", s.time, s.position.x(), s.position.y(),
+               s.position.z(), s.roll / kRadiansPerDegree, s.pitch / kRadiansPerDegree,
+               s.heading / kRadiansPerDegree);
+  return text;
+}
+
+/// A column sigma only where there is one to state.
+std::string controlText(const std::vector<ControlPoint>& points, bool with_sigma) {
+  std::string text = with_sigma ? "id,x,y,z,sigma\n" : "id,x,y,z\n";
+  for (const ControlPoint& p : points) {
+    appendLine(text, "%s,%.4f,%.4f,%.4f", p.id.c_str(), p.position.x(), p.position.y(),
+               p.position.z());
+    if (with_sigma) appendLine(text, ",%.4f", p.sigma);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string sitesText(const std::vector<simulation::LandCoverSite>& sites) {
+  std::string text = "x,y,class\n";
+  for (const auto& site : sites) {
+    appendLine(text, "%.3f,%.3f,", site.x, site.y);
+    text += std::string(classNameOf(site.cover)) + '\n';
+  }
+  return text;
+}
+
+nlohmann::ordered_json biasJson(const SystemVector& bias) {
+  nlohmann::ordered_json json;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    std::string key(info.name);
+    if (info.unit == "arcsec") key += "_arcsec";
+    if (info.parameter == SystemParameter::range_bias) key += "_m";
+    // Without the last digits that the conversion of units adds.
+    const double value = bias[indexOf(info.parameter)] / info.internal_per_unit;
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.12g", value);
+    json[key] = std::stod(digits);
+  }
+  return json;
+}
+
+nlohmann::ordered_json noiseJson(const simulation::NoiseOptions& noise, const std::string& name) {
+  nlohmann::ordered_json json = {{"level", name},
+                                 {"range_m", noise.range},
+                                 {"scan_angle_arcsec", noise.scan_angle / kRadiansPerArcsec},
+                                 {"footprint", noise.footprint},
+                                 {"intensity_relative", noise.intensity},
+                                 {"control_m", noise.control}};
+  if (!noise.trajectory()) {
+    json["trajectory"] = "none";
+    return json;
+  }
+  json["trajectory"] = {{"process", "first-order Gauss-Markov"},
+                        {"correlation_time_s", noise.correlation_time},
+                        {"position_m", noise.position},
+                        {"roll_pitch_arcsec", noise.roll_pitch / kRadiansPerArcsec},
+                        {"heading_arcsec", noise.heading / kRadiansPerArcsec}};
+  return json;
+}
+
+nlohmann::ordered_json stripJson(const SimulationOptions& options, std::size_t i,
+                                 const StripSummary& summary) {
+  const simulation::PlannedLine& line = options.lines[i];
+  const Eigen::Vector2d course = line.end - line.start;
+  const double degrees = std::atan2(course.x(), course.y()) / kRadiansPerDegree;
+  return {{"id", std::to_string(line.id)},
+          {"file", summary.file},
+          {"height_m", line.height},
+          {"course_deg", std::round(degrees < 0.0 ? degrees + 360.0 : degrees)},
+          {"speed_m_s", line.speed},
+          {"pulses_per_m2", line.density},
+          {"pulses", summary.pulses},
+          {"points", summary.points}};
+}
+
+nlohmann::ordered_json sceneJson(const Simulator& simulator) {
+  const simulation::Scene& scene = simulator.scene();
+  std::size_t flat = 0;
+  for (const simulation::Building& b : scene.buildings()) flat += b.pitch == 0.0 ? 1 : 0;
+  const double z = simulator.options().origin.z();
+  return {{"gable_roofs", scene.buildings().size() - flat},
+          {"flat_roofs", flat},
+          {"trees", scene.treeCount()},
+          {"lowest_ground_m", z + scene.terrain().lowest()},
+          {"highest_ground_m", z + scene.terrain().highest()}};
+}
+
+}  // namespace
+
+StripSummary writeStrip(const Simulator& simulator, std::size_t strip,
+                        const StripFileOptions& options, int threads,
+                        const std::function<void(double share)>& progress) {
+  const std::uint16_t id = simulator.options().lines[strip].id;
+  StripSummary summary{options.nameOf(id), simulator.pulseCount(strip), 0};
+  LasWriter writer(options.folder / summary.file, lasOptionsOf(simulator.options(), id, options));
+  const double shift = options.adjusted_time ? kSimulatedWeek * 604800.0 - 1e9 : 0.0;
+  PointChunk chunk;
+  Columns extra(options.bias_columns ? 4 : 1);
+  const double expected = static_cast<double>(summary.pulses) * 1.03;
+  simulator.simulateStrip(strip, threads, [&](const std::vector<SimulatedPoint>& points) {
+    fill(points, shift, chunk);
+    fill(points, extra);
+    writer.append(chunk, extra);
+    summary.points += points.size();
+    progress(std::min(1.0, static_cast<double>(summary.points) / expected));
+  });
+  writer.finish();
+  return summary;
+}
+
+std::string writeSurveyFiles(const Simulator& simulator, const std::filesystem::path& folder) {
+  const auto samples = simulator.trajectory();
+  const auto control = simulator.controlPoints();
+  const auto training = simulator.landCoverSites(60, 0), check = simulator.landCoverSites(150, 1);
+  save(folder / "trajectory.csv", trajectoryText(samples));
+  save(folder / "control.csv", controlText(control, simulator.options().noise.control > 0.0));
+  save(folder / "training.csv", sitesText(training));
+  save(folder / "checkpoints.csv", sitesText(check));
+  return grouped(samples.size()) + " samples, " + grouped(control.size()) + " control points, " +
+         grouped(training.size()) + " training and " + grouped(check.size()) + " check points";
+}
+
+void writeTruth(const Simulator& simulator, const std::string& noise_name,
+                const StripFileOptions& options, const std::vector<StripSummary>& strips) {
+  const SimulationOptions& s = simulator.options();
+  nlohmann::ordered_json json;
+  json["format"] = "pcl_als simulation truth";
+  json["version"] = 1;
+  json["convention"] = "bias = assumed - true (Habib et al. 2011, Eq. 8)";
+  json["bias"] = biasJson(s.bias);
+  json["noise"] = noiseJson(s.noise, noise_name);
+  json["pairs"] = nlohmann::ordered_json::array();
+  for (const auto& [a, b] : s.pairs)
+    json["pairs"].push_back({std::to_string(a), std::to_string(b)});
+  json["strips"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < strips.size(); ++i)
+    json["strips"].push_back(stripJson(s, i, strips[i]));
+  json["preset"] = s.name;
+  json["seed"] = s.seed;
+  json["vertical"] = s.vertical;
+  json["origin"] = {s.origin.x(), s.origin.y(), s.origin.z()};
+  json["crs"] = s.crs;
+  json["gps_week"] = kSimulatedWeek;
+  json["point_time"] = options.adjusted_time ? "adjusted standard GPS time" : "seconds of the week";
+  json["field_of_view_deg"] = s.scanner.field_of_view / kRadiansPerDegree;
+  json["beam_divergence_mrad"] = s.scanner.divergence * 1e3;
+  json["intensity"] = {{"gain_at_1000_m", s.scanner.gain},
+                       {"extinction_per_km", simulation::extinctionPerKilometre(s.atmosphere)},
+                       {"visibility_km", s.atmosphere.visibility_km},
+                       {"temperature_c", s.atmosphere.temperature_c},
+                       {"pressure_kpa", s.atmosphere.pressure_kpa}};
+  json["scene"] = sceneJson(simulator);
+  json["tool_version"] = PCL_ALS_VERSION;
+  save(options.folder / "truth.json", json.dump(1) + "\n");
+}
+
+}  // namespace pcl_als::app
