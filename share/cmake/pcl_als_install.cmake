@@ -1,7 +1,12 @@
-# The installed package: find_package(pcl_als) gives pcl_als::common, pcl_als::io, …
+# The installed package: find_package(pcl_als [COMPONENTS io …]) gives pcl_als::common, pcl_als::io, …
 include(CMakePackageConfigHelpers)
 set(PCL_ALS_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pcl_als)
 
+# Everything a user runs, without the tests: ninja pcl_als_tools
+get_property(PCL_ALS_TOOLS GLOBAL PROPERTY PCL_ALS_TOOLS)
+add_custom_target(pcl_als_tools DEPENDS ${PCL_ALS_TOOLS})
+
+get_property(PCL_ALS_EXPORTED_MODULES GLOBAL PROPERTY PCL_ALS_EXPORTED_MODULES)
 install(EXPORT pcl_als-targets NAMESPACE pcl_als:: DESTINATION ${PCL_ALS_CONFIG_DIR})
 configure_package_config_file(share/cmake/pcl_als-config.cmake.in
   ${CMAKE_BINARY_DIR}/pcl_als-config.cmake INSTALL_DESTINATION ${PCL_ALS_CONFIG_DIR})

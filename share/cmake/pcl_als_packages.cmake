@@ -1,4 +1,16 @@
-# Packages that the public headers need; shared by the build and by the installed package config.
-find_package(Threads REQUIRED)
-find_package(Eigen3 3.3 REQUIRED NO_MODULE)
-find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search filters registration)
+# Packages that the public headers need; shared by the build, where a missing one is fatal, and by
+# the installed package config, where it makes pcl_als not found.
+if(CMAKE_FIND_PACKAGE_NAME STREQUAL "pcl_als")
+  include(CMakeFindDependencyMacro)
+  macro(_pcl_als_need)
+    find_dependency(${ARGN})
+  endmacro()
+else()
+  macro(_pcl_als_need)
+    find_package(${ARGN} REQUIRED)
+  endmacro()
+endif()
+
+_pcl_als_need(Threads)
+_pcl_als_need(Eigen3 3.3 NO_MODULE)
+_pcl_als_need(PCL 1.12 COMPONENTS common io kdtree search filters features registration)

@@ -22,8 +22,10 @@ function(als_add_module)
   list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
   target_link_libraries(${target} PUBLIC ${ARG_MODULES} ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_compile_definitions(${target} PRIVATE ${ARG_DEFINITIONS})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME}
+  # Installed libraries find each other wherever the prefix is moved to.
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME} INSTALL_RPATH "$ORIGIN"
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  set_property(GLOBAL APPEND PROPERTY PCL_ALS_EXPORTED_MODULES ${ARG_NAME})
   install(TARGETS ${target} EXPORT pcl_als-targets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -40,6 +42,7 @@ function(als_add_app)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME pcl_als_${ARG_VERB}
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set_property(GLOBAL APPEND PROPERTY PCL_ALS_TOOLS ${target})
 endfunction()
 
 # als_add_test(NAME test_tin SOURCES … [MODULES …] [PRIVATE …]): a GoogleTest program of one module

@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# check.sh SOURCE_DIR: the rules that keep the modules apart. Prints every breach as FILE: what, and
+# ends with status 1 if there is one.
+set -euo pipefail
+export LC_ALL=C
+cd -- "$1"
+breaches=0
+breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
+
+# What a module may declare: arrows go down only, and nobody may use simulation or visualization.
+declare -A may=(
+  [common]="" [io]="common" [trajectory]="common" [tin]="common" [registration]="common tin"
+  [calibration]="common trajectory tin registration" [filters]="common trajectory tin"
+  [classification]="common tin" [quality]="common tin registration trajectory"
+  [simulation]="common" [visualization]="common io trajectory tin quality"
+)
+
+# The modules that X declares in its CMakeLists.txt: the words after MODULES.
+declared() {
+  awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
+         for (i = 1; i <= NF; ++i) {
+           if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
+           else if (on) print $i } }' "modules/$1/CMakeLists.txt"
+}
+declare -A reach
+closure() {  # X and all that it declares, directly or through others
+  [[ -n ${reach[$1]:-} ]] && return
+  local all=" $1 " next
+  reach[$1]=$all  # a circle of declarations is a breach, not an endless loop
+  for next in $(declared "$1"); do
+    closure "$next"
+    all+="${reach[$next]} "
+  done
+  reach[$1]=$all
+}
+
+includes() {  # FILE: line number and target of each include
+  sed -nE 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*([<"][^>"]*[>"]).*/\1/p' "$1"
+}
+
+for folder in modules/*/; do
+  module=$(basename -- "$folder")
+  [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
+  for other in $(declared "$module"); do
+    [[ " ${may[$module]} " == *" $other "* ]] ||
+      breach "modules/$module/CMakeLists.txt" "must not use module $other"
+  done
+  grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&
+    [[ $module != visualization ]] &&
+    breach "modules/$module/CMakeLists.txt" "links a module, a tool or VTK past MODULES"
+  closure "$module"
+  while IFS= read -r file; do
+    while IFS= read -r target; do
+      case $target in
+        "<pcl_als/"*)
+          used=${target#<pcl_als/}
+          [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
+            breach "$file" "includes $target, but $module does not declare module ${used%%/*}" ;;
+        *'../'*) breach "$file" "includes $target across folders" ;;
+        \"*)
+          [[ -e $(dirname -- "$file")/${target//\"/} ]] ||
+            breach "$file" "includes $target, which is not beside it" ;;
+        "<vtk"* | "<pcl/visualization/"*)
+          [[ $module == visualization ]] || breach "$file" "includes $target: only visualization draws" ;;
+        "<gtest/"* | "<boost/program_options"*) breach "$file" "includes $target in a library" ;;
+      esac
+    done < <(includes "$file")
+    if [[ $file != *.md ]] && grep -nE '(std::(cout|cerr|clog)|[^sn:_a-zA-Z](f|std::)?printf *\(|PCL_(ERROR|WARN|INFO)) *' "$file" |
+         grep -vE '^[0-9]+: *(//|\*|/\*)' >/dev/null; then
+      breach "$file" "prints: a library reports through results and exceptions"
+    fi
+  done < <(find "$folder" -name '*.h' -o -name '*.hpp' -o -name '*.cpp' | sort)
+  [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
+done
+
+# Every source file: who may use it, and short enough to be read.
+while IFS= read -r file; do
+  head -n 6 -- "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' ||
+    breach "$file" "has no SPDX line"
+  lines=$(wc -l <"$file")
+  ((lines <= 400)) || breach "$file" "has $lines lines, more than 400"
+done < <(find modules apps tests share \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' \) | sort)
+
+# A file that is nowhere listed is not built: dead, or forgotten.
+while IFS= read -r file; do
+  list=$(dirname -- "$file")
+  until [[ -e $list/CMakeLists.txt ]]; do list=$(dirname -- "$list"); done
+  stem=$(basename -- "$file" .cpp)
+  grep -qF -- "${stem#test_}" "$list/CMakeLists.txt" ||
+    breach "$file" "is not listed in $list/CMakeLists.txt"
+done < <(find modules apps tests share/examples -name '*.cpp' | sort)
+
+((breaches == 0)) || { echo "$breaches breaches of the architecture"; exit 1; }
+echo "The modules keep to the architecture."

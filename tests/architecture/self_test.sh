@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# self_test.sh SCRATCH_DIR: check.sh finds every kind of breach in a tree made for it, and passes the
+# same tree without them.
+set -euo pipefail
+export LC_ALL=C
+check=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)/check.sh
+rm -rf -- "$1" && mkdir -p -- "$1" && cd -- "$1"
+failures=0
+
+make_tree() {
+  rm -rf modules apps tests share
+  mkdir -p modules/{common,tin,simulation}/{src,include/pcl_als/x} apps tests share
+  local module
+  for module in common tin simulation; do
+    touch "modules/$module/README.md"
+    echo '// SPDX-License-Identifier: BSD-3-Clause' >"modules/$module/src/a.cpp"
+  done
+  echo 'als_add_module(NAME common SOURCES src/a.cpp)' >modules/common/CMakeLists.txt
+  echo 'als_add_module(NAME tin SOURCES src/a.cpp MODULES common)' >modules/tin/CMakeLists.txt
+  echo 'als_add_module(NAME simulation SOURCES src/a.cpp MODULES common)' >modules/simulation/CMakeLists.txt
+  echo '#include <pcl_als/common/errors.h>' >>modules/tin/src/a.cpp
+}
+
+expect() {  # status, text; the tree as it stands
+  local output status=0
+  output=$("$check" . 2>&1) || status=$?
+  if [[ $status != "$1" || $output != *"$2"* ]]; then
+    echo "expected status $1 and '$2', got $status and: $output"
+    failures=$((failures + 1))
+  fi
+}
+
+make_tree; expect 0 "keep to the architecture"
+make_tree; echo '#include <pcl_als/tin/tin.h>' >>modules/simulation/src/a.cpp; expect 1 "does not declare module tin"
+make_tree; sed -i 's/MODULES common/MODULES common tin/' modules/simulation/CMakeLists.txt; expect 1 "must not use module tin"
+make_tree; sed -i 's/)/ MODULES simulation)/' modules/common/CMakeLists.txt; expect 1 "must not use module simulation"
+make_tree; sed -i 's/)/ PRIVATE pcl_als::io)/' modules/tin/CMakeLists.txt; expect 1 "past MODULES"
+make_tree; echo '#include "../../apps/x.h"' >>modules/tin/src/a.cpp; expect 1 "across folders"
+make_tree; echo '#include "command_line.h"' >>modules/tin/src/a.cpp; expect 1 "not beside it"
+make_tree; echo '# include <vtkActor.h>' >>modules/tin/src/a.cpp; expect 1 "only visualization draws"
+make_tree; echo 'void f() { std::cout << 1; }' >>modules/tin/src/a.cpp; expect 1 "prints"
+make_tree; echo 'void f() { char b[9]; std::snprintf(b, 9, ""); }' >>modules/tin/src/a.cpp; expect 0 "keep to"
+make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
+make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
+make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"
+make_tree; mkdir modules/extra; expect 1 "unknown module"
+make_tree; rm modules/tin/README.md; expect 1 "has no README.md"
+((failures == 0)) || exit 1
+echo "All breaches were found."
