@@ -20,6 +20,7 @@ const std::vector<P> kSix{P::lever_arm_x,    P::lever_arm_y,       P::boresight_
 SharedErrorModel model(double correlation_time = 30.0) {
   SharedErrorModel errors;
   errors.correlation_time = correlation_time;
+  errors.knot_spacing = 10.0;
   return errors;
 }
 

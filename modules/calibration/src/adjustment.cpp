@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,74 +11,13 @@
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/parallel.h>
 
+#include "area_normal.h"
+
 namespace pcl_als {
 namespace {
 
 constexpr int kKnot = SharedErrors::kPerKnot;
-constexpr int kSlots =
-    5;  // knots around the firing of the point and around that of the patch, instrument
-constexpr int kLocal = kSystemParameterCount + kSlots * kKnot;
-using LocalRow = Eigen::Matrix<double, 1, kLocal>;
-using Knots = std::array<int, kSlots>;  // -1: not used
-
-/// One observation's row over what it touches: the eight parameters, then four knots and the
-/// instrument.
-struct TouchedRow {
-  LocalRow row = LocalRow::Zero();
-  Knots knots{-1, -1, -1, -1, -1};
-
-  TouchedRow(const PairObservation& observation, const SharedErrors& errors) {
-    row.head<kSystemParameterCount>() = observation.row();
-    if (observation.a != PairObservation::kControl) {
-      place(0, errors.placeOf(observation.a, observation.time_a), observation.normal,
-            observation.row_a, 1.0);
-    }
-    place(2, errors.placeOf(observation.b, observation.time_b), observation.normal,
-          observation.row_b, -1.0);
-    knots[4] = errors.instrumentBlock();
-    row[kSystemParameterCount + 4 * kKnot] = observation.stretch;
-  }
-
- private:
-  void place(int slot, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
-             const SystemRow& design, double sign) {
-    Eigen::Matrix<double, 1, kKnot> effect;
-    effect << normal.transpose(), design.segment<3>(indexOf(SystemParameter::boresight_pitch));
-    knots[slot] = where.knot;
-    row.segment<kKnot>(kSystemParameterCount + slot * kKnot) = sign * (1.0 - where.next) * effect;
-    if (where.next_knot == where.knot) return;
-    knots[slot + 1] = where.next_knot;
-    row.segment<kKnot>(kSystemParameterCount + (slot + 1) * kKnot) = sign * where.next * effect;
-  }
-};
-
-/// Normal equations of consecutive observations that touch the same knots.
-struct PartialNormal {
-  Knots knots;
-  Eigen::Matrix<double, kLocal, kLocal> matrix = Eigen::Matrix<double, kLocal, kLocal>::Zero();
-  Eigen::Matrix<double, kLocal, 1> right = Eigen::Matrix<double, kLocal, 1>::Zero();
-};
-
-std::vector<PartialNormal> partialNormals(const AreaObservations& observations,
-                                          const std::vector<double>& weights,
-                                          const SharedErrors& errors) {
-  std::map<Knots, PartialNormal> partial;
-  PartialNormal* current = nullptr;
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    const TouchedRow touched(observations[i], errors);
-    if (current == nullptr || current->knots != touched.knots) {
-      current = &partial[touched.knots];
-      current->knots = touched.knots;
-    }
-    const double weight = weights[i] / observations[i].variance;
-    const LocalRow weighted = weight * touched.row;
-    current->matrix.noalias() += weighted.transpose() * touched.row;
-    current->right += observations[i].misclosure * weighted.transpose();
-  }
-  std::vector<PartialNormal> list;
-  for (auto& entry : partial) list.push_back(entry.second);
-  return list;
-}
+constexpr int kGlobal = kSystemParameterCount;
 
 Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParameter>& chosen) {
   Eigen::MatrixXd part(chosen.size(), chosen.size());
@@ -98,14 +37,15 @@ SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParam
   return matrix;
 }
 
-/// Inverse of a symmetric matrix whose parameters have different units; false when it is
-/// numerically singular.
-bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse) {
+/// Inverse of a symmetric matrix whose parameters have different units, and the logarithm of its
+/// determinant; false when it is numerically singular.
+bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log_determinant) {
   if (!matrix.allFinite() || (matrix.diagonal().array() <= 0.0).any()) return false;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
   constexpr double kSingular = 1e-11;  // of a matrix with a unit diagonal
   if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() < kSingular) return false;
+  log_determinant = ldlt.vectorD().array().log().sum() - 2.0 * scale.array().log().sum();
   inverse = scale.asDiagonal() *
             ldlt.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols())) *
             scale.asDiagonal();
@@ -114,34 +54,35 @@ bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse) {
 
 }  // namespace
 
-/// The whole system, before elimination.
+/// The sum over areas, their shifts eliminated.
 struct Adjustment::Normal {
+  using Block = Eigen::Matrix<double, kKnot, kKnot>;
+
   SystemMatrix gg = SystemMatrix::Zero();
   SystemVector right_g = SystemVector::Zero();
-  Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount> tg;
+  Eigen::Matrix<double, Eigen::Dynamic, kGlobal> tg;
   Eigen::VectorXd right_t;
-  std::map<std::pair<int, int>, Eigen::Matrix<double, kKnot, kKnot>> tt;
+  std::map<std::pair<int, int>, Block> tt;
+  double log_determinant = 0.0, explained = 0.0;
 
   explicit Normal(int unknowns) {
-    tg.setZero(unknowns, kSystemParameterCount);
+    tg.setZero(unknowns, kGlobal);
     right_t.setZero(unknowns);
   }
 
-  void add(const PartialNormal& part) {
-    gg += part.matrix.topLeftCorner<kSystemParameterCount, kSystemParameterCount>();
-    right_g += part.right.head<kSystemParameterCount>();
-    for (int i = 0; i < kSlots; ++i) {
-      if (part.knots[i] < 0) continue;
-      const int local_i = kSystemParameterCount + i * kKnot;
-      tg.middleRows<kKnot>(part.knots[i] * kKnot) +=
-          part.matrix.block<kKnot, kSystemParameterCount>(local_i, 0);
-      right_t.segment<kKnot>(part.knots[i] * kKnot) += part.right.segment<kKnot>(local_i);
-      for (int j = 0; j < kSlots; ++j) {
-        if (part.knots[j] < 0) continue;
-        auto& block = tt.try_emplace({part.knots[i], part.knots[j]},
-                                     Eigen::Matrix<double, kKnot, kKnot>::Zero())
-                          .first->second;
-        block += part.matrix.block<kKnot, kKnot>(local_i, kSystemParameterCount + j * kKnot);
+  void add(const AreaNormal::Reduced& area, const std::vector<int>& knots) {
+    gg += area.matrix.topLeftCorner<kGlobal, kGlobal>();
+    right_g += area.right.head<kGlobal>();
+    log_determinant += area.log_determinant;
+    explained += area.explained;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      const auto at_i = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
+      tg.middleRows<kKnot>(knots[i] * kKnot) += area.matrix.block<kKnot, kGlobal>(at_i, 0);
+      right_t.segment<kKnot>(knots[i] * kKnot) += area.right.segment<kKnot>(at_i);
+      for (std::size_t j = 0; j < knots.size(); ++j) {
+        const auto at_j = kGlobal + static_cast<Eigen::Index>(j) * kKnot;
+        tt.try_emplace({knots[i], knots[j]}, Block::Zero()).first->second +=
+            area.matrix.block<kKnot, kKnot>(at_i, at_j);
       }
     }
   }
@@ -161,14 +102,14 @@ struct Adjustment::Normal {
   }
 };
 
-/// The system with the shared errors eliminated.
+/// The system with all shared errors eliminated.
 struct Adjustment::Reduced {
   SystemMatrix normal, prior_share;
   SystemVector right;
-  Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount> elimination;  ///< N_tt^-1 N_tg
-  Eigen::VectorXd eliminated_right;                                          ///< N_tt^-1 h_t
-  double log_determinant = 0.0;  ///< ln |N_tt| - ln |prior|
-  double explained = 0.0;        ///< h_t' N_tt^-1 h_t
+  Eigen::Matrix<double, Eigen::Dynamic, kGlobal> elimination;  ///< N_tt^-1 N_tg
+  Eigen::VectorXd eliminated_right;                            ///< N_tt^-1 h_t
+  double log_determinant = 0.0;  ///< ln |N_tt| - ln |prior|, shifts included
+  double explained = 0.0;        ///< h_t' N_tt^-1 h_t, shifts included
 };
 
 Adjustment::Adjustment(const SharedErrors& errors, int threads)
@@ -179,51 +120,65 @@ void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
                             const std::vector<std::vector<double>>& weights) {
   areas_ = &areas;
   weights_ = &weights;
-  std::vector<std::vector<PartialNormal>> partial(areas.size());
+  std::vector<std::unique_ptr<AreaNormal>> normals(areas.size());
   parallelFor(areas.size(), threads_, [&](std::size_t area) {
-    partial[area] = partialNormals(areas[area], weights[area], errors_);
+    normals[area] = std::make_unique<AreaNormal>(areas[area], weights[area], errors_);
   });
-  normal_ = std::make_unique<Normal>(errors_.unknowns());
-  for (const auto& area :
-       partial) {  // in area order: the sums do not depend on the number of threads
-    for (const PartialNormal& part : area) normal_->add(part);
+  area_normals_.clear();
+  for (auto& normal : normals) area_normals_.push_back(std::move(*normal));
+  setLevels(levels_);
+}
+
+std::unique_ptr<const Adjustment::Normal> Adjustment::assemble(double shift_variance) const {
+  std::vector<AreaNormal::Reduced> reduced(area_normals_.size());
+  parallelFor(area_normals_.size(), threads_, [&](std::size_t area) {
+    reduced[area] = area_normals_[area].reduced(shift_variance);
+  });
+  auto normal = std::make_unique<Normal>(errors_.unknowns());
+  for (std::size_t area = 0; area < reduced.size();
+       ++area) {  // in this order, whatever the number of threads
+    normal->add(reduced[area], area_normals_[area].knots());
   }
-  reduced_ = std::make_unique<Reduced>(reduce(levels_));
+  return normal;
 }
 
 void Adjustment::setLevels(const SharedErrorLevels& levels) {
   levels_ = levels;
-  if (normal_) reduced_ = std::make_unique<Reduced>(reduce(levels_));
+  if (areas_ == nullptr) return;
+  normal_ = assemble(errors_.localVariance(levels_));
+  reduced_ = std::make_unique<Reduced>(reduce(*normal_, levels_));
 }
 
-Adjustment::Reduced Adjustment::reduce(const SharedErrorLevels& levels) const {
+Adjustment::Reduced Adjustment::reduce(const Normal& normal,
+                                       const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(normal_->sparse() + prior);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(normal.sparse() + prior);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> prior_ldlt(prior);
   Reduced reduced;
-  reduced.elimination = ldlt.solve(normal_->tg);
-  reduced.eliminated_right = ldlt.solve(normal_->right_t);
-  reduced.normal = normal_->gg - normal_->tg.transpose() * reduced.elimination;
+  reduced.elimination = ldlt.solve(normal.tg);
+  reduced.eliminated_right = ldlt.solve(normal.right_t);
+  reduced.normal = normal.gg - normal.tg.transpose() * reduced.elimination;
   reduced.normal = (0.5 * (reduced.normal + reduced.normal.transpose())).eval();
-  reduced.right = normal_->right_g - normal_->tg.transpose() * reduced.eliminated_right;
+  reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
   reduced.prior_share = reduced.elimination.transpose() * (prior * reduced.elimination);
-  reduced.log_determinant =
-      ldlt.vectorD().array().log().sum() - prior_ldlt.vectorD().array().log().sum();
-  reduced.explained = normal_->right_t.dot(reduced.eliminated_right);
+  reduced.log_determinant = normal.log_determinant + ldlt.vectorD().array().log().sum() -
+                            prior_ldlt.vectorD().array().log().sum();
+  reduced.explained = normal.explained + normal.right_t.dot(reduced.eliminated_right);
   return reduced;
 }
 
 double Adjustment::deviance(const SharedErrorLevels& levels,
                             const std::vector<SystemParameter>& estimate) const {
-  const Reduced reduced = reduce(levels);
+  const bool same_local = levels.local == levels_.local;
+  const std::unique_ptr<const Normal> other =
+      same_local ? nullptr : assemble(errors_.localVariance(levels));
+  const Reduced reduced = reduce(same_local ? *normal_ : *other, levels);
   Eigen::MatrixXd inverse;
-  const Eigen::MatrixXd normal = sub(reduced.normal, estimate);
-  if (!invert(normal, inverse)) return std::numeric_limits<double>::infinity();
+  double log_normal = 0.0;
+  if (!invert(sub(reduced.normal, estimate), inverse, log_normal))
+    return std::numeric_limits<double>::infinity();
   Eigen::VectorXd right(estimate.size());
   for (std::size_t i = 0; i < estimate.size(); ++i) right[i] = reduced.right[indexOf(estimate[i])];
-  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> scaled(scale.asDiagonal() * normal * scale.asDiagonal());
-  const double log_normal = scaled.vectorD().array().log().sum() - 2.0 * scale.array().log().sum();
   return reduced.log_determinant + log_normal - reduced.explained - right.dot(inverse * right);
 }
 
@@ -234,32 +189,36 @@ const SystemMatrix& Adjustment::reducedNormal() const {
 double Adjustment::residual(const PairObservation& observation,
                             const AdjustmentSolution& solution) const {
   const TouchedRow touched(observation, errors_);
-  double left =
-      observation.misclosure - touched.row.head<kSystemParameterCount>() * solution.biases;
-  for (int slot = 0; slot < kSlots; ++slot) {
+  double left = observation.misclosure - touched.row.head<kGlobal>() * solution.biases;
+  for (int slot = 0; slot < TouchedRow::kSlots; ++slot) {
     if (touched.knots[slot] < 0) continue;
-    left -= touched.row.segment<kKnot>(kSystemParameterCount + slot * kKnot) *
+    left -= touched.row.segment<kKnot>(TouchedRow::slot(slot)) *
             solution.shared.segment<kKnot>(touched.knots[slot] * kKnot);
   }
   return left;
 }
 
+SystemVector Adjustment::score(std::size_t area, const AdjustmentSolution& solution) const {
+  // Of the area's own normal equations: h - N (parameters, knots), reduced by what the knots take
+  // over.
+  const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
+  const std::vector<int>& knots = area_normals_[area].knots();
+  Eigen::VectorXd unknowns(own.right.size());
+  Eigen::MatrixXd reduction(own.right.size(), kGlobal);
+  unknowns.head<kGlobal>() = solution.biases;
+  reduction.topRows<kGlobal>().setIdentity();
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const auto at = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
+    unknowns.segment<kKnot>(at) = solution.shared.segment<kKnot>(knots[i] * kKnot);
+    reduction.middleRows<kKnot>(at) = -reduced_->elimination.middleRows<kKnot>(knots[i] * kKnot);
+  }
+  return reduction.transpose() * (own.right - own.matrix * unknowns);
+}
+
 SystemMatrix Adjustment::scoreScatter(const AdjustmentSolution& solution) const {
   std::vector<SystemVector> scores(areas_->size(), SystemVector::Zero());
-  parallelFor(areas_->size(), threads_, [&](std::size_t area) {
-    for (std::size_t i = 0; i < (*areas_)[area].size(); ++i) {
-      const PairObservation& observation = (*areas_)[area][i];
-      const TouchedRow touched(observation, errors_);
-      SystemRow reduced = touched.row.head<kSystemParameterCount>();
-      for (int slot = 0; slot < kSlots; ++slot) {
-        if (touched.knots[slot] < 0) continue;
-        reduced -= touched.row.segment<kKnot>(kSystemParameterCount + slot * kKnot) *
-                   reduced_->elimination.middleRows<kKnot>(touched.knots[slot] * kKnot);
-      }
-      const double weight = (*weights_)[area][i] / observation.variance;
-      scores[area] += weight * residual(observation, solution) * reduced.transpose();
-    }
-  });
+  parallelFor(areas_->size(), threads_,
+              [&](std::size_t area) { scores[area] = score(area, solution); });
   SystemMatrix scatter = SystemMatrix::Zero();
   double groups = 0.0;
   for (std::size_t area = 0; area < scores.size(); ++area) {
@@ -274,10 +233,15 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   AdjustmentSolution solution;
   solution.biases = held;
   for (const SystemParameter p : estimate) solution.biases[indexOf(p)] = 0.0;
+  SystemMatrix independent = SystemMatrix::Zero();
+  for (std::size_t area = 0; area < area_normals_.size(); ++area)
+    independent += area_normals_[area].parameters();
   Eigen::MatrixXd inverse, formal;
-  if (!invert(sub(reduced_->normal, estimate), inverse) ||
-      !invert(sub(normal_->gg, estimate), formal))
+  double ignored = 0.0;
+  if (!invert(sub(reduced_->normal, estimate), inverse, ignored) ||
+      !invert(sub(independent, estimate), formal, ignored)) {
     return solution;
+  }
   const SystemMatrix model = expanded(inverse, estimate);
   solution.biases += model * (reduced_->right - reduced_->normal * solution.biases);
   solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
@@ -291,39 +255,6 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   solution.covariance = inflation.asDiagonal() * model * inflation.asDiagonal();
   solution.solved = true;
   return solution;
-}
-
-SharedErrorLevels mostLikelyLevels(const Adjustment& adjustment,
-                                   const std::vector<SystemParameter>& estimate) {
-  constexpr int kLowest = -12, kHighest = 3;  // powers of two
-  constexpr double kBelief = 2.0;  // standard deviation of ln(level) by the model's own word
-  std::array<int, 3> best{0, 0, 0};
-  const auto levelsOf = [](const std::array<int, 3>& power) {
-    return SharedErrorLevels{std::exp2(power[0]), std::exp2(power[1]), std::exp2(power[2])};
-  };
-  const auto cost = [&](const std::array<int, 3>& power) {
-    double belief = 0.0;
-    for (const int p : power) belief += std::pow(p * std::log(2.0) / kBelief, 2);
-    return adjustment.deviance(levelsOf(power), estimate) + belief;
-  };
-  double lowest = cost(best);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int kind = 0; kind < 3; ++kind) {
-      for (const int step : {-1, 1}) {
-        for (std::array<int, 3> next = best;;) {
-          next[kind] += step;
-          if (next[kind] < kLowest || next[kind] > kHighest) break;
-          const double value = cost(next);
-          if (!(value < lowest)) break;
-          lowest = value;
-          best = next;
-          changed = true;
-        }
-      }
-    }
-  }
-  return levelsOf(best);
 }
 
 }  // namespace pcl_als

@@ -261,7 +261,7 @@ void QuasiRigorousCalibration::adjust(State& state) const {
     state.choice =
         chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
     if (pass > 0 || !state.levels_open || state.choice.estimate.empty()) continue;
-    state.adjustment.setLevels(mostLikelyLevels(state.adjustment, state.choice.estimate));
+    mostLikelyLevels(state.adjustment, state.choice.estimate);
   }
   weigh(state);
 }
@@ -306,6 +306,17 @@ void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
   state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
 }
 
+bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVector& before) {
+  constexpr double kNegligible = 0.05;  // of a standard deviation
+  const AdjustmentSolution& solution = state.choice.solution;
+  return std::all_of(state.choice.estimate.begin(), state.choice.estimate.end(),
+                     [&](SystemParameter p) {
+                       const int i = indexOf(p);
+                       return std::abs(solution.biases[i] - before[i]) <
+                              kNegligible * std::sqrt(solution.covariance(i, i));
+                     });
+}
+
 void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
   // The levels need residuals near their final size, and must rest for the iteration to converge.
@@ -315,7 +326,8 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   const double effect = largestEffect(state.observations, biases - before);
   result.iterations.push_back({state.observationCount(), state.sigma0, effect});
   if (progress_) progress_(result.iterations.back());
-  result.converged = result.iterations.size() > 3 && effect < settings_.convergence;
+  result.converged = result.iterations.size() > 3 &&
+                     (effect < settings_.convergence || restsWithin(state, before));
   parallelFor(matchers_.size(), settings_.threads,
               [&](std::size_t i) { matchers_[i].correct(*trajectory_, biases); });
   shrinkThreshold(state);

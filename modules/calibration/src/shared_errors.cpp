@@ -16,6 +16,7 @@ void SharedErrorModel::validate() const {
       {"trajectory heading sigma (rad)", heading},
       {"trajectory correlation time (s)", correlation_time},
       {"trajectory knot spacing (s)", knot_spacing},
+      {"local shift sigma (m)", local},
       {"ranging share", ranging_incidence}};
   for (const auto& [name, value] : values) {
     if (std::isfinite(value) && value > 0.0) continue;
@@ -29,10 +30,16 @@ SharedErrors::SharedErrors(const std::vector<std::pair<double, double>>& spans,
                            const SharedErrorModel& model)
     : model_(model) {
   model_.validate();
+  // Every strip's errors meet those of the strips it overlaps: the time to eliminate them grows
+  // with the cube of knots.
+  constexpr double kMostKnots = 150.0;
+  double total = 0.0;
+  for (const auto& [start, end] : spans) total += std::max(0.0, end - start);
+  const double spacing = std::max(model_.knot_spacing, total / kMostKnots);
   for (const auto& [start, end] : spans) {
     StripKnots strip;
     const double length = std::max(0.0, end - start);
-    const int intervals = static_cast<int>(std::ceil(length / model_.knot_spacing - 1e-9));
+    const int intervals = static_cast<int>(std::ceil(length / spacing - 1e-9));
     strip.start = start;
     strip.count = intervals + 1;
     strip.spacing = intervals > 0 ? length / intervals : 1.0;

@@ -21,6 +21,8 @@ struct AdjustmentSolution {
   Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
 };
 
+class AreaNormal;  // normal equations of one area
+
 /** \brief Modified least squares adjustment (Habib et al. 2011, Eqs. (25), (26)) with shared errors
  * as nuisance.
  *
@@ -60,14 +62,16 @@ class Adjustment {
   /// determine.
   const SystemMatrix& reducedNormal() const;
 
-  /// What a solution leaves of an observation's misclosure, metres.
+  /// What a solution leaves of an observation's misclosure, local shifts included, metres.
   double residual(const PairObservation& observation, const AdjustmentSolution& solution) const;
 
  private:
   struct Normal;   // the whole system
   struct Reduced;  // the shared errors eliminated
 
-  Reduced reduce(const SharedErrorLevels& levels) const;
+  std::unique_ptr<const Normal> assemble(double shift_variance) const;
+  Reduced reduce(const Normal& normal, const SharedErrorLevels& levels) const;
+  SystemVector score(std::size_t area, const AdjustmentSolution& solution) const;
   SystemMatrix scoreScatter(const AdjustmentSolution& solution) const;
 
   const SharedErrors& errors_;
@@ -75,18 +79,19 @@ class Adjustment {
   SharedErrorLevels levels_;
   const std::vector<AreaObservations>* areas_ = nullptr;
   const std::vector<std::vector<double>>* weights_ = nullptr;
-  std::unique_ptr<Normal> normal_;
+  std::vector<AreaNormal> area_normals_;
+  std::unique_ptr<const Normal> normal_;
   std::unique_ptr<Reduced> reduced_;
 };
 
-/** \brief The levels of shared errors that the observations show best (restricted maximum
- * likelihood).
+/** \brief Sets an adjustment to the levels of shared errors that its observations show best
+ * (restricted maximum likelihood), and returns them.
  *
- * Searched by powers of two between 1/4096 and 8 times the model's variances, one kind after the
+ * Searched by powers of two between 1/4096 and 16 times the model's variances, one kind after the
  * other until none changes. The model counts as one observation of each level, right within a
  * factor of e^2: where the observations say nothing, it stays.
  */
-SharedErrorLevels mostLikelyLevels(const Adjustment& adjustment,
+SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);
 
 }  // namespace pcl_als

@@ -27,14 +27,15 @@ struct CalibrationSettings {
   PatchLimits patches;
   SurveyMap::Selection selection;
   std::size_t candidates =
-      400;  ///< points of a strip in an area that look for patches in the other strips
+      150;  ///< points of a strip in an area that look for patches in the other strips
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
   double resolution = 0.001;          ///< metres, coordinate step of the files
   int max_iterations = 20;
-  double convergence = 2e-4;  ///< metres: an update moves no point by more
+  double convergence =
+      2e-4;  ///< metres: an update moves no point by more, or no parameter by 1/20 std
   int threads = 0;
 };
 
@@ -94,6 +95,8 @@ class QuasiRigorousCalibration {
   void weigh(State& state) const;
   void adjust(State& state) const;
   void shrinkThreshold(State& state) const;
+  /// Whether no parameter moved by more than a small part of its standard deviation.
+  static bool restsWithin(const State& state, const SystemVector& before);
   void iterate(State& state, CalibrationResult& result);
 
   std::shared_ptr<const Trajectory> trajectory_;

@@ -20,6 +20,9 @@ namespace pcl_als {
  * exp(-|dt| / correlation_time). Strips are independent. Defaults: post-processed survey-grade
  * GNSS/INS.
  *
+ * Local: what is left of a strip's errors between the knots, and of the surface itself, is one
+ * shift of the strip (east, north, up) in every area, independent from area to area.
+ *
  * Ranging: a pulse that meets a surface at incidence theta comes back stretched over d = range *
  * divergence * tan(theta), and what the instrument calls its time shifts with it, by an unknown
  * share of d common to all points.
@@ -28,17 +31,18 @@ struct SharedErrorModel {
   double position = 0.02;                       ///< metres, each axis
   double roll_pitch = 8.0 * kRadiansPerArcsec;  ///< radians
   double heading = 16.0 * kRadiansPerArcsec;    ///< radians
-  double correlation_time = 30.0;               ///< seconds
+  double correlation_time = 20.0;               ///< seconds
   double knot_spacing =
       10.0;  ///< seconds, at most, between knots of the linear splines used for the trajectory
+  double local = 0.01;             ///< metres, each axis
   double ranging_incidence = 0.1;  ///< share of the stretch d
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
 
-/// How much of the model's variance the observations show, by kind of trajectory error.
+/// How much of the model's variance the observations show, by kind of error.
 struct SharedErrorLevels {
-  double position = 1.0, roll_pitch = 1.0, heading = 1.0;
+  double position = 1.0, roll_pitch = 1.0, heading = 1.0, local = 1.0;
 };
 
 /// The unknowns of the model: six at every knot of every strip (linear in time between knots), then
@@ -62,6 +66,11 @@ class SharedErrors {
     double next = 0.0;  ///< share of next_knot, 0 … 1
   };
   Place placeOf(int strip, double time) const;
+
+  /// Variance of a strip's shift in an area, each axis, m^2.
+  double localVariance(const SharedErrorLevels& levels) const {
+    return model_.local * model_.local * levels.local;
+  }
 
   /// Information matrix of the prior, unknowns x unknowns, knot by knot (east north up pitch roll
   /// heading).

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "area_normal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+namespace pcl_als {
+
+TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
+  row.head<kSystemParameterCount>() = o.row();
+  if (o.a != PairObservation::kControl) {
+    place(0, errors.placeOf(o.a, o.time_a), o.normal, o.row_a, 1.0);
+    strips[0] = o.a;
+    row.segment<kShift>(shift(0)) = o.normal.transpose();
+  }
+  place(2, errors.placeOf(o.b, o.time_b), o.normal, o.row_b, -1.0);
+  strips[1] = o.b;
+  row.segment<kShift>(shift(1)) = -o.normal.transpose();
+  knots[4] = errors.instrumentBlock();
+  row[slot(4)] = o.stretch;
+}
+
+void TouchedRow::place(int index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
+                       const SystemRow& design, double sign) {
+  Eigen::Matrix<double, 1, kKnot> effect;
+  effect << normal.transpose(), design.segment<3>(indexOf(SystemParameter::boresight_pitch));
+  knots[index] = where.knot;
+  row.segment<kKnot>(slot(index)) = sign * (1.0 - where.next) * effect;
+  if (where.next_knot == where.knot) return;
+  knots[index + 1] = where.next_knot;
+  row.segment<kKnot>(slot(index + 1)) = sign * where.next * effect;
+}
+
+namespace {
+
+using LocalMatrix = Eigen::Matrix<double, TouchedRow::kSize, TouchedRow::kSize>;
+using LocalVector = Eigen::Matrix<double, TouchedRow::kSize, 1>;
+
+/// Sums over observations that touch the same knots and strips: most neighbours do.
+struct Partial {
+  LocalMatrix matrix = LocalMatrix::Zero();
+  LocalVector right = LocalVector::Zero();
+};
+using PartialKey = std::pair<std::array<int, TouchedRow::kSlots>, std::array<int, 2>>;
+
+std::map<PartialKey, Partial> partialSums(const AreaObservations& observations,
+                                          const std::vector<double>& weights,
+                                          const SharedErrors& errors) {
+  std::map<PartialKey, Partial> partial;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (weights[i] == 0.0) continue;
+    const TouchedRow touched(observations[i], errors);
+    Partial& sums = partial[{touched.knots, touched.strips}];
+    const LocalVector weighted = (weights[i] / observations[i].variance) * touched.row.transpose();
+    sums.matrix.noalias() += weighted * touched.row;
+    sums.right += observations[i].misclosure * weighted;
+  }
+  return partial;
+}
+
+void insertSorted(std::vector<int>& values, int value) {
+  const auto place = std::lower_bound(values.begin(), values.end(), value);
+  if (value >= 0 && (place == values.end() || *place != value)) values.insert(place, value);
+}
+
+int positionOf(const std::vector<int>& values, int value) {
+  return static_cast<int>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+}  // namespace
+
+AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
+                       const SharedErrors& errors) {
+  const std::map<PartialKey, Partial> partial = partialSums(observations, weights, errors);
+  for (const auto& [key, sums] : partial) {
+    for (const int knot : key.first) insertSorted(knots_, knot);
+    for (const int strip : key.second) insertSorted(strips_, strip);
+  }
+  const auto shifts = kSystemParameterCount + static_cast<int>(knots_.size()) * TouchedRow::kKnot;
+  const auto size = shifts + static_cast<int>(strips_.size()) * TouchedRow::kShift;
+  matrix_.setZero(size, size);
+  right_.setZero(size);
+  for (const auto& [key, sums] : partial) {
+    std::vector<std::array<int, 3>> parts{{0, 0, kSystemParameterCount}};  // local, area, length
+    for (int i = 0; i < TouchedRow::kSlots; ++i) {
+      const int at = kSystemParameterCount + positionOf(knots_, key.first[i]) * TouchedRow::kKnot;
+      if (key.first[i] >= 0) parts.push_back({TouchedRow::slot(i), at, TouchedRow::kKnot});
+    }
+    for (int i = 0; i < 2; ++i) {
+      const int at = shifts + positionOf(strips_, key.second[i]) * TouchedRow::kShift;
+      if (key.second[i] >= 0) parts.push_back({TouchedRow::shift(i), at, TouchedRow::kShift});
+    }
+    for (const auto& r : parts) {
+      right_.segment(r[1], r[2]) += sums.right.segment(r[0], r[2]);
+      for (const auto& c : parts) {
+        matrix_.block(r[1], c[1], r[2], c[2]) += sums.matrix.block(r[0], c[0], r[2], c[2]);
+      }
+    }
+  }
+}
+
+AreaNormal::Reduced AreaNormal::reduced(double shift_variance) const {
+  const auto shifts = static_cast<Eigen::Index>(strips_.size()) * TouchedRow::kShift;
+  const Eigen::Index kept = matrix_.rows() - shifts;
+  Reduced reduced;
+  reduced.matrix = matrix_.topLeftCorner(kept, kept);
+  reduced.right = right_.head(kept);
+  if (shifts == 0) return reduced;
+  Eigen::MatrixXd own = matrix_.bottomRightCorner(shifts, shifts);
+  own.diagonal().array() += 1.0 / shift_variance;
+  const Eigen::LLT<Eigen::MatrixXd> llt(own);
+  // Eliminated through the Cholesky factor, so that the result is symmetric and positive by
+  // construction.
+  const Eigen::MatrixXd half = llt.matrixL().solve(matrix_.bottomLeftCorner(shifts, kept));
+  const Eigen::VectorXd half_right = llt.matrixL().solve(right_.tail(shifts));
+  reduced.matrix.noalias() -= half.transpose() * half;
+  reduced.right.noalias() -= half.transpose() * half_right;
+  const Eigen::VectorXd diagonal = llt.matrixLLT().diagonal();
+  reduced.log_determinant =
+      2.0 * diagonal.array().log().sum() + static_cast<double>(shifts) * std::log(shift_variance);
+  reduced.explained = half_right.squaredNorm();
+  return reduced;
+}
+
+}  // namespace pcl_als

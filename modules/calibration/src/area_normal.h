@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/calibration/shared_errors.h>
+
+namespace pcl_als {
+
+/// One observation's row over what it touches: the eight parameters; four knots and the instrument,
+/// six each; the shifts of its two strips, three each.
+struct TouchedRow {
+  static constexpr int kKnot = SharedErrors::kPerKnot;
+  static constexpr int kSlots = 5;
+  static constexpr int kShift = 3;
+  static constexpr int kShifts = kSystemParameterCount + kSlots * kKnot;
+  static constexpr int kSize = kShifts + 2 * kShift;
+
+  TouchedRow(const PairObservation& observation, const SharedErrors& errors);
+
+  static constexpr int slot(int index) { return kSystemParameterCount + index * kKnot; }
+  static constexpr int shift(int index) { return kShifts + index * kShift; }
+
+  Eigen::Matrix<double, 1, kSize> row = Eigen::Matrix<double, 1, kSize>::Zero();
+  std::array<int, kSlots> knots{-1, -1, -1, -1, -1};  ///< -1: not used
+  std::array<int, 2> strips{-1, -1};
+
+ private:
+  void place(int slot_index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
+             const SystemRow& design, double sign);
+};
+
+/// Normal equations of one area: parameters, the knots it touches, the shifts of its strips.
+class AreaNormal {
+ public:
+  AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
+             const SharedErrors& errors);
+
+  /// The shifts eliminated, given their variance (m^2).
+  struct Reduced {
+    Eigen::MatrixXd matrix;  ///< parameters, then knots() six each
+    Eigen::VectorXd right;
+    double log_determinant = 0.0;  ///< of the shifts' normal matrix times their variance
+    double explained = 0.0;        ///< what the shifts explain of the weighted sum of squares
+  };
+  Reduced reduced(double shift_variance) const;
+  const std::vector<int>& knots() const { return knots_; }
+  /// The parameters' part, nothing eliminated: pairs taken as independent.
+  SystemMatrix parameters() const {
+    return matrix_.topLeftCorner<kSystemParameterCount, kSystemParameterCount>();
+  }
+
+ private:
+  std::vector<int> knots_, strips_;
+  Eigen::MatrixXd matrix_;
+  Eigen::VectorXd right_;
+};
+
+}  // namespace pcl_als
