@@ -57,15 +57,15 @@ Remainder remainder(const Eigen::Matrix4d& motion) {
   return {(motion * centre - centre).head<3>().norm(), std::abs(turn.angle())};
 }
 
-/// 2 cm of noise on 4000 patches that face three ways: shift to 1 mm, rotation (over an arm of 20
-/// m) to 1e-4 rad. Vertex normals, which the point-to-plane estimation uses, are noisier than
-/// patches.
-constexpr double kShift = 0.005, kRotation = 3e-4;
+/// With 5 mm of noise the remaining shift was 1.2 to 2.0 mm (almost all in plan) and the rotation
+/// 0.1 to 0.6e-4 rad over three pairs of seeds. It grows to 13 mm at 2 cm of noise: PCL's
+/// point-to-plane estimation takes the normal of one vertex, which is noisier than a patch.
+constexpr double kNoise = 0.005, kShift = 0.003, kRotation = 1e-4;
 
 class PatchIcp : public testing::Test {
  protected:
-  PatchIcp() : target_(sceneWithNormals(20000, 0.02, 1)), source_(new Cloud) {
-    pcl::transformPointCloudWithNormals(*sceneWithNormals(20000, 0.02, 2), *source_,
+  PatchIcp() : target_(sceneWithNormals(20000, kNoise, 1)), source_(new Cloud) {
+    pcl::transformPointCloudWithNormals(*sceneWithNormals(20000, kNoise, 2), *source_,
                                         Eigen::Matrix4d(knownMotion().inverse()));
     estimation_->setMaximumNormalDistance(2.0);
     icp_.setCorrespondenceEstimation(estimation_);
@@ -96,7 +96,7 @@ class PatchIcp : public testing::Test {
 TEST_F(PatchIcp, StartIsFarOutsideTheTolerances) {
   const Remainder start = remainder(knownMotion().inverse());
   EXPECT_GT(start.shift, 100.0 * kShift);
-  EXPECT_GT(start.rotation, 20.0 * kRotation);
+  EXPECT_GT(start.rotation, 50.0 * kRotation);
 }
 
 TEST_F(PatchIcp, ConvergesWithTheEstimationsPatches) {
@@ -105,7 +105,7 @@ TEST_F(PatchIcp, ConvergesWithTheEstimationsPatches) {
   const Remainder left = align();
   EXPECT_LT(left.shift, kShift);
   EXPECT_LT(left.rotation, kRotation);
-  EXPECT_GT(rejector_->getResult().kept, 4000U);
+  EXPECT_GT(rejector_->getResult().kept, 15000U);
 }
 
 TEST_F(PatchIcp, ConvergesWithPatchesTheRejectorFinds) {
@@ -130,14 +130,14 @@ TEST_F(PatchIcp, RejectorServesNearestNeighbourCorrespondences) {
           new pcl::registration::CorrespondenceEstimation<PointT, PointT, double>));
   icp_.addCorrespondenceRejector(rejector_);
   const Remainder left = align();
-  EXPECT_LT(left.shift, kShift);
+  EXPECT_LT(left.shift, 2.0 * kShift);  // the nearest point need not be a corner of the patch
 }
 
 TEST_F(PatchIcp, WithoutTheRejectorTheAnswerIsWorse) {
   const Remainder without = align();
   rejector_->setMatchProvider(estimation_);
   icp_.addCorrespondenceRejector(rejector_);
-  EXPECT_GT(without.shift, align().shift);
+  EXPECT_GT(without.shift, 2.0 * align().shift);  // 8 mm against 1.3 mm
 }
 
 }  // namespace
