@@ -13,6 +13,7 @@ namespace pcl_als {
 namespace {
 
 using Column = std::array<double, IntegerBiasCorrection::kTile>;
+using IntegerColumn = std::array<std::int32_t, IntegerBiasCorrection::kTile>;
 
 template <typename T>
 T load(const std::byte* at) {
@@ -21,24 +22,46 @@ T load(const std::byte* at) {
   return value;
 }
 
-constexpr double kLowest = -2147483648.0, kHighest = 2147483647.0;
+/// Adding 1.5 * 2^52 to a double below 2^51 leaves it no bits for a fraction: it is rounded to the
+/// nearest integer, which stands in its low bits. std::nearbyint and a conversion to int64 would be
+/// calls per value on the SSE2 baseline.
+constexpr double kShift = 6755399441055744.0;
+constexpr std::uint64_t kShiftBits = 0x4338000000000000;
 
-/// Nearest integer, as a double, for magnitudes below 2^51: adding 1.5 * 2^52 leaves no bits for a
-/// fraction. std::nearbyint would be a call per value on the SSE2 baseline.
-inline double rounded(double value) {
-  constexpr double kShift = 6755399441055744.0;
-  return (value + kShift) - kShift;
+/// 0 for a whole number that fits an int32; its integer value is \a integer then.
+inline std::uint64_t toInteger(double value, std::int32_t& integer) {
+  const double shifted = value + kShift;
+  std::uint64_t bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  const std::uint64_t from_lowest = bits - kShiftBits + (std::uint64_t{1} << 31);
+  integer = static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+  return from_lowest >> 32;
 }
 
-/// steps = -sign * effect / scale, rounded.
-void toSteps(Column& effect, double steps_per_metre, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) effect[i] = rounded(effect[i] * steps_per_metre);
+/// metres = raw * scale + offset
+void toMetres(const IntegerColumn& raw, double scale, double offset, Column& metres,
+              std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) metres[i] = raw[i] * scale + offset;
+}
+
+/// Moves raw values by effects, rounded: \a effect becomes the results, and so does \a raw where
+/// all fit an int32; false else.
+bool move(double steps_per_metre, Column& effect, IntegerColumn& raw, std::size_t count) {
+  std::uint64_t outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double steps = (effect[i] * steps_per_metre + kShift) - kShift;
+    const double value = raw[i] + steps;
+    effect[i] = value;
+    outside |= toInteger(value, raw[i]);
+  }
+  return outside == 0;
 }
 
 }  // namespace
 
 struct IntegerBiasCorrection::Tile {
-  Column time, x, y, z, effect_x, effect_y, effect_z;
+  IntegerColumn raw[3];
+  Column time, x, y, z, effect[3];
 };
 
 IntegerBiasCorrection::IntegerBiasCorrection(std::string name,
@@ -51,7 +74,6 @@ IntegerBiasCorrection::IntegerBiasCorrection(std::string name,
       alignment_(std::move(alignment)),
       invert_(invert) {
   if (!evaluator_) throw UsageError(name_ + ": no biases are set");
-  // Effects stay far below 1e6 m; rounded() needs steps below 2^51.
   if (!(layout_.scale.minCoeff() >= 1e-9) || !layout_.scale.allFinite()) {
     throw InputError(name_ + ": the scale of its coordinates is not a number of 1e-9 m or more");
   }
@@ -60,16 +82,15 @@ IntegerBiasCorrection::IntegerBiasCorrection(std::string name,
 void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, Tile& tile) const {
   const std::size_t length = layout_.record_length;
   const std::byte* time = records + layout_.time_position;
-  const double scale_x = layout_.scale.x(), scale_y = layout_.scale.y(),
-               scale_z = layout_.scale.z();
-  const double offset_x = layout_.offset.x(), offset_y = layout_.offset.y(),
-               offset_z = layout_.offset.z();
   for (std::size_t i = 0; i < count; ++i, records += length, time += length) {
+    tile.raw[0][i] = load<std::int32_t>(records);
+    tile.raw[1][i] = load<std::int32_t>(records + 4);
+    tile.raw[2][i] = load<std::int32_t>(records + 8);
     tile.time[i] = load<double>(time);
-    tile.x[i] = load<std::int32_t>(records) * scale_x + offset_x;
-    tile.y[i] = load<std::int32_t>(records + 4) * scale_y + offset_y;
-    tile.z[i] = load<std::int32_t>(records + 8) * scale_z + offset_z;
   }
+  toMetres(tile.raw[0], layout_.scale.x(), layout_.offset.x(), tile.x, count);
+  toMetres(tile.raw[1], layout_.scale.y(), layout_.offset.y(), tile.y, count);
+  toMetres(tile.raw[2], layout_.scale.z(), layout_.offset.z(), tile.z, count);
   if (alignment_.identity()) return;
   for (std::size_t i = 0; i < count; ++i) tile.time[i] = alignment_(tile.time[i]);
 }
@@ -77,38 +98,26 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
 void IntegerBiasCorrection::scatter(std::byte* records, std::size_t count, std::uint64_t first,
                                     Tile& tile) const {
   const double sign = invert_ ? 1.0 : -1.0;
-  Column* const effects[] = {&tile.effect_x, &tile.effect_y, &tile.effect_z};
   for (int axis = 0; axis < 3; ++axis) {
-    Column& steps = *effects[axis];
-    toSteps(steps, sign / layout_.scale[axis], count);
-    std::byte* at = records + 4 * axis;
-    bool fits = true;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double value = load<std::int32_t>(at + i * layout_.record_length) + steps[i];
-      fits = fits && value >= kLowest && value <= kHighest;
+    if (!move(sign / layout_.scale[axis], tile.effect[axis], tile.raw[axis], count)) {
+      refuseOverflow(tile.effect[axis].data(), first, axis);
     }
-    if (!fits) refuseOverflow(records, count, first, axis, steps.data());
-    for (std::size_t i = 0; i < count; ++i, at += layout_.record_length) {
-      const auto value = static_cast<std::int32_t>(load<std::int32_t>(at) + steps[i]);
-      std::memcpy(at, &value, sizeof value);
-    }
+  }
+  for (std::size_t i = 0; i < count; ++i, records += layout_.record_length) {
+    const std::int32_t raw[3] = {tile.raw[0][i], tile.raw[1][i], tile.raw[2][i]};
+    std::memcpy(records, raw, sizeof raw);
   }
 }
 
-void IntegerBiasCorrection::refuseOverflow(const std::byte* records, std::size_t count,
-                                           std::uint64_t first, int axis,
-                                           const double* steps) const {
+void IntegerBiasCorrection::refuseOverflow(const double* values, std::uint64_t first,
+                                           int axis) const {
   std::size_t i = 0;
-  double value = 0.0;
-  for (; i < count; ++i) {
-    value = load<std::int32_t>(records + i * layout_.record_length + 4 * axis) + steps[i];
-    if (!(value >= kLowest && value <= kHighest)) break;
-  }
+  for (std::int32_t ignored = 0; toInteger(values[i], ignored) == 0;) ++i;
   char text[200];
   std::snprintf(text, sizeof text,
                 ": point %llu: %c = %.0f units of %g m after the correction does not fit 32 bits; "
                 "give the file a coarser scale or a nearer offset",
-                static_cast<unsigned long long>(first + i), "xyz"[axis], value,
+                static_cast<unsigned long long>(first + i), "xyz"[axis], values[i],
                 layout_.scale[axis]);
   throw InputError(name_ + text);
 }
@@ -118,7 +127,7 @@ CoverageCount IntegerBiasCorrection::apply(std::byte* records, std::size_t count
   CoverageCount coverage;
   Tile tile;
   const PointColumns points{tile.time.data(), tile.x.data(), tile.y.data(), tile.z.data()};
-  const EffectColumns effect{tile.effect_x.data(), tile.effect_y.data(), tile.effect_z.data()};
+  const EffectColumns effect{tile.effect[0].data(), tile.effect[1].data(), tile.effect[2].data()};
   for (std::size_t at = 0; at < count; at += kTile) {
     const std::size_t size = std::min(kTile, count - at);
     std::byte* tile_records = records + at * layout_.record_length;

@@ -50,8 +50,7 @@ class IntegerBiasCorrection {
   struct Tile;
   void gather(const std::byte* records, std::size_t count, Tile& tile) const;
   void scatter(std::byte* records, std::size_t count, std::uint64_t first, Tile& tile) const;
-  [[noreturn]] void refuseOverflow(const std::byte* records, std::size_t count, std::uint64_t first,
-                                   int axis, const double* steps) const;
+  [[noreturn]] void refuseOverflow(const double* values, std::uint64_t first, int axis) const;
 
   std::string name_;
   std::shared_ptr<const BiasEvaluator> evaluator_;
