@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include <unistd.h>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "calibration_tables.h"
+#include "command_line.h"
+#include "flight_options.h"
+#include "point_file_correction.h"
+#include "survey_reader.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+using app::grouped;
+using app::Step;
+namespace fs = std::filesystem;
+
+CommandLine commandLine() {
+  const CalibrationSettings defaults;
+  CommandLine line("pcl_als_calibrate",
+                   "estimates the biases of a LiDAR system's parameters from overlapping strips "
+                   "and control (Habib et al. 2011).",
+                   "STRIP... -trajectory T [-control C] -output calibration.json [options]",
+                   "pcl_als_calibrate strip*.las -trajectory trajectory.csv -control control.csv "
+                   "-output calibration.json");
+  app::addFlightOptions(line);
+  line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
+  line.addOptional("pairs", "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap)");
+  line.add<std::string>("estimate",
+                        "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that "
+                        "the data determine",
+                        "auto");
+  line.add<std::string>("model", "quasi_rigorous: positions of the trajectory only",
+                        "quasi_rigorous");
+  line.addOptional("output", "calibration.json to write (needed)");
+  line.addOptional("corrected", "folder for corrected copies of all strips");
+  line.addOptional("report", "folder for report.md and tables as CSV");
+  line.add("range_noise", "standard deviation of a range, m", defaults.noise.range);
+  line.add("angle_noise", "standard deviation of pointing, arcsec",
+           defaults.noise.angle / kRadiansPerArcsec);
+  line.add("beam_divergence", "full angle at 1/e^2, mrad", 1e3 * defaults.noise.beam_divergence);
+  line.add("position_sigma", "trajectory errors that a strip shares: position, m",
+           defaults.shared_errors.position);
+  line.add("roll_pitch_sigma", "the same: roll and pitch, arcsec",
+           defaults.shared_errors.roll_pitch / kRadiansPerArcsec);
+  line.add("heading_sigma", "the same: heading, arcsec",
+           defaults.shared_errors.heading / kRadiansPerArcsec);
+  line.add("control_sigma", "heights of control points whose file gives no sigma, m",
+           defaults.control_sigma);
+  line.add("max_distance", "normal distance of a pair at the start, m",
+           defaults.max_normal_distance);
+  line.add("points", "points used at most, millions",
+           1e-6 * static_cast<double>(defaults.selection.point_budget));
+  return line;
+}
+
+std::vector<SystemParameter> parametersToEstimate(const std::string& list) {
+  std::vector<SystemParameter> parameters;
+  if (list == "auto") return parameters;
+  for (const std::string& name : app::splitList(list)) {
+    const auto parameter = systemParameterNamed(name);
+    if (!parameter) {
+      std::string names;
+      for (const SystemParameterInfo& info : systemParameters()) {
+        names += ' ' + std::string(info.name);
+      }
+      throw UsageError("option -estimate: '" + name + "' is none of auto" + names);
+    }
+    if (std::find(parameters.begin(), parameters.end(), *parameter) == parameters.end()) {
+      parameters.push_back(*parameter);
+    }
+  }
+  if (parameters.empty()) throw UsageError("option -estimate: names no parameter");
+  return parameters;
+}
+
+std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& line) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  if (!line.has("pairs")) return pairs;
+  for (const std::string& text : app::splitList(line.text("pairs"))) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) {
+      throw UsageError("option -pairs: '" + text + "' is not A:B");
+    }
+    pairs.emplace_back(text.substr(0, colon), text.substr(colon + 1));
+  }
+  if (pairs.empty()) throw UsageError("option -pairs: names no pair");
+  return pairs;
+}
+
+CalibrationSettings settingsOf(const CommandLine& line) {
+  if (line.text("model") != "quasi_rigorous") {
+    throw UsageError("option -model: '" + line.text("model") + "' is not quasi_rigorous");
+  }
+  CalibrationSettings settings;
+  settings.estimate = parametersToEstimate(line.text("estimate"));
+  settings.noise.range = line.number("range_noise", 1e-4, 1.0, "m");
+  settings.noise.angle = line.number("angle_noise", 0.0, 1000.0, "arcsec") * kRadiansPerArcsec;
+  settings.noise.beam_divergence = 1e-3 * line.number("beam_divergence", 0.0, 10.0, "mrad");
+  SharedErrorModel& shared = settings.shared_errors;
+  shared.position = line.number("position_sigma", 1e-5, 10.0, "m");
+  shared.roll_pitch = line.number("roll_pitch_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
+  shared.heading = line.number("heading_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
+  settings.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
+  settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
+  settings.selection.point_budget =
+      static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
+  settings.threads = line.threads();
+  return settings;
+}
+
+/// What can be known to fail should fail before the work, not after it.
+void checkOutputs(const CommandLine& line) {
+  if (!line.has("output")) throw UsageError("option -output is needed");
+  const fs::path folder = fs::absolute(line.text("output")).parent_path();
+  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK) != 0) {
+    throw InputError("cannot write " + line.text("output") + ": " + folder.string() +
+                     " is no folder that can be written to");
+  }
+  for (const char* option : {"corrected", "report"}) {
+    if (!line.has(option)) continue;
+    std::error_code error;
+    fs::create_directories(line.text(option), error);
+    if (!fs::is_directory(line.text(option)) || access(line.text(option).c_str(), W_OK) != 0) {
+      throw InputError(std::string("option -") + option + ": " + line.text(option) +
+                       " is no folder that can be written to");
+    }
+  }
+}
+
+/// Both looks at the points and the adjustment.
+CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& survey,
+                                  QuasiRigorousCalibration& calibration) {
+  for (const std::string& id : survey.strips()) calibration.addStrip(id);
+  {
+    Step step("Surveying the block", line.quiet());
+    survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+      calibration.survey(strip, points, count);
+    });
+    calibration.chooseAreas();
+    step.done(std::to_string(calibration.pairs().size()) + " overlapping pairs, " +
+              std::to_string(calibration.areas().size()) + " areas");
+  }
+  {
+    Step step("Reading the areas", line.quiet());
+    survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+      calibration.load(strip, points, count);
+    });
+    step.done(grouped(calibration.loadedPoints()) + " points");
+  }
+  Step step("Adjusting", line.quiet());
+  int iteration = 0;
+  calibration.setProgress([&](const CalibrationIteration& last) {
+    app::remark(line, "iteration " + std::to_string(++iteration) + ": " +
+                          grouped(last.correspondences) + " pairs, sigma0 " +
+                          std::to_string(last.sigma0) + ", largest update " +
+                          std::to_string(1000.0 * last.largest_update) + " mm");
+  });
+  CalibrationResult result = calibration.calibrate();
+  step.done(result.converged ? "converged" : "not converged");
+  return result;
+}
+
+void writeCorrected(const CommandLine& line, const std::vector<std::string>& files,
+                    std::shared_ptr<const Trajectory> trajectory, const CalibrationResult& result) {
+  app::PointFileCorrection correction;
+  correction.trajectory = std::move(trajectory);
+  correction.biases = result.biases();
+  correction.gps_week = app::gpsWeek(line);
+  correction.threads = line.threads();
+  for (const std::string& file : files) {
+    const fs::path output = fs::path(line.text("corrected")) / fs::path(file).filename();
+    Step step("Writing " + output.string(), line.quiet());
+    const auto corrected = app::correctPointFile(file, output, correction,
+                                                 [&](double fraction) { step.progress(fraction); });
+    step.done(grouped(corrected.points) + " points");
+  }
+}
+
+int calibrate(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const std::vector<std::string>& files = line.inputs(1, 100000);
+  CalibrationSettings settings = settingsOf(line);
+  const auto pairs = stripPairs(line);
+  checkOutputs(line);
+  Step step("Reading " + std::to_string(files.size()) + " point files", line.quiet());
+  app::SurveyReader survey(files, line.threads());
+  step.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
+            " strips");
+  const auto trajectory = app::readFlight(line, survey.crs(), 0.0);
+  for (const std::string& text : survey.alignTimes(*trajectory, app::gpsWeek(line))) {
+    app::remark(line, text);
+  }
+  settings.resolution = survey.resolution();
+  QuasiRigorousCalibration calibration(trajectory, settings, survey.corner());
+  calibration.setPairs(pairs);
+  if (line.has("control")) calibration.setControl(readControl(line.text("control")));
+  CalibrationResult result = calibrateSurvey(line, survey, calibration);
+  result.inputs = files;
+  result.inputs.push_back(line.text("trajectory"));
+  if (line.has("control")) result.inputs.push_back(line.text("control"));
+  writeCalibration(line.text("output"), result);
+  if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
+  if (line.has("report")) {
+    app::writeCalibrationReport(line.text("report"), result, calibration.areas());
+  }
+  if (!result.converged) {
+    const std::string why = result.warnings.empty() ? "not converged" : result.warnings.front();
+    std::cerr << "pcl_als_calibrate: no reliable answer: " << why << std::endl;
+    return app::kNoReliableAnswer;
+  }
+  if (line.has("corrected")) writeCorrected(line, files, trajectory, result);
+  return app::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_calibrate", [argc, argv] { return calibrate(argc, argv); });
+}

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "calibration_tables.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/atomic_file.h>
+
+namespace pcl_als::app {
+namespace {
+
+/// Digits after the point that suit a parameter's unit.
+int digitsOf(const SystemParameterInfo& info) {
+  return info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
+}
+
+void parameterTable(const CalibrationResult& result, std::ostream& out) {
+  out << "| parameter          |         bias |          std | formal std   | unit   |\n"
+      << "|--------------------|--------------|--------------|--------------|--------|\n";
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    out << "| " << std::left << std::setw(18) << info.name << std::right << " | ";
+    if (estimate.status == ParameterStatus::estimated) {
+      out << std::fixed << std::setprecision(digitsOf(info));
+      for (const double value : {estimate.bias, estimate.std, estimate.std_formal}) {
+        out << std::setw(12) << value / info.internal_per_unit << " | ";
+      }
+    } else {
+      out << std::setw(12) << toString(estimate.status) << " |            - |            - | ";
+    }
+    out << std::left << std::setw(6) << info.unit << std::right << " |\n";
+  }
+}
+
+void pairTable(const CalibrationResult& result, std::ostream& out) {
+  out << "\nNormal distances of point-patch pairs between strips (m; mean: first above second)\n\n"
+      << "| strips          |   pairs | rms before | after  | mean before | after   |\n"
+      << "|-----------------|---------|------------|--------|-------------|---------|\n";
+  out << std::fixed;
+  for (const PairFit& pair : result.pairs) {
+    out << "| " << std::left << std::setw(15) << (pair.a + " : " + pair.b) << std::right << " | "
+        << std::setw(7) << pair.correspondences << " | " << std::setprecision(4) << std::setw(10)
+        << pair.rms_before << " | " << std::setw(6) << pair.rms_after << " | " << std::showpos
+        << std::setw(11) << pair.mean_before << " | " << std::setw(7) << pair.mean_after
+        << std::noshowpos << " |\n";
+  }
+}
+
+void controlTable(const CalibrationResult& result, std::ostream& out) {
+  if (result.control.empty()) return;
+  out << "\nHeights of strips above control (m)\n\n"
+      << "| strip           |  points | rms before | after  | mean before | after   |\n"
+      << "|-----------------|---------|------------|--------|-------------|---------|\n";
+  for (const ControlFit& fit : result.control) {
+    out << "| " << std::left << std::setw(15) << fit.strip << std::right << " | " << std::setw(7)
+        << fit.points << " | " << std::setprecision(4) << std::setw(10) << fit.rms_before << " | "
+        << std::setw(6) << fit.rms_after << " | " << std::showpos << std::setw(11)
+        << fit.mean_before << " | " << std::setw(7) << fit.mean_after << std::noshowpos << " |\n";
+  }
+}
+
+void writeText(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+std::string pairsCsv(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << "a,b,correspondences,rms_before_m,rms_after_m,mean_before_m,mean_after_m\n"
+      << std::setprecision(9);
+  for (const PairFit& pair : result.pairs) {
+    out << pair.a << ',' << pair.b << ',' << pair.correspondences << ',' << pair.rms_before << ','
+        << pair.rms_after << ',' << pair.mean_before << ',' << pair.mean_after << '\n';
+  }
+  return out.str();
+}
+
+std::string iterationsCsv(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << "iteration,correspondences,sigma0,largest_update_m\n" << std::setprecision(9);
+  int number = 0;
+  for (const CalibrationIteration& iteration : result.iterations) {
+    out << ++number << ',' << iteration.correspondences << ',' << iteration.sigma0 << ','
+        << iteration.largest_update << '\n';
+  }
+  return out.str();
+}
+
+std::string areasCsv(const std::vector<CalibrationArea>& areas) {
+  std::ostringstream out;
+  out << "x_min,y_min,x_max,y_max\n" << std::fixed << std::setprecision(3);
+  for (const CalibrationArea& area : areas) {
+    out << area.minimum.x() << ',' << area.minimum.y() << ',' << area.minimum.x() + area.size << ','
+        << area.minimum.y() + area.size << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace
+
+std::string calibrationTables(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << "Biases (assumed - true)\n\n";
+  parameterTable(result, out);
+  pairTable(result, out);
+  controlTable(result, out);
+  out << "\nsigma0 " << std::setprecision(3) << result.sigma0 << ", redundancy "
+      << result.redundancy << ", " << result.iterations.size() << " iterations, "
+      << (result.converged ? "converged" : "NOT converged") << '\n';
+  for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+  return out.str();
+}
+
+void writeCalibrationReport(const std::filesystem::path& folder, const CalibrationResult& result,
+                            const std::vector<CalibrationArea>& areas) {
+  writeText(folder / "report.md", "# Calibration\n\n" + calibrationTables(result));
+  writeText(folder / "pairs.csv", pairsCsv(result));
+  writeText(folder / "iterations.csv", iterationsCsv(result));
+  writeText(folder / "areas.csv", areasCsv(areas));
+}
+
+}  // namespace pcl_als::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als::app {
+
+/// The result as tables for a terminal: parameters, pairs, control, warnings.
+std::string calibrationTables(const CalibrationResult& result);
+
+/// Writes report.md (the tables), pairs.csv, iterations.csv and areas.csv into a folder, which is
+/// made if need be.
+void writeCalibrationReport(const std::filesystem::path& folder, const CalibrationResult& result,
+                            const std::vector<CalibrationArea>& areas);
+
+}  // namespace pcl_als::app

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "flight_options.h"
+
+#include <cmath>
+#include <iostream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/survey_io.h>
+
+namespace pcl_als::app {
+
+void addFlightOptions(CommandLine& line) {
+  line.addOptional("trajectory", "trajectory: .csv, or SBET .out/.sbet (needed)");
+  line.addOptional("crs",
+                   "CRS of the points for an SBET, e.g. EPSG:32611 (default: the LAS file's)");
+  line.addOptional("gps_week", "GPS week of times that are seconds of the week (default: found)");
+  line.addOptional("line_fit", "half width of the trajectory window, seconds (default: 0.5)");
+}
+
+double numberIn(const std::string& text, const std::string& what) {
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value)) {
+    throw UsageError(what + ": '" + text + "' is not a finite number");
+  }
+  return value;
+}
+
+std::optional<int> gpsWeek(const CommandLine& line) {
+  if (!line.has("gps_week")) return std::nullopt;
+  const double week = numberIn(line.text("gps_week"), "option -gps_week");
+  if (week < 0.0 || week > 9999.0 || week != std::floor(week)) {
+    throw UsageError("option -gps_week: must be a whole number from 0 to 9999");
+  }
+  return static_cast<int>(week);
+}
+
+void remark(const CommandLine& line, const std::string& text) {
+  if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
+}
+
+std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
+                                             double half_width) {
+  if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
+  Trajectory::Options options;
+  if (half_width > 0.0) options.line_fit_half_width = half_width;
+  if (line.has("line_fit")) {
+    options.line_fit_half_width = numberIn(line.text("line_fit"), "option -line_fit");
+    if (options.line_fit_half_width <= 0.0) {
+      throw UsageError("option -line_fit: must be more than 0 seconds");
+    }
+  }
+  const std::string path = line.text("trajectory");
+  Step step("Reading " + path, line.quiet());
+  const std::string crs = line.has("crs") ? line.text("crs") : points_crs;
+  auto trajectory = std::make_shared<const Trajectory>(readTrajectory(path, crs), options);
+  step.done(grouped(trajectory->size()) + " samples, " + std::to_string(trajectory->gaps().size()) +
+            " gaps");
+  for (const std::string& repair : trajectory->repairs()) remark(line, repair);
+  return trajectory;
+}
+
+}  // namespace pcl_als::app

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <pcl_als/trajectory/trajectory.h>
+
+#include "command_line.h"
+
+namespace pcl_als::app {
+
+/// Declares -trajectory, -crs, -gps_week and -line_fit.
+void addFlightOptions(CommandLine& line);
+
+/// -gps_week; empty when it is to be found from the data.
+std::optional<int> gpsWeek(const CommandLine& line);
+
+/// Reads -trajectory as a step of its own. An SBET is projected to -crs, else to \a points_crs.
+/// \a half_width: trajectory window in seconds where -line_fit is not given; 0: the library's.
+std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
+                                             double half_width);
+
+/// A finite number; UsageError that names \a what otherwise.
+double numberIn(const std::string& text, const std::string& what);
+
+/// Prints an indented line of explanation, unless -quiet or empty.
+void remark(const CommandLine& line, const std::string& text);
+
+}  // namespace pcl_als::app

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "survey_reader.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include <pcl_als/common/parallel.h>
+
+namespace pcl_als::app {
+
+SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
+    : threads_(threads), files_(paths.size()), times_(paths.size()) {
+  parallelFor(paths.size(), threads,
+              [&](std::size_t file) { files_[file] = surveySources(paths[file]); });
+  naming_.emplace(files_);
+}
+
+std::uint64_t SurveyReader::pointCount() const {
+  std::uint64_t count = 0;
+  for (const PointFileSources& file : files_) count += file.info.point_count;
+  return count;
+}
+
+std::string SurveyReader::crs() const {
+  for (const PointFileSources& file : files_) {
+    if (!file.info.crs.empty()) return file.info.crs;
+  }
+  return {};
+}
+
+Eigen::Vector2d SurveyReader::corner() const {
+  Eigen::Vector2d corner = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  for (const PointFileSources& file : files_) {
+    for (const PointSource& source : file.sources) {
+      corner = corner.cwiseMin(source.minimum.head<2>());
+    }
+  }
+  return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
+}
+
+double SurveyReader::resolution() const {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const PointFileSources& file : files_) {
+    finest = std::min(finest, file.info.resolution.head<2>().minCoeff());
+  }
+  // A TIN counts in steps of this inside areas of some hundred metres: neither finer nor coarser
+  // helps.
+  return std::clamp(finest, 1e-4, 0.01);
+}
+
+std::vector<std::string> SurveyReader::alignTimes(const Trajectory& trajectory,
+                                                  std::optional<int> gps_week) {
+  std::vector<std::string> remarks;
+  const TimeRange flight{trajectory.startTime(), trajectory.endTime()};
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    TimeRange range;
+    for (const PointSource& source : files_[file].sources) {
+      range.add(source.first_time);
+      range.add(source.last_time);
+    }
+    const PointFileInfo& info = files_[file].info;
+    times_[file] = reconcileTimes(info.path.string(), range, info.time_kind, flight, gps_week);
+    const std::string& remark = times_[file].remark;
+    if (!remark.empty() && std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) {
+      remarks.push_back(remark);
+    }
+  }
+  return remarks;
+}
+
+std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
+  std::vector<std::size_t> group(files_.size());
+  std::iota(group.begin(), group.end(), 0);
+  std::map<std::string, std::size_t> first_file;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : files_[file].sources) {
+      const auto [known, added] = first_file.try_emplace(naming_->nameOf(file, source.id), file);
+      if (added || group[known->second] == group[file]) continue;
+      const std::size_t merged = group[file], into = group[known->second];
+      for (std::size_t& g : group) {
+        if (g == merged) g = into;
+      }
+    }
+  }
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t file = 0; file < files_.size(); ++file) members[group[file]].push_back(file);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& entry : members) groups.push_back(std::move(entry.second));
+  return groups;
+}
+
+void SurveyReader::read(const Sink& sink) const {
+  const auto groups = groupsOfFiles();
+  parallelFor(groups.size(), threads_, [&](std::size_t group) {
+    for (const std::size_t file : groups[group]) readFile(file, sink);
+  });
+}
+
+void SurveyReader::readFile(std::size_t file, const Sink& sink) const {
+  std::map<std::uint16_t, int> strip_of;
+  for (const PointSource& source : files_[file].sources) {
+    const auto& names = naming_->names();
+    const auto found = std::find(names.begin(), names.end(), naming_->nameOf(file, source.id));
+    strip_of[source.id] = static_cast<int>(found - names.begin());
+  }
+  const auto reader = PointReader::open(files_[file].info.path);
+  PointChunk chunk;
+  std::vector<CalibrationPoint> points;
+  while (reader->read(chunk)) {
+    for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
+      points.clear();
+      for (to = from; to < chunk.size() && chunk.point_source_id[to] == chunk.point_source_id[from];
+           ++to) {
+        CalibrationPoint& point = points.emplace_back();
+        point.position = Eigen::Vector3d(chunk.x[to], chunk.y[to], chunk.z[to]);
+        point.time = times_[file](chunk.gps_time[to]);
+        point.return_number = chunk.return_number[to];
+        point.number_of_returns = chunk.number_of_returns[to];
+        point.classification = chunk.classification[to];
+        point.flags = chunk.flags[to];
+      }
+      sink(strip_of.at(chunk.point_source_id[from]), points.data(), points.size());
+    }
+  }
+}
+
+}  // namespace pcl_als::app
