@@ -16,7 +16,6 @@ pcl_als_packages_build=(
   nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
 )
 pcl_als_packages_test=(libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz)
-# share/demo/run.sh draws a picture where gnuplot is already there; it is not installed for it.
 
 _pcl_als_present() {  # package[:program-or-file]
   local package=${1%%:*} witness=${1#*:}

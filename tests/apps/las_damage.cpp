@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+//
+// las_damage IN OUT CHANGE…: a copy of a LAS file with lies in it, for tests.
+//   set FIELD VALUE   a field of the header, see kFields
+//   zero_times        the GPS time of every point (formats 6-10)
+//   keep BYTES        only the first bytes
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Field {
+  std::size_t position, size;
+  bool real;
+};
+
+const std::map<std::string, Field> kFields{
+    {"signature", {0, 4, false}},         {"version_minor", {25, 1, false}},
+    {"header_size", {94, 2, false}},      {"offset_to_points", {96, 4, false}},
+    {"vlr_count", {100, 4, false}},       {"point_format", {104, 1, false}},
+    {"record_length", {105, 2, false}},   {"scale_x", {131, 8, true}},
+    {"offset_x", {155, 8, true}},         {"evlr_start", {235, 8, false}},
+    {"evlr_count", {243, 4, false}},      {"point_count", {247, 8, false}},
+    {"vlr_length", {375 + 20, 2, false}},
+};
+
+template <typename T>
+T load(const std::vector<char>& bytes, std::size_t at) {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return value;
+}
+
+void set(std::vector<char>& bytes, const Field& field, const std::string& text) {
+  if (field.real) {
+    const double value = std::strtod(text.c_str(), nullptr);
+    std::memcpy(bytes.data() + field.position, &value, sizeof(value));
+  } else {
+    const std::uint64_t value = std::strtoull(text.c_str(), nullptr, 0);
+    std::memcpy(bytes.data() + field.position, &value, field.size);
+  }
+}
+
+void zeroTimes(std::vector<char>& bytes) {
+  const std::size_t length = load<std::uint16_t>(bytes, 105);
+  const auto count = load<std::uint64_t>(bytes, 247);
+  for (std::size_t i = 0; i < count; ++i)
+    std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + 22, 0, 8);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() < 2) return EXIT_FAILURE;
+  std::ifstream in(words[0], std::ios::binary);
+  std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  for (std::size_t i = 2; i < words.size(); ++i) {
+    if (words[i] == "set" && i + 2 < words.size() && kFields.count(words[i + 1]) != 0) {
+      set(bytes, kFields.at(words[i + 1]), words[i + 2]);
+      i += 2;
+    } else if (words[i] == "zero_times") {
+      zeroTimes(bytes);
+    } else if (words[i] == "keep" && i + 1 < words.size()) {
+      bytes.resize(std::min<std::size_t>(bytes.size(), std::stoul(words[++i])));
+    } else {
+      std::cerr << "las_damage: unknown change " << words[i] << '\n';
+      return EXIT_FAILURE;
+    }
+  }
+  std::ofstream out(words[1], std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return out ? EXIT_SUCCESS : EXIT_FAILURE;
+}

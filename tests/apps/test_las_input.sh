@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# Damaged, lying and useless point files: exit status 2, one line naming the file, no output.
+source "$(dirname -- "$0")/tool_test.sh"
+trajectory=$block/trajectory.csv
+
+# refused FILE TEXT: by every tool that reads points.
+refused() {
+  expect 2 "$1*$2" apply "$1" x.las -trajectory "$trajectory" -biases range_bias=0.1
+  absent x.las
+  expect 2 "$1*$2" calibrate "$1" "$block/strip2.las" -trajectory "$trajectory" -output x.json
+  absent x.json
+  expect 2 "$1*$2" info "$1"
+}
+# damaged NAME TEXT CHANGE…: strip1 with the change is refused.
+damaged() {
+  check "las_damage" "$damage" "$block/strip1.las" "$1.las" "${@:3}"
+  refused "$1.las" "$2"
+}
+
+refused missing.las ""
+: >empty.las
+refused empty.las ""
+mkdir folder.las
+refused folder.las ""
+echo "x,y,z" >text.las
+refused text.las ""
+cp "$block/strip1.las" strip.xyz
+expect 2 "strip.xyz" calibrate strip.xyz "$block/strip2.las" -trajectory "$trajectory" -output x.json
+absent x.json
+expect 2 "strip.xyz" info strip.xyz
+
+damaged truncated_header "" keep 200
+damaged truncated_vlr "" keep 400
+damaged truncated_point "" keep 100001
+damaged no_signature "" set signature 0
+damaged version "version" set version_minor 9
+damaged format "format" set point_format 11
+damaged record_length "record" set record_length 12
+damaged count_too_large "" set point_count 99999999
+damaged count_huge "" set point_count 0xffffffffffffffff
+damaged offset_beyond "" set offset_to_points 0x7fffffff
+damaged offset_in_header "" set offset_to_points 10
+damaged vlr_count "" set vlr_count 1000000
+damaged vlr_length "" set vlr_length 65535
+damaged evlr_beyond "" set evlr_count 3 set evlr_start 0xfffffffffffffff0
+damaged nan_scale "scale" set scale_x nan
+damaged infinite_scale "scale" set scale_x inf
+damaged zero_scale "scale" set scale_x 0
+damaged nan_offset "offset" set offset_x nan
+
+# Without times the geometry at the firing is unknown; what the file holds can still be listed.
+for case in "zero_times zero_times" "no_time_format set point_format 0 set version_minor 2 set header_size 227"; do
+  read -ra words <<<"$case"
+  check "las_damage" "$damage" "$block/strip1.las" "${words[0]}.las" "${words[@]:1}"
+done
+expect 2 "zero_times.las*time" apply zero_times.las x.las -trajectory "$trajectory" -biases range_bias=0.1
+absent x.las
+expect 2 "zero_times.las*time" calibrate zero_times.las "$block/strip2.las" -trajectory "$trajectory" -output x.json
+absent x.json
+
+# A file without points is nothing to calibrate with, but can be listed and copied.
+check "las_damage" "$damage" "$block/strip1.las" no_points.las set point_count 0
+expect 2 "" calibrate no_points.las "$block/strip2.las" -trajectory "$trajectory" -output x.json
+absent x.json
+expect 0 "no points" info no_points.las
+
+# An input is never an output.
+cp "$block/strip1.las" mine.las
+expect 1 "mine.las" apply mine.las mine.las -trajectory "$trajectory" -biases range_bias=0.1
+ln -s mine.las link.las
+expect 1 "link.las" apply mine.las link.las -trajectory "$trajectory" -biases range_bias=0.1
+check "input untouched" cmp "$block/strip1.las" mine.las
+finish
