@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -117,6 +117,22 @@ std::filesystem::path outputFolder(const CommandLine& line) {
                    (error ? ": " + error.message() : std::string()));
 }
 
+/// Strips of another block beside ours would be taken for part of it.
+void refuseForeignStrips(const SimulationOptions& options, const StripFileOptions& files) {
+  std::set<std::string> ours;
+  for (const simulation::PlannedLine& line : options.lines) ours.insert(files.nameOf(line.id));
+  for (const auto& entry : std::filesystem::directory_iterator(files.folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::string extension = entry.path().extension().string();
+    if (name.rfind("strip", 0) != 0 || (extension != ".las" && extension != ".laz")) continue;
+    if (ours.count(name) == 0)
+      throw UsageError("option -output: " + entry.path().string() +
+                       " is a strip of another block; delete it or name another folder");
+  }
+  // Until all is written there is no truth.
+  std::filesystem::remove(files.folder / "truth.json");
+}
+
 int simulate(int argc, const char* const* argv) {
   CommandLine line = declare();
   if (!line.parse(argc, argv)) return kDone;
@@ -127,6 +143,7 @@ int simulate(int argc, const char* const* argv) {
   files.compressed = isSecond(line, "format", "las", "laz");
   files.bias_columns = line.has("truth_points");
   files.folder = outputFolder(line);
+  refuseForeignStrips(options, files);
 
   Step building("Building the scene", line.quiet());
   const Simulator simulator(options);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -34,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-void setBias(std::string_view entry, SystemVector& bias) {
+void setBias(std::string_view entry, SystemVector& bias, std::set<SystemParameter>& given) {
   const auto equals = entry.find('=');
   if (equals == std::string_view::npos)
     throw UsageError("bias '" + std::string(entry) + "': expected NAME=VALUE");
@@ -46,6 +47,8 @@ void setBias(std::string_view entry, SystemVector& bias) {
       known += (known.empty() ? "" : ", ") + std::string(info.name);
     throw UsageError("bias '" + std::string(name) + "': no such parameter; there are " + known);
   }
+  if (!given.insert(*parameter).second)
+    throw UsageError("bias '" + std::string(name) + "' is given twice");
   bias[indexOf(*parameter)] =
       numberIn(trimmed(entry.substr(equals + 1)), entry) * infoOf(*parameter).internal_per_unit;
 }
@@ -78,6 +81,7 @@ NoiseOptions NoiseOptions::named(std::string_view level) {
 }
 
 void setBiases(std::string_view text, SystemVector& bias) {
+  std::set<SystemParameter> given;
   for (bool first = true; !text.empty(); first = false) {
     const auto comma = text.find(',');
     const std::string_view entry = trimmed(text.substr(0, comma));
@@ -86,7 +90,7 @@ void setBiases(std::string_view text, SystemVector& bias) {
     if (first && entry == "none")
       bias.setZero();
     else
-      setBias(entry, bias);
+      setBias(entry, bias, given);
   }
 }
 
