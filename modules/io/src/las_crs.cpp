@@ -9,6 +9,7 @@
 #include <proj.h>
 #endif
 
+#include "geo_keys.h"
 #include "las_bytes.h"
 #include "las_crs.h"
 
@@ -16,8 +17,8 @@ namespace pcl_als::detail {
 namespace {
 
 constexpr const char* kProjection = "LASF_Projection";
-constexpr std::uint16_t kModelTypeKey = 1024, kGeographicKey = 2048, kProjectedKey = 3072;
-constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kUserDefined = 32767;
+constexpr std::uint16_t kGeoDoublesRecord = 34736;
+constexpr unsigned long kMostGeoCode = 32766;
 constexpr std::size_t kLargestRecord = std::size_t{1} << 24;
 
 const LasVlrEntry* findRecord(const LasFile& file, std::uint16_t id) {
@@ -35,23 +36,13 @@ std::string wktOf(const LasFile& file) {
   return wkt;
 }
 
-// GeoTIFF keys: a directory of (key, place, count, value), value in place when `place` is 0.
 std::string epsgOf(const LasFile& file) {
-  const LasVlrEntry* vlr = findRecord(file, kGeoKeyRecord);
-  if (vlr == nullptr) return {};
-  const std::vector<std::byte> bytes = file.payload(*vlr, kLargestRecord);
-  std::uint16_t projected = 0, geographic = 0;
-  for (std::size_t at = 8; at + 8 <= bytes.size(); at += 8) {
-    const auto key = loadLas<std::uint16_t>(&bytes[at]);
-    const auto place = loadLas<std::uint16_t>(&bytes[at + 2]);
-    const auto value = loadLas<std::uint16_t>(&bytes[at + 6]);
-    if (place != 0) continue;
-    if (key == kProjectedKey) projected = value;
-    if (key == kGeographicKey) geographic = value;
-  }
-  const std::uint16_t code = projected != 0 ? projected : geographic;
-  if (code == 0 || code == kUserDefined) return {};
-  return "EPSG:" + std::to_string(code);
+  const LasVlrEntry* directory = findRecord(file, kGeoKeyRecord);
+  if (directory == nullptr) return {};
+  const LasVlrEntry* doubles = findRecord(file, kGeoDoublesRecord);
+  return epsgOfGeoKeys(
+      file.payload(*directory, kLargestRecord),
+      doubles == nullptr ? std::vector<std::byte>() : file.payload(*doubles, kLargestRecord));
 }
 
 bool isEpsg(const std::string& crs) {
@@ -63,26 +54,6 @@ LasVlr wktRecord(const std::string& wkt) {
   LasVlr vlr{kProjection, kWktRecord, "OGC coordinate system WKT", {}};
   const auto* bytes = reinterpret_cast<const std::byte*>(wkt.c_str());
   vlr.data.assign(bytes, bytes + wkt.size() + 1);
-  return vlr;
-}
-
-LasVlr geoKeyRecord(unsigned code) {
-  LasVlr vlr{kProjection, kGeoKeyRecord, "GeoTIFF GeoKeyDirectoryTag", {}};
-  // Codes 4000-4999 are those of geographic systems in GeoTIFF 1.0.
-  const bool geographic = code >= 4000 && code < 5000;
-  const std::uint16_t keys[] = {1,
-                                1,
-                                0,
-                                2,
-                                kModelTypeKey,
-                                0,
-                                1,
-                                geographic ? kModelGeographic : kModelProjected,
-                                geographic ? kGeographicKey : kProjectedKey,
-                                0,
-                                1,
-                                static_cast<std::uint16_t>(code)};
-  for (const std::uint16_t key : keys) putNumber(vlr.data, key);
   return vlr;
 }
 
@@ -118,11 +89,12 @@ std::vector<LasVlr> lasCrsRecords(const std::string& crs, bool wkt_wanted) {
   if (!isEpsg(crs)) return {wktRecord(crs)};
   const unsigned long code = std::stoul(crs.substr(5, 6));
 #ifdef PCL_ALS_HAVE_PROJ
-  if (wkt_wanted || code >= kUserDefined) return {wktRecord(wktFromProj(crs))};
+  if (wkt_wanted || code > kMostGeoCode) return {wktRecord(wktFromProj(crs))};
 #endif
-  if (code >= kUserDefined)
+  if (code > kMostGeoCode)
     throw UsageError("CRS " + crs + ": GeoTIFF keys hold codes up to 32766; give it as WKT");
-  return {geoKeyRecord(static_cast<unsigned>(code))};
+  return {{kProjection, kGeoKeyRecord, "GeoTIFF GeoKeyDirectoryTag",
+           geoKeysOfEpsg(static_cast<unsigned>(code))}};
 }
 
 }  // namespace pcl_als::detail

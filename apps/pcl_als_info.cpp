@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <iostream>
+#include <limits>
+
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/survey_census.h>
+
+#include "census_report.h"
+#include "command_line.h"
+
+namespace pcl_als::app {
+namespace {
+
+int info(int argc, char** argv) {
+  CommandLine line("pcl_als_info",
+                   "tells what point files hold: strips, times, density, returns, overlaps",
+                   "FILE… [-json FILE]", "pcl_als_info strip1.las strip2.las -json survey.json");
+  line.add<double>("cell", "cell size for density and overlaps, m; 0: by density", 0.0);
+  line.addOptional("json", "also write the facts as JSON");
+  if (!line.parse(argc, argv)) return kDone;
+
+  const double cell = line.number("cell", 0.0, 10000.0, "m");
+  const auto& inputs = line.inputs(1, std::numeric_limits<std::size_t>::max());
+  Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());
+  const SurveyCensus survey = takeCensus({inputs.begin(), inputs.end()}, cell,
+                                         [&](double fraction) { step.progress(fraction); });
+  std::uint64_t points = 0;
+  for (const FileCensus& file : survey.files) points += file.statistics.points;
+  step.done(grouped(points) + " points");
+  if (!line.quiet()) std::cout << '\n' << censusText(survey);
+  if (line.has("json")) {
+    AtomicFile file(line.text("json"));
+    file.write(censusJson(survey));
+    file.commit();
+  }
+  return kDone;
+}
+
+}  // namespace
+}  // namespace pcl_als::app
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_info", [&] { return pcl_als::app::info(argc, argv); });
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/io/point_reader.h>
+
+namespace pcl_als {
+
+/// A stretch of time in which a strip has no point, seconds.
+struct TimeGap {
+  double from = 0.0, to = 0.0;
+};
+
+/// What a set of points looks like. Extents and ranges are of finite values; 0 without points.
+struct PointStatistics {
+  std::uint64_t points = 0, single_returns = 0, first_returns = 0;
+  Eigen::Vector3d minimum = Eigen::Vector3d::Zero();  ///< metres, ground frame
+  Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
+  double first_time = 0.0, last_time = 0.0;                  ///< seconds, as the file counts
+  float least_scan_angle = 0.0F, largest_scan_angle = 0.0F;  ///< degrees, the file's sign
+  float least_intensity = 0.0F, largest_intensity = 0.0F;
+  std::uint64_t unsorted_times = 0;  ///< points that are earlier than the one before
+  std::uint64_t zero_times = 0, invalid_times = 0;
+  std::uint64_t invalid_coordinates = 0;  ///< not finite, or past a million kilometres
+  std::uint64_t wrong_returns = 0;        ///< return number 0 or above the number of returns
+  std::uint64_t withheld = 0, synthetic = 0, overlap_flags = 0;
+  std::array<std::uint64_t, 256> classes{};
+  std::array<std::uint64_t, 16> returns{};  ///< by return number
+};
+
+struct FileCensus {
+  PointFileInfo info;
+  PointStatistics statistics;
+  std::vector<std::string> remarks;  ///< suspicious facts in plain words
+};
+
+struct StripCensus {
+  std::string id;
+  PointStatistics statistics;
+  std::vector<TimeGap> gaps;  ///< longer than SurveyCensus::kGap
+  double area = 0.0;          ///< m2: cells that hold a point
+  double density =
+      0.0;  ///< points per m2: median over cells whose eight neighbours hold points too
+  std::vector<std::string> remarks;
+};
+
+struct StripOverlap {
+  std::size_t a = 0, b = 0;  ///< indices of strips
+  double area = 0.0;         ///< m2: cells that hold points of both
+};
+
+/// What a set of point files holds.
+struct SurveyCensus {
+  static constexpr double kGap = 1.0;  ///< seconds
+
+  std::vector<FileCensus> files;
+  std::vector<StripCensus> strips;  ///< named and joined by StripNaming
+  std::vector<StripOverlap> overlaps;
+  std::vector<double> area_by_strips;  ///< m2 of cells seen by 1, 2, … strips
+  double cell = 0.0;                   ///< metres
+  std::uint64_t duplicates = 0;  ///< points equal to another in place, time, return and source id
+  bool duplicates_estimated = false;
+  std::vector<std::string> remarks;
+};
+
+/** \brief Reads point files once and tells what they hold.
+ *
+ * Memory is that of the occupied cells (4 bytes each) and at most a few hundred MB: where the
+ * points are spread over more cells the cell size doubles, and duplicates are counted in a sample
+ * of the points chosen by hash (all points up to half a million).
+ *
+ * \param cell metres; 0: 1, 2, 5 or 10 by the density that the headers promise
+ * \param progress called with the fraction of points read
+ */
+SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell = 0.0,
+                        const std::function<void(double)>& progress = {});
+
+}  // namespace pcl_als

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "census_remarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <pcl_als/io/las_file.h>
+
+#include "file_kind.h"
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr double kWeek = 604800.0;
+constexpr std::uint64_t kFewPoints = 1000;
+
+std::string percentOf(std::uint64_t part, std::uint64_t whole) {
+  std::ostringstream text;
+  text.precision(3);
+  text << 100.0 * static_cast<double>(part) / static_cast<double>(whole) << " %";
+  return text.str();
+}
+
+/// "12 points (0.5 %) <what>" when there are any.
+void remarkCount(std::vector<std::string>& remarks, std::uint64_t part, std::uint64_t whole,
+                 const char* what) {
+  if (part > 0)
+    remarks.push_back(std::to_string(part) + " points (" + percentOf(part, whole) + ") " + what);
+}
+
+void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
+                 std::vector<std::string>& remarks) {
+  if (info.time_kind == TimeKind::none) {
+    remarks.push_back("the points have no GPS time: they cannot be tied to a trajectory");
+    return;
+  }
+  remarkCount(remarks, s.invalid_times, s.points, "have a GPS time that is no number");
+  if (s.zero_times == s.points) {
+    remarks.push_back("every GPS time is zero: the points cannot be tied to a trajectory");
+    return;
+  }
+  remarkCount(remarks, s.zero_times, s.points, "have GPS time zero");
+  const bool in_week = s.first_time >= 0.0 && s.last_time <= kWeek;
+  if (info.time_kind == TimeKind::week_seconds && !in_week)
+    remarks.push_back(
+        "the header declares seconds of the GPS week, but the times leave 0 to 604800: probably "
+        "adjusted standard time with a header that does not say so");
+  if (info.time_kind == TimeKind::adjusted_standard && in_week)
+    remarks.push_back(
+        "the header declares adjusted standard GPS time, but all times lie in 0 to 604800: "
+        "probably seconds of the week with a header that says otherwise");
+}
+
+void remarkBox(const PointFileInfo& info, const PointStatistics& s,
+               std::vector<std::string>& remarks) {
+  // Writers round differently; a unit of the coordinates is allowed.
+  const Eigen::Vector3d low = (info.minimum - s.minimum).cwiseAbs();
+  const Eigen::Vector3d high = (info.maximum - s.maximum).cwiseAbs();
+  const Eigen::Vector3d allowed = 1.01 * info.resolution;
+  if ((low.array() <= allowed.array()).all() && (high.array() <= allowed.array()).all()) return;
+  std::ostringstream text;
+  text.setf(std::ios::fixed);
+  text.precision(3);
+  text << "the header's bounding box is wrong: it says (" << info.minimum.transpose() << ") to ("
+       << info.maximum.transpose() << "), the points reach from (" << s.minimum.transpose()
+       << ") to (" << s.maximum.transpose() << ")";
+  remarks.push_back(text.str());
+}
+
+void remarkHeader(const LasHeader& h, const PointStatistics& s, std::vector<std::string>& remarks) {
+  const std::size_t numbers = h.version_minor >= 4 && h.point_format >= 6 ? 15 : 5;
+  for (std::size_t r = 1; r <= numbers; ++r) {
+    if (h.points_by_return[r - 1] == s.returns[std::min<std::size_t>(r, 15)]) continue;
+    remarks.push_back("the header's number of points by return is wrong (return " +
+                      std::to_string(r) + ": it says " + std::to_string(h.points_by_return[r - 1]) +
+                      ", there are " + std::to_string(s.returns[r]) + ")");
+    break;
+  }
+  if (h.version_minor >= 4 && h.point_format <= 5 && h.legacy_point_count != h.point_count &&
+      h.point_count <= 0xFFFFFFFFU)
+    remarks.push_back(
+        "the header's two point counts differ: " + std::to_string(h.legacy_point_count) + " and " +
+        std::to_string(h.point_count) + "; the second is used");
+}
+
+void remarkCrs(const std::string& crs, std::vector<std::string>& remarks) {
+  if (crs.empty())
+    remarks.emplace_back("the coordinate reference system is unknown (no WKT, no EPSG code)");
+  const bool degrees = crs.size() == 9 && crs.rfind("EPSG:4", 0) == 0;
+  if (degrees || crs.rfind("GEOGCS", 0) == 0)
+    remarks.emplace_back("the coordinates are degrees: project them to a metric system first");
+}
+
+void remarkFile(FileCensus& file) {
+  const PointStatistics& s = file.statistics;
+  auto& remarks = file.remarks;
+  if (s.points == 0) {
+    remarks.emplace_back("the file holds no points");
+    return;
+  }
+  remarkTimes(file.info, s, remarks);
+  remarkBox(file.info, s, remarks);
+  const std::string extension = lowerExtension(file.info.path);
+  if (extension == ".las" || extension == ".laz")
+    remarkHeader(LasFile(file.info.path).header(), s, remarks);
+  remarkCount(remarks, s.invalid_coordinates, s.points, "have coordinates that are no place");
+  remarkCount(remarks, s.wrong_returns, s.points,
+              "have return number zero or one above their number of returns");
+  remarkCount(remarks, s.withheld, s.points, "are flagged as withheld");
+  if (s.largest_intensity == 0.0F && s.least_intensity == 0.0F)
+    remarks.emplace_back("every intensity is zero");
+  remarkCrs(file.info.crs, remarks);
+}
+
+void remarkStrip(StripCensus& strip, bool has_time) {
+  const PointStatistics& s = strip.statistics;
+  if (s.points < kFewPoints)
+    strip.remarks.push_back("holds only " + std::to_string(s.points) + " points, too few to use");
+  if (has_time && !strip.gaps.empty())
+    strip.remarks.push_back("has " + std::to_string(strip.gaps.size()) +
+                            " gaps in time of more than 1 s");
+}
+
+}  // namespace
+
+void addRemarks(SurveyCensus& survey) {
+  for (FileCensus& file : survey.files) remarkFile(file);
+  const bool has_time = std::any_of(survey.files.begin(), survey.files.end(), [](const auto& f) {
+    return f.info.time_kind != TimeKind::none;
+  });
+  for (StripCensus& strip : survey.strips) remarkStrip(strip, has_time);
+  const TimeKind kind = survey.files.empty() ? TimeKind::none : survey.files[0].info.time_kind;
+  for (const FileCensus& file : survey.files)
+    if (file.info.time_kind != kind) {
+      survey.remarks.emplace_back("the files count GPS time in different ways");
+      break;
+    }
+  if (survey.duplicates > 0)
+    survey.remarks.push_back((survey.duplicates_estimated ? "about " : "") +
+                             std::to_string(survey.duplicates) +
+                             " points repeat another point (place, time, return and source id)");
+  if (survey.strips.size() == 1)
+    survey.remarks.emplace_back("there is one strip only: nothing to compare it with");
+  if (survey.strips.size() > 1 && survey.overlaps.empty())
+    survey.remarks.emplace_back("no two strips overlap");
+}
+
+}  // namespace pcl_als::detail

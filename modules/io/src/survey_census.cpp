@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/strip_naming.h>
+#include <pcl_als/io/survey_census.h>
+
+#include "census_remarks.h"
+#include "duplicate_sample.h"
+#include "source_tally.h"
+
+namespace pcl_als {
+namespace {
+
+using detail::CellCounts;
+using detail::SourceTally;
+
+// 1.1 kB each with their place in the table.
+constexpr std::size_t kMostBlocks = std::size_t{1} << 18U;
+constexpr double kPointsPerCell = 20.0;
+
+class Census {
+ public:
+  Census(const std::vector<std::filesystem::path>& paths, double cell,
+         const std::function<void(double)>& progress)
+      : progress_(progress) {
+    for (const auto& path : paths) {
+      survey_.files.push_back({PointReader::open(path)->info(), {}, {}});
+      total_ += survey_.files.back().info.point_count;
+    }
+    survey_.cell = cell > 0.0 ? cell : usualCell();
+  }
+
+  SurveyCensus take() {
+    for (std::size_t f = 0; f < survey_.files.size(); ++f) readFile(f);
+    survey_.duplicates = duplicates_.count();
+    survey_.duplicates_estimated = duplicates_.estimated();
+    joinStrips();
+    findOverlaps();
+    detail::addRemarks(survey_);
+    return std::move(survey_);
+  }
+
+ private:
+  using SourceKey = std::pair<std::size_t, std::uint16_t>;  // file, point source id
+
+  /// By the density that the headers promise, so that a cell holds about 20 points.
+  double usualCell() const {
+    double area = 0.0;
+    for (const FileCensus& file : survey_.files) {
+      const Eigen::Vector3d size = file.info.maximum - file.info.minimum;
+      area += size.x() * size.y();
+    }
+    const double side = std::sqrt(kPointsPerCell * area / static_cast<double>(total_));
+    for (const double cell : {1.0, 2.0, 5.0})
+      if (side <= cell) return cell;
+    return 10.0;
+  }
+
+  void readFile(std::size_t f) {
+    const auto reader = PointReader::open(survey_.files[f].info.path);
+    PointChunk chunk;
+    while (reader->read(chunk)) {
+      addChunk(f, chunk);
+      duplicates_.add(chunk);
+      done_ += chunk.size();
+      if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(total_));
+    }
+    for (const auto& [key, tally] : sources_)
+      if (key.first == f) detail::mergeStatistics(survey_.files[f].statistics, tally.statistics());
+  }
+
+  /// Runs of the same id, as most chunks have few.
+  void addChunk(std::size_t f, const PointChunk& chunk) {
+    const auto& ids = chunk.point_source_id;
+    for (std::size_t first = 0; first < ids.size();) {
+      std::size_t last = first + 1;
+      while (last < ids.size() && ids[last] == ids[first]) ++last;
+      sources_[{f, ids[first]}].add(chunk, first, last, survey_.cell);
+      first = last;
+    }
+    limitMemory();
+  }
+
+  void limitMemory() {
+    const auto blocks = [this] {
+      std::size_t count = 0;
+      for (const auto& source : sources_) count += source.second.cells().blockCount();
+      return count;
+    };
+    while (blocks() > kMostBlocks) {
+      for (auto& source : sources_) source.second.cells().coarsen();
+      survey_.cell *= 2.0;
+    }
+  }
+
+  StripNaming nameStrips() const {
+    std::vector<PointFileSources> files;
+    for (const FileCensus& file : survey_.files) files.push_back({file.info, {}});
+    for (const auto& [key, tally] : sources_) {
+      const PointStatistics& s = tally.statistics();
+      files[key.first].sources.push_back(
+          {key.second, s.points, s.first_time, s.last_time, s.minimum, s.maximum});
+    }
+    return StripNaming(files);
+  }
+
+  void joinStrips() {
+    const StripNaming naming = nameStrips();
+    std::map<std::string, SourceTally> strips;
+    for (auto& [key, tally] : sources_) {
+      strips[naming.nameOf(key.first, key.second)].add(tally);
+      tally = SourceTally();
+    }
+    const double cell_area = survey_.cell * survey_.cell;
+    for (const std::string& name : naming.names()) {
+      const SourceTally& tally = strips[name];
+      StripCensus strip;
+      strip.id = name;
+      strip.statistics = tally.statistics();
+      strip.gaps = tally.times().gaps(SurveyCensus::kGap);
+      strip.area = static_cast<double>(tally.cells().occupied()) * cell_area;
+      strip.density = tally.cells().typicalCount() / cell_area;
+      survey_.strips.push_back(std::move(strip));
+      cells_.push_back(tally.cells());
+      strips.erase(name);
+    }
+  }
+
+  bool boxesMeet(std::size_t a, std::size_t b) const {
+    const PointStatistics &s = survey_.strips[a].statistics, &t = survey_.strips[b].statistics;
+    const double margin = survey_.cell;
+    return s.minimum.x() <= t.maximum.x() + margin && t.minimum.x() <= s.maximum.x() + margin &&
+           s.minimum.y() <= t.maximum.y() + margin && t.minimum.y() <= s.maximum.y() + margin;
+  }
+
+  void findOverlaps() {
+    const double cell_area = survey_.cell * survey_.cell;
+    for (std::size_t a = 0; a < cells_.size(); ++a)
+      for (std::size_t b = a + 1; b < cells_.size(); ++b) {
+        if (!boxesMeet(a, b)) continue;
+        std::uint64_t shared = 0;
+        const bool a_smaller = cells_[a].blockCount() < cells_[b].blockCount();
+        const CellCounts& other = cells_[a_smaller ? b : a];
+        forEachCell(cells_[a_smaller ? a : b], [&](std::int64_t x, std::int64_t y, std::uint32_t) {
+          shared += other.at(x, y) != 0 ? 1 : 0;
+        });
+        if (shared > 0) survey_.overlaps.push_back({a, b, static_cast<double>(shared) * cell_area});
+      }
+    CellCounts strips_per_cell;
+    for (const CellCounts& cells : cells_)
+      forEachCell(
+          cells, [&](std::int64_t x, std::int64_t y, std::uint32_t) { strips_per_cell.add(x, y); });
+    survey_.area_by_strips.assign(cells_.size(), 0.0);
+    forEachCell(strips_per_cell, [&](std::int64_t, std::int64_t, std::uint32_t strips) {
+      survey_.area_by_strips[strips - 1] += cell_area;
+    });
+    while (!survey_.area_by_strips.empty() && survey_.area_by_strips.back() == 0.0)
+      survey_.area_by_strips.pop_back();
+  }
+
+  const std::function<void(double)>& progress_;
+  SurveyCensus survey_;
+  std::uint64_t total_ = 0, done_ = 0;
+  std::map<SourceKey, SourceTally> sources_;
+  std::vector<CellCounts> cells_;  ///< by strip
+  detail::DuplicateSample duplicates_;
+};
+
+}  // namespace
+
+SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell,
+                        const std::function<void(double)>& progress) {
+  if (!(std::isfinite(cell) && cell >= 0.0)) throw UsageError("cell size must be positive, metres");
+  return Census(files, cell, progress).take();
+}
+
+}  // namespace pcl_als
