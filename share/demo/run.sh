@@ -49,7 +49,8 @@ pcl_als_step "Calibrating ${#strips[@]} strips"
 status=0
 if outdated "$result" "$bin/pcl_als_calibrate" "$block/truth.json"; then
   "$bin/pcl_als_calibrate" "${strips[@]}" -trajectory "$block/trajectory.csv" \
-    -control "$block/control.csv" -output "$result" || status=$?
+    -control "$block/control.csv" -output "$result" | tee "$out/calibration.txt" | sed '/^$/,$d' ||
+    status=$?
   # 3: an answer that is written but not reliable; it is shown all the same.
   [[ $status == 0 || $status == 3 ]] || exit "$status"
 else
@@ -61,7 +62,8 @@ mkdir -p -- "$corrected"
 for strip in "${strips[@]}"; do
   target=$corrected/${strip##*/}
   if outdated "$target" "$bin/pcl_als_apply" "$result"; then
-    "$bin/pcl_als_apply" "$strip" "$target" -trajectory "$block/trajectory.csv" -calibration "$result"
+    "$bin/pcl_als_apply" "$strip" "$target" -trajectory "$block/trajectory.csv" \
+      -calibration "$result" | grep '^Writing'
   else
     echo "$target is up to date"
   fi
@@ -74,7 +76,7 @@ awk -f "$demo/tables.awk" "$out/summary.tsv" | tee "$out/summary.txt"
 cat <<END
 
 Look at:
-  $result  biases, uncertainty, correlations, fits
+  $result  biases, uncertainty, correlations, fits; in words: calibration.txt
   $corrected/  the corrected strips (any LAS viewer)
   $block/  the simulated strips, trajectory, control and truth
   $out/summary.txt  these tables

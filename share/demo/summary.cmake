@@ -13,10 +13,8 @@ macro(add_record)
   string(APPEND table "${line}\n")
 endmacro()
 
-string(JSON last LENGTH "${calibration}" parameters)
-math(EXPR last "${last} - 1")
-foreach(i RANGE ${last})
-  string(JSON name MEMBER "${calibration}" parameters ${i})
+foreach(name IN ITEMS lever_arm_x lever_arm_y lever_arm_z boresight_pitch boresight_roll
+        boresight_heading range_bias scan_angle_scale)
   set(record parameter ${name})
   foreach(key IN ITEMS unit status bias std)
     string(JSON value GET "${calibration}" parameters ${name} ${key})
