@@ -139,6 +139,28 @@ TEST(LasFile, ReadsTheCrsThatTheEncodingPrefers) {
   EXPECT_EQ(LasFile(put("crs.las", las.str())).crs(), "");
 }
 
+TEST(LasFile, RecognisesAUtmZoneThatIsSpelledOut) {
+  const auto crsOf = [](unsigned model, unsigned zone, double flattening) {
+    LasBytes las;
+    las.minor = 2;
+    las.format = 1;
+    Bytes keys;
+    keys.u16(1).u16(1).u16(0).u16(6).u16(1024).u16(0).u16(1).u16(model);
+    keys.u16(2048).u16(0).u16(1).u16(32767).u16(2057).u16(34736).u16(1).u16(0);
+    keys.u16(2059).u16(34736).u16(1).u16(1).u16(3072).u16(0).u16(1).u16(32767);
+    keys.u16(3074).u16(0).u16(1).u16(zone);
+    const std::string doubles = Bytes().f64(6378137.0).f64(flattening).str();
+    las.vlrs = {LasBytes::vlr("LASF_Projection", 34735, keys.str()),
+                LasBytes::vlr("LASF_Projection", 34736, doubles)};
+    return LasFile(put("utm.las", las.str())).crs();
+  };
+  EXPECT_EQ(crsOf(1, 16011, 298.257223563), "EPSG:32611");
+  EXPECT_EQ(crsOf(1, 16156, 298.257223563), "EPSG:32756");
+  EXPECT_EQ(crsOf(1, 16011, 298.257222101), "");  // GRS 80: some other datum
+  EXPECT_EQ(crsOf(1, 12345, 298.257223563), "");
+  EXPECT_EQ(crsOf(3, 16011, 298.257223563), "");  // geocentric
+}
+
 TEST(LasFile, TellsTheKindOfTime) {
   LasBytes las;
   EXPECT_EQ(LasFile(put("time.las", las.str())).info().time_kind, TimeKind::adjusted_standard);

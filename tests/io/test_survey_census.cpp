@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/point_flag.h>
+#include <pcl_als/io/las_writer.h>
+#include <pcl_als/io/survey_census.h>
+
+#include "las_bytes.h"
+#include "real_data.h"
+#include "test_files.h"
+
+namespace pcl_als {
+namespace {
+
+/// A rectangle of points 0.5 m apart (four per m2), one row after the other, 100 points a second.
+PointChunk field(double x, double y, double width, double height, std::uint16_t id,
+                 double first_time = 1000.0) {
+  PointChunk p;
+  const int columns = static_cast<int>(width * 2), rows = static_cast<int>(height * 2);
+  p.resize(static_cast<std::size_t>(columns) * rows);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.x[i] = x + 0.25 + 0.5 * static_cast<double>(i % columns);
+    p.y[i] = y + 0.25 + 0.5 * static_cast<double>(i / columns);
+    p.z[i] = 10.0;
+    p.gps_time[i] = first_time + 0.01 * static_cast<double>(i);
+    p.intensity[i] = 100.0F;
+    p.point_source_id[i] = id;
+    p.return_number[i] = p.number_of_returns[i] = 1;
+    p.classification[i] = 2;
+  }
+  return p;
+}
+
+std::filesystem::path write(const std::filesystem::path& path, const std::vector<PointChunk>& parts,
+                            TimeKind kind = TimeKind::week_seconds) {
+  LasWriterOptions options;
+  options.time_kind = kind;
+  options.crs = "LOCAL_CS[\"metres\"]";
+  LasWriter writer(path, options);
+  for (const PointChunk& part : parts) writer.append(part);
+  writer.finish();
+  return path;
+}
+
+bool has(const std::vector<std::string>& remarks, const std::string& part) {
+  return std::any_of(remarks.begin(), remarks.end(), [&](const std::string& remark) {
+    return remark.find(part) != std::string::npos;
+  });
+}
+
+TEST(SurveyCensus, CountsStripsDensityAndOverlap) {
+  const auto folder = test::scratch("census_overlap");
+  // 100 m x 50 m and, over its eastern 40 m, 60 m x 50 m; cells of 5 m fit both exactly.
+  const auto a = write(folder / "a.las", {field(0, 0, 100, 50, 1)});
+  const auto b = write(folder / "b.las", {field(60, 0, 60, 50, 2, 5000.0)});
+  const SurveyCensus survey = takeCensus({a, b}, 5.0);
+  ASSERT_EQ(survey.strips.size(), 2U);
+  EXPECT_EQ(survey.strips[0].id, "1");
+  EXPECT_EQ(survey.strips[0].statistics.points, 20000U);
+  EXPECT_EQ(survey.strips[0].area, 5000.0);
+  EXPECT_EQ(survey.strips[0].density, 4.0);
+  EXPECT_EQ(survey.strips[0].statistics.classes[2], 20000U);
+  EXPECT_EQ(survey.strips[0].statistics.single_returns, 20000U);
+  EXPECT_EQ(survey.strips[1].area, 3000.0);
+  ASSERT_EQ(survey.overlaps.size(), 1U);
+  EXPECT_EQ(survey.overlaps[0].area, 2000.0);
+  EXPECT_EQ(survey.area_by_strips, (std::vector<double>{4000.0, 2000.0}));
+  EXPECT_EQ(survey.duplicates, 0U);
+  EXPECT_TRUE(survey.remarks.empty());
+  EXPECT_TRUE(survey.files[0].remarks.empty());
+}
+
+TEST(SurveyCensus, DensityIsThatOfTheInnerCells) {
+  const auto folder = test::scratch("census_density");
+  // A field with a dense pile of points and ragged edges: the median does not see them.
+  PointChunk pile = field(20, 20, 1, 1, 1, 2000.0);
+  std::vector<PointChunk> parts(1, field(1.3, 2.1, 100, 50, 1));
+  for (int i = 0; i < 50; ++i) parts.push_back(pile);
+  const SurveyCensus survey = takeCensus({write(folder / "a.las", parts)}, 5.0);
+  EXPECT_EQ(survey.strips[0].density, 4.0);
+}
+
+TEST(SurveyCensus, FindsGapsInTime) {
+  const auto folder = test::scratch("census_gaps");
+  const auto path = write(folder / "a.las", {field(0, 0, 10, 10, 1, 1000.0),   // to 1003.99
+                                             field(10, 0, 10, 10, 1, 1004.9),  // 0.91 s later
+                                             field(20, 0, 10, 10, 1, 1010.0)});
+  const StripCensus strip = takeCensus({path}).strips[0];
+  ASSERT_EQ(strip.gaps.size(), 1U);
+  EXPECT_NEAR(strip.gaps[0].from, 1008.89, 1e-9);
+  EXPECT_NEAR(strip.gaps[0].to, 1010.0, 1e-9);
+  EXPECT_TRUE(has(strip.remarks, "1 gaps in time"));
+}
+
+TEST(SurveyCensus, JoinsTilesOfAStrip) {
+  const auto folder = test::scratch("census_tiles");
+  const auto a = write(folder / "a.las", {field(0, 0, 20, 20, 7, 1000.0)});
+  const auto b = write(folder / "b.las", {field(20, 0, 20, 20, 7, 1016.0)});
+  const SurveyCensus survey = takeCensus({a, b}, 5.0);
+  ASSERT_EQ(survey.strips.size(), 1U);
+  EXPECT_EQ(survey.strips[0].statistics.points, 3200U);
+  EXPECT_EQ(survey.strips[0].area, 800.0);
+  EXPECT_EQ(survey.strips[0].statistics.maximum.x(), 39.75);
+  EXPECT_EQ(survey.files[1].statistics.points, 1600U);
+  EXPECT_TRUE(has(survey.remarks, "one strip only"));
+}
+
+TEST(SurveyCensus, CountsDuplicates) {
+  const auto folder = test::scratch("census_duplicates");
+  const auto a = write(folder / "a.las", {field(0, 0, 20, 20, 1)});
+  const auto b = write(folder / "b.las", {field(0, 0, 20, 5, 1), field(0, 30, 20, 5, 1, 3000.0)});
+  const SurveyCensus survey = takeCensus({a, b});
+  EXPECT_EQ(survey.duplicates, 400U);
+  EXPECT_FALSE(survey.duplicates_estimated);
+  EXPECT_TRUE(has(survey.remarks, "400 points repeat"));
+}
+
+TEST(SurveyCensus, EstimatesDuplicatesOfManyPoints) {
+  const auto folder = test::scratch("census_many");
+  const auto a = write(folder / "a.las", {field(0, 0, 800, 500, 1)});  // 1.6 million
+  const SurveyCensus survey = takeCensus({a, a});
+  EXPECT_TRUE(survey.duplicates_estimated);
+  // A sample of at least 262144 points: 1 % is five standard deviations of its size.
+  EXPECT_NEAR(static_cast<double>(survey.duplicates), 1.6e6, 1.6e4);
+}
+
+TEST(SurveyCensus, CellsGrowWherePointsAreSpreadTooWidely) {
+  const auto folder = test::scratch("census_spread");
+  PointChunk p = field(0, 0, 500, 200, 1);  // 400000 points
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.x[i] = 1000.0 * static_cast<double>(i % 2000);
+    p.y[i] = 1000.0 * static_cast<double>(i / 2000);
+  }
+  const SurveyCensus survey = takeCensus({write(folder / "a.las", {p})}, 1.0);
+  EXPECT_GT(survey.cell, 1.0);
+  EXPECT_EQ(survey.strips[0].statistics.points, 400000U);
+}
+
+TEST(SurveyCensus, SaysWhatIsSuspiciousAboutTimes) {
+  const auto folder = test::scratch("census_times");
+  const auto remarksFor = [&](const std::function<void(PointChunk&)>& spoil, TimeKind kind) {
+    PointChunk p = field(0, 0, 20, 20, 1);
+    spoil(p);
+    return takeCensus({write(folder / "a.las", {p}, kind)}).files[0].remarks;
+  };
+  const auto week = TimeKind::week_seconds, standard = TimeKind::adjusted_standard;
+  const auto keep = [](PointChunk&) {};
+  const auto zero = [](PointChunk& p) { std::fill(p.gps_time.begin(), p.gps_time.end(), 0.0); };
+  EXPECT_TRUE(has(remarksFor(zero, week), "every GPS time is zero"));
+  EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = 0.0; }, week),
+                  "1 points (0.0625 %) have GPS time zero"));
+  EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = NAN; }, week),
+                  "GPS time that is no number"));
+  EXPECT_TRUE(has(remarksFor(keep, standard), "probably seconds of the week"));
+  EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = 3e8; }, week),
+                  "probably adjusted standard time"));
+  EXPECT_TRUE(remarksFor(keep, week).empty());
+}
+
+TEST(SurveyCensus, SaysWhatIsSuspiciousAboutPoints) {
+  const auto folder = test::scratch("census_points");
+  PointChunk p = field(0, 0, 10, 10, 1);
+  p.return_number[5] = 3;
+  p.flags[6] = kWithheld;
+  std::fill(p.intensity.begin(), p.intensity.end(), 0.0F);
+  std::swap(p.gps_time[7], p.gps_time[8]);
+  const SurveyCensus survey = takeCensus({write(folder / "a.las", {p})});
+  EXPECT_TRUE(has(survey.files[0].remarks, "1 points (0.25 %) have return number zero"));
+  EXPECT_TRUE(has(survey.files[0].remarks, "flagged as withheld"));
+  EXPECT_TRUE(has(survey.files[0].remarks, "every intensity is zero"));
+  EXPECT_TRUE(has(survey.strips[0].remarks, "only 400 points"));
+  EXPECT_EQ(survey.strips[0].statistics.unsorted_times, 1U);
+}
+
+TEST(SurveyCensus, SaysWhatIsWrongInTheHeader) {
+  const auto folder = test::scratch("census_header");
+  test::LasBytes las;
+  std::string bytes = las.str();
+  const double wrong = 1e6;
+  std::memcpy(&bytes[179], &wrong, sizeof wrong);  // largest x
+  bytes[255] = 99;                                 // points of return 1
+  test::writeBytes(folder / "a.las", bytes);
+  const auto remarks = takeCensus({folder / "a.las"}).files[0].remarks;
+  EXPECT_TRUE(has(remarks, "bounding box is wrong: it says"));
+  EXPECT_TRUE(has(remarks, "return 1: it says 99, there are 2"));
+  EXPECT_TRUE(has(remarks, "coordinate reference system is unknown"));
+  las.count = 0;
+  test::writeBytes(folder / "none.las", las.str());
+  const SurveyCensus none = takeCensus({folder / "none.las"});
+  EXPECT_TRUE(has(none.files[0].remarks, "holds no points"));
+  EXPECT_TRUE(none.strips.empty());
+}
+
+TEST(SurveyCensus, RefusesACellThatIsNoSize) {
+  EXPECT_THROW(takeCensus({}, -1.0), UsageError);
+  EXPECT_THROW(takeCensus({}, NAN), UsageError);
+}
+
+TEST(SurveyCensus, KnowsTheRealTiles) {
+  const auto one = test::unpacked("delft_ahn3/ahn3_cropped_1.las.xz");
+  const auto two = test::unpacked("delft_ahn3/ahn3_cropped_2.las.xz");
+  PCL_ALS_REQUIRE_DATA(one);
+  PCL_ALS_REQUIRE_DATA(two);
+  const SurveyCensus survey = takeCensus({*one, *two});
+  ASSERT_EQ(survey.strips.size(), 4U);
+  EXPECT_EQ(survey.strips[2].id, "57139");
+  EXPECT_EQ(survey.strips[2].statistics.points, 593468U);
+  // What comes with the data, rounded there: times to 0.1 s, scan angles to a degree.
+  EXPECT_NEAR(survey.strips[2].statistics.first_time, 230038.2, 0.06);
+  EXPECT_NEAR(survey.strips[2].statistics.last_time, 230042.5, 0.06);
+  EXPECT_EQ(survey.strips[2].statistics.least_scan_angle, -15.0F);
+  EXPECT_EQ(survey.strips[2].statistics.largest_scan_angle, 16.0F);
+  // 18000 m2 seen by two strips or more, 4900 by three; cells at the edges count whole.
+  EXPECT_NEAR(survey.area_by_strips[1] + survey.area_by_strips[2], 18000.0, 900.0);
+  EXPECT_NEAR(survey.area_by_strips[2], 4900.0, 250.0);
+  EXPECT_TRUE(has(survey.strips[3].remarks, "only 50 points"));
+}
+
+}  // namespace
+}  // namespace pcl_als
