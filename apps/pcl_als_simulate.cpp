@@ -109,7 +109,7 @@ bool isSecond(const CommandLine& line, const char* name, const char* first, cons
 
 std::filesystem::path outputFolder(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_simulate -h)");
-  const std::filesystem::path folder = line.text("output");
+  std::filesystem::path folder = line.text("output");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (std::filesystem::is_directory(folder)) return folder;

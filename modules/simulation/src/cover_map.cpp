@@ -92,12 +92,20 @@ std::size_t CoverMap::indexOf(double x, double y) const {
 template <typename Inside>
 void CoverMap::paint(const Eigen::Vector2d& centre, double reach, LandCover cover,
                      const Inside& inside) {
-  for (double y = centre.y() - reach; y <= centre.y() + reach; y += kCell)
-    for (double x = centre.x() - reach; x <= centre.x() + reach; x += kCell) {
-      const Eigen::Vector2d place(x, y);
-      const Eigen::Vector2d beyond = minimum_ + kCell * Eigen::Vector2d(columns_, rows_);
-      if ((place - minimum_).minCoeff() < 0.0 || (beyond - place).minCoeff() < 0.0) continue;
-      if (inside(place - centre)) cells_[indexOf(x, y)] = cover;
+  const auto cellOf = [](double distance, std::ptrdiff_t count) {
+    const double cell = std::floor(distance / kCell);
+    return static_cast<std::ptrdiff_t>(std::clamp(cell, -1.0, static_cast<double>(count)));
+  };
+  const Eigen::Vector2d from = centre - minimum_;
+  const std::ptrdiff_t left = std::max<std::ptrdiff_t>(0, cellOf(from.x() - reach, columns_));
+  const std::ptrdiff_t right = std::min(columns_ - 1, cellOf(from.x() + reach, columns_));
+  const std::ptrdiff_t top = std::min(rows_ - 1, cellOf(from.y() + reach, rows_));
+  for (auto row = std::max<std::ptrdiff_t>(0, cellOf(from.y() - reach, rows_)); row <= top; ++row)
+    for (std::ptrdiff_t column = left; column <= right; ++column) {
+      const Eigen::Vector2d middle(static_cast<double>(column) + 0.5,
+                                   static_cast<double>(row) + 0.5);
+      if (inside(kCell * middle - from))
+        cells_[static_cast<std::size_t>(row * columns_ + column)] = cover;
     }
 }
 

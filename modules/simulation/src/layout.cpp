@@ -138,10 +138,10 @@ class Planner {
 void Planner::paintStreets(long column, long row) {
   const double u = kMeshWidth * static_cast<double>(column);
   const double v = kMeshLength * static_cast<double>(row);
-  for (double s = 0.0; s < kMeshLength; s += 1.0)
-    cover_.paintDisc(warp_(u, v + s), 0.5 * kRoadWidth, LandCover::road);
-  for (double s = 0.0; s < kMeshWidth; s += 1.0)
-    cover_.paintDisc(warp_(u + s, v), 0.5 * kRoadWidth, LandCover::road);
+  for (int metre = 0; metre < static_cast<int>(kMeshLength); ++metre)
+    cover_.paintDisc(warp_(u, v + metre), 0.5 * kRoadWidth, LandCover::road);
+  for (int metre = 0; metre < static_cast<int>(kMeshWidth); ++metre)
+    cover_.paintDisc(warp_(u + metre, v), 0.5 * kRoadWidth, LandCover::road);
 }
 
 void Planner::build(long column, long row) {
@@ -151,7 +151,8 @@ void Planner::build(long column, long row) {
   if (use != Use::houses) return;
   const double u = kMeshWidth * static_cast<double>(column);
   const double v = kMeshLength * static_cast<double>(row);
-  for (double along = kLot; along < kMeshLength - 0.8 * kLot; along += kLot) {
+  for (int lot = 1; lot < static_cast<int>(kMeshLength / kLot); ++lot) {
+    const double along = kLot * lot;
     buildHouse(u, v + along, 1.0, random);
     buildHouse(u + kMeshWidth, v + along + 0.5 * kLot, -1.0, random);
   }

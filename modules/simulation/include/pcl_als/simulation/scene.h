@@ -52,7 +52,7 @@ struct Building {
  * height field, roofs and walls are polygons, the crown of a tree is a cloud of semi-transparent
  * balls. All surfaces are exact: a hit lies on its surface to rounding.
  *
- * Memory: 5 MB per square kilometre and 5 kB per tree.
+ * Memory: about 10 MB per square kilometre, most of it leaves and the cover map.
  */
 class Scene {
  public:
