@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "fuzz_seeds.h"
+
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <pcl_als/io/las_extra.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "las_bytes.h"
+
+namespace pcl_als::fuzz {
+namespace {
+
+using test::Bytes;
+using test::LasBytes;
+
+std::string extraFieldsVlr() {
+  LasExtraField field;
+  field.name = "reflectance";
+  field.scale = 0.5;
+  field.type = LasExtraType::i16;
+  const std::vector<std::byte> payload = serialiseLasExtraFields({field});
+  const char* bytes = reinterpret_cast<const char*>(payload.data());
+  return LasBytes::vlr("LASF_Spec", 4, std::string(bytes, payload.size()));
+}
+
+std::string geoKeysVlr() {
+  Bytes keys;
+  keys.u16(1).u16(1).u16(0).u16(3).u16(1024).u16(0).u16(1).u16(1);
+  keys.u16(2057).u16(34736).u16(1).u16(0).u16(3072).u16(0).u16(1).u16(28992);
+  return LasBytes::vlr("LASF_Projection", 34735, keys.str());
+}
+
+std::string binaryPcd(const std::string& kind, const std::string& data) {
+  return "# .PCD v0.7\n# pcl_als strip 7\nVERSION 0.7\nFIELDS x y z gps_time point_source_id\n"
+         "SIZE 4 4 4 8 2\nTYPE F F F F U\nCOUNT 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+         "VIEWPOINT 583390 5283100 500 1 0 0 0\nPOINTS 2\nDATA " +
+         kind + "\n" + data;
+}
+
+}  // namespace
+
+std::vector<std::string> lasSeeds() {
+  std::vector<std::string> seeds;
+  for (int minor = 2; minor <= 4; ++minor)
+    for (const int format : {0, 1, 3, 5, 6, 10}) {
+      LasBytes las;
+      las.minor = minor;
+      las.format = format;
+      las.extra = 2;
+      las.vlrs = {extraFieldsVlr(), geoKeysVlr(),
+                  LasBytes::vlr("LASF_Projection", 2112, "LOCAL_CS[\"m\"]")};
+      if (minor == 4) las.evlrs = {LasBytes::evlr("someone", 9, "payload")};
+      seeds.push_back(las.str());
+    }
+  return seeds;
+}
+
+std::vector<std::string> pcdSeeds() {
+  Bytes records;
+  for (int i = 0; i < 2; ++i)
+    records.f32(1.0F).f32(2.0F).f32(static_cast<float>(i)).f64(230038.25).u16(7);
+  // The same 44 bytes as LZF: two runs of literals, their fields side by side.
+  Bytes columns;
+  columns.f32(1.0F).f32(1.0F).f32(2.0F).f32(2.0F).f32(0.0F).f32(1.0F);
+  columns.f64(230038.25).f64(230038.25).u16(7).u16(7);
+  const std::string& c = columns.str();
+  const std::string packed = Bytes().u8(31).raw(c.substr(0, 32)).u8(11).raw(c.substr(32)).str();
+  const std::string sizes = Bytes().u32(packed.size()).u32(c.size()).str();
+  return {binaryPcd("ascii", "1 2 3 230038.25 7\n4.5 nan 6e0 230039 8\n"),
+          binaryPcd("binary", records.str()), binaryPcd("binary_compressed", sizes + packed)};
+}
+
+std::vector<std::string> trajectorySeeds() {
+  return {
+      "time,x,y,z,roll,pitch,heading\n1.0,583394.5,5283100,1150,0.1,-0.2,359\n"
+      "1.005,583394.8,5283100,1150.01,,,\n",
+      "\xEF\xBB\xBFz; Time; x; y\r\n# comment\r\n5;1;2;3\r\n", "x y z time\n1 2 3 4\n2 3 4 5\n"};
+}
+
+std::vector<std::string> sbetSeeds() {
+  Bytes records;
+  for (int i = 0; i < 3; ++i) {
+    records.f64(400825.0 + 0.005 * i).f64(0.6592).f64(-2.0773).f64(3000.0);
+    records.f64(0).f64(0).f64(0).f64(0.01).f64(-0.02).f64(1.0).f64(0.25);
+    for (int k = 0; k < 6; ++k) records.f64(0);
+  }
+  return {records.str()};
+}
+
+std::vector<std::string> controlSeeds() {
+  return {"id,x,y,z,sigma\nP1,583394.5,5283100,498.25,0.01\n\"P 2\",583395,5283101,498,\n",
+          "x\ty\tz\tid\n1\t2\t3\tA\n"};
+}
+
+std::vector<std::string> calibrationSeeds() {
+  CalibrationResult result;
+  result[SystemParameter::boresight_roll] = {4e-4, 2e-6, 1e-6, ParameterStatus::estimated, ""};
+  result.correlation_order = {SystemParameter::boresight_roll};
+  result.correlation = Eigen::MatrixXd::Identity(1, 1);
+  result.iterations = {{1000, 2.5, 0.75}};
+  result.pairs = {{"1", "2", 500, 0.5, 0.02, -0.1, 1e-4}};
+  result.control = {{"1", 37, 0.1, 0.2, 0.3, 0.4}};
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("pcl_als_fuzz_seed." + std::to_string(getpid()) + ".json");
+  writeCalibration(path, result);
+  const std::string text = test::readBytes(path);
+  std::filesystem::remove(path);
+  return {text};
+}
+
+}  // namespace pcl_als::fuzz
