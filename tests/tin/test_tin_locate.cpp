@@ -88,6 +88,16 @@ TEST(TinLocate, OutsideEndsAtAHullTriangleThatSeesThePosition) {
   }
 }
 
+TEST(TinLocate, CornerThatRoundsIntoTheNextCell) {
+  // 2026-11-21: extent / cell and extent * (1 / cell) rounded to either side of a whole number, and
+  // the last corner fell beyond the starting grid (seen by the address sanitizer).
+  const std::vector<test::LatticePoint> lattice{{0, 0},   {0, 30},  {0, 60},   {0, 90},
+                                                {0, 120}, {0, 150}, {50, 0},   {50, 30},
+                                                {50, 60}, {50, 90}, {50, 140}, {50, 150}};
+  const Tin tin(test::pointsAt(lattice));
+  for (const Eigen::Vector3d& p : tin.points()) EXPECT_NE(tin.locate(p.x(), p.y()), Tin::kNone);
+}
+
 TEST(TinLocate, NothingToFind) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Tin tin(test::pointsAt({{0, 0}, {2000, 0}, {0, 2000}}));

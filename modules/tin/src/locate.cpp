@@ -42,10 +42,8 @@ void Tin::buildStartGrid(const Eigen::AlignedBox2d& extent) {
   auto& grid = start_.triangle;
   grid.assign(static_cast<std::size_t>(start_.columns) * start_.rows, kNone);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const Eigen::Vector2d at = points_[triangles_[t].vertex[0]].head<2>() - start_.origin;
-    const auto column = static_cast<std::size_t>(at.x() * start_.cells_per_metre);
-    const auto row = static_cast<std::size_t>(at.y() * start_.cells_per_metre);
-    std::int32_t& first = grid[row * start_.columns + column];
+    const Eigen::Vector3d& at = points_[triangles_[t].vertex[0]];
+    std::int32_t& first = grid[start_.cellOf(at.x(), at.y())];
     if (first == kNone) first = static_cast<std::int32_t>(t);
   }
   std::int32_t* filled = nullptr;
@@ -62,21 +60,19 @@ void Tin::buildStartGrid(const Eigen::AlignedBox2d& extent) {
   }
 }
 
-std::int32_t Tin::startNear(double x, double y) const {
-  const double column = (x - start_.origin.x()) * start_.cells_per_metre;
-  const double row = (y - start_.origin.y()) * start_.cells_per_metre;
-  const double last_column = start_.columns - 1.0, last_row = start_.rows - 1.0;
-  const auto c = static_cast<std::size_t>(std::clamp(column, 0.0, last_column));
-  const auto r = static_cast<std::size_t>(std::clamp(row, 0.0, last_row));
-  return start_.triangle[r * start_.columns + c];
+/// Clamped: positions outside, and corners that rounding puts there, belong to the border cells.
+std::size_t Tin::StartGrid::cellOf(double x, double y) const {
+  const double column = std::clamp((x - origin.x()) * cells_per_metre, 0.0, columns - 1.0);
+  const double row = std::clamp((y - origin.y()) * cells_per_metre, 0.0, rows - 1.0);
+  return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
 }
 
 /// The hint unless it is so far away that the grid is the shorter way.
 std::int32_t Tin::startNear(double x, double y, std::int32_t hint) const {
-  if (hint == kNone) return startNear(x, y);
+  if (hint == kNone) return start_.triangle[start_.cellOf(x, y)];
   const Eigen::Vector3d& a = points_[triangles_[hint].vertex[0]];
   const double cells = (std::abs(a.x() - x) + std::abs(a.y() - y)) * start_.cells_per_metre;
-  return cells < kHintCells ? hint : startNear(x, y);
+  return cells < kHintCells ? hint : start_.triangle[start_.cellOf(x, y)];
 }
 
 Tin::Location Tin::walk(double x, double y, std::int32_t hint) const {
@@ -145,7 +141,7 @@ Tin::Location Tin::searchAll(double x, double y) const {
     }
     if (holds) return {static_cast<std::int32_t>(k), true};
   }
-  return {startNear(x, y), false};
+  return {startNear(x, y, kNone), false};
 }
 
 std::int32_t Tin::locate(double x, double y, std::int32_t hint) const {

@@ -26,7 +26,7 @@ namespace pcl_als {
  * says so.
  *
  * Triangles are numbered along a space-filling curve: neighbours in plan are mostly close in
- * memory. Memory: 73 bytes per point, and while it is being built at most 110 more.
+ * memory. Memory: 73 bytes per point, and while it is being built up to 100 more.
  *
  * \code
  * const Tin tin(points, 0.001);                      // LAS scale 1 mm
@@ -91,10 +91,10 @@ class Tin {
     double cells_per_metre = 0.0;
     std::int32_t columns = 0, rows = 0;
     std::vector<std::int32_t> triangle;
+    std::size_t cellOf(double x, double y) const;
   };
 
   void buildStartGrid(const Eigen::AlignedBox2d& extent);
-  std::int32_t startNear(double x, double y) const;
   std::int32_t startNear(double x, double y, std::int32_t hint) const;
   std::int32_t lowestHolder(std::int32_t triangle, const std::array<double, 3>& sides) const;
   Location searchAll(double x, double y) const;
