@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# The main job from end to end: simulate, calibrate, apply, and calibrate what came out.
+source "$(dirname -- "$0")/tool_test.sh"
+value() { cmake -DJSON="$1" -DNAME="$2" -DKEY="$3" -P "$here/parameter.cmake" 2>&1; }
+near() {  # FILE NAME EXPECTED TOLERANCE
+  checks=$((checks + 1))
+  awk -v a="$(value "$1" "$2" bias)" -v b="$3" -v t="$4" 'BEGIN { exit !(a - b <= t && b - a <= t) }' ||
+    failed "$1: $2 is $(value "$1" "$2" bias), not $3 within $4"
+}
+
+# Zero biases change no byte; taking out and putting in ends where it began, to one unit.
+for tool in "" -invert; do
+  expect 0 "" apply "$block/strip1.las" zero.las -trajectory "$block/trajectory.csv" -biases boresight_roll=0 $tool
+  check "zero biases $tool" cmp "$block/strip1.las" zero.las
+done
+
+"$bin/pcl_als_simulate" -output block -preset small -noise range -vertical -quiet || failed simulate
+expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv \
+  -control block/control.csv -output calibration.json -corrected corrected
+# The preset's biases; tolerances are some standard deviations of this small block, and far below
+# the biases themselves.
+near calibration.json boresight_roll -90 3
+near calibration.json boresight_pitch -30 5
+near calibration.json range_bias 0.12 0.01
+near calibration.json scan_angle_scale 1e-4 5e-5
+
+# -corrected writes what pcl_als_apply does.
+expect 0 "" apply block/strip1.las applied.las -trajectory block/trajectory.csv -calibration calibration.json
+check "calibrate -corrected equals apply" cmp corrected/strip1.las applied.las
+
+# The corrected strips have no biases left.
+expect 0 "converged" calibrate corrected/strip*.las -trajectory block/trajectory.csv \
+  -control block/control.csv -output again.json
+near again.json boresight_roll 0 0.5
+near again.json boresight_pitch 0 1
+near again.json range_bias 0 0.003
+
+# Threads change no bit.
+expect 0 "" apply block/strip1.las one.las -trajectory block/trajectory.csv -calibration calibration.json -threads 1
+check "one thread as many" cmp one.las applied.las
+expect 0 "" calibrate block/strip*.las -trajectory block/trajectory.csv -control block/control.csv \
+  -output one.json -threads 1
+check "calibration with one thread" cmp one.json calibration.json
+
+expect 0 "" info block/strip*.las
+expect 1 "strip.pcd" apply block/strip1.las strip.pcd -trajectory block/trajectory.csv -calibration calibration.json
+absent strip.pcd
+finish
