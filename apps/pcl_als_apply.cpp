@@ -66,7 +66,7 @@ SystemVector parseBiases(const std::string& list) {
     if (equals == std::string::npos || !parameter) {
       std::string names;
       for (const SystemParameterInfo& info : systemParameters()) {
-        names += ' ' + std::string(info.name);
+        names.append(" ").append(info.name);
       }
       throw UsageError("option -biases: '" + part + "' is not NAME=VALUE with NAME one of" + names);
     }

@@ -72,7 +72,8 @@ TimeAlignment alignmentOf(const LasFile& file, const PointFileCorrection& correc
 void checkCoverage(const std::string& name, const CoverageCount& coverage,
                    const PointFileCorrection& correction) {
   if (coverage.unsolved == 0 && (coverage.missed() == 0 || correction.keep_uncovered)) return;
-  throw InputError(name + ": " + coverage.describe(*correction.trajectory));
+  const char* way_out = coverage.unsolved == 0 ? "; -keep_uncovered leaves them as they are" : "";
+  throw InputError(name + ": " + coverage.describe(*correction.trajectory) + way_out);
 }
 
 /// Adds up what blocks report, from any thread.

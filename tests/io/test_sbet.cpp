@@ -48,14 +48,14 @@ std::string refusal(const std::vector<Record>& records, const std::string& crs =
   return {};
 }
 
+#ifdef PCL_ALS_HAVE_PROJ
+
 /// A record with one field replaced, after a good one.
 std::vector<Record> withFault(std::size_t field, double value) {
   std::vector<Record> records{record(10.0), record(11.0)};
   records[1][field] = value;
   return records;
 }
-
-#ifdef PCL_ALS_HAVE_PROJ
 
 TEST(Sbet, CentralMeridianHasNoConvergenceAndEasting500Kilometres) {
   Record r = record(1.0);

@@ -115,10 +115,9 @@ void IntegerBiasCorrection::refuseOverflow(const double* values, std::uint64_t f
   for (std::int32_t ignored = 0; toInteger(values[i], ignored) == 0;) ++i;
   char text[200];
   std::snprintf(text, sizeof text,
-                ": point %llu: %c = %.0f units of %g m after the correction does not fit 32 bits; "
+                ": point %ju: %c = %.0f units of %g m after the correction does not fit 32 bits; "
                 "give the file a coarser scale or a nearer offset",
-                static_cast<unsigned long long>(first + i), "xyz"[axis], values[i],
-                layout_.scale[axis]);
+                std::uintmax_t{first + i}, "xyz"[axis], values[i], layout_.scale[axis]);
   throw InputError(name_ + text);
 }
 

@@ -72,13 +72,13 @@ std::string readWholeFile(const std::filesystem::path& path) {
     throw InputError(path.string() + ": is a folder, not a file");
   }
   std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path.string() + ": cannot be opened");
   std::string content;
-  if (stream) {
-    const auto size = std::filesystem::file_size(path, error);
-    if (!error) content.reserve(size);
-    content.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  for (std::vector<char> block(std::size_t{1} << 20); stream;) {
+    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+    content.append(block.data(), static_cast<std::size_t>(stream.gcount()));
   }
-  if (!stream || stream.bad()) throw InputError(path.string() + ": cannot be read");
+  if (stream.bad()) throw InputError(path.string() + ": cannot be read");
   return content;
 }
 
