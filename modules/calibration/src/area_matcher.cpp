@@ -61,6 +61,11 @@ std::size_t AreaMatcher::pointCount() const {
   return count;
 }
 
+std::size_t AreaMatcher::stripCount() const {
+  return static_cast<std::size_t>(std::count_if(
+      strips_.begin(), strips_.end(), [](const StripPart& part) { return !part.biased.empty(); }));
+}
+
 void AreaMatcher::prepare(const PatchLimits& limits, std::size_t candidates, double resolution) {
   limits_ = limits;
   for (StripPart& part : strips_) {

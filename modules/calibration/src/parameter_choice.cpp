@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <pcl_als/calibration/parameter_choice.h>
@@ -108,6 +109,30 @@ std::string uncertainReason(const AdjustmentSolution& solution, const std::vecto
   return text.str();
 }
 
+/// Adds to the covariance what the others' uncertainty owes to a parameter that is held but known
+/// to sigma only.
+void consider(const Adjustment& adjustment, const std::vector<P>& estimate, P held, double sigma,
+              AdjustmentSolution& solution) {
+  const SystemMatrix& normal = adjustment.reducedNormal();
+  const auto size = static_cast<Eigen::Index>(estimate.size());
+  Eigen::MatrixXd own(size, size);
+  Eigen::VectorXd coupling(size), scale(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const int row = indexOf(estimate[static_cast<std::size_t>(i)]);
+    coupling[i] = normal(row, indexOf(held));
+    scale[i] = 1.0 / std::sqrt(normal(row, row));
+    for (Eigen::Index j = 0; j < size; ++j)
+      own(i, j) = normal(row, indexOf(estimate[static_cast<std::size_t>(j)]));
+  }
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();
+  const Eigen::VectorXd effect =
+      scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * coupling);
+  SystemVector shift = SystemVector::Zero();
+  for (Eigen::Index i = 0; i < size; ++i)
+    shift[indexOf(estimate[static_cast<std::size_t>(i)])] = effect[i] * sigma;
+  solution.covariance += shift * shift.transpose();
+}
+
 }  // namespace
 
 double DeterminationLimits::of(SystemParameter p) const {
@@ -152,7 +177,13 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
         choice.solution.solved
             ? tooUncertain(choice.solution, choice.estimate, limits, limit_factor)
             : weakestDirection(adjustment.reducedNormal(), choice.estimate);
-    if (candidates.empty()) return choice;
+    if (candidates.empty()) {
+      for (const P p : wanted) {
+        if (choice.status[indexOf(p)] == ParameterStatus::estimated) continue;
+        consider(adjustment, choice.estimate, p, limits.of(p), choice.solution);
+      }
+      return choice;
+    }
     const P dropped = firstToDrop(candidates);
     std::string& reason = choice.reason[indexOf(dropped)];
     if (choice.solution.solved) {

@@ -19,6 +19,7 @@ constexpr double kHuber = 1.5;    // standard deviations up to which an observat
 constexpr double kReject = 4.5;   // and from which it has none
 constexpr int kReweightings = 3;  // of one set of pairs
 constexpr std::size_t kEnoughForScale = 30;
+constexpr std::size_t kFewestCandidates = 150, kMostCandidates = 2000;  // of a strip in an area
 // A TIN between points is never better than some millimetres: pairs that fit better are no better.
 constexpr double kLeastScale = 0.25;
 constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
@@ -57,6 +58,7 @@ struct QuasiRigorousCalibration::State {
   Adjustment adjustment;
   ParameterChoice choice;
   bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
+  bool levels_rest = false;  ///< whether the last look left them as they were
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   std::vector<std::vector<double>> weights;  ///< robust weight / noise scale^2
@@ -185,11 +187,14 @@ std::size_t QuasiRigorousCalibration::loadedPoints() const {
 }
 
 void QuasiRigorousCalibration::prepare() {
+  std::size_t strips_in_areas = 1;
+  for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
+  const std::size_t candidates =
+      std::clamp(settings_.candidates / strips_in_areas, kFewestCandidates, kMostCandidates);
   std::vector<std::vector<double>> roughness(matchers_.size());
   parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
     const bool control = i >= pair_areas_;
-    matchers_[i].prepare(settings_.patches, control ? 0 : settings_.candidates,
-                         settings_.resolution);
+    matchers_[i].prepare(settings_.patches, control ? 0 : candidates, settings_.resolution);
     matchers_[i].collectRoughness(roughness[i]);
   });
   std::vector<double> all;
@@ -261,7 +266,8 @@ void QuasiRigorousCalibration::adjust(State& state) const {
     state.choice =
         chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
     if (pass > 0 || !state.levels_open || state.choice.estimate.empty()) continue;
-    mostLikelyLevels(state.adjustment, state.choice.estimate);
+    const SharedErrorLevels levels = state.adjustment.levels();
+    state.levels_rest = mostLikelyLevels(state.adjustment, state.choice.estimate) == levels;
   }
   weigh(state);
 }
@@ -320,13 +326,15 @@ bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVecto
 void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
   // The levels need residuals near their final size, and must rest for the iteration to converge.
-  state.levels_open = result.iterations.size() == 1 || result.iterations.size() == 2;
+  constexpr std::size_t kLastLook = 8;
+  const std::size_t done = result.iterations.size();
+  state.levels_open = done > 0 && done < kLastLook && !state.levels_rest;
   adjust(state);
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
   result.iterations.push_back({state.observationCount(), state.sigma0, effect});
   if (progress_) progress_(result.iterations.back());
-  result.converged = result.iterations.size() > 3 &&
+  result.converged = done > 2 && !state.levels_open &&
                      (effect < settings_.convergence || restsWithin(state, before));
   parallelFor(matchers_.size(), settings_.threads,
               [&](std::size_t i) { matchers_[i].correct(*trajectory_, biases); });

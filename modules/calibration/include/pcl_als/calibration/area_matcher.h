@@ -39,6 +39,7 @@ class AreaMatcher {
   void add(int strip, const CalibrationPoint& point);
   const CalibrationArea& area() const { return area_; }
   std::size_t pointCount() const;
+  std::size_t stripCount() const;  ///< strips with points in the area or its margin
 
   /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
   /// aspects.

@@ -13,13 +13,15 @@ namespace pcl_als {
 
 /** \brief Standard deviation from which on a parameter counts as not determined by the data.
  *
- * Chosen so that a wrong value of that size is no longer an improvement over leaving the parameter
- * alone: about 10 cm on the ground from 1000 m.
+ * Lever arms can be surveyed to a few centimetres, so an estimate must be as good. The others are
+ * smaller than the biases of a freshly mounted system (0.02-0.1 degree), so that an estimate this
+ * uncertain still improves it. A parameter that is dropped keeps its value, and the uncertainty of
+ * the others includes that it may be wrong by this much.
  */
 struct DeterminationLimits {
-  double lever_arm = 0.10;                       ///< metres
-  double roll_pitch = 30.0 * kRadiansPerArcsec;  ///< radians
-  double heading = 90.0 * kRadiansPerArcsec;     ///< radians
+  double lever_arm = 0.03;                       ///< metres
+  double roll_pitch = 60.0 * kRadiansPerArcsec;  ///< radians
+  double heading = 180.0 * kRadiansPerArcsec;    ///< radians
   double range = 0.10;                           ///< metres
   double scan_angle_scale = 3e-4;                ///< unitless
 

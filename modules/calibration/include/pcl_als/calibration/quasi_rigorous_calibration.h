@@ -26,8 +26,7 @@ struct CalibrationSettings {
   DeterminationLimits limits;
   PatchLimits patches;
   SurveyMap::Selection selection;
-  std::size_t candidates =
-      150;  ///< points of a strip in an area that look for patches in the other strips
+  std::size_t candidates = 100'000;   ///< points that look for patches, all areas
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair

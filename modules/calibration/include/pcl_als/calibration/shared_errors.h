@@ -43,6 +43,11 @@ struct SharedErrorModel {
 /// How much of the model's variance the observations show, by kind of error.
 struct SharedErrorLevels {
   double position = 1.0, roll_pitch = 1.0, heading = 1.0, local = 1.0;
+
+  bool operator==(const SharedErrorLevels& other) const {
+    return position == other.position && roll_pitch == other.roll_pitch &&
+           heading == other.heading && local == other.local;
+  }
 };
 
 /// The unknowns of the model: six at every knot of every strip (linear in time between knots), then
