@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "command_line.h"
@@ -33,7 +33,7 @@ CommandLine commandLine() {
                    "names as in calibration.json");
   line.addFlag("invert", "put the biases in instead of taking them out");
   line.addOptional("crs",
-                   "CRS of the points for an SBET, e.g. EPSG:32611 (default: the LAS file's)");
+                   "CRS of the points for an SBET, e.g. EPSG:32611 (default: the point file's)");
   line.addOptional("gps_week", "GPS week of times that are seconds of the week (default: found)");
   line.addOptional("line_fit",
                    "half width of the trajectory window in seconds (default: the calibration's, "
@@ -107,10 +107,7 @@ Trajectory::Options trajectoryOptions(const CommandLine& line, const Calibration
 
 /// The CRS an SBET is projected to; of the points where it is not given.
 std::string crsOf(const CommandLine& line, const std::string& points) {
-  if (line.has("crs")) return line.text("crs");
-  const std::string extension = std::filesystem::path(points).extension().string();
-  if (extension == ".pcd" || extension == ".PCD") return {};
-  return LasFile(points).crs();
+  return line.has("crs") ? line.text("crs") : PointReader::open(points)->info().crs;
 }
 
 void remark(const CommandLine& line, const std::string& text) {

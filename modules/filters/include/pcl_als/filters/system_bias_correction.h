@@ -5,8 +5,6 @@
 #include <memory>
 
 #include <pcl/filters/filter.h>
-// PCL's library holds its base class for PCL's point types only.
-#include <pcl/impl/pcl_base.hpp>
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/local_frame.h>
