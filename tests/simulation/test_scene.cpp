@@ -154,8 +154,9 @@ TEST(Scene, OpenMeansThatNothingStandsNear) {
     if (!suburb().isOpen(ray.origin, ray.direction, ground, 0.5)) continue;
     ++open;
     for (const Eigen::Vector3d& aside : {Eigen::Vector3d(0.5, 0, 0), Eigen::Vector3d(0, -0.5, 0)})
-      if (suburb().trace(ray.origin + aside, ray.direction, hits))
+      if (suburb().trace(ray.origin + aside, ray.direction, hits)) {
         EXPECT_EQ(hits.front().object, SurfaceHit::kGround);
+      }
   }
   EXPECT_GT(open, 300U);
 }
