@@ -159,6 +159,17 @@ TEST(LasWriter, WritesExtraFields) {
   EXPECT_EQ(values[2], 4294967296.0);
 }
 
+// 2026-11-21, found by fuzz_las: a file without points gave the decoder a null pointer to add to.
+TEST(LasWriter, ExtraFieldsOfNoPointsTouchNoMemory) {
+  LasExtraField field;
+  field.position = 30;
+  std::vector<double> values(3);
+  decodeLasExtraField(nullptr, 0, 34, field, values);
+  EXPECT_TRUE(values.empty());
+  encodeLasExtraField(values, 34, field, "", nullptr);
+  encodeLasRecords({}, 34, LasRecordLayout::of(6), {1, 1, 1}, {0, 0, 0}, 0, "", nullptr);
+}
+
 TEST(LasWriter, KeepsRawRecordsAndFurtherVlrs) {
   const auto folder = test::scratch("las_writer_raw");
   test::LasBytes las;

@@ -115,6 +115,7 @@ void encodeLasRecords(const PointChunk& chunk, std::size_t record_length,
                       const Eigen::Vector3d& offset, std::uint64_t first_index,
                       const std::string& name, std::byte* records) {
   const Encoder encoder(chunk, layout, scale, offset, first_index, name);
+  if (chunk.size() == 0) return;  // records may be null
   std::memset(records, 0, chunk.size() * record_length);
   for (std::size_t i = 0; i < chunk.size(); ++i) encoder.encode(i, records + i * record_length);
 }

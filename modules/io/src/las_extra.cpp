@@ -129,6 +129,7 @@ std::size_t lasExtraSize(const LasExtraField& field) {
 void decodeLasExtraField(const std::byte* records, std::size_t count, std::size_t record_length,
                          const LasExtraField& field, std::vector<double>& values) {
   values.assign(count, 0.0);
+  if (count == 0) return;  // records may be null
   withType(field.type, [&](auto zero) {
     using Raw = decltype(zero);
     const std::byte* at = records + field.position;
@@ -139,6 +140,7 @@ void decodeLasExtraField(const std::byte* records, std::size_t count, std::size_
 
 void encodeLasExtraField(const std::vector<double>& values, std::size_t record_length,
                          const LasExtraField& field, const std::string& name, std::byte* records) {
+  if (values.empty()) return;
   withType(field.type, [&](auto zero) {
     using Raw = decltype(zero);
     std::byte* at = records + field.position;
