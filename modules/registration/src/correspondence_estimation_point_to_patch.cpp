@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#define PCL_ALS_REGISTRATION_SOURCE
 #include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
 
 namespace pcl_als {
 
-PCL_ALS_POINT_TO_PATCH(, PointLidar)
-PCL_ALS_POINT_TO_PATCH(, pcl::PointXYZ)
-PCL_ALS_POINT_TO_PATCH(, pcl::PointXYZI)
-PCL_ALS_POINT_TO_PATCH(, pcl::PointNormal)
-PCL_ALS_POINT_TO_PATCH(, pcl::PointXYZINormal)
+template class CorrespondenceEstimationPointToPatch<PointLidar, PointLidar, float>;
+template class CorrespondenceEstimationPointToPatch<PointLidar, PointLidar, double>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointXYZ, pcl::PointXYZ, float>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointXYZ, pcl::PointXYZ, double>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointXYZI, pcl::PointXYZI, float>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointXYZI, pcl::PointXYZI, double>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal, float>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal, double>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointXYZINormal, pcl::PointXYZINormal,
+                                                    float>;
+template class CorrespondenceEstimationPointToPatch<pcl::PointXYZINormal, pcl::PointXYZINormal,
+                                                    double>;
 
 }  // namespace pcl_als

@@ -70,7 +70,7 @@ void CorrespondenceRejectorPatch::setTargetPoints(pcl::PCLPointCloud2::ConstPtr 
 }
 
 CloudSurface::ConstPtr CorrespondenceRejectorPatch::currentSurface() const {
-  const CloudSurface::ConstPtr surface = provider_ ? provider_->getSurface() : target_;
+  CloudSurface::ConstPtr surface = provider_ ? provider_->getSurface() : target_;
   if (!surface)
     throw UsageError(rejection_name_ +
                      ": no patches; call setInputTarget, or setMatchProvider with an estimation "

@@ -80,8 +80,9 @@ Tin::Location Tin::walk(double x, double y, std::int32_t hint) const {
   std::int32_t at = startNear(x, y, hint), from = kNone;
   // In a Delaunay triangulation such a walk never comes back to a triangle. The limit is for points
   // that were moved and for hints from far away.
-  const double limit = 64.0 + 16.0 * std::sqrt(static_cast<double>(triangles_.size()));
-  for (double steps = 0.0; steps < limit; ++steps) {
+  const auto limit =
+      64 + static_cast<std::size_t>(16.0 * std::sqrt(static_cast<double>(triangles_.size())));
+  for (std::size_t steps = 0; steps < limit; ++steps) {
     const Triangle& t = triangles_[at];
     const Eigen::Vector3d* v[3] = {&points_[t.vertex[0]], &points_[t.vertex[1]],
                                    &points_[t.vertex[2]]};

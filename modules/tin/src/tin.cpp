@@ -42,8 +42,7 @@ Eigen::AlignedBox2d planExtent(const std::vector<Eigen::Vector3d>& points) {
 Lattice2 latticeOrigin(const Eigen::AlignedBox2d& extent, double resolution) {
   const double farthest = extent.min().cwiseAbs().cwiseMax(extent.max().cwiseAbs()).maxCoeff();
   if (farthest / resolution < kLargestLattice) {
-    const Lattice2 low(latticeOf(extent.min().x(), resolution),
-                       latticeOf(extent.min().y(), resolution));
+    Lattice2 low(latticeOf(extent.min().x(), resolution), latticeOf(extent.min().y(), resolution));
     const Lattice2 high(latticeOf(extent.max().x(), resolution),
                         latticeOf(extent.max().y(), resolution));
     if ((high - low).maxCoeff() <= tin::kMaxExtent) return low;

@@ -105,17 +105,20 @@ class CorrespondenceEstimationPointToPatch
 
 namespace pcl_als {
 
-// Of the library; any other registered point type with x, y, z is instantiated where it is used.
-#define PCL_ALS_POINT_TO_PATCH(prefix, PointT)                                       \
-  prefix template class CorrespondenceEstimationPointToPatch<PointT, PointT, float>; \
-  prefix template class CorrespondenceEstimationPointToPatch<PointT, PointT, double>;
-
-#ifndef PCL_ALS_REGISTRATION_SOURCE
-PCL_ALS_POINT_TO_PATCH(extern, PointLidar)
-PCL_ALS_POINT_TO_PATCH(extern, pcl::PointXYZ)
-PCL_ALS_POINT_TO_PATCH(extern, pcl::PointXYZI)
-PCL_ALS_POINT_TO_PATCH(extern, pcl::PointNormal)
-PCL_ALS_POINT_TO_PATCH(extern, pcl::PointXYZINormal)
-#endif
+// In the library; any other registered point type with x, y, z is instantiated where it is used.
+extern template class CorrespondenceEstimationPointToPatch<PointLidar, PointLidar, float>;
+extern template class CorrespondenceEstimationPointToPatch<PointLidar, PointLidar, double>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointXYZ, pcl::PointXYZ, float>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointXYZ, pcl::PointXYZ, double>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointXYZI, pcl::PointXYZI, float>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointXYZI, pcl::PointXYZI, double>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal,
+                                                           float>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal,
+                                                           double>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointXYZINormal,
+                                                           pcl::PointXYZINormal, float>;
+extern template class CorrespondenceEstimationPointToPatch<pcl::PointXYZINormal,
+                                                           pcl::PointXYZINormal, double>;
 
 }  // namespace pcl_als

@@ -26,6 +26,10 @@ struct PatchMatch {
 struct PatchQuality {
   /// Of the neighbourhood's plane, unit, upward: less noisy than the triangle's own.
   Eigen::Vector3d plane_normal = Eigen::Vector3d::UnitZ();
+  /// Root of the summed squares of the vertices' distances from their centre along the narrower
+  /// direction in the plane, metres: heights with noise sigma tilt the plane by sigma / spread
+  /// radians.
+  float spread = 0.0F;
   float longest_edge = 0.0F;  ///< metres, 3D
   float slope = 0.0F;         ///< radians from horizontal
   float roughness =
