@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "duplicate_sample.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace pcl_als::detail {
@@ -30,18 +31,19 @@ std::uint64_t hashOf(const PointChunk& p, std::size_t i) {
 }  // namespace
 
 void DuplicateSample::add(const PointChunk& chunk) {
-  slots_.resize(kSlots);
+  if (slots_.empty()) slots_.resize(kFewestSlots);
   for (std::size_t i = 0; i < chunk.size(); ++i) {
     const std::uint64_t hash = hashOf(chunk, i);
     if ((hash & mask_) != 0) continue;
     insert(hash, 0);
-    if (keys_ > kSlots / 2) thinOut();
+    if (keys_ > slots_.size() / 2) makeRoom();
   }
 }
 
 DuplicateSample::Slot& DuplicateSample::slotOf(std::uint64_t key) {
-  std::size_t at = (key >> 32U) & (kSlots - 1);  // the lower bits are those that the mask looks at
-  while (slots_[at].key != 0 && slots_[at].key != key) at = (at + 1) & (kSlots - 1);
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = (key >> 32U) & mask;  // the lower bits are those that the mask looks at
+  while (slots_[at].key != 0 && slots_[at].key != key) at = (at + 1) & mask;
   return slots_[at];
 }
 
@@ -58,10 +60,9 @@ void DuplicateSample::insert(std::uint64_t key, std::uint64_t repeats) {
   }
 }
 
-void DuplicateSample::thinOut() {
-  ++level_;
-  mask_ = (std::uint64_t{1} << level_) - 1;
-  std::vector<Slot> old(kSlots);
+void DuplicateSample::makeRoom() {
+  std::vector<Slot> old(std::min(4 * slots_.size(), kMostSlots));
+  if (old.size() == slots_.size()) mask_ = (std::uint64_t{1} << ++level_) - 1;
   old.swap(slots_);
   keys_ = 0;
   found_ = 0;

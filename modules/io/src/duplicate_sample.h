@@ -27,11 +27,12 @@ class DuplicateSample {
     std::uint64_t key = 0;  ///< 0: empty
     std::uint64_t repeats = 0;
   };
-  static constexpr std::size_t kSlots = std::size_t{1} << 20U;
+  static constexpr std::size_t kFewestSlots = std::size_t{1} << 12U;
+  static constexpr std::size_t kMostSlots = std::size_t{1} << 20U;
 
   Slot& slotOf(std::uint64_t key);
   void insert(std::uint64_t key, std::uint64_t repeats);
-  void thinOut();
+  void makeRoom();  ///< a larger table, or fewer points in it
 
   std::vector<Slot> slots_;
   std::size_t keys_ = 0;
