@@ -21,6 +21,7 @@ SharedErrorModel model(double correlation_time = 30.0) {
   SharedErrorModel errors;
   errors.correlation_time = correlation_time;
   errors.knot_spacing = 10.0;
+  errors.local = 1e-7;
   return errors;
 }
 

@@ -16,6 +16,7 @@ constexpr std::size_t kTooFew =
 constexpr double kGentle =
     0.26;  // radians: slopes on which the roughness of plain ground is measured
 constexpr int kAspects = 8;
+constexpr double kSignificant = 5.0;  // standard deviations of a tilt from which on it is one
 constexpr std::array<double, 3> kSlopeSteps{0.087, 0.26, 0.52};  // radians: 5, 15, 30 degrees
 constexpr std::size_t kClasses = 1 + kSlopeSteps.size() * kAspects;
 
@@ -24,7 +25,11 @@ std::size_t orientationClass(const Eigen::Vector3d& normal) {
   const double slope = std::atan2(std::hypot(normal.x(), normal.y()), normal.z());
   if (slope < kSlopeSteps[0]) return 0;
   const int step = slope < kSlopeSteps[1] ? 0 : slope < kSlopeSteps[2] ? 1 : 2;
-  const double turn = (std::atan2(normal.y(), normal.x()) + kPi) / (2.0 * kPi);
+  // Coordinates are multiples of a step, so directions along the axes and diagonals are common:
+  // borders between classes lie aside, or rounding would decide.
+  constexpr double kAside = 0.1234;
+  const double turn =
+      std::fmod(std::atan2(normal.y(), normal.x()) + 3.0 * kPi + kAside, 2.0 * kPi) / (2.0 * kPi);
   return static_cast<std::size_t>(1 + step * kAspects +
                                   std::min(kAspects - 1, static_cast<int>(turn * kAspects)));
 }
@@ -93,6 +98,15 @@ bool AreaMatcher::acceptable(const StripPart& part, const PatchQuality& quality)
          quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
          quality.slope <= limits_.slope && quality.roughness <= limits_.roughness &&
          quality.vertices >= limits_.minimum_vertices;
+}
+
+Eigen::Vector3d AreaMatcher::measuringNormal(const PatchQuality& quality) const {
+  const Eigen::Vector3d& normal = quality.plane_normal;
+  const double noise = std::max<double>(quality.roughness, limits_.plain_roughness);
+  const double tilt = noise / std::max<double>(quality.spread, 1e-3);
+  return std::hypot(normal.x(), normal.y()) < kSignificant * tilt
+             ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
+             : normal;
 }
 
 std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const StripPart& part) const {
@@ -239,9 +253,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       observation.time_b = foot.time;
       observation.lateral = foot.lateral;
       observation.height = foot.height;
-      // The triangle says where the surface is, its neighbourhood how it is inclined: less noise in
-      // the normal.
-      observation.normal = quality.plane_normal;
+      observation.normal = measuringNormal(quality);
       observation.row_a = observation.normal.transpose() * point.design;
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position);
@@ -271,7 +283,7 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.time_a = observation.time_b = foot.time;
       observation.lateral = foot.lateral;
       observation.height = foot.height;
-      observation.normal = quality.plane_normal;
+      observation.normal = measuringNormal(quality);
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position);
       observation.stretch = -foot.stretch(observation.normal);

@@ -180,7 +180,7 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
     if (candidates.empty()) {
       for (const P p : wanted) {
         if (choice.status[indexOf(p)] == ParameterStatus::estimated) continue;
-        consider(adjustment, choice.estimate, p, limits.of(p), choice.solution);
+        consider(adjustment, choice.estimate, p, 2.0 * limits.of(p), choice.solution);
       }
       return choice;
     }

@@ -200,8 +200,9 @@ void QuasiRigorousCalibration::prepare() {
   std::vector<double> all;
   for (const auto& values : roughness) all.insert(all.end(), values.begin(), values.end());
   if (all.empty()) return;
-  const double limit = std::min(settings_.patches.roughness, kRoughnessFactor * medianInPlace(all));
-  for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(limit);
+  const double plain = medianInPlace(all);
+  const double most = std::min(settings_.patches.roughness, kRoughnessFactor * plain);
+  for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
 }
 
 void QuasiRigorousCalibration::pairUp(State& state) const {
@@ -217,29 +218,33 @@ void QuasiRigorousCalibration::pairUp(State& state) const {
 }
 
 void QuasiRigorousCalibration::weigh(State& state) const {
-  std::map<State::Group, std::vector<double>> standardised;
-  for (const AreaObservations& area : state.observations) {
-    for (const PairObservation& o : area) {
-      standardised[State::groupOf(o)].push_back(
-          state.adjustment.residual(o, state.choice.solution) / std::sqrt(o.variance));
+  std::vector<std::vector<double>> standardised(state.observations.size());
+  parallelFor(standardised.size(), settings_.threads, [&](std::size_t area) {
+    for (const PairObservation& o : state.observations[area]) {
+      standardised[area].push_back(state.adjustment.residual(o, state.choice.solution) /
+                                   std::sqrt(o.variance));
+    }
+  });
+  std::map<State::Group, std::vector<double>> by_group;
+  for (std::size_t area = 0; area < standardised.size(); ++area) {
+    for (std::size_t i = 0; i < standardised[area].size(); ++i) {
+      by_group[State::groupOf(state.observations[area][i])].push_back(standardised[area][i]);
     }
   }
-  for (auto& [group, values] : standardised) {
-    const double scale = values.size() >= kEnoughForScale ? robustSigma(values) : 1.0;
+  for (auto& [group, values] : by_group) {
+    const double scale = values.size() >= kEnoughForScale ? robustSigma(std::move(values)) : 1.0;
     state.noise_scale[group] = std::max(scale, kLeastScale);
   }
   double squares = 0.0;
   std::size_t kept = 0;
   state.weights.assign(state.observations.size(), {});
-  for (std::size_t area = 0; area < state.observations.size(); ++area) {
-    for (const PairObservation& o : state.observations[area]) {
-      const double scale = state.noise_scale[State::groupOf(o)];
-      const double value =
-          state.adjustment.residual(o, state.choice.solution) / std::sqrt(o.variance);
-      const double robust = robustWeight(value / scale);
+  for (std::size_t area = 0; area < standardised.size(); ++area) {
+    for (std::size_t i = 0; i < standardised[area].size(); ++i) {
+      const double scale = state.noise_scale[State::groupOf(state.observations[area][i])];
+      const double robust = robustWeight(standardised[area][i] / scale);
       state.weights[area].push_back(robust / (scale * scale));
       if (robust == 0.0) continue;
-      squares += value * value;
+      squares += standardised[area][i] * standardised[area][i];
       ++kept;
     }
   }

@@ -24,6 +24,8 @@ struct PatchLimits {
       3.0;                  ///< longest edge against the median edge of the strip's TIN in the area
   double slope = 1.05;      ///< radians: steeper is a wall or a triangle across an eave
   double roughness = 0.08;  ///< metres, RMS of the neighbourhood about its plane
+  double plain_roughness =
+      0.0;  ///< metres, what the noise alone makes of plain ground (found from the data)
   int minimum_vertices = 7;  ///< in the neighbourhood
 };
 
@@ -47,7 +49,15 @@ class AreaMatcher {
   /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for
   /// setting the limit).
   void collectRoughness(std::vector<double>& values) const;
-  void limitRoughness(double roughness) { limits_.roughness = roughness; }
+  void limitRoughness(double most, double plain) {
+    limits_.roughness = most;
+    limits_.plain_roughness = plain;
+  }
+
+  /// The TIN of a strip, as corrected last; empty where the strip has hardly a point here.
+  const PatchSurface& surfaceOf(int strip) const {
+    return strips_[static_cast<std::size_t>(strip)].surface;
+  }
 
   /// Reconstructs the points with Eq. (13); the TINs keep their topology.
   void correct(const Trajectory& trajectory, const SystemVector& biases);
@@ -73,6 +83,10 @@ class AreaMatcher {
   };
   class PointGeometry;
 
+  /// The direction in which a pair measures: that of the neighbourhood's plane, less noisy than the
+  /// triangle's own, or the vertical where its tilt is not significant. Noise in place of a slope
+  /// would look like information about plan positions, and on flat ground be all of it.
+  Eigen::Vector3d measuringNormal(const PatchQuality& quality) const;
   bool acceptable(const StripPart& part, const PatchQuality& quality) const;
   /// Triangles with their first vertex inside the area, one for every vertex, by orientation.
   std::vector<std::vector<std::int32_t>> trianglesByClass(const StripPart& part) const;

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/point_flag.h>
+
+namespace pcl_als {
+namespace {
+
+/// Gently rolling ground with a gable of 30 degrees on it.
+double height(double x, double y) {
+  const double ground = 100.0 + 0.05 * x + std::sin(y / 40.0);
+  const double roof = 6.0 - 0.577 * std::abs(x - 25.0);
+  return std::abs(x - 25.0) < 8.0 && std::abs(y - 25.0) < 12.0 ? ground + roof : ground;
+}
+
+std::vector<CalibrationPoint> sampled(unsigned seed, double from, double to,
+                                      const Eigen::Vector3d& shift) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> plan(from, to);
+  std::vector<CalibrationPoint> points;
+  for (int i = 0; i < static_cast<int>((to - from) * (to - from) * 4.0); ++i) {
+    CalibrationPoint p;
+    const double x = plan(random), y = plan(random);
+    p.position = Eigen::Vector3d(x, y, height(x, y)) + shift;
+    p.time = 10.0;
+    points.push_back(p);
+  }
+  return points;
+}
+
+Trajectory flight() {
+  std::vector<TrajectorySample> samples;
+  for (int i = 0; i <= 200; ++i) {
+    TrajectorySample sample;
+    sample.time = 0.1 * i;
+    sample.position = Eigen::Vector3d(25.0, 60.0 * (sample.time - 10.0) + 25.0, 1100.0);
+    samples.push_back(sample);
+  }
+  return Trajectory(samples);
+}
+
+const CalibrationArea kArea{{0.0, 0.0}, 50.0, 8.0};
+
+AreaMatcher matcherOf(const std::vector<CalibrationPoint>& a,
+                      const std::vector<CalibrationPoint>& b) {
+  AreaMatcher matcher(kArea, 2);
+  for (const CalibrationPoint& p : a) matcher.add(0, p);
+  for (const CalibrationPoint& p : b) matcher.add(1, p);
+  matcher.prepare(PatchLimits(), 500, 0.001);
+  return matcher;
+}
+
+TEST(SurfacePoint, LeavesOutWhatIsNoSurface) {
+  CalibrationPoint p;
+  EXPECT_TRUE(isSurfacePoint(p));
+  p.number_of_returns = 2;
+  EXPECT_FALSE(isSurfacePoint(p));  // first of two
+  p.return_number = 2;
+  EXPECT_TRUE(isSurfacePoint(p));
+  p.classification = 5;
+  EXPECT_FALSE(isSurfacePoint(p));
+  p.classification = 2;
+  p.flags = kWithheld;
+  EXPECT_FALSE(isSurfacePoint(p));
+}
+
+TEST(AreaMatcher, MeasuresAVerticalShiftInBothDirections) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
+  const AreaMatcher matcher = matcherOf(a, b);
+  const AreaObservations found = matcher.match({{0, 1}}, 0.5, trajectory, NoiseModel());
+  ASSERT_GT(found.size(), 500U);
+  int forward = 0;
+  for (const PairObservation& o : found) {
+    // A above B by 5 cm: n_z 0.05 for points of A, the negative for points of B; chords of rolling
+    // ground within 1 cm.
+    const double expected = (o.a == 0 ? 0.05 : -0.05) * o.normal.z();
+    EXPECT_NEAR(o.distance(SystemVector::Zero()), expected, 0.01);
+    forward += o.a == 0 ? 1 : 0;
+  }
+  EXPECT_GT(forward, 200);
+  EXPECT_LT(forward, static_cast<int>(found.size()) - 200);
+}
+
+TEST(AreaMatcher, KeepsAwayFromEavesAndRidges) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(3, -8.0, 58.0, {0, 0, 0}), b = sampled(4, -8.0, 58.0, {0.3, 0, 0});
+  const AreaMatcher matcher = matcherOf(a, b);
+  std::size_t roof = 0;
+  for (const PairObservation& o : matcher.match({{0, 1}}, 0.5, trajectory, NoiseModel())) {
+    if (std::hypot(o.normal.x(), o.normal.y()) < 0.3) continue;
+    ++roof;  // a roof side moved 30 cm across the ridge: 15 cm along its normal
+    EXPECT_NEAR(std::abs(o.distance(SystemVector::Zero())), 0.15, 0.02);
+  }
+  EXPECT_GT(roof, 100U);
+}
+
+TEST(AreaMatcher, TakesNothingFromTrees) {
+  const Trajectory trajectory = flight();
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> crown(0.0, 8.0);
+  auto a = sampled(6, -8.0, 58.0, {0, 0, 0}), b = sampled(7, -8.0, 58.0, {0, 0, 0});
+  for (auto* strip : {&a, &b}) {
+    for (CalibrationPoint& p : *strip) {
+      if (p.position.y() > 40.0) p.position.z() += crown(random);
+    }
+  }
+  for (const PairObservation& o : matcherOf(a, b).match({{0, 1}}, 2.0, trajectory, NoiseModel())) {
+    EXPECT_LT(std::abs(o.distance(SystemVector::Zero())), 0.1);
+  }
+}
+
+TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(8, -8.0, 58.0, {0, 0, 0}), b = sampled(9, -60.0, 110.0, {0, 0, -0.05});
+  const AreaMatcher part = matcherOf(a, b);  // keeps of b what the margin holds
+  AreaMatcher whole(CalibrationArea{{0.0, 0.0}, 50.0, 60.0}, 2);
+  for (const CalibrationPoint& p : a) whole.add(0, p);
+  for (const CalibrationPoint& p : b) whole.add(1, p);
+  whole.prepare(PatchLimits(), 500, 0.001);
+  ASSERT_GT(whole.pointCount(), 2 * part.pointCount());
+  const PatchSurface tin_of_part = part.surfaceOf(1), tin_of_whole = whole.surfaceOf(1);
+  for (const CalibrationPoint& p : a) {
+    if (!kArea.contains(p.position)) continue;
+    const auto in_part = tin_of_part.closest(p.position, 0.5),
+               in_whole = tin_of_whole.closest(p.position, 0.5);
+    ASSERT_EQ(in_part.has_value(), in_whole.has_value());
+    if (!in_part) continue;
+    // The same triangle; its corners may be counted from another one, which costs rounding.
+    EXPECT_NEAR(in_part->signed_normal_distance, in_whole->signed_normal_distance, 1e-12);
+  }
+}
+
+TEST(AreaMatcher, CorrectsItsPointsWithTheDesignBlock) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(10, -8.0, 58.0, {0, 0, 0}), b = sampled(11, -8.0, 58.0, {0, 0, 0});
+  AreaMatcher matcher = matcherOf(a, b);
+  SystemVector biases = SystemVector::Zero();
+  biases[indexOf(SystemParameter::range_bias)] = 0.1;
+  matcher.correct(trajectory, biases);
+  // Nadir, nearly: a range bias of 10 cm put points 10 cm too low (Eq. (8)), so the correction
+  // lifts them.
+  const auto& moved = matcher.surfaceOf(0).tin().points();
+  EXPECT_NEAR(moved[0].z() - a[0].position.z(), 0.1, 1e-4);
+}
+
+TEST(SurveyMap, FindsOverlapsAndTheirArea) {
+  SurveyMap map(Eigen::Vector2d(0.0, 0.0));
+  const int a = map.addStrip(), b = map.addStrip(), c = map.addStrip();
+  const auto first = sampled(12, 0.0, 100.0, {0, 0, 0}),
+             second = sampled(13, 0.0, 100.0, {50, 0, 0}),
+             third = sampled(14, 0.0, 100.0, {500, 0, 0});
+  map.add(a, first.data(), first.size());
+  map.add(b, second.data(), second.size());
+  map.add(c, third.data(), third.size());
+  const auto overlaps = map.overlaps(100.0);
+  ASSERT_EQ(overlaps.size(), 1U);
+  EXPECT_EQ(overlaps[0].strips, StripPair(a, b));
+  EXPECT_NEAR(overlaps[0].area, 5000.0, 1100.0);  // a row of 10 m cells more or less
+}
+
+TEST(SurveyMap, ChoosesAreasWithinTheBudgetThatBothStripsSee) {
+  SurveyMap map(Eigen::Vector2d(0.0, 0.0));
+  map.addStrip();
+  map.addStrip();
+  const auto first = sampled(15, 0.0, 300.0, {0, 0, 0}),
+             second = sampled(16, 0.0, 300.0, {100, 0, 0});
+  map.add(0, first.data(), first.size());
+  map.add(1, second.data(), second.size());
+  SurveyMap::Selection selection;
+  const auto all = map.selectAreas({{0, 1}}, selection);
+  selection.point_budget = 60'000;
+  const auto few = map.selectAreas({{0, 1}}, selection);
+  EXPECT_EQ(all.size(), 4U * 6U);
+  EXPECT_LT(few.size(), all.size());
+  EXPECT_GT(few.size(), 0U);
+  for (const CalibrationArea& area : all) EXPECT_GE(area.minimum.x(), 99.9);
+}
+
+TEST(SurveyMap, CountsWhatIsNotFiniteAndRefusesTheAbsurd) {
+  SurveyMap map(Eigen::Vector2d(0.0, 0.0));
+  map.addStrip();
+  CalibrationPoint p;
+  p.position = Eigen::Vector3d(1.0, NAN, 2.0);
+  map.add(0, &p, 1);
+  EXPECT_EQ(map.invalidCount(0), 1U);
+  EXPECT_EQ(map.pointCount(0), 0U);
+  p.position = Eigen::Vector3d(1e18, 0.0, 2.0);
+  EXPECT_THROW(map.add(0, &p, 1), InputError);
+}
+
+}  // namespace
+}  // namespace pcl_als

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/simulation/simulator.h>
+
+namespace pcl_als::test {
+
+/// A simulated block as a user would get it: coordinates on whole millimetres, no truth.
+struct SimulatedSurvey {
+  std::vector<std::vector<CalibrationPoint>> strips;
+  std::vector<TrajectorySample> trajectory;
+  std::vector<ControlPoint> control;
+  SystemVector bias;  ///< truth, internal units
+
+  explicit SimulatedSurvey(const simulation::SimulationOptions& options) : bias(options.bias) {
+    const simulation::Simulator simulator(options);
+    trajectory = simulator.trajectory();
+    control = simulator.controlPoints();
+    for (std::size_t i = 0; i < simulator.stripCount(); ++i) {
+      auto& points = strips.emplace_back();
+      simulator.simulateStrip(i, 2, [&points](const std::vector<simulation::SimulatedPoint>& part) {
+        for (const simulation::SimulatedPoint& p : part) points.push_back(pointOf(p));
+      });
+    }
+  }
+
+  static CalibrationPoint pointOf(const simulation::SimulatedPoint& p) {
+    CalibrationPoint point;
+    point.position = (p.position * 1000.0).array().round() / 1000.0;
+    point.time = p.time;
+    point.return_number = p.return_number;
+    point.number_of_returns = p.number_of_returns;
+    return point;
+  }
+
+  void move(const Eigen::Vector3d& shift) {
+    for (auto& strip : strips) {
+      for (CalibrationPoint& point : strip) point.position += shift;
+    }
+    for (TrajectorySample& sample : trajectory) sample.position += shift;
+    for (ControlPoint& point : control) point.position += shift;
+  }
+
+  CalibrationResult calibrate(const CalibrationSettings& settings = CalibrationSettings(),
+                              bool with_control = true) const {
+    Eigen::Vector2d corner = Eigen::Vector2d::Constant(1e18);
+    for (const auto& strip : strips) {
+      for (const CalibrationPoint& point : strip)
+        corner = corner.cwiseMin(point.position.head<2>());
+    }
+    QuasiRigorousCalibration calibration(std::make_shared<const Trajectory>(trajectory), settings,
+                                         corner);
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const int strip = calibration.addStrip(std::to_string(i + 1));
+      calibration.survey(strip, strips[i].data(), strips[i].size());
+    }
+    if (with_control) calibration.setControl(control);
+    calibration.chooseAreas();
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      calibration.load(static_cast<int>(i), strips[i].data(), strips[i].size());
+    }
+    return calibration.calibrate();
+  }
+};
+
+}  // namespace pcl_als::test
