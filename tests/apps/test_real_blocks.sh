@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# test_real_blocks.sh BIN_DIR SCRATCH_DIR DATA_DIR: calibrates the HELIOS block (an independent simulator, true biases
+# known) and two tiles of a real survey (known biases put in). Skipped (status 77) without the data.
+data=${PCL_ALS_TEST_DATA:-$3}
+source "$(dirname -- "${BASH_SOURCE[0]}")/tool_test.sh"
+[[ -d $data/helios && -d $data/delft_ahn3 ]] || { echo "real test data is absent: $data"; exit 77; }
+
+value() { cmake -DJSON="$1" -DNAME="$2" -DKEY="$3" -P "$here/parameter.cmake" 2>&1; }
+within() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(d <= t && d >= -t) }'; }
+unpack() { for packed in "$data/$1"/*.las.xz; do xz -dc "$packed" >"$(basename -- "$packed" .xz)"; done; }
+
+# The HELIOS block: biases in its ray casting, attitude motion, waveform ranging, trees. The limits are what the
+# "almost vertical" assumption costs there (roll, pitch, heading) and what its ranging errors allow (range).
+unpack helios
+expect 0 converged calibrate strip?.las -trajectory "$data/helios/trajectory.csv" \
+  -control "$data/helios/control.csv" -output helios.json
+while read -r name truth limit; do
+  checks=$((checks + 1))
+  within "$(value helios.json "$name" bias)" "$truth" "$limit" ||
+    failed "HELIOS: $name is $(value helios.json "$name" bias), true $truth, limit $limit"
+done <<'LIMITS'
+boresight_pitch 30 6
+boresight_roll 90 6
+boresight_heading -40 15
+range_bias -0.12 0.01
+lever_arm_x 0 0.02
+lever_arm_y 0 0.02
+scan_angle_scale 0 2e-5
+LIMITS
+rm -f strip?.las
+
+# Two tiles of AHN3: strips joined across tiles by id, one strip of 50 points, no control, a single height.
+unpack delft_ahn3
+flight=$data/delft_ahn3/trajectory.csv
+expect 0 '57140 has only 50 points' calibrate ahn3_cropped_?.las -trajectory "$flight" -output base.json
+for name in lever_arm_y range_bias; do
+  checks=$((checks + 1))
+  [[ $(value base.json $name status) == not_estimable ]] || failed "Delft: $name is $(value base.json $name status)"
+done
+while read -r biases; do
+  for tile in 1 2; do
+    expect 0 'putting in' apply ahn3_cropped_$tile.las moved_$tile.las -trajectory "$flight" -biases "$biases" \
+      -invert -keep_uncovered
+  done
+  expect 0 converged calibrate moved_?.las -trajectory "$flight" -output moved.json
+  for change in ${biases//,/ }; do
+    name=${change%=*} put_in=${change#*=} checks=$((checks + 1))
+    found=$(awk -v a="$(value moved.json "$name" bias)" -v b="$(value base.json "$name" bias)" 'BEGIN { print a - b }')
+    limit=$(awk -v s="$(value moved.json "$name" std)" 'BEGIN { print 3 * s }')
+    [[ $name != boresight_roll ]] || limit=5
+    within "$found" "$put_in" "$limit" || failed "Delft, $biases: $name changed by $found, limit $limit"
+  done
+done <<'BIASES'
+boresight_roll=60
+boresight_pitch=-40
+boresight_heading=90
+boresight_roll=60,boresight_pitch=-40,boresight_heading=90
+BIASES
+rm -f ahn3_cropped_?.las moved_?.las
+finish
