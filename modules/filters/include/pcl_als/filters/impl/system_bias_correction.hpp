@@ -38,6 +38,8 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const BiasEvaluator& ev
                                                          PointCloud& output) const {
   std::vector<std::size_t> chosen;
   std::vector<double> columns[4], effects[3];
+  chosen.reserve(last - first);
+  for (std::vector<double>& column : columns) column.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
     const auto index = static_cast<std::size_t>((*this->indices_)[i]);
     const PointT& point = (*this->input_)[index];
