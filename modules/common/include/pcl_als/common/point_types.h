@@ -11,6 +11,7 @@
 #include <pcl/impl/point_types.hpp>
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
+
 #include <pcl_als/common/point_flag.h>
 
 namespace pcl_als {
