@@ -144,6 +144,18 @@ TEST(BiasEvaluator, InverseLeadsBackToTheBiasedPoint) {
   EXPECT_GT(first_order, 1e-3);  // one evaluation would not do
 }
 
+TEST(BiasEvaluator, AnInverseThatDoesNotExistIsCounted) {
+  // 1 m below the sensor and 99 m of range bias: the point would have to lie behind the sensor.
+  const auto trajectory = std::make_shared<Trajectory>(sampled(straight(0), 0.0, 10.0, 1.0));
+  Points points;
+  points.add(5.0, {0.1, 300.0, 999.0});
+  CoverageCount coverage;
+  BiasEvaluator(trajectory, SystemVector::Unit(6) * -99.0)
+      .inverseEffect(points.columns(), 1, points.effects(), coverage);
+  EXPECT_EQ(coverage.unsolved, 1U);
+  EXPECT_NE(coverage.describe(*trajectory).find("no biased position"), std::string::npos);
+}
+
 TEST(BiasEvaluator, PointsWithoutTrajectoryAreCountedAndHaveNoEffect) {
   auto samples = sampled(straight(0), 0.0, 10.0, 0.1);
   const auto later = sampled(straight(0), 20.0, 30.0, 0.1);
