@@ -67,16 +67,9 @@ std::vector<SystemParameter> parametersToEstimate(const std::string& list) {
   std::vector<SystemParameter> parameters;
   if (list == "auto") return parameters;
   for (const std::string& name : app::splitList(list)) {
-    const auto parameter = systemParameterNamed(name);
-    if (!parameter) {
-      std::string names;
-      for (const SystemParameterInfo& info : systemParameters()) {
-        names += ' ' + std::string(info.name);
-      }
-      throw UsageError("option -estimate: '" + name + "' is none of auto" + names);
-    }
-    if (std::find(parameters.begin(), parameters.end(), *parameter) == parameters.end()) {
-      parameters.push_back(*parameter);
+    const SystemParameter parameter = app::parameterNamed(name, "option -estimate");
+    if (std::find(parameters.begin(), parameters.end(), parameter) == parameters.end()) {
+      parameters.push_back(parameter);
     }
   }
   if (parameters.empty()) throw UsageError("option -estimate: names no parameter");
@@ -177,13 +170,28 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   correction.biases = result.biases();
   correction.gps_week = app::gpsWeek(line);
   correction.threads = line.threads();
+  correction.keep_uncovered = true;  // strips too small to calibrate may lie outside the trajectory
   for (const std::string& file : files) {
     const fs::path output = fs::path(line.text("corrected")) / fs::path(file).filename();
     Step step("Writing " + output.string(), line.quiet());
     const auto corrected = app::correctPointFile(file, output, correction,
                                                  [&](double fraction) { step.progress(fraction); });
     step.done(grouped(corrected.points) + " points");
+    if (corrected.coverage.missed() == 0) continue;
+    app::remark(line, "left as they are: " + corrected.coverage.describe(*correction.trajectory));
   }
+}
+
+/// Why a result is not to be trusted, in one line.
+std::string whyNot(const CalibrationResult& result) {
+  std::string why;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    if (estimate.status != ParameterStatus::not_estimable) continue;
+    why += (why.empty() ? "" : "; ") + std::string(info.name) + " is not determined (" +
+           estimate.reason + ")";
+  }
+  return why.empty() ? "the adjustment did not converge" : why;
 }
 
 int calibrate(int argc, char** argv) {
@@ -215,8 +223,7 @@ int calibrate(int argc, char** argv) {
     app::writeCalibrationReport(line.text("report"), result, calibration.areas());
   }
   if (!result.converged) {
-    const std::string why = result.warnings.empty() ? "not converged" : result.warnings.front();
-    std::cerr << "pcl_als_calibrate: no reliable answer: " << why << std::endl;
+    std::cerr << "pcl_als_calibrate: no reliable answer: " << whyNot(result) << std::endl;
     return app::kNoReliableAnswer;
   }
   if (line.has("corrected")) writeCorrected(line, files, trajectory, result);

@@ -13,9 +13,18 @@ namespace pcl_als::app {
 void addFlightOptions(CommandLine& line) {
   line.addOptional("trajectory", "trajectory: .csv, or SBET .out/.sbet (needed)");
   line.addOptional("crs",
-                   "CRS of the points for an SBET, e.g. EPSG:32611 (default: the LAS file's)");
+                   "CRS of the points for an SBET, e.g. EPSG:32611 (default: the point file's)");
   line.addOptional("gps_week", "GPS week of times that are seconds of the week (default: found)");
-  line.addOptional("line_fit", "half width of the trajectory window, seconds (default: 0.5)");
+  line.addOptional(
+      "line_fit",
+      "half width of the trajectory window, seconds (default: the calibration's, else 0.5)");
+}
+
+SystemParameter parameterNamed(const std::string& name, const std::string& what) {
+  if (const auto parameter = systemParameterNamed(name)) return *parameter;
+  std::string names;
+  for (const SystemParameterInfo& info : systemParameters()) names.append(" ").append(info.name);
+  throw UsageError(what + ": '" + name + "' is none of" + names);
 }
 
 double numberIn(const std::string& text, const std::string& what) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 #include "command_line.h"
@@ -22,6 +23,9 @@ std::optional<int> gpsWeek(const CommandLine& line);
 /// \a half_width: trajectory window in seconds where -line_fit is not given; 0: the library's.
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
                                              double half_width);
+
+/// The parameter of that name; UsageError that names \a what and all parameters otherwise.
+SystemParameter parameterNamed(const std::string& name, const std::string& what);
 
 /// A finite number; UsageError that names \a what otherwise.
 double numberIn(const std::string& text, const std::string& what);
