@@ -281,7 +281,7 @@ TEST(ApplyTool, WrongUsageAndUnusableInputHaveTheirStatus) {
       {"strip.las strip.las" + with, 1, "same file"},
       {"strip.las out.pcd" + with, 1, "one kind"},
       {"strip.las out.las -trajectory trajectory.csv", 1, "-calibration"},
-      {"strip.las out.las -trajectory trajectory.csv -biases roll=3", 1, "'roll=3'"},
+      {"strip.las out.las -trajectory trajectory.csv -biases roll=3", 1, "'roll'"},
       {"strip.las out.las -trajectory trajectory.csv -biases range_bias=x", 1, "'x'"},
       {"strip.las out.las -trajectory trajectory.csv -biases range_bias=1e9", 1, "range_bias"},
       {"strip.las out.las -biases range_bias=1", 1, "-trajectory"},

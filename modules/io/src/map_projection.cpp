@@ -110,8 +110,8 @@ MapProjection::Result MapProjection::project(double latitude, double longitude,
                                              double height) const {
   // proj_factors() takes 3 to 10 ms per call on a CRS (PROJ 9.1) and refuses compound ones, so the
   // direction of north is a difference of the transformation itself, which includes the datum's
-  // turn. Half a step: 11 m. The error is the third
-  // derivative of the meridian's image, under 1e-11 rad; rounding adds 1e-9 m / 22 m.
+  // turn. Half a step is 11 m: the error is the third derivative of the meridian's image, under
+  // 1e-11 rad; rounding adds 1e-9 m / 22 m.
   constexpr double kStep = 1e-4 * kRadiansPerDegree;
   Result result;
   result.position = state_->map(latitude, longitude, height);
