@@ -158,7 +158,7 @@ TEST(SurveyCensus, SaysWhatIsSuspiciousAboutTimes) {
                   "1 points (0.0625 %) have GPS time zero"));
   EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = NAN; }, week),
                   "GPS time that is no number"));
-  EXPECT_TRUE(has(remarksFor(keep, standard), "probably seconds of the week"));
+  EXPECT_TRUE(has(remarksFor(keep, standard), "look like seconds of the week"));
   EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = 3e8; }, week),
                   "probably adjusted standard time"));
   EXPECT_TRUE(remarksFor(keep, week).empty());

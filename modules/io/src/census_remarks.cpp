@@ -13,7 +13,7 @@
 namespace pcl_als::detail {
 namespace {
 
-constexpr double kWeek = 604800.0;
+constexpr double kLastWeekSecond = 2.0 * 604800.0;  // some count on past the end of the week
 constexpr std::uint64_t kFewPoints = 1000;
 
 std::string percentOf(std::uint64_t part, std::uint64_t whole) {
@@ -42,15 +42,15 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
     return;
   }
   remarkCount(remarks, s.zero_times, s.points, "have GPS time zero");
-  const bool in_week = s.first_time >= 0.0 && s.last_time <= kWeek;
+  const bool in_week = s.first_time >= 0.0 && s.last_time <= kLastWeekSecond;
   if (info.time_kind == TimeKind::week_seconds && !in_week)
     remarks.push_back(
-        "the header declares seconds of the GPS week, but the times leave 0 to 604800: probably "
+        "the header declares seconds of the GPS week, but the times are not: probably "
         "adjusted standard time with a header that does not say so");
   if (info.time_kind == TimeKind::adjusted_standard && in_week)
     remarks.push_back(
-        "the header declares adjusted standard GPS time, but all times lie in 0 to 604800: "
-        "probably seconds of the week with a header that says otherwise");
+        "the header declares adjusted standard GPS time, but all times look like "
+        "seconds of the week");
 }
 
 void remarkBox(const PointFileInfo& info, const PointStatistics& s,

@@ -13,7 +13,8 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kSecondsPerWeek = 604800.0;
+// Seconds of the week may run on past its end; as adjusted standard time these were September 2011.
+constexpr double kLastWeekSecond = 2.0 * 604800.0;
 
 class LasPointReader : public PointReader {
  public:
@@ -78,7 +79,7 @@ class PcdPointReader : public PointReader {
         const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
-        in_week = in_week && chunk.gps_time[i] >= 0.0 && chunk.gps_time[i] <= kSecondsPerWeek;
+        in_week = in_week && chunk.gps_time[i] >= 0.0 && chunk.gps_time[i] <= kLastWeekSecond;
       }
     }
     if (info_.point_count == 0) low = high = Eigen::Vector3d::Zero();
