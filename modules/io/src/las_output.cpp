@@ -78,6 +78,7 @@ void LasOutput::append(const std::byte* records, std::size_t count) {
 }
 
 void LasOutput::putAt(std::uint64_t first, const std::byte* records, std::size_t count) {
+  const std::lock_guard<std::mutex> lock(one_writer_);
   file_.writeAt(offset_to_points_ + first * record_length_, records, count * record_length_);
 }
 

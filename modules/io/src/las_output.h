@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include <pcl_als/io/atomic_file.h>
@@ -43,6 +44,9 @@ class LasOutput {
 
  private:
   AtomicFile file_;
+  /// The kernel lets one thread at a time write to a file and makes the others spin: with other
+  /// work on the machine copying takes five times as long. Waiting here costs nothing.
+  std::mutex one_writer_;
   std::unique_ptr<LazWriter> laz_;
   std::uint64_t offset_to_points_;
   std::size_t record_length_;

@@ -14,14 +14,27 @@ using Lanes = std::int32_t __attribute__((vector_size(16)));
 }  // namespace
 
 void LasBox::add(const std::byte* records, std::size_t count, std::size_t record_length) {
-  Lanes least = {low[0], low[1], low[2], 0};
-  Lanes most = {high[0], high[1], high[2], 0};
-  for (std::size_t i = 0; i < count; ++i, records += record_length) {
-    const auto value = loadLas<Lanes>(records);
-    least = value < least ? value : least;
-    most = value > most ? value : most;
+  // Several boxes side by side: a minimum waits for the one before it.
+  constexpr std::size_t kSide = 4;
+  Lanes least[kSide], most[kSide];
+  for (std::size_t k = 0; k < kSide; ++k) {
+    least[k] = Lanes{low[0], low[1], low[2], 0};
+    most[k] = Lanes{high[0], high[1], high[2], 0};
   }
-  for (int axis = 0; axis < 3; ++axis) low[axis] = least[axis], high[axis] = most[axis];
+  const auto take = [&](std::size_t i, std::size_t k) {
+    const auto value = loadLas<Lanes>(records + i * record_length);
+    least[k] = value < least[k] ? value : least[k];
+    most[k] = value > most[k] ? value : most[k];
+  };
+  std::size_t i = 0;
+  for (; i + kSide <= count; i += kSide)
+    for (std::size_t k = 0; k < kSide; ++k) take(i + k, k);
+  for (; i < count; ++i) take(i, 0);
+  for (std::size_t k = 0; k < kSide; ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], least[k][axis]);
+      high[axis] = std::max(high[axis], most[k][axis]);
+    }
 }
 
 void LasBox::add(const LasBox& other) {
