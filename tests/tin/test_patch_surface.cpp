@@ -203,6 +203,24 @@ TEST(PatchSurface, MovedPointsMoveThePatches) {
   EXPECT_NEAR(match->signed_normal_distance, -0.142 / std::hypot(1.0, 0.01), 1e-12);
 }
 
+/// 2026-11-21: positions that fell into no triangle of a TIN whose points had been moved across
+/// each other sent the search along a hull that was not there, for ever.
+TEST(PatchSurface, PointsMovedAcrossEachOtherStillHaveAnEnd) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> plan(0.0, 20.0), shift(-3.0, 3.0);
+  std::vector<Vector3d> points(800);
+  for (Vector3d& p : points) p = Vector3d(plan(random), plan(random), 0.0);
+  PatchSurface surface{Tin(points)};
+  for (Vector3d& p : points) p += Vector3d(shift(random), shift(random), 0.0);
+  surface.movePoints(points);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d at(plan(random), plan(random), 0.1);
+    if (const auto match = surface.closest(at, 0.5)) {
+      EXPECT_LE(std::abs(match->signed_normal_distance), 0.5);
+    }
+  }
+}
+
 TEST(PatchSurface, HintsAndThreadsChangeNothing) {
   const PatchSurface surface(Tin(test::scenePoints(5000, 0.02, 9)));
   const std::vector<Vector3d> queries = test::scenePoints(8000, 0.2, 10);

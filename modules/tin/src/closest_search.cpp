@@ -61,7 +61,7 @@ int sideAlong(const Tin& tin, HullEdge at, const Vector3d& point) {
 /// The hull is convex: a side once taken is not left.
 std::int32_t closestOnHull(const Tin& tin, std::int32_t triangle, const Vector3d& point) {
   const auto& t = tin.triangles()[triangle];
-  HullEdge at{triangle, 0};
+  HullEdge at{triangle, -1};
   for (int i = 0; i < 3; ++i) {
     if (t.neighbour[i] != Tin::kNone) continue;
     const Vector3d &a = tin.points()[t.vertex[(i + 1) % 3]],
@@ -69,6 +69,9 @@ std::int32_t closestOnHull(const Tin& tin, std::int32_t triangle, const Vector3d
     at.opposite = i;
     if ((b - a).head<2>().dot(Eigen::Vector2d(point.y() - a.y(), a.x() - point.x())) > 0.0) break;
   }
+  // Points that were moved may leave a position in no triangle though it is inside: no hull to
+  // follow.
+  if (at.opposite < 0) return triangle;
   const int side = sideAlong(tin, at, point);
   for (std::size_t steps = tin.triangles().size(); steps > 0; --steps) {
     if (side == 0 || sideAlong(tin, at, point) != side) break;
