@@ -34,7 +34,7 @@ std::string entry(const char* name, const std::string& value) {
 
 std::string remarksText(const std::vector<std::string>& remarks, const std::string& indent) {
   std::string text;
-  for (const std::string& remark : remarks) text += indent + "! " + remark + '\n';
+  for (const std::string& remark : remarks) text.append(indent).append("! " + remark + '\n');
   return text;
 }
 

@@ -16,7 +16,10 @@ class CachedPlace {
  public:
   CachedPlace() = default;
   CachedPlace(const CachedPlace&) {}
-  CachedPlace& operator=(const CachedPlace&) { return place_ = nullptr, *this; }
+  CachedPlace& operator=(const CachedPlace& other) {
+    if (this != &other) place_ = nullptr;
+    return *this;
+  }
   CachedPlace& operator=(T* place) { return place_ = place, *this; }
   explicit operator bool() const { return place_ != nullptr; }
   T* operator->() const { return place_; }

@@ -103,6 +103,7 @@ class HeaderParser {
 
   void takeViewpoint(const std::vector<std::string>& values) {
     std::vector<double> numbers;
+    numbers.reserve(values.size());
     for (const std::string& value : values) numbers.push_back(parseNumber(value).value_or(NAN));
     if (numbers.size() != 7 ||
         !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))

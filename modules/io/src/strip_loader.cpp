@@ -93,6 +93,7 @@ void checkTimes(const std::vector<PointFileSources>& files) {
 
 std::vector<Strip<PointLidar>> loadStrips(const std::vector<std::filesystem::path>& paths) {
   std::vector<PointFileSources> files;
+  files.reserve(paths.size());
   for (const auto& path : paths) files.push_back(surveySources(path));
   checkTimes(files);
   const std::string crs = commonCrs(files);
