@@ -141,16 +141,25 @@ TEST(PatchSurface, WallBesideAPointIsCloserThanTheGroundBelow) {
 }
 
 TEST(PatchSurface, OfEquallyCloseOnesTheLowestIndex) {
-  // A valley of two planes, symmetrical about x = 2; all numbers are exact.
-  const PatchSurface surface(
-      Tin({{0, 0, 2}, {0, 4, 2}, {2, 0, 0}, {2, 4, 0}, {4, 0, 2}, {4, 4, 2}}));
-  const Vector3d middle(2.0, 1.5, 1.0);
-  std::int32_t lowest = Tin::kNone;
-  for (std::int32_t t = 3; t >= 0; --t)
-    if (std::abs(distanceByClamping(middle, cornersOf(surface.tin(), t)) - std::sqrt(0.5)) < 1e-12)
-      lowest = t;
-  ASSERT_NE(lowest, Tin::kNone);
-  EXPECT_EQ(surface.closest(middle, 2.0)->triangle, lowest);
+  // A trench symmetrical about x = 0, its floor farther from the point than both walls. All numbers
+  // are exact, so the walls are equally close; the search starts from the floor.
+  std::vector<Vector3d> points;
+  for (int y = 0; y <= 64; y += 4)
+    for (const auto& [x, z] : {std::pair(-2.0, 4.0), {-1.0, 0.0}, {1.0, 0.0}, {2.0, 4.0}})
+      points.emplace_back(x, y, z);
+  const PatchSurface surface{Tin(points)};
+  for (double y = 2.5; y < 62.0; y += 1.0) {
+    const Vector3d middle(0.0, y, 3.0);
+    std::vector<std::int32_t> ties;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface.tin().triangles().size()); ++t)
+      if (std::abs(distanceByClamping(middle, cornersOf(surface.tin(), t)) -
+                   7.0 / std::sqrt(17.0)) < 1e-12)
+        ties.push_back(t);
+    ASSERT_EQ(ties.size(), 2U);
+    const auto match = surface.closest(middle, 2.0);
+    ASSERT_TRUE(match);
+    EXPECT_EQ(match->triangle, ties.front());
+  }
 }
 
 TEST(PatchSurface, PointsOverEveryCornerAndEdgeOfAPlaneHaveAPatch) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +48,29 @@ TEST(PlanPredicates, TieIsTheSameForEveryNaming) {
     EXPECT_NE(tin::inCircle(p[1], p[2], p[3], p[0]), inside);
     EXPECT_NE(tin::inCircle(p[0], p[1], p[3], p[2]), inside);
   }
+}
+
+TEST(PlanPredicates, TiesOnALargeCircleAreSeenAsTies) {
+  // Corners of a circle of radius 65 times an odd number: doubles make the determinant anything but
+  // zero. The diagonal that avoids the last point in the order (x, y) is the Delaunay one.
+  constexpr std::int32_t kFactor = 129053, kCentre = 8388608;
+  const std::vector<std::array<std::int32_t, 2>> turn{
+      {65, 0},   {63, 16},   {60, 25},   {56, 33}, {52, 39},  {39, 52},
+      {33, 56},  {25, 60},   {16, 63},   {0, 65},  {-16, 63}, {-39, 52},
+      {-60, 25}, {-63, -16}, {-33, -56}, {0, -65}, {25, -60}, {56, -33}};  // counter-clockwise
+  const auto at = [&](std::size_t i) {
+    return PlanPoint{kCentre + turn[i][0] * kFactor, kCentre + turn[i][1] * kFactor};
+  };
+  const auto before = [](PlanPoint a, PlanPoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  for (std::size_t d = 3; d < turn.size(); ++d)
+    for (std::size_t c = 2; c < d; ++c)
+      for (std::size_t b = 1; b < c; ++b)
+        for (std::size_t a = 0; a < b; ++a) {
+          const std::array<PlanPoint, 4> p{at(a), at(b), at(c), at(d)};
+          const auto last = std::max_element(p.begin(), p.end(), before) - p.begin();
+          ASSERT_EQ(tin::inCircle(p[0], p[1], p[2], p[3]), last == 0 || last == 2);
+          ASSERT_EQ(tin::inCircle(p[1], p[2], p[3], p[0]), last == 1 || last == 3);
+        }
 }
 
 TEST(PlanPredicates, InCircleEqualsWholeNumbersWhereItIsHard) {
