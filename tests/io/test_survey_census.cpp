@@ -26,8 +26,9 @@ PointChunk field(double x, double y, double width, double height, std::uint16_t 
   const int columns = static_cast<int>(width * 2), rows = static_cast<int>(height * 2);
   p.resize(static_cast<std::size_t>(columns) * rows);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    p.x[i] = x + 0.25 + 0.5 * static_cast<double>(i % columns);
-    p.y[i] = y + 0.25 + 0.5 * static_cast<double>(i / columns);
+    const std::size_t row = i / columns, column = i % columns;
+    p.x[i] = x + 0.25 + 0.5 * static_cast<double>(column);
+    p.y[i] = y + 0.25 + 0.5 * static_cast<double>(row);
     p.z[i] = 10.0;
     p.gps_time[i] = first_time + 0.01 * static_cast<double>(i);
     p.intensity[i] = 100.0F;
@@ -135,8 +136,9 @@ TEST(SurveyCensus, CellsGrowWherePointsAreSpreadTooWidely) {
   const auto folder = test::scratch("census_spread");
   PointChunk p = field(0, 0, 500, 200, 1);  // 400000 points
   for (std::size_t i = 0; i < p.size(); ++i) {
-    p.x[i] = 1000.0 * static_cast<double>(i % 2000);
-    p.y[i] = 1000.0 * static_cast<double>(i / 2000);
+    const std::size_t row = i / 2000, column = i % 2000;
+    p.x[i] = 1000.0 * static_cast<double>(column);
+    p.y[i] = 1000.0 * static_cast<double>(row);
   }
   const SurveyCensus survey = takeCensus({write(folder / "a.las", {p})}, 1.0);
   EXPECT_GT(survey.cell, 1.0);

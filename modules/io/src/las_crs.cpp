@@ -84,7 +84,7 @@ std::string readLasCrs(const LasFile& file) {
   return epsg.empty() ? wktOf(file) : epsg;
 }
 
-std::vector<LasVlr> lasCrsRecords(const std::string& crs, bool wkt_wanted) {
+std::vector<LasVlr> lasCrsRecords(const std::string& crs, [[maybe_unused]] bool wkt_wanted) {
   if (crs.empty()) return {};
   if (!isEpsg(crs)) return {wktRecord(crs)};
   const unsigned long code = std::stoul(crs.substr(5, 6));
