@@ -56,6 +56,12 @@ std::vector<std::string> lasSeeds() {
       if (minor == 4) las.evlrs = {LasBytes::evlr("someone", 9, "payload")};
       seeds.push_back(las.str());
     }
+  // 2026-11-21, found by fuzz_las: no points gave the decoder a null pointer to add to.
+  LasBytes none;
+  none.count = 0;
+  none.extra = 2;
+  none.vlrs = {extraFieldsVlr()};
+  seeds.push_back(none.str());
   return seeds;
 }
 
@@ -71,6 +77,8 @@ std::vector<std::string> pcdSeeds() {
   const std::string packed = Bytes().u8(31).raw(c.substr(0, 32)).u8(11).raw(c.substr(32)).str();
   const std::string sizes = Bytes().u32(packed.size()).u32(c.size()).str();
   return {binaryPcd("ascii", "1 2 3 230038.25 7\n4.5 nan 6e0 230039 8\n"),
+          // 2026-11-21, found by fuzz_pcd: no points gave the decoder a null pointer to add to.
+          "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA binary\n",
           binaryPcd("binary", records.str()), binaryPcd("binary_compressed", sizes + packed)};
 }
 

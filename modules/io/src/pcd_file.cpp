@@ -57,7 +57,7 @@ struct Block {
   void column(const char* name, T missing, std::vector<T>& out) const {
     out.assign(count, missing);
     const PcdField* field = header.find(name);
-    if (field == nullptr) return;
+    if (field == nullptr || count == 0) return;  // without points, records may be null
     const Element element = elementOf(*field);
     const std::byte* at = records + field->offset;
     for (std::size_t i = 0; i < count; ++i, at += header.record_length)
