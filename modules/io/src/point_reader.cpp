@@ -13,6 +13,8 @@
 namespace pcl_als {
 namespace {
 
+constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
+
 // Seconds of the week may run on past its end; as adjusted standard time these were September 2011.
 constexpr double kLastWeekSecond = 2.0 * 604800.0;
 
@@ -24,7 +26,9 @@ class LasPointReader : public PointReader {
 
   bool read(PointChunk& chunk) override {
     const LasHeader& header = file_.header();
-    const std::size_t count = std::min<std::uint64_t>(kChunk, header.point_count - position_);
+    // Records may have up to 64 kB; a chunk of those is shorter.
+    const std::size_t most = std::min(kChunk, kMostBytes / header.record_length);
+    const std::size_t count = std::min<std::uint64_t>(most, header.point_count - position_);
     buffer_.resize(count * header.record_length);
     file_.readRecords(position_, count, buffer_.data());
     decodeLasRecords(buffer_.data(), count, header.record_length, file_.layout(), header.scale,
