@@ -242,6 +242,24 @@ TEST(ParameterChoice, OfTwoThatLookAlikeTheLeverArmGoes) {
   EXPECT_EQ(choice.status[indexOf(P::boresight_pitch)], ParameterStatus::estimated);
 }
 
+/// 2026-11-21: with every parameter dropped the solution had no shared errors, and residuals read
+/// past their end.
+TEST(ParameterChoice, WithNothingLeftResidualsAreTheMisclosures) {
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  auto areas = simulated(someBiases(), 0.02, 7);
+  for (AreaObservations& area : areas) {
+    for (PairObservation& o : area) o.row_a.setZero(), o.row_b.setZero();
+  }
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  const ParameterChoice choice =
+      chooseParameters(adjustment, kSix, SystemVector::Zero(), DeterminationLimits(), 1.0);
+  EXPECT_TRUE(choice.estimate.empty());
+  ASSERT_EQ(choice.solution.shared.size(), errors.unknowns());
+  EXPECT_EQ(adjustment.residual(areas[0][0], choice.solution), areas[0][0].misclosure);
+}
+
 TEST(ParameterChoice, WritesValuesInTheirUnit) {
   EXPECT_EQ(inUnit(P::lever_arm_x, 0.1234), "0.123 m");
   EXPECT_EQ(inUnit(P::boresight_roll, 10.0 * kRadiansPerArcsec), "10 arcsec");

@@ -228,10 +228,16 @@ SystemMatrix Adjustment::scoreScatter(const AdjustmentSolution& solution) const 
   return groups > 1.0 ? SystemMatrix(scatter * (groups / (groups - 1.0))) : scatter;
 }
 
-AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimate,
-                                     const SystemVector& held) const {
+AdjustmentSolution Adjustment::unsolved(const SystemVector& held) const {
   AdjustmentSolution solution;
   solution.biases = held;
+  solution.shared = Eigen::VectorXd::Zero(errors_.unknowns());
+  return solution;
+}
+
+AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimate,
+                                     const SystemVector& held) const {
+  AdjustmentSolution solution = unsolved(held);
   for (const SystemParameter p : estimate) solution.biases[indexOf(p)] = 0.0;
   SystemMatrix independent = SystemMatrix::Zero();
   for (std::size_t area = 0; area < area_normals_.size(); ++area)

@@ -196,8 +196,7 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
     choice.status[indexOf(dropped)] = ParameterStatus::not_estimable;
     choice.estimate.erase(std::find(choice.estimate.begin(), choice.estimate.end(), dropped));
   }
-  choice.solution = AdjustmentSolution();
-  choice.solution.biases = held;
+  choice.solution = adjustment.unsolved(held);
   return choice;
 }
 

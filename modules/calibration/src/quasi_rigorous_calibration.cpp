@@ -356,7 +356,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   }
   const SharedErrors errors(spans, settings_.shared_errors);
   State state(errors, settings_.threads);
-  state.choice.solution.shared = Eigen::VectorXd::Zero(errors.unknowns());
+  state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
   CalibrationReport report(ids_, control_.empty());
   CalibrationResult result;

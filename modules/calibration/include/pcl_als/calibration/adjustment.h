@@ -58,6 +58,9 @@ class Adjustment {
   AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
                            const SystemVector& held) const;
 
+  /// A solution that estimates nothing: all parameters held, no shared errors.
+  AdjustmentSolution unsolved(const SystemVector& held) const;
+
   /// N of all eight parameters with the shared errors eliminated (internal units): what the data
   /// determine.
   const SystemMatrix& reducedNormal() const;
