@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "cell_counts.h"
 
+#include <unordered_set>
+
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als::detail {
@@ -40,13 +42,20 @@ std::uint32_t CellCounts::at(std::int64_t x, std::int64_t y) const {
   return block == blocks_.end() ? 0 : block->second[placeIn(x, y)];
 }
 
-void CellCounts::coarsen() {
+void CellCounts::coarsen(unsigned doublings) {
   CellCounts coarse;
   forEachCell(*this, [&](std::int64_t x, std::int64_t y, std::uint32_t count) {
-    coarse.add(x >> 1, y >> 1, count);
+    coarse.add(x >> doublings, y >> doublings, count);
   });
   blocks_ = std::move(coarse.blocks_);
   last_ = nullptr;
+}
+
+std::size_t CellCounts::blockCountAfter(unsigned doublings) const {
+  std::unordered_set<BlockKey, BlockHash> coarse;
+  for (const auto& entry : blocks_)
+    coarse.insert({entry.first.x >> doublings, entry.first.y >> doublings});
+  return coarse.size();
 }
 
 std::uint64_t CellCounts::occupied() const {

@@ -54,8 +54,10 @@ class CellCounts {
   std::uint32_t at(std::int64_t x, std::int64_t y) const;
   const Blocks& blocks() const { return blocks_; }
   std::size_t blockCount() const { return blocks_.size(); }
-  /// Joins two by two cells into one.
-  void coarsen();
+  /// Joins squares of 2^doublings cells into one.
+  void coarsen(unsigned doublings);
+  /// How many blocks there would be then.
+  std::size_t blockCountAfter(unsigned doublings) const;
 
   std::uint64_t occupied() const;
   /// Median count of the occupied cells whose eight neighbours are occupied, or of all occupied

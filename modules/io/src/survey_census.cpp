@@ -20,7 +20,8 @@ using detail::CellCounts;
 using detail::SourceTally;
 
 // 1.1 kB each with their place in the table.
-constexpr std::size_t kMostBlocks = std::size_t{1} << 18U;
+constexpr std::size_t kMostBlocks = std::size_t{1} << 17U;
+constexpr unsigned kMostDoublings = 40;  // then everything is in one block
 constexpr double kPointsPerCell = 20.0;
 
 class Census {
@@ -86,16 +87,23 @@ class Census {
     limitMemory();
   }
 
-  void limitMemory() {
-    const auto blocks = [this] {
-      std::size_t count = 0;
-      for (const auto& source : sources_) count += source.second.cells().blockCount();
-      return count;
-    };
-    while (blocks() > kMostBlocks) {
-      for (auto& source : sources_) source.second.cells().coarsen();
-      survey_.cell *= 2.0;
+  /// Blocks of cells of all sources after joining squares of 2^doublings cells.
+  std::size_t blocksAfter(unsigned doublings) const {
+    std::size_t count = 0;
+    for (const auto& source : sources_) {
+      const CellCounts& cells = source.second.cells();
+      count += doublings == 0 ? cells.blockCount() : cells.blockCountAfter(doublings);
     }
+    return count;
+  }
+
+  /// Larger cells where there are too many, with room for as many again.
+  void limitMemory() {
+    if (blocksAfter(0) <= kMostBlocks) return;
+    unsigned doublings = 1;
+    while (blocksAfter(doublings) > kMostBlocks / 2 && doublings < kMostDoublings) ++doublings;
+    for (auto& source : sources_) source.second.cells().coarsen(doublings);
+    survey_.cell = std::ldexp(survey_.cell, static_cast<int>(doublings));
   }
 
   StripNaming nameStrips() const {
@@ -113,12 +121,17 @@ class Census {
     const StripNaming naming = nameStrips();
     std::map<std::string, SourceTally> strips;
     for (auto& [key, tally] : sources_) {
-      strips[naming.nameOf(key.first, key.second)].add(tally);
+      const std::string& name = naming.nameOf(key.first, key.second);
+      const auto [strip, is_new] = strips.try_emplace(name);
+      if (is_new)
+        strip->second = std::move(tally);
+      else
+        strip->second.add(tally);
       tally = SourceTally();
     }
     const double cell_area = survey_.cell * survey_.cell;
     for (const std::string& name : naming.names()) {
-      const SourceTally& tally = strips[name];
+      SourceTally& tally = strips[name];
       StripCensus strip;
       strip.id = name;
       strip.statistics = tally.statistics();
@@ -126,7 +139,7 @@ class Census {
       strip.area = static_cast<double>(tally.cells().occupied()) * cell_area;
       strip.density = tally.cells().typicalCount() / cell_area;
       survey_.strips.push_back(std::move(strip));
-      cells_.push_back(tally.cells());
+      cells_.push_back(std::move(tally.cells()));
       strips.erase(name);
     }
   }
