@@ -16,7 +16,7 @@
 
 namespace pcl_als {
 
-/** \brief A LiDAR return: 32 bytes, relative to a LocalFrame.
+/** \brief A LiDAR return: 48 bytes, relative to a LocalFrame.
  *
  * Registered with PCL, so PCD files and PCL's filters keep every field (see impl/centroid_point.hpp
  * for what pcl::VoxelGrid does with the fields that have no mean, such as gps_time).
