@@ -32,6 +32,7 @@ CommandLine commandLine() {
   line.addOptional("biases",
                    "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
                    "names as in calibration.json");
+  app::addModelOption(line);
   line.addFlag("invert", "put the biases in instead of taking them out");
   line.addFlag("keep_uncovered",
                "leave points without a trajectory as they are (default: refuse the file)");
@@ -67,7 +68,15 @@ CalibrationResult biasesOf(const CommandLine& line) {
   const SystemVector biases = parseBiases(line.text("biases"));
   for (int i = 0; i < kSystemParameterCount; ++i) result.parameters[i].bias = biases[i];
   result.converged = true;
+  result.attitude = AttitudeSource::points;  // where the trajectory has none
   return result;
+}
+
+/// A calibration's biases belong to its model; biases by themselves take the best there is.
+app::AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
+  if (line.has("biases")) return app::attitudeUse(line);
+  return calibration.attitude == AttitudeSource::trajectory ? app::AttitudeUse::needed
+                                                            : app::AttitudeUse::ignore;
 }
 
 std::string biasText(const SystemVector& biases) {
@@ -93,8 +102,11 @@ int apply(int argc, char** argv) {
   correction.keep_uncovered = line.has("keep_uncovered");
   correction.threads = line.threads();
   if (!calibration.converged) app::remark(line, "the calibration did not converge");
-  correction.trajectory = app::readFlight(line, PointReader::open(files[0])->info().crs,
-                                          calibration.line_fit_half_width);
+  correction.trajectory =
+      app::readFlight(line, PointReader::open(files[0])->info().crs,
+                      calibration.line_fit_half_width, attitudeUse(line, calibration));
+  correction.recover_attitude =
+      !correction.trajectory->hasAttitude() && calibration.attitude == AttitudeSource::points;
   app::remark(line,
               (correction.invert ? "putting in: " : "taking out: ") + biasText(correction.biases));
 
@@ -103,6 +115,7 @@ int apply(int argc, char** argv) {
       files[0], files[1], correction, [&step](double fraction) { step.progress(fraction); });
   step.done(grouped(result.points) + " points");
   app::remark(line, result.time_remark);
+  app::remark(line, result.attitude_remark);
   if (result.coverage.missed() > 0) {
     app::remark(line, "left as they are: " + result.coverage.describe(*correction.trajectory));
   }

@@ -39,8 +39,10 @@ CommandLine commandLine() {
                         "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that "
                         "the data determine",
                         "auto");
-  line.add<std::string>("model", "quasi_rigorous: positions of the trajectory only",
-                        "quasi_rigorous");
+  app::addModelOption(line);
+  line.addFlag("vertical",
+               "with quasi_rigorous: take the sensor as vertical and looking along the line of "
+               "flight, as published, instead of recovering pitch and crab from the points");
   line.addOptional("output", "calibration.json to write (needed)");
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addOptional("report", "folder for report.md and tables as CSV");
@@ -91,10 +93,8 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
 }
 
 CalibrationSettings settingsOf(const CommandLine& line) {
-  if (line.text("model") != "quasi_rigorous") {
-    throw UsageError("option -model: '" + line.text("model") + "' is not quasi_rigorous");
-  }
   CalibrationSettings settings;
+  settings.recover_attitude = !line.has("vertical");
   settings.estimate = parametersToEstimate(line.text("estimate"));
   settings.noise.range = line.number("range_noise", 1e-4, 1.0, "m");
   settings.noise.angle = line.number("angle_noise", 0.0, 1000.0, "arcsec") * kRadiansPerArcsec;
@@ -166,7 +166,7 @@ CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& su
 void writeCorrected(const CommandLine& line, const std::vector<std::string>& files,
                     std::shared_ptr<const Trajectory> trajectory, const CalibrationResult& result) {
   app::PointFileCorrection correction;
-  correction.trajectory = std::move(trajectory);
+  correction.trajectory = std::move(trajectory);  // with the attitude that was calibrated with
   correction.biases = result.biases();
   correction.gps_week = app::gpsWeek(line);
   correction.threads = line.threads();
@@ -205,7 +205,9 @@ int calibrate(int argc, char** argv) {
   app::SurveyReader survey(files, line.threads());
   step.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
             " strips");
-  const auto trajectory = app::readFlight(line, survey.crs(), 0.0);
+  const auto trajectory =
+      app::readFlight(line, survey.crs(), 0.0,
+                      line.has("vertical") ? app::AttitudeUse::ignore : app::attitudeUse(line));
   for (const std::string& text : survey.alignTimes(*trajectory, app::gpsWeek(line))) {
     app::remark(line, text);
   }
@@ -226,7 +228,7 @@ int calibrate(int argc, char** argv) {
     std::cerr << "pcl_als_calibrate: no reliable answer: " << whyNot(result) << std::endl;
     return app::kNoReliableAnswer;
   }
-  if (line.has("corrected")) writeCorrected(line, files, trajectory, result);
+  if (line.has("corrected")) writeCorrected(line, files, calibration.trajectory(), result);
   return app::kDone;
 }
 

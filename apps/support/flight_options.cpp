@@ -2,9 +2,11 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "flight_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 
@@ -54,8 +56,24 @@ void remark(const CommandLine& line, const std::string& text) {
   if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
 }
 
+void addModelOption(CommandLine& line) {
+  line.add<std::string>(
+      "model",
+      "rigorous: roll, pitch and heading of the trajectory; quasi_rigorous: its positions only, "
+      "pitch and crab from the points; auto: rigorous where the trajectory has attitude",
+      "auto");
+}
+
+AttitudeUse attitudeUse(const CommandLine& line) {
+  const std::string model = line.text("model");
+  if (model == "auto") return AttitudeUse::where_given;
+  if (model == modelName(AttitudeSource::trajectory)) return AttitudeUse::needed;
+  if (model == modelName(AttitudeSource::none)) return AttitudeUse::ignore;
+  throw UsageError("option -model: '" + model + "' is not auto, quasi_rigorous or rigorous");
+}
+
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
-                                             double half_width) {
+                                             double half_width, AttitudeUse attitude) {
   if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
   Trajectory::Options options;
   if (half_width > 0.0) options.line_fit_half_width = half_width;
@@ -68,9 +86,19 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   const std::string path = line.text("trajectory");
   Step step("Reading " + path, line.quiet());
   const std::string crs = line.has("crs") ? line.text("crs") : points_crs;
-  auto trajectory = std::make_shared<const Trajectory>(readTrajectory(path, crs), options);
+  std::vector<TrajectorySample> samples = readTrajectory(path, crs);
+  const bool complete =
+      !samples.empty() && std::all_of(samples.begin(), samples.end(),
+                                      [](const TrajectorySample& s) { return s.hasAttitude(); });
+  if (attitude == AttitudeUse::needed && !complete) {
+    throw InputError(path +
+                     ": has no roll, pitch and heading for every sample; the rigorous model "
+                     "needs them");
+  }
+  options.use_attitude = complete && attitude != AttitudeUse::ignore;
+  auto trajectory = std::make_shared<const Trajectory>(std::move(samples), options);
   step.done(grouped(trajectory->size()) + " samples, " + std::to_string(trajectory->gaps().size()) +
-            " gaps");
+            " gaps" + (options.use_attitude ? ", with attitude" : ""));
   for (const std::string& repair : trajectory->repairs()) remark(line, repair);
   return trajectory;
 }

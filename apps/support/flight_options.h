@@ -19,10 +19,17 @@ void addFlightOptions(CommandLine& line);
 /// -gps_week; empty when it is to be found from the data.
 std::optional<int> gpsWeek(const CommandLine& line);
 
+/// What to do with the roll, pitch and heading of a trajectory.
+enum class AttitudeUse { ignore, where_given, needed };
+
+/// -model auto, quasi_rigorous or rigorous.
+void addModelOption(CommandLine& line);
+AttitudeUse attitudeUse(const CommandLine& line);
+
 /// Reads -trajectory as a step of its own. An SBET is projected to -crs, else to \a points_crs.
 /// \a half_width: trajectory window in seconds where -line_fit is not given; 0: the library's.
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
-                                             double half_width);
+                                             double half_width, AttitudeUse attitude);
 
 /// The parameter of that name; UsageError that names \a what and all parameters otherwise.
 SystemParameter parameterNamed(const std::string& name, const std::string& what);

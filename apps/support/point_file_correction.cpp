@@ -13,7 +13,9 @@
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/trajectory/attitude_recovery.h>
 
 namespace pcl_als::app {
 namespace {
@@ -68,6 +70,66 @@ TimeAlignment alignmentOf(const LasFile& file, const PointFileCorrection& correc
   }
 }
 
+/// Hands out runs of 32 points in every 2048 of an uncompressed file: enough of every scan line to
+/// see the attitude by, in a fiftieth of the pages.
+template <typename Visit>
+void visitSome(const LasFile& file, const Visit& visit) {
+  constexpr std::uint64_t kEvery = 2048, kRun = 32;
+  const LasHeader& header = file.header();
+  const std::size_t length = header.record_length;
+  std::vector<std::byte> records(kRun * length);
+  for (std::uint64_t first = 0; first < header.point_count; first += kEvery) {
+    const std::uint64_t size = std::min(kRun, header.point_count - first);
+    file.readRecords(first, size, records.data());
+    for (std::uint64_t i = 0; i < size; ++i) {
+      const std::byte* record = &records[i * length];
+      Eigen::Vector3d point;
+      for (int axis = 0; axis < 3; ++axis) {
+        point[axis] =
+            loadLas<std::int32_t>(record + 4 * axis) * header.scale[axis] + header.offset[axis];
+      }
+      visit(loadLas<double>(record + file.layout().gps_time), point);
+    }
+  }
+}
+
+/// The same of a compressed one, which has to be unpacked from its start.
+template <typename Visit>
+void visitSome(PointReader& reader, const Visit& visit) {
+  constexpr std::size_t kEvery = 16;
+  PointChunk chunk;
+  while (reader.read(chunk)) {
+    for (std::size_t i = 0; i < chunk.size(); i += kEvery) {
+      visit(chunk.gps_time[i], Eigen::Vector3d(chunk.x[i], chunk.y[i], chunk.z[i]));
+    }
+  }
+}
+
+AttitudeRecovery::Outcome recoveredAttitude(const LasFile& file, const TimeAlignment& alignment,
+                                            std::shared_ptr<const Trajectory> flight) {
+  AttitudeRecovery recovery(std::move(flight));
+  const auto add = [&](double time, const Eigen::Vector3d& point) {
+    recovery.add(alignment(time), point);
+  };
+  if (file.header().compressed) {
+    visitSome(*PointReader::open(file.path()), add);
+  } else {
+    visitSome(file, add);
+  }
+  return recovery.recover();
+}
+
+AttitudeRecovery::Outcome recoveredAttitude(const Strip<PointLidar>& strip,
+                                            const TimeAlignment& alignment,
+                                            std::shared_ptr<const Trajectory> flight) {
+  AttitudeRecovery recovery(std::move(flight));
+  for (const PointLidar& point : *strip.cloud) {
+    recovery.add(alignment(point.gps_time),
+                 strip.frame.origin + point.getVector3fMap().cast<double>());
+  }
+  return recovery.recover();
+}
+
 /// Points that the correction could not serve end the run, unless they may stay as they are.
 void checkCoverage(const std::string& name, const CoverageCount& coverage,
                    const PointFileCorrection& correction) {
@@ -99,10 +161,11 @@ class Tally {
 };
 
 IntegerBiasCorrection integerCorrection(const LasFile& file, const PointFileCorrection& correction,
+                                        std::shared_ptr<const Trajectory> trajectory,
                                         TimeAlignment alignment) {
   const LasHeader& header = file.header();
   return {file.path().string(),
-          std::make_shared<BiasEvaluator>(correction.trajectory, correction.biases),
+          std::make_shared<BiasEvaluator>(std::move(trajectory), correction.biases),
           {header.record_length, static_cast<std::size_t>(file.layout().gps_time), header.scale,
            header.offset},
           std::move(alignment),
@@ -123,7 +186,14 @@ PointFileCorrectionResult correctLas(const std::filesystem::path& input,
   TimeAlignment alignment;
   if (file.header().point_count > 0) alignment = alignmentOf(file, correction);
   result.time_remark = alignment.remark;
-  const IntegerBiasCorrection engine = integerCorrection(file, correction, std::move(alignment));
+  std::shared_ptr<const Trajectory> trajectory = correction.trajectory;
+  if (correction.recover_attitude) {
+    const AttitudeRecovery::Outcome outcome = recoveredAttitude(file, alignment, trajectory);
+    trajectory = outcome.flight;
+    result.attitude_remark = outcome.remark;
+  }
+  const IntegerBiasCorrection engine =
+      integerCorrection(file, correction, std::move(trajectory), std::move(alignment));
   Tally tally(file.header().point_count, progress);
   const LasEdit edit = [&](const LasRecordBlock& block) {
     const bool complete = tally.add(engine.apply(block.records, block.count, block.first));
@@ -154,6 +224,12 @@ PointFileCorrectionResult correctPcd(const std::filesystem::path& input,
   }
   result.time_remark = filter.getTimeAlignment().remark;
   filter.setTrajectory(correction.trajectory);
+  if (correction.recover_attitude) {
+    const AttitudeRecovery::Outcome outcome =
+        recoveredAttitude(strip, filter.getTimeAlignment(), correction.trajectory);
+    filter.setTrajectory(outcome.flight);
+    result.attitude_remark = outcome.remark;
+  }
   filter.setLocalFrame(strip.frame);
   filter.setBiases(correction.biases);
   filter.setInvert(correction.invert);

@@ -18,16 +18,18 @@ namespace pcl_als::app {
 struct PointFileCorrection {
   std::shared_ptr<const Trajectory> trajectory;
   SystemVector biases = SystemVector::Zero();  ///< assumed - true: m, rad, 1
-  bool invert = false;                         ///< put the biases in instead of taking them out
-  bool keep_uncovered = false;  ///< leave points without a trajectory as they are; else refuse
-  std::optional<int> gps_week;  ///< of times that are seconds of the week
+  bool recover_attitude = false;  ///< pitch and crab from the points; the trajectory has none
+  bool invert = false;            ///< put the biases in instead of taking them out
+  bool keep_uncovered = false;    ///< leave points without a trajectory as they are; else refuse
+  std::optional<int> gps_week;    ///< of times that are seconds of the week
   int threads = 0;
 };
 
 struct PointFileCorrectionResult {
   std::uint64_t points = 0;
   CoverageCount coverage;
-  std::string time_remark;  ///< how point times were matched to the trajectory's; may be empty
+  std::string time_remark;      ///< how point times were matched to the trajectory's; may be empty
+  std::string attitude_remark;  ///< what was recovered; may be empty
 };
 
 /** \brief Corrects a point file into another: .las and .laz in constant memory on the raw integers,

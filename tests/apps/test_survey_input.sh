@@ -40,7 +40,7 @@ expect 0 "" apply "$strip" kept.las -trajectory gap.csv -biases boresight_roll=9
 apply_with 0 "" "$good"; mv x.las good.las
 (head -1 "$good"; tail -n +2 "$good" | sort -t, -k5,5 -k1,1r) >unsorted.csv
 awk '1; NR > 1 && NR % 3 == 0' "$good" >duplicated.csv
-awk -F, -v OFS=';' 'NR == 1 { print $5, $3, $2, $4, $1; next } { print $5, $3, $2, $4, $1 }' "$good" >other_columns.csv
+awk -F, -v OFS=';' '{ print $5, $3, $7, $2, $4, $6, $1 }' "$good" >other_columns.csv
 for name in unsorted duplicated other_columns; do
   apply_with 0 "" $name.csv
   check "$name.csv gives the same points" cmp good.las x.las

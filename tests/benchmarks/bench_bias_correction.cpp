@@ -63,14 +63,14 @@ void designBlockPerPoint(benchmark::State& state) {
   const auto trajectory = flight();
   const Columns points = swath(false);
   const SystemVector delta = biases(2);
-  FlightLine line;
+  SensorPose pose;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (auto _ : state) {
     std::size_t cursor = 0;
     for (std::size_t i = 0; i < kPoints; ++i) {
-      trajectory->lineAt(points.time[i], line, cursor);
+      trajectory->poseAt(points.time[i], pose, cursor);
       const Eigen::Vector3d ground(points.x[i], points.y[i], points.z[i]);
-      sum += designBlock(scanGeometry(line, ground)) * delta;
+      sum += designBlock(scanGeometry(pose, ground)) * delta;
     }
     benchmark::DoNotOptimize(sum);
   }

@@ -43,13 +43,13 @@ void lookUp(benchmark::State& state, bool random, bool with_cursor) {
     times[i] = random ? within(generator)
                       : trajectory.startTime() + 5e-6 * static_cast<double>(i);  // 200 kHz
   }
-  FlightLine line;
+  SensorPose pose;
   for (auto _ : state) {
     std::size_t cursor = 0;
     for (const double time : times) {
       if (!with_cursor) cursor = 0;
-      trajectory.lineAt(time, line, cursor);
-      benchmark::DoNotOptimize(line);
+      trajectory.poseAt(time, pose, cursor);
+      benchmark::DoNotOptimize(pose);
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<long>(kPoints));

@@ -138,13 +138,13 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   }
 }
 
-TEST(AreaMatcher, CorrectsItsPointsWithTheDesignBlock) {
+TEST(AreaMatcher, CorrectsItsPoints) {
   const Trajectory trajectory = flight();
   const auto a = sampled(10, -8.0, 58.0, {0, 0, 0}), b = sampled(11, -8.0, 58.0, {0, 0, 0});
   AreaMatcher matcher = matcherOf(a, b);
   SystemVector biases = SystemVector::Zero();
   biases[indexOf(SystemParameter::range_bias)] = 0.1;
-  matcher.correct(trajectory, biases);
+  matcher.correct(BiasEvaluator(std::make_shared<Trajectory>(trajectory), biases));
   // Nadir, nearly: a range bias of 10 cm put points 10 cm too low (Eq. (8)), so the correction
   // lifts them.
   const auto& moved = matcher.surfaceOf(0).tin().points();

@@ -70,8 +70,7 @@ TEST(ModifiedWeight, MarginalAndConditionalAgreeAlongAPrincipalAxis) {
 ScanGeometry geometryAt(double x, double z, double kappa) {
   ScanGeometry g;
   g.x = x, g.z = z, g.beta = -std::atan2(x, -z);
-  g.sin_beta = std::sin(g.beta), g.cos_beta = std::cos(g.beta);
-  g.sin_kappa = std::sin(kappa), g.cos_kappa = std::cos(kappa);
+  g.rotation = Eigen::AngleAxisd(kappa, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return g;
 }
 

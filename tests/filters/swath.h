@@ -51,13 +51,13 @@ inline SystemVector typicalBiases() {
   return biases;
 }
 
-/// A delta of Eq. (8) from the design block, all in double.
+/// What the biases did to a point, all in double.
 inline Eigen::Vector3d effectAt(const Trajectory& trajectory, const SwathPoint& point,
                                 const SystemVector& biases) {
-  FlightLine line;
+  SensorPose pose;
   std::size_t cursor = 0;
-  if (!trajectory.lineAt(point.time, line, cursor)) return Eigen::Vector3d::Zero();
-  return designBlock(scanGeometry(line, point.ground)) * biases;
+  if (!trajectory.poseAt(point.time, pose, cursor)) return Eigen::Vector3d::Zero();
+  return point.ground - corrected(pose, point.ground, biases);
 }
 
 }  // namespace pcl_als::test

@@ -80,7 +80,8 @@ void expectSameFields(const PointLidar& a, const PointLidar& b) {
 
 TEST(SystemBiasCorrection, RollByHand) {
   // Flown north 1000 m above a point 200 m to the right, 1e-3 rad of roll: Eq. (8) with c = 1,
-  // s = 0, x = 200, z = -1000 gives east z df = -1 m, up -x df = -0.2 m; it is subtracted.
+  // s = 0, x = 200, z = -1000 gives east z df = -1 m, up -x df = -0.2 m; it is subtracted. The
+  // second order: east x df^2 / 2 = 0.1 mm, up z df^2 / 2 = 0.5 mm.
   TrajectorySample a, b;
   a.position = {0.0, -60.0, 1000.0}, a.time = -1.0;
   b.position = {0.0, 60.0, 1000.0}, b.time = 1.0;
@@ -93,9 +94,9 @@ TEST(SystemBiasCorrection, RollByHand) {
   Cloud corrected;
   filter.filter(corrected);
   ASSERT_EQ(corrected.size(), 1U);
-  EXPECT_FLOAT_EQ(corrected[0].x, 201.0F);
+  EXPECT_NEAR(corrected[0].x, 201.0 - 0.0001, 2e-5);
   EXPECT_FLOAT_EQ(corrected[0].y, 0.0F);
-  EXPECT_FLOAT_EQ(corrected[0].z, 0.2F);
+  EXPECT_NEAR(corrected[0].z, 0.2 + 0.0005, 2e-5);
 }
 
 TEST(SystemBiasCorrection, SubtractsTheEffectAndKeepsEveryOtherField) {

@@ -65,6 +65,22 @@ std::string refusal(const std::string& from, const std::string& to) {
   return {};
 }
 
+TEST(CalibrationJson, KeepsTheModelAndItsAttitude) {
+  const auto path = test::scratch("calibration_json") / "attitude.json";
+  for (const auto attitude :
+       {AttitudeSource::none, AttitudeSource::points, AttitudeSource::trajectory}) {
+    CalibrationResult written = example();
+    written.attitude = attitude;
+    writeCalibration(path, written);
+    EXPECT_EQ(readCalibration(path).attitude, attitude);
+    const std::string model =
+        attitude == AttitudeSource::trajectory ? "rigorous" : "quasi_rigorous";
+    EXPECT_NE(textOf(path).find("\"model\": \"" + model + '"'), std::string::npos);
+  }
+  EXPECT_NE(refusal("\"quasi_rigorous\"", "\"vague\"").find("'vague'"), std::string::npos);
+  EXPECT_NE(refusal("\"quasi_rigorous\"", "\"rigorous\"").find("attitude"), std::string::npos);
+}
+
 TEST(CalibrationJson, ReadsBackWhatItWrote) {
   const auto path = test::scratch("calibration_json") / "calibration.json";
   const CalibrationResult written = example();
@@ -79,7 +95,7 @@ TEST(CalibrationJson, ReadsBackWhatItWrote) {
     EXPECT_EQ(a.status, b.status);
     EXPECT_EQ(a.reason, b.reason);
   }
-  EXPECT_EQ(read.model, written.model);
+  EXPECT_EQ(read.attitude, written.attitude);
   EXPECT_EQ(read.correlation_order, written.correlation_order);
   EXPECT_EQ(read.correlation, written.correlation);
   EXPECT_EQ(read.sigma0, written.sigma0);  // to the last bit

@@ -48,15 +48,22 @@ struct SimulatedSurvey {
     for (ControlPoint& point : control) point.position += shift;
   }
 
+  std::shared_ptr<const Trajectory> flight(bool rigorous) const {
+    Trajectory::Options options;
+    options.use_attitude = rigorous;
+    return std::make_shared<const Trajectory>(trajectory, options);
+  }
+
+  /// \a used receives the trajectory to correct the points with, where not null.
   CalibrationResult calibrate(const CalibrationSettings& settings = CalibrationSettings(),
-                              bool with_control = true) const {
+                              bool with_control = true, bool rigorous = false,
+                              std::shared_ptr<const Trajectory>* used = nullptr) const {
     Eigen::Vector2d corner = Eigen::Vector2d::Constant(1e18);
     for (const auto& strip : strips) {
       for (const CalibrationPoint& point : strip)
         corner = corner.cwiseMin(point.position.head<2>());
     }
-    QuasiRigorousCalibration calibration(std::make_shared<const Trajectory>(trajectory), settings,
-                                         corner);
+    QuasiRigorousCalibration calibration(flight(rigorous), settings, corner);
     for (std::size_t i = 0; i < strips.size(); ++i) {
       const int strip = calibration.addStrip(std::to_string(i + 1));
       calibration.survey(strip, strips[i].data(), strips[i].size());
@@ -66,6 +73,7 @@ struct SimulatedSurvey {
     for (std::size_t i = 0; i < strips.size(); ++i) {
       calibration.load(static_cast<int>(i), strips[i].data(), strips[i].size());
     }
+    if (used != nullptr) *used = calibration.trajectory();
     return calibration.calibrate();
   }
 };

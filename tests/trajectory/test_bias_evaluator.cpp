@@ -61,13 +61,31 @@ Points swath(std::size_t count) {
 
 Eigen::Vector3d reference(const Trajectory& trajectory, double time, const Eigen::Vector3d& point,
                           const SystemVector& biases) {
-  FlightLine line;
+  SensorPose pose;
   std::size_t cursor = 0;
-  EXPECT_TRUE(trajectory.lineAt(time, line, cursor));
-  return designBlock(scanGeometry(line, point)) * biases;
+  EXPECT_TRUE(trajectory.poseAt(time, pose, cursor));
+  return point - corrected(pose, point, biases);
 }
 
-TEST(BiasEvaluator, EqualsTheDesignBlockForEveryParameterAlone) {
+TEST(BiasEvaluator, EqualsTheDesignBlockToFirstOrder) {
+  const auto trajectory = circle();
+  Points points = swath(200);
+  const BiasEvaluator evaluator(trajectory, allBiases());
+  CoverageCount coverage;
+  evaluator.effect(points.columns(), points.time.size(), points.effects(), coverage);
+  for (std::size_t k = 0; k < points.time.size(); ++k) {
+    SensorPose pose;
+    std::size_t cursor = 0;
+    ASSERT_TRUE(trajectory->poseAt(points.time[k], pose, cursor));
+    const Eigen::Vector3d linear =
+        designBlock(scanGeometry(pose, points.position(k))) * allBiases();
+    // Products of two angles of up to 7e-4 at up to 1200 m, and of angles with 0.2 m.
+    ASSERT_LT((points.effect(k) - linear).norm(), 1.5e-3) << k;
+    ASSERT_GT(linear.norm(), 0.3) << k;
+  }
+}
+
+TEST(BiasEvaluator, EqualsTheScalarFormForEveryParameterAlone) {
   const auto trajectory = circle();
   Points points = swath(1000);
   for (int i = 0; i < kSystemParameterCount; ++i) {

@@ -10,12 +10,19 @@
 namespace pcl_als {
 namespace {
 
-FlightLine lineAlong(double east, double north) {
-  FlightLine line;
-  line.position = Eigen::Vector3d(1000.0, 2000.0, 1500.0);
+/// Rz(kappa), written out.
+Eigen::Matrix3d turnedBy(double cos_kappa, double sin_kappa) {
+  Eigen::Matrix3d rotation;
+  rotation << cos_kappa, -sin_kappa, 0.0, sin_kappa, cos_kappa, 0.0, 0.0, 0.0, 1.0;
+  return rotation;
+}
+
+SensorPose poseAlong(double east, double north) {
+  SensorPose pose;
+  pose.position = Eigen::Vector3d(1000.0, 2000.0, 1500.0);
   const double length = std::hypot(east, north);
-  line.cos_kappa = north / length, line.sin_kappa = -east / length;
-  return line;
+  pose.rotation = turnedBy(north / length, -east / length);
+  return pose;
 }
 
 TEST(ScanGeometry, RightOfFlightIsPositiveForTheFourCourses) {
@@ -23,48 +30,46 @@ TEST(ScanGeometry, RightOfFlightIsPositiveForTheFourCourses) {
     double east, north, right_east, right_north;
   } courses[] = {{0, 1, 1, 0}, {1, 0, 0, -1}, {0, -1, -1, 0}, {-1, 0, 0, 1}};
   for (const auto& course : courses) {
-    const FlightLine line = lineAlong(course.east, course.north);
-    // 100 m to the right, 30 m ahead (a skewed scan line), 1000 m below.
+    const SensorPose pose = poseAlong(course.east, course.north);
+    // 100 m to the right, 30 m ahead (a skewed scan pose), 1000 m below.
     const Eigen::Vector3d point =
-        line.position + Eigen::Vector3d(100.0 * course.right_east + 30.0 * course.east,
+        pose.position + Eigen::Vector3d(100.0 * course.right_east + 30.0 * course.east,
                                         100.0 * course.right_north + 30.0 * course.north, -1000.0);
-    const ScanGeometry geometry = scanGeometry(line, point);
+    const ScanGeometry geometry = scanGeometry(pose, point);
     EXPECT_NEAR(geometry.x, 100.0, 1e-9);
     EXPECT_NEAR(geometry.z, -1000.0, 1e-9);
     EXPECT_NEAR(geometry.beta, -std::atan(0.1), 1e-12);
   }
 }
 
-TEST(ScanGeometry, SinAndCosBelongToBeta) {
-  const FlightLine line = lineAlong(3.0, -4.0);
+TEST(ScanGeometry, BetaHasTheSignOfEquation2) {
+  const SensorPose pose = poseAlong(3.0, -4.0);
   for (const double angle : {-170.0, -91.0, -20.0, 0.0, 33.0, 90.0, 120.0}) {
     const double beta = angle * kRadiansPerDegree;
     const Eigen::Vector3d point =
-        line.position + Eigen::Vector3d(-500.0 * std::sin(beta) * -0.8,
+        pose.position + Eigen::Vector3d(-500.0 * std::sin(beta) * -0.8,
                                         -500.0 * std::sin(beta) * -0.6, -500.0 * std::cos(beta));
-    const ScanGeometry geometry = scanGeometry(line, point);
-    EXPECT_NEAR(geometry.sin_beta, std::sin(beta), 1e-12) << angle;
-    EXPECT_NEAR(geometry.cos_beta, std::cos(beta), 1e-12) << angle;
+    const ScanGeometry geometry = scanGeometry(pose, point);
     EXPECT_NEAR(std::sin(geometry.beta - beta), 0.0, 1e-12) << angle;
     // Eq. (2): x = -r sin(beta), z = -r cos(beta).
-    EXPECT_NEAR(geometry.x, -500.0 * geometry.sin_beta, 1e-9);
-    EXPECT_NEAR(geometry.z, -500.0 * geometry.cos_beta, 1e-9);
+    EXPECT_NEAR(geometry.x, -500.0 * std::sin(geometry.beta), 1e-9);
+    EXPECT_NEAR(geometry.z, -500.0 * std::cos(geometry.beta), 1e-9);
   }
 }
 
 TEST(ScanGeometry, APointAtTheSensorHasNoAngle) {
-  const FlightLine line = lineAlong(0.0, 1.0);
-  const ScanGeometry geometry = scanGeometry(line, line.position);
+  const SensorPose pose = poseAlong(0.0, 1.0);
+  const ScanGeometry geometry = scanGeometry(pose, pose.position);
   EXPECT_EQ(geometry.beta, 0.0);
   EXPECT_TRUE(designBlock(geometry).allFinite());
 }
 
 TEST(DesignBlock, EqualsEquation8ByHand) {
   // Forward (-0.8, 0.6): c = 0.6, s = 0.8. A point 300 m right of and 400 m below the sensor.
-  FlightLine line;
-  line.position.setZero();
-  line.cos_kappa = 0.6, line.sin_kappa = 0.8;
-  const ScanGeometry geometry = scanGeometry(line, Eigen::Vector3d(180.0, 240.0, -400.0));
+  SensorPose pose;
+  pose.position.setZero();
+  pose.rotation = turnedBy(0.6, 0.8);
+  const ScanGeometry geometry = scanGeometry(pose, Eigen::Vector3d(180.0, 240.0, -400.0));
   ASSERT_NEAR(geometry.x, 300.0, 1e-12);
   const double beta = -0.64350110879328;  // -atan(3/4); sin -0.6, cos 0.8
   DesignBlock expected;
@@ -93,11 +98,11 @@ TEST(DesignBlock, EqualsCentralDifferencesOfEquation2) {
   for (const double kappa : {0.0, 1.0, 2.5, -2.0}) {
     for (const double beta : {-0.4, -0.05, 0.0, 0.3}) {
       const double range = 1300.0;
-      FlightLine line;
-      line.position = Eigen::Vector3d(400.0, -300.0, 1200.0);
-      line.cos_kappa = std::cos(kappa), line.sin_kappa = std::sin(kappa);
+      SensorPose pose;
+      pose.position = Eigen::Vector3d(400.0, -300.0, 1200.0);
+      pose.rotation = turnedBy(std::cos(kappa), std::sin(kappa));
       const DesignBlock design =
-          designBlock(scanGeometry(line, equation2(kappa, range, beta, SystemVector::Zero())));
+          designBlock(scanGeometry(pose, equation2(kappa, range, beta, SystemVector::Zero())));
       for (int i = 0; i < kSystemParameterCount; ++i) {
         SystemVector step = SystemVector::Zero();
         step[i] = 1e-4;
@@ -111,10 +116,10 @@ TEST(DesignBlock, EqualsCentralDifferencesOfEquation2) {
 }
 
 TEST(DesignBlock, DetectsAWrongSignOfBeta) {
-  FlightLine line = lineAlong(0.0, 1.0);
-  ScanGeometry geometry = scanGeometry(line, line.position + Eigen::Vector3d(200.0, 0.0, -900.0));
+  SensorPose pose = poseAlong(0.0, 1.0);
+  ScanGeometry geometry = scanGeometry(pose, pose.position + Eigen::Vector3d(200.0, 0.0, -900.0));
   const DesignBlock right = designBlock(geometry);
-  geometry.beta = -geometry.beta, geometry.sin_beta = -geometry.sin_beta;
+  geometry.beta = -geometry.beta;
   EXPECT_GT((designBlock(geometry) - right).norm(), 0.1);
 }
 

@@ -156,16 +156,25 @@ void AreaMatcher::collectRoughness(std::vector<double>& values) const {
   }
 }
 
-void AreaMatcher::correct(const Trajectory& trajectory, const SystemVector& biases) {
+void AreaMatcher::correct(const BiasEvaluator& biases) {
+  corrected_for_ = biases.biases();
   for (StripPart& part : strips_) {
-    std::vector<Eigen::Vector3d> corrected = part.biased;
-    std::size_t cursor = 0;
-    FlightLine line;
-    for (std::size_t i = 0; i < corrected.size(); ++i) {
-      if (!trajectory.lineAt(part.times[i], line, cursor)) continue;
-      corrected[i] -= designBlock(scanGeometry(line, part.biased[i])) * biases;
+    const std::size_t count = part.biased.size();
+    if (count == 0) continue;
+    std::vector<double> columns[3], effects[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      columns[axis].reserve(count);
+      for (const Eigen::Vector3d& point : part.biased) columns[axis].push_back(point[axis]);
+      effects[axis].resize(count);
     }
-    if (!corrected.empty()) part.surface.movePoints(std::move(corrected));
+    CoverageCount ignored;  // the calibration checked that the trajectory covers every strip
+    biases.effect({part.times.data(), columns[0].data(), columns[1].data(), columns[2].data()},
+                  count, {effects[0].data(), effects[1].data(), effects[2].data()}, ignored);
+    std::vector<Eigen::Vector3d> moved(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      moved[i] = part.biased[i] - Eigen::Vector3d(effects[0][i], effects[1][i], effects[2][i]);
+    }
+    part.surface.movePoints(std::move(moved));
   }
 }
 
@@ -177,13 +186,13 @@ class AreaMatcher::PointGeometry {
 
   bool atPoint(const StripPart& part, std::int32_t index) {
     time = part.times[index];
-    position = part.biased[index];
-    if (!trajectory_.lineAt(time, line_, cursor_)) return false;
-    const ScanGeometry geometry = scanGeometry(line_, position);
+    position = part.surface.tin().points()[index];
+    if (!trajectory_.poseAt(time, pose_, cursor_)) return false;
+    const ScanGeometry geometry = scanGeometry(pose_, position);
     design = designBlock(geometry);
     covariance = noise_.pointCovariance(geometry);
-    beam = Eigen::Vector3d(-geometry.sin_beta * geometry.cos_kappa,
-                           -geometry.sin_beta * geometry.sin_kappa, -geometry.cos_beta);
+    beam = geometry.beam();
+    range = geometry.range();
     lateral = std::abs(geometry.x);
     height = std::abs(geometry.z);
     return true;
@@ -204,30 +213,31 @@ class AreaMatcher::PointGeometry {
       covariance += weight * weight * vertex.covariance;
     }
     beam = vertex.beam;
+    range = vertex.range;
     lateral = vertex.lateral;
     height = vertex.height;
     return true;
   }
 
   double time = 0.0;
-  Eigen::Vector3d position;  ///< uncorrected
+  Eigen::Vector3d position;  ///< corrected
   DesignBlock design;
   Eigen::Matrix3d covariance;
-  Eigen::Vector3d beam;  ///< unit, downward
-  double lateral = 0.0, height = 0.0;
+  Eigen::Vector3d beam;                             ///< unit, downward
+  double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
 
   /// Effect on the normal distance of the pulse's stretch over the footprint, n'u range divergence
   /// tan(incidence).
   double stretch(const Eigen::Vector3d& normal) const {
     const double cosine = -normal.dot(beam);
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    return -std::hypot(lateral, height) * noise_.beam_divergence * sine;
+    return -range * noise_.beam_divergence * sine;
   }
 
  private:
   const Trajectory& trajectory_;
   const NoiseModel& noise_;
-  FlightLine line_;
+  SensorPose pose_;
   std::size_t cursor_ = 0;
 };
 
@@ -256,7 +266,8 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       observation.normal = measuringNormal(quality);
       observation.row_a = observation.normal.transpose() * point.design;
       observation.row_b = observation.normal.transpose() * foot.design;
-      observation.misclosure = observation.normal.dot(point.position - foot.position);
+      observation.misclosure = observation.normal.dot(point.position - foot.position) +
+                               observation.row() * corrected_for_;
       observation.variance = normalVariance(point.covariance + foot.covariance, observation.normal);
       observation.stretch = point.stretch(observation.normal) - foot.stretch(observation.normal);
       found.push_back(observation);
@@ -285,7 +296,8 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.height = foot.height;
       observation.normal = measuringNormal(quality);
       observation.row_b = observation.normal.transpose() * foot.design;
-      observation.misclosure = observation.normal.dot(point.position - foot.position);
+      observation.misclosure = observation.normal.dot(point.position - foot.position) +
+                               observation.row() * corrected_for_;
       observation.stretch = -foot.stretch(observation.normal);
       const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
       const double up = observation.normal.z();

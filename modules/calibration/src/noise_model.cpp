@@ -26,9 +26,8 @@ void NoiseModel::validate() const {
 }
 
 Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
-  // The beam in the ground frame, straight down turned by beta about the flight direction.
-  const Eigen::Vector3d beam(-g.sin_beta * g.cos_kappa, -g.sin_beta * g.sin_kappa, -g.cos_beta);
-  const double distance = std::hypot(g.x, g.z);
+  const Eigen::Vector3d beam = g.beam();
+  const double distance = g.range();
   const double along_sq = range * range;
   // A quarter of the 1/e^2 diameter is the standard deviation of where in the footprint the return
   // comes from.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include <pcl_als/calibration/calibration_report.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
@@ -14,7 +13,6 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kControlAreaSize = 4.0;  // metres: a control point needs the patch around it only
 constexpr double kHuber = 1.5;    // standard deviations up to which an observation has full weight
 constexpr double kReject = 4.5;   // and from which it has none
 constexpr int kReweightings = 3;  // of one set of pairs
@@ -28,13 +26,6 @@ double robustWeight(double standardised) {
   const double size = std::abs(standardised);
   if (size > kReject) return 0.0;
   return size <= kHuber ? 1.0 : kHuber / size;
-}
-
-std::string seconds(double from, double to) {
-  std::ostringstream text;
-  text.precision(3);
-  text << std::fixed << from << " … " << to << " s";
-  return text.str();
 }
 
 }  // namespace
@@ -73,111 +64,7 @@ QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Traject
     : trajectory_(std::move(trajectory)), settings_(settings), map_(anchor) {
   settings_.noise.validate();
   settings_.shared_errors.validate();
-}
-
-int QuasiRigorousCalibration::addStrip(const std::string& id) {
-  ids_.push_back(id);
-  used_.push_back(true);
-  return map_.addStrip();
-}
-
-void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
-                                      std::size_t count) {
-  map_.add(strip, points, count);
-}
-
-void QuasiRigorousCalibration::leaveOutSmallStrips() {
-  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    const std::size_t count = map_.pointCount(static_cast<int>(strip));
-    if (map_.invalidCount(static_cast<int>(strip)) > 0) {
-      warnings_.push_back("strip " + ids_[strip] + ": " +
-                          std::to_string(map_.invalidCount(static_cast<int>(strip))) +
-                          " points with a time or coordinate that is not finite were ignored");
-    }
-    if (count >= settings_.minimum_points) continue;
-    used_[strip] = false;
-    warnings_.push_back("strip " + ids_[strip] + " has only " + std::to_string(count) +
-                        " points and is left out");
-  }
-}
-
-void QuasiRigorousCalibration::checkTrajectory() const {
-  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    if (!used_[strip]) continue;
-    const double start = map_.startTime(static_cast<int>(strip)),
-                 end = map_.endTime(static_cast<int>(strip));
-    if (start < trajectory_->startTime() || end > trajectory_->endTime()) {
-      throw InputError("strip " + ids_[strip] + " was measured at " + seconds(start, end) +
-                       ", the trajectory covers " +
-                       seconds(trajectory_->startTime(), trajectory_->endTime()) +
-                       ": give the trajectory of this flight");
-    }
-    for (const Trajectory::Gap& gap : trajectory_->gaps()) {
-      if (gap.from >= end || gap.to <= start) continue;
-      throw InputError("the trajectory has a gap at " + seconds(gap.from, gap.to) +
-                       " under strip " + ids_[strip] + " (" + seconds(start, end) +
-                       "): give a complete trajectory or leave the strip out");
-    }
-  }
-}
-
-int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
-  const auto found = std::find(ids_.begin(), ids_.end(), id);
-  if (found != ids_.end()) return static_cast<int>(found - ids_.begin());
-  std::string known;
-  for (const std::string& name : ids_) known += (known.empty() ? "" : ", ") + name;
-  throw UsageError("pairs name strip '" + id + "', but the strips are " + known);
-}
-
-void QuasiRigorousCalibration::choosePairs() {
-  std::vector<StripPair> wanted;
-  for (const auto& [a, b] : wanted_pairs_) {
-    const int i = stripNamed(a), j = stripNamed(b);
-    if (i == j) throw UsageError("pairs name strip '" + a + "' with itself");
-    wanted.emplace_back(std::min(i, j), std::max(i, j));
-  }
-  pairs_.clear();
-  for (const SurveyMap::Overlap& overlap : map_.overlaps(settings_.minimum_overlap)) {
-    if (!used_[overlap.strips.first] || !used_[overlap.strips.second]) continue;
-    const bool chosen =
-        wanted.empty() || std::find(wanted.begin(), wanted.end(), overlap.strips) != wanted.end();
-    if (chosen) pairs_.push_back(overlap.strips);
-  }
-  for (const StripPair& pair : wanted) {
-    if (std::find(pairs_.begin(), pairs_.end(), pair) != pairs_.end()) continue;
-    warnings_.push_back("strips " + ids_[pair.first] + " and " + ids_[pair.second] +
-                        " do not overlap enough");
-  }
-  if (!pairs_.empty() || !control_.empty()) return;
-  const auto used = std::count(used_.begin(), used_.end(), true);
-  throw InputError(
-      used < 2 ? "fewer than two strips with enough points and no control: nothing to compare"
-               : "no two strips overlap and there is no control: nothing to compare");
-}
-
-void QuasiRigorousCalibration::chooseAreas() {
-  leaveOutSmallStrips();
-  checkTrajectory();
-  choosePairs();
-  areas_ = map_.selectAreas(pairs_, settings_.selection);
-  pair_areas_ = areas_.size();
-  for (const ControlPoint& point : control_) {
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlAreaSize);
-    areas_.push_back(
-        {point.position.head<2>() - half, kControlAreaSize, settings_.selection.margin});
-  }
-  index_ = std::make_unique<AreaIndex>(areas_);
-  matchers_.clear();
-  for (const CalibrationArea& area : areas_) matchers_.emplace_back(area, ids_.size());
-}
-
-void QuasiRigorousCalibration::load(int strip, const CalibrationPoint* points, std::size_t count) {
-  if (!used_[static_cast<std::size_t>(strip)]) return;
-  for (const CalibrationPoint* p = points; p != points + count; ++p) {
-    if (!p->position.allFinite() || !std::isfinite(p->time)) continue;
-    for (const int area : index_->candidates(p->position))
-      matchers_[static_cast<std::size_t>(area)].add(strip, *p);
-  }
+  if (trajectory_->hasAttitude()) attitude_ = AttitudeSource::trajectory;
 }
 
 std::size_t QuasiRigorousCalibration::loadedPoints() const {
@@ -294,8 +181,6 @@ double largestEffect(const std::vector<AreaObservations>& observations,
   geometry.x = x;
   geometry.z = -z;
   geometry.beta = -std::atan2(x, z);
-  geometry.sin_beta = std::sin(geometry.beta);
-  geometry.cos_beta = std::cos(geometry.beta);
   return (designBlock(geometry).cwiseAbs() * change.cwiseAbs()).maxCoeff();
 }
 
@@ -341,8 +226,9 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   if (progress_) progress_(result.iterations.back());
   result.converged = done > 2 && !state.levels_open &&
                      (effect < settings_.convergence || restsWithin(state, before));
+  const BiasEvaluator correction(trajectory_, biases);
   parallelFor(matchers_.size(), settings_.threads,
-              [&](std::size_t i) { matchers_[i].correct(*trajectory_, biases); });
+              [&](std::size_t i) { matchers_[i].correct(correction); });
   shrinkThreshold(state);
 }
 
@@ -370,6 +256,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   result.sigma0 = state.sigma0;
   result.redundancy = state.redundancy;
   result.warnings = warnings_;
+  result.attitude = attitude_;
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   state.threshold = settings_.max_normal_distance;

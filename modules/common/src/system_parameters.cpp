@@ -33,6 +33,22 @@ SystemVector CalibrationResult::biases() const {
   return biases;
 }
 
+std::string_view toString(AttitudeSource attitude) {
+  switch (attitude) {
+    case AttitudeSource::none:
+      return "none";
+    case AttitudeSource::points:
+      return "points";
+    case AttitudeSource::trajectory:
+      return "trajectory";
+  }
+  return "none";
+}
+
+std::string_view modelName(AttitudeSource attitude) {
+  return attitude == AttitudeSource::trajectory ? "rigorous" : "quasi_rigorous";
+}
+
 std::string_view toString(ParameterStatus status) {
   switch (status) {
     case ParameterStatus::estimated:

@@ -81,6 +81,28 @@ ParameterStatus statusOf(const Node& node) {
   node.refuse("is '" + text + "'; it must be estimated, fixed or not_estimable");
 }
 
+/// The model by its name, and the source of the attitude where the file says it.
+AttitudeSource attitudeOf(const Node& root) {
+  AttitudeSource attitude = AttitudeSource::none;
+  if (root.has("model")) {
+    const std::string model = root["model"].text();
+    if (model == modelName(AttitudeSource::trajectory)) {
+      attitude = AttitudeSource::trajectory;
+    } else if (model != modelName(AttitudeSource::none)) {
+      root["model"].refuse("is '" + model + "'; it must be quasi_rigorous or rigorous");
+    }
+  }
+  if (!root.has("attitude")) return attitude;
+  const Node node = root["attitude"];
+  const std::string text = node.text();
+  for (const auto source :
+       {AttitudeSource::none, AttitudeSource::points, AttitudeSource::trajectory}) {
+    if (text == toString(source) && modelName(source) == modelName(attitude)) return source;
+  }
+  node.refuse("is '" + text +
+              "'; it must be none or points (quasi_rigorous), trajectory (rigorous)");
+}
+
 void readParameters(const Node& parameters, CalibrationResult& result) {
   for (const SystemParameterInfo& info : systemParameters()) {
     const Node node = parameters[std::string(info.name)];
@@ -192,7 +214,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   CalibrationResult result;
   readParameters(root["parameters"], result);
   // Applying a calibration takes the parameters only: a file made by hand may stop here.
-  if (root.has("model")) result.model = root["model"].text();
+  result.attitude = attitudeOf(root);
   if (root.has("correlation")) readCorrelation(root["correlation"], result);
   if (root.has("sigma0")) result.sigma0 = root["sigma0"].numberOrNan();
   if (root.has("redundancy")) result.redundancy = root["redundancy"].whole();

@@ -100,7 +100,8 @@ std::string calibrationToJson(const CalibrationResult& result) {
   Json root;
   root["format"] = kCalibrationFormat;
   root["version"] = kCalibrationVersion;
-  root["model"] = result.model;
+  root["model"] = modelName(result.attitude);
+  root["attitude"] = toString(result.attitude);
   root["parameters"] = parametersOf(result);
   root["correlation"] = correlationOf(result);
   root["sigma0"] = number(result.sigma0);

@@ -131,6 +131,7 @@ void BiasEvaluator::countMissed(double time, CoverageCount& coverage) const {
 void BiasEvaluator::effect(const PointColumns& points, std::size_t count,
                            const EffectColumns& effect, CoverageCount& coverage) const {
   coverage.points += count;
+  const detail::MountingBias mounting(biases_);
   FlightSpan span;
   std::size_t cursor = 0;
   for (std::size_t first = 0, last = 0; first < count; first = last) {
@@ -143,7 +144,7 @@ void BiasEvaluator::effect(const PointColumns& points, std::size_t count,
     }
     // A time at span.to belongs to the next span, so that the order of points changes no bit.
     while (last < count && points.time[last] >= span.from && points.time[last] < span.to) ++last;
-    detail::biasKernel(span, biases_, from(points, first), last - first, from(effect, first));
+    detail::biasKernel(span, mounting, from(points, first), last - first, from(effect, first));
   }
 }
 

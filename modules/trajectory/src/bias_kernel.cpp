@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+#include <pcl_als/trajectory/scan_geometry.h>
+
 namespace pcl_als::detail {
 namespace {
 
@@ -36,89 +38,97 @@ inline double scanAngle(double x, double z, double range) {
   return z <= 0.0 ? -folded : folded - std::copysign(kPi, x);
 }
 
-/// 1 / sqrt(q) for q within 1 +- 1e-4 to 4e-13: the series in 1 - q up to its square.
-inline double inverseRootNearOne(double q) {
-  const double e = 1.0 - q;
-  return 1.0 + e * (0.5 + 0.375 * e);
+/// sin and cos of the small angles by which a scale bias turns beams, to 1e-15 up to 0.05 rad.
+inline double smallSine(double a) {
+  const double q = a * a;
+  return a * (1.0 - q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0))));
+}
+inline double smallCosine(double a) {
+  const double q = a * a;
+  return 1.0 - 0.5 * q * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q / 56.0)));
 }
 
-/// Whether the direction interpolated linearly between the ends of a span stays that near to a unit
-/// vector: in the middle its square is 1 - (chord / 2)^2.
-bool turnsLittle(const FlightSpan& span) {
-  return (span.right_rate * (span.to - span.from)).squaredNorm() < 4e-4;
-}
+/// value(t) = constant + t * rate + t^2 * curve
+struct Quadratic {
+  double constant, rate, curve;
+  inline double at(double t) const { return constant + t * (rate + t * curve); }
+};
 
-template <bool kTurn, bool kRange, bool kScale>
-void kernel(const FlightSpan& span, const SystemVector& biases, const PointColumns& points,
+template <bool kRange, bool kScale>
+void kernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
             std::size_t count, const EffectColumns& effect) {
   const double from = span.from;
   const double px = span.position.x(), py = span.position.y(), pz = span.position.z();
   const double vx = span.velocity.x(), vy = span.velocity.y(), vz = span.velocity.z();
-  const double rx = span.right.x(), ry = span.right.y();
-  const double wx = span.right_rate.x(), wy = span.right_rate.y();
-  const double lever_x = biases[0], lever_y = biases[1], lever_z = biases[2];
-  const double pitch = biases[3], roll = biases[4], heading = biases[5];
-  const double range_bias = biases[6], scale = biases[7];
+  const auto entry = [&](int row, int column) {
+    return Quadratic{span.rotation(row, column), span.rotation_rate(row, column),
+                     span.rotation_curve(row, column)};
+  };
+  const Quadratic q00 = entry(0, 0), q01 = entry(0, 1), q02 = entry(0, 2);
+  const Quadratic q10 = entry(1, 0), q11 = entry(1, 1), q12 = entry(1, 2);
+  const Quadratic q20 = entry(2, 0), q21 = entry(2, 1), q22 = entry(2, 2);
+  const double forward_share = span.has_attitude ? 1.0 : 0.0;
+  const double lever_x = bias.lever_arm.x(), lever_y = bias.lever_arm.y();
+  const double lever_z = bias.lever_arm.z();
+  const double b00 = bias.boresight(0, 0), b01 = bias.boresight(0, 1), b02 = bias.boresight(0, 2);
+  const double b10 = bias.boresight(1, 0), b11 = bias.boresight(1, 1), b12 = bias.boresight(1, 2);
+  const double b20 = bias.boresight(2, 0), b21 = bias.boresight(2, 1), b22 = bias.boresight(2, 2);
+  const double range_bias = bias.range, turn = -bias.scale / (1.0 + bias.scale);
   const double* time = points.time;
   const double *east = points.x, *north = points.y, *up = points.z;
   double *effect_x = effect.x, *effect_y = effect.y, *effect_z = effect.z;
 // Input and output columns may be the same array, element by element; they never overlap otherwise.
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
-    const double elapsed = time[i] - from;
-    const double from_x = (east[i] - px) - elapsed * vx;
-    const double from_y = (north[i] - py) - elapsed * vy;
-    const double z = (up[i] - pz) - elapsed * vz;
-    double c = rx + elapsed * wx, s = ry + elapsed * wy;
-    const double square = c * c + s * s;
-    const double unit = kTurn ? 1.0 / std::sqrt(square) : inverseRootNearOne(square);
-    c *= unit, s *= unit;
-    const double x = from_x * c + from_y * s;
-    double to_right = lever_x + z * roll;
-    double upwards = lever_z - x * roll;
-    const double forward = lever_y - z * pitch + x * heading;
+    const double t = time[i] - from;
+    const double dx = (east[i] - px) - t * vx;
+    const double dy = (north[i] - py) - t * vy;
+    const double dz = (up[i] - pz) - t * vz;
+    const double r00 = q00.at(t), r01 = q01.at(t), r02 = q02.at(t);
+    const double r10 = q10.at(t), r11 = q11.at(t), r12 = q12.at(t);
+    const double r20 = q20.at(t), r21 = q21.at(t), r22 = q22.at(t);
+    const double x = r00 * dx + r10 * dy + r20 * dz;
+    const double y = forward_share * (r01 * dx + r11 * dy + r21 * dz);
+    const double z = r02 * dx + r12 * dy + r22 * dz;
+    const double lx = x - lever_x, ly = y - lever_y, lz = z - lever_z;
+    double wx = b00 * lx + b10 * ly + b20 * lz;
+    double wy = b01 * lx + b11 * ly + b21 * lz;
+    double wz = b02 * lx + b12 * ly + b22 * lz;
     if (kRange || kScale) {
-      const double range = std::sqrt(x * x + z * z + kTinySquare);
+      const double in_plane_sq = wx * wx + wz * wz + kTinySquare;
       if (kRange) {
-        const double along = range_bias / range;  // sin(b) = -x / range, cos(b) = -z / range
-        to_right += along * x;
-        upwards += along * z;
+        const double shrink = 1.0 - range_bias / std::sqrt(in_plane_sq + wy * wy);
+        wx *= shrink, wy *= shrink, wz *= shrink;
       }
       if (kScale) {
-        const double turn = scale * scanAngle(x, z, range);
-        to_right += turn * z;
-        upwards -= turn * x;
+        const double angle = turn * scanAngle(wx, wz, std::sqrt(wx * wx + wz * wz + kTinySquare));
+        const double sine = smallSine(angle), cosine = smallCosine(angle);
+        const double turned = wx * cosine + wz * sine;
+        wz = wz * cosine - wx * sine;
+        wx = turned;
       }
     }
-    effect_x[i] = c * to_right - s * forward;
-    effect_y[i] = s * to_right + c * forward;
-    effect_z[i] = upwards;
+    const double ex = x - wx, ey = y - wy, ez = z - wz;
+    effect_x[i] = r00 * ex + r01 * ey + r02 * ez;
+    effect_y[i] = r10 * ex + r11 * ey + r12 * ez;
+    effect_z[i] = r20 * ex + r21 * ey + r22 * ez;
   }
-}
-
-template <bool kRange, bool kScale>
-void choose(const FlightSpan& span, const SystemVector& biases, const PointColumns& points,
-            std::size_t count, const EffectColumns& effect) {
-  const auto chosen =
-      turnsLittle(span) ? kernel<false, kRange, kScale> : kernel<true, kRange, kScale>;
-  chosen(span, biases, points, count, effect);
 }
 
 }  // namespace
 
-void biasKernel(const FlightSpan& span, const SystemVector& biases, const PointColumns& points,
+MountingBias::MountingBias(const SystemVector& biases)
+    : lever_arm(biases.head<3>()),
+      boresight(boresightRotation(biases)),
+      range(biases[indexOf(SystemParameter::range_bias)]),
+      scale(biases[indexOf(SystemParameter::scan_angle_scale)]) {}
+
+void biasKernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
                 std::size_t count, const EffectColumns& effect) {
-  const bool range = biases[indexOf(SystemParameter::range_bias)] != 0.0;
-  const bool scale = biases[indexOf(SystemParameter::scan_angle_scale)] != 0.0;
-  if (range && scale) {
-    choose<true, true>(span, biases, points, count, effect);
-  } else if (scale) {
-    choose<false, true>(span, biases, points, count, effect);
-  } else if (range) {
-    choose<true, false>(span, biases, points, count, effect);
-  } else {
-    choose<false, false>(span, biases, points, count, effect);
-  }
+  const bool range = bias.range != 0.0, scale = bias.scale != 0.0;
+  const auto chosen = range ? (scale ? kernel<true, true> : kernel<true, false>)
+                            : (scale ? kernel<false, true> : kernel<false, false>);
+  chosen(span, bias, points, count, effect);
 }
 
 }  // namespace pcl_als::detail

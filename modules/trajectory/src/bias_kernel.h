@@ -10,12 +10,20 @@
 
 namespace pcl_als::detail {
 
-/** \brief A delta of Habib et al. 2011, Eq. (8), for points whose times are all in one span.
+/// Biases in the form the kernel wants them.
+struct MountingBias {
+  explicit MountingBias(const SystemVector& biases);
+
+  Eigen::Vector3d lever_arm;  ///< metres
+  Eigen::Matrix3d boresight;  ///< B of corrected()
+  double range = 0.0, scale = 0.0;
+};
+
+/** \brief point - corrected(pose, point, biases) for points whose times are all in one span.
  *
- * With a = dX + z df - sin(b) dr + z b dS (to the right) and d = dY - z dw + x dk (forward), Eq.
- * (8) reads: east = c a - s d, north = s a + c d, up = dZ - x df - cos(b) dr - x b dS.
+ * Zero biases give exactly zero. Points must not be the sensor's own position.
  */
-void biasKernel(const FlightSpan& span, const SystemVector& biases, const PointColumns& points,
+void biasKernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
                 std::size_t count, const EffectColumns& effect);
 
 }  // namespace pcl_als::detail

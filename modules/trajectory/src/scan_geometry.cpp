@@ -2,34 +2,68 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
 
-ScanGeometry scanGeometry(const FlightLine& line, const Eigen::Vector3d& ground_point) {
-  const Eigen::Vector3d from_sensor = ground_point - line.position;
+Eigen::Vector3d ScanGeometry::beam() const {
+  const double length = range();
+  return length > 0.0 ? Eigen::Vector3d(rotation * inBody() / length)
+                      : Eigen::Vector3d(-rotation.col(2));
+}
+
+ScanGeometry scanGeometry(const SensorPose& pose, const Eigen::Vector3d& ground_point) {
+  const Eigen::Vector3d in_body = pose.rotation.transpose() * (ground_point - pose.position);
   ScanGeometry geometry;
-  geometry.cos_kappa = line.cos_kappa;
-  geometry.sin_kappa = line.sin_kappa;
-  geometry.x = from_sensor.x() * line.cos_kappa + from_sensor.y() * line.sin_kappa;
-  geometry.z = from_sensor.z();
-  const double range = std::hypot(geometry.x, geometry.z);
-  if (range > 0.0) {
-    geometry.cos_beta = -geometry.z / range;
-    geometry.sin_beta = -geometry.x / range;
+  geometry.rotation = pose.rotation;
+  geometry.x = in_body.x();
+  geometry.y = pose.has_attitude ? in_body.y() : 0.0;
+  geometry.z = in_body.z();
+  if (geometry.x != 0.0 || geometry.z != 0.0) {
+    geometry.beta = std::atan2(-geometry.x, -geometry.z);
   }
-  geometry.beta = std::atan2(geometry.sin_beta, geometry.cos_beta);
   return geometry;
 }
 
 DesignBlock designBlock(const ScanGeometry& geometry) {
-  const double c = geometry.cos_kappa, s = geometry.sin_kappa;
-  const double x = geometry.x, z = geometry.z, b = geometry.beta;
-  DesignBlock design;
-  design.row(0) << c, -s, 0.0, s * z, c * z, -s * x, -c * geometry.sin_beta, c * z * b;
-  design.row(1) << s, c, 0.0, -c * z, s * z, c * x, -s * geometry.sin_beta, s * z * b;
-  design.row(2) << 0.0, 0.0, 1.0, 0.0, -x, 0.0, -geometry.cos_beta, -x * b;
-  return design;
+  const double x = geometry.x, y = geometry.y, z = geometry.z, b = geometry.beta;
+  const double range = geometry.range();
+  DesignBlock in_body = DesignBlock::Zero();
+  in_body.leftCols<3>().setIdentity();
+  in_body.col(indexOf(SystemParameter::boresight_pitch)) << 0.0, -z, y;
+  in_body.col(indexOf(SystemParameter::boresight_roll)) << z, 0.0, -x;
+  in_body.col(indexOf(SystemParameter::boresight_heading)) << -y, x, 0.0;
+  in_body.col(indexOf(SystemParameter::range_bias)) =
+      range > 0.0 ? Eigen::Vector3d(geometry.inBody() / range) : Eigen::Vector3d(0.0, 0.0, -1.0);
+  in_body.col(indexOf(SystemParameter::scan_angle_scale)) << z * b, 0.0, -x * b;
+  return geometry.rotation * in_body;
+}
+
+Eigen::Matrix3d boresightRotation(const SystemVector& biases) {
+  const auto about = [&](SystemParameter p, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(biases[indexOf(p)], axis);
+  };
+  return (about(SystemParameter::boresight_heading, Eigen::Vector3d::UnitZ()) *
+          about(SystemParameter::boresight_pitch, Eigen::Vector3d::UnitX()) *
+          about(SystemParameter::boresight_roll, Eigen::Vector3d::UnitY()))
+      .toRotationMatrix();
+}
+
+Eigen::Vector3d corrected(const SensorPose& pose, const Eigen::Vector3d& ground_point,
+                          const SystemVector& biases) {
+  const Eigen::Vector3d biased = scanGeometry(pose, ground_point).inBody();
+  const Eigen::Vector3d beam = boresightRotation(biases).transpose() * (biased - biases.head<3>());
+  const double range = beam.norm();
+  if (range == 0.0) return ground_point;
+  const double scale = 1.0 + biases[indexOf(SystemParameter::scan_angle_scale)];
+  const double angle = std::atan2(-beam.x(), -beam.z()) / scale;
+  const double in_scan_plane = std::hypot(beam.x(), beam.z());
+  const double length = 1.0 - biases[indexOf(SystemParameter::range_bias)] / range;
+  const Eigen::Vector3d measured(-in_scan_plane * std::sin(angle), beam.y(),
+                                 -in_scan_plane * std::cos(angle));
+  return ground_point - pose.rotation * (biased - length * measured);
 }
 
 }  // namespace pcl_als

@@ -48,13 +48,45 @@ std::size_t rightDirections(std::vector<Eigen::Vector2d>& velocities) {
   return standing;
 }
 
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+/// Axis times angle of the turn from one rotation to another, in the body frame. A turn of more
+/// than 90 degrees within one step has no direction between: none then.
+Eigen::Vector3d turnBetween(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  Eigen::Quaterniond turn = from.conjugate() * to;
+  if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
+  const double sine = turn.vec().norm();  // of half the angle
+  if (sine > std::sqrt(0.5)) return Eigen::Vector3d::Zero();
+  const double stretch = sine < 1e-4 ? 2.0 : 2.0 * std::asin(sine) / sine;
+  return stretch * turn.vec();
+}
+
+Eigen::Quaterniond turnBy(const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle == 0.0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle));
+}
+
+Eigen::Quaterniond aboutVertical(double cosine, double sine) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(sine, cosine), Eigen::Vector3d::UnitZ()));
+}
+
 }  // namespace
 
-FlightLine FlightSpan::at(double time) const {
+Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading) {
+  return Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitY());
+}
+
+SensorPose FlightSpan::at(double time) const {
   const double elapsed = time - from;
-  const Eigen::Vector2d direction = right + elapsed * right_rate;
-  const double scale = 1.0 / direction.norm();
-  return {position + elapsed * velocity, scale * direction.x(), scale * direction.y()};
+  return {position + elapsed * velocity,
+          rotation + elapsed * rotation_rate + (elapsed * elapsed) * rotation_curve, has_attitude};
 }
 
 Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& options)
@@ -66,10 +98,11 @@ Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& opt
   if (samples.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw InputError("trajectory: more than 4 294 967 295 samples; split it");
   }
-  has_attitude_ = std::all_of(samples.begin(), samples.end(),
-                              [](const TrajectorySample& s) { return s.hasAttitude(); });
+  samples_have_attitude_ = std::all_of(samples.begin(), samples.end(),
+                                       [](const TrajectorySample& s) { return s.hasAttitude(); });
   findGaps(samples);
   fitDirections(samples);
+  if (options.use_attitude) takeAttitude(samples);
   buildIndex();
 }
 
@@ -96,8 +129,34 @@ void Trajectory::fitDirections(const std::vector<TrajectorySample>& samples) {
   }
   nodes_.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    nodes_.push_back({samples[i].time, samples[i].position, directions[i]});
+    nodes_.push_back({samples[i].time, samples[i].position,
+                      aboutVertical(directions[i].x(), directions[i].y())});
   }
+}
+
+void Trajectory::takeAttitude(const std::vector<TrajectorySample>& samples) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const TrajectorySample& sample = samples[i];
+    if (!sample.hasAttitude()) {
+      throw InputError("trajectory: no roll, pitch and heading at time " +
+                       std::to_string(sample.time) + " s; the rigorous model needs them");
+    }
+    nodes_[i].rotation = groundFromBody(sample.roll, sample.pitch, sample.heading);
+  }
+  has_attitude_ = true;
+}
+
+Trajectory Trajectory::withAttitude(
+    const std::function<PitchAndCrab(double time)>& attitude) const {
+  Trajectory turned = *this;
+  turned.has_attitude_ = true;
+  for (Node& node : turned.nodes_) {
+    const PitchAndCrab a = attitude(node.time);
+    node.rotation =
+        node.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(a.crab, Eigen::Vector3d::UnitZ()) *
+                                           Eigen::AngleAxisd(a.pitch, Eigen::Vector3d::UnitX()));
+  }
+  return turned;
 }
 
 void Trajectory::buildIndex() {
@@ -134,15 +193,20 @@ Trajectory::Coverage Trajectory::coverage(double time) const {
              : Coverage::covered;
 }
 
-bool Trajectory::spanAt(double time, FlightSpan& span, std::size_t& cursor) const {
+bool Trajectory::spanNode(double time, std::size_t& cursor, std::size_t& node) const {
   if (!(time >= startTime() && time <= endTime())) return false;
   cursor = locate(time, cursor);
-  std::size_t node = cursor;
-  if (isGap(node)) {
-    // No sample is alone between gaps, so the last sample before one ends a span.
-    if (time != nodes_[node].time) return false;
-    --node;
-  }
+  node = cursor;
+  if (!isGap(node)) return true;
+  // No sample is alone between gaps, so the last sample before one ends a span.
+  if (time != nodes_[node].time) return false;
+  --node;
+  return true;
+}
+
+bool Trajectory::spanAt(double time, FlightSpan& span, std::size_t& cursor) const {
+  std::size_t node = 0;
+  if (!spanNode(time, cursor, node)) return false;
   const Node& a = nodes_[node];
   const Node& b = nodes_[node + 1];
   const double per_second = 1.0 / (b.time - a.time);
@@ -150,17 +214,46 @@ bool Trajectory::spanAt(double time, FlightSpan& span, std::size_t& cursor) cons
   span.to = b.time;
   span.position = a.position;
   span.velocity = (b.position - a.position) * per_second;
-  span.right = a.right;
-  // A turn of more than 90 degrees within one step has no direction between: keep the first.
-  const bool turns_back = a.right.dot(b.right) <= 0.0;
-  span.right_rate = turns_back ? Eigen::Vector2d(0.0, 0.0) : (b.right - a.right) * per_second;
+  // In equal parts with a turn small enough for FlightSpan; the last one ends exactly at the node.
+  const Eigen::Vector3d turn = turnBetween(a.rotation, b.rotation);
+  const double parts = std::max(1.0, std::ceil(turn.norm() / FlightSpan::kLargestTurn));
+  const double part =
+      std::clamp(std::floor((time - a.time) * per_second * parts), 0.0, parts - 1.0);
+  const double step = (b.time - a.time) / parts;
+  if (part > 0.0) {
+    span.from = a.time + part * step;
+    span.position += (part * step) * span.velocity;
+  }
+  if (part + 1.0 < parts) span.to = a.time + (part + 1.0) * step;
+  const Eigen::Matrix3d rate = crossMatrix(turn * per_second);
+  span.rotation = (a.rotation * turnBy((part / parts) * turn)).toRotationMatrix();
+  span.rotation_rate = span.rotation * rate;
+  span.rotation_curve = 0.5 * span.rotation_rate * rate;
+  span.has_attitude = has_attitude_;
   return true;
 }
 
-bool Trajectory::lineAt(double time, FlightLine& line, std::size_t& cursor) const {
-  FlightSpan span;
-  if (!spanAt(time, span, cursor)) return false;
-  line = span.at(time);
+bool Trajectory::poseAt(double time, SensorPose& pose, std::size_t& cursor) const {
+  std::size_t node = 0;
+  if (!spanNode(time, cursor, node)) return false;
+  const Node& a = nodes_[node];
+  const Node& b = nodes_[node + 1];
+  const double cosine = a.rotation.dot(b.rotation);  // of half the turn
+  constexpr double kSmallTurn = 1.0 - 0.125 * FlightSpan::kLargestTurn * FlightSpan::kLargestTurn;
+  if (std::abs(cosine) < kSmallTurn) {
+    FlightSpan span;
+    spanAt(time, span, cursor);
+    pose = span.at(time);
+    return true;
+  }
+  // The same as the span's rotation to 1e-8, and cheaper.
+  const double share = (time - a.time) / (b.time - a.time);
+  Rotation mean;
+  mean.coeffs() =
+      (1.0 - share) * a.rotation.coeffs() + std::copysign(share, cosine) * b.rotation.coeffs();
+  pose.position = a.position + share * (b.position - a.position);
+  pose.rotation = mean.normalized().toRotationMatrix();
+  pose.has_attitude = has_attitude_;
   return true;
 }
 

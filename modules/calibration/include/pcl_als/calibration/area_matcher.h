@@ -14,6 +14,7 @@
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
@@ -60,7 +61,7 @@ class AreaMatcher {
   }
 
   /// Reconstructs the points with Eq. (13); the TINs keep their topology.
-  void correct(const Trajectory& trajectory, const SystemVector& biases);
+  void correct(const BiasEvaluator& biases);
 
   /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
   /// threshold.
@@ -95,6 +96,7 @@ class AreaMatcher {
   CalibrationArea area_;
   std::vector<StripPart> strips_;
   PatchLimits limits_;
+  SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
 };
 
 /// Finds the areas that cover a point, for filling AreaMatchers while files are read.

@@ -26,9 +26,12 @@ struct PairObservation {
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
   Eigen::Vector3d normal;               ///< unit, upward, ground frame
-  double misclosure = 0.0;              ///< n'(X_A - X_B) of the uncorrected coordinates, metres
-  double variance = 0.0;                ///< n' Sigma n of the discrepancy, m^2
-  double stretch = 0.0;  ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
+  /// n'(X_A - X_B) of the corrected coordinates, brought back to zero biases along the rows,
+  /// metres. The rows are those of the corrected geometry, so that the solution is of the model
+  /// itself and not of its linearisation at the biased points.
+  double misclosure = 0.0;
+  double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
+  double stretch = 0.0;   ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 

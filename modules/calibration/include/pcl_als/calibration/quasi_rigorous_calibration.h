@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,6 +15,7 @@
 #include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/trajectory/attitude_recovery.h>
 
 namespace pcl_als {
 
@@ -31,14 +33,17 @@ struct CalibrationSettings {
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
-  double resolution = 0.001;          ///< metres, coordinate step of the files
+  /// Without attitude in the trajectory: take pitch and crab from the points (AttitudeRecovery);
+  /// false: a vertical system that looks along the line of flight, as in the paper.
+  bool recover_attitude = true;
+  double resolution = 0.001;  ///< metres, coordinate step of the files
   int max_iterations = 20;
   double convergence =
       2e-4;  ///< metres: an update moves no point by more, or no parameter by 1/20 std
   int threads = 0;
 };
 
-/** \brief Quasi-rigorous geometric calibration of a LiDAR system (Habib et al. 2011, section 2).
+/** \brief Geometric calibration of a LiDAR system (Habib et al. 2011, section 2).
  *
  * Estimates biases (assumed - true) of the system parameters from point-to-patch pairs in
  * overlapping strips (Eq. (11), both directions) and vertical control (Eq. (12)) by modified least
@@ -50,8 +55,10 @@ struct CalibrationSettings {
  * count);          // first look, all points calibration.chooseAreas(); calibration.load(strip,
  * points, count);            // second look, all points again const CalibrationResult result =
  * calibration.calibrate(); \endcode survey() and load() may run on several threads for different
- * strips. Assumes a linear scanner, an almost vertical system and small boresight angles. Memory:
- * 48 bytes per 10 m cell a strip touches, 150 per point in an area, 250 per pair.
+ * strips. With attitude in the trajectory (Trajectory::Options::use_attitude) the model is the
+ * rigorous one of Eq. (1); without, the quasi-rigorous one, in which pitch and crab are those that
+ * the points show and roll is zero. Assumes a linear scanner. Memory: 48 bytes per 10 m cell a
+ * strip touches, 150 per point in an area, 250 per pair.
  */
 class QuasiRigorousCalibration {
  public:
@@ -81,12 +88,15 @@ class QuasiRigorousCalibration {
   const std::vector<CalibrationArea>& areas() const { return areas_; }
   std::size_t loadedPoints() const;
   std::vector<StripPair> const& pairs() const { return pairs_; }
+  /// The trajectory that is used: after chooseAreas() with recovered attitude.
+  const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
 
  private:
   struct State;
 
   void leaveOutSmallStrips();
   void checkTrajectory() const;
+  void recoverAttitude();
   void choosePairs();
   int stripNamed(const std::string& id) const;
   void prepare();
@@ -100,7 +110,9 @@ class QuasiRigorousCalibration {
 
   std::shared_ptr<const Trajectory> trajectory_;
   CalibrationSettings settings_;
+  AttitudeSource attitude_ = AttitudeSource::none;
   SurveyMap map_;
+  std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is wanted
   std::vector<std::string> ids_;
   std::vector<bool> used_;
   std::vector<ControlPoint> control_;

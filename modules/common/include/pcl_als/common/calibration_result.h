@@ -15,6 +15,14 @@ namespace pcl_als {
 
 enum class ParameterStatus { estimated, fixed, not_estimable };
 
+/// Where a calibration's model knows the sensor's attitude from, and so must who applies its
+/// biases.
+enum class AttitudeSource {
+  none,        ///< nowhere: vertical, looking along the line of flight (quasi-rigorous)
+  points,      ///< pitch and crab from the points (quasi-rigorous, AttitudeRecovery)
+  trajectory,  ///< roll, pitch and heading of the trajectory (rigorous)
+};
+
 /// One system parameter of a calibration, in internal units (m, rad, 1). bias = assumed - true.
 struct ParameterEstimate {
   double bias = 0.0;
@@ -48,7 +56,7 @@ struct ControlFit {
 
 /// The content of calibration.json.
 struct CalibrationResult {
-  std::string model = "quasi_rigorous";
+  AttitudeSource attitude = AttitudeSource::none;
   std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
   std::vector<SystemParameter> correlation_order;                   ///< the estimated ones
   Eigen::MatrixXd correlation;                                      ///< in that order
@@ -69,5 +77,8 @@ struct CalibrationResult {
 };
 
 std::string_view toString(ParameterStatus status);
+std::string_view toString(AttitudeSource attitude);
+/// "rigorous" where the attitude is the trajectory's, else "quasi_rigorous".
+std::string_view modelName(AttitudeSource attitude);
 
 }  // namespace pcl_als

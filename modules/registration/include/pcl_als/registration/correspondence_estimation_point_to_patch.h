@@ -30,7 +30,8 @@ namespace pcl_als {
  * CorrespondenceRejectorPatch recognises. The target's TIN is built when the target was set anew;
  * pcl::Registration does that once for each align(). Points that are not finite are left out of
  * both clouds. A target of fewer than three points, or in one line, has no patches: no
- * correspondences. Memory: 73 bytes per target point, 4 per source point and 100 per correspondence.
+ * correspondences. Memory: 73 bytes per target point, 4 per source point and 100 per
+ * correspondence.
  *
  * \code
  * using Estimation = CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal>;

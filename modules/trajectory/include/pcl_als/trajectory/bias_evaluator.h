@@ -44,13 +44,13 @@ struct CoverageCount {
   std::string describe(const Trajectory& trajectory) const;
 };
 
-/** \brief Effect A(point) delta of known biases on many points (Habib et al. 2011, Eq. (8) and
- * (13)), and its inverse, with no trigonometry per point.
+/** \brief Effect of known biases on many points (Habib et al. 2011, Eq. (13)), and its inverse,
+ * with no trigonometry per point.
  *
- * Equal to designBlock(scanGeometry(line, point)) * biases for every point; sin and cos of beta
- * come from x and z, and beta itself, needed only for a scan angle scale, from a polynomial with an
- * error under 1e-10 rad. Points in order of time share the look-up of the trajectory and are
- * computed by vector instructions; any other order gives the same results, slower.
+ * Equal to point - corrected(pose, point, biases) for every point, in which Eq. (8) is not
+ * linearised; beta, needed only for a scan angle scale, comes from a polynomial with an error under
+ * 1e-10 rad. Points in order of time share the look-up of the trajectory and are computed by vector
+ * instructions; any other order gives the same results, slower.
  *
  * Const member functions may be called from several threads.
  */
@@ -63,13 +63,13 @@ class BiasEvaluator {
   const Trajectory& trajectory() const { return *trajectory_; }
   const SystemVector& biases() const { return biases_; }
 
-  /// effect = A(point) delta: corrected = point - effect, Eq. (13). Input and output columns of an
+  /// corrected = point - effect, Eq. (13). Input and output columns of an
   /// axis may be the same.
   void effect(const PointColumns& points, std::size_t count, const EffectColumns& effect,
               CoverageCount& coverage) const;
 
-  /// For corrected points: effect = A(point + effect) delta, so that point + effect is what
-  /// effect() leads back from. By fixed-point iteration until it changes by less than 1e-7 m.
+  /// For corrected points: the effect for which point + effect is what effect() leads back from. By
+  /// fixed-point iteration until it changes by less than 1e-7 m.
   void inverseEffect(const PointColumns& points, std::size_t count, const EffectColumns& effect,
                      CoverageCount& coverage) const;
 

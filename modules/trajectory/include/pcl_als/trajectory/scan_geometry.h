@@ -9,29 +9,46 @@
 
 namespace pcl_als {
 
-/** \brief Where a ground point lies in the laser unit's frame at its firing (right-forward-up,
- * vertical system).
+/** \brief Where a ground point lies in the laser unit's frame at its firing (right-forward-up).
  *
- * x: signed lateral distance from the local flight line in plan, right positive. z: elevation of
- * the point minus elevation of the firing point, negative below the sensor. beta = -atan2(x, -z),
- * so x > 0 has beta < 0 as Eq. (2) of Habib et al. 2011 demands.
+ * Without attitude the system counts as vertical, as in Habib et al. 2011: x is the signed lateral
+ * distance from the local flight line in plan, z the elevation of the point minus that of the
+ * firing point, y is left out. With attitude all three are those of the body frame. In both,
+ * beta = -atan2(x, -z), so x > 0 has beta < 0 as Eq. (2) demands.
  */
 struct ScanGeometry {
-  double x = 0.0, z = 0.0;  ///< metres
-  double beta = 0.0;        ///< radians
-  double cos_beta = 1.0, sin_beta = 0.0;
-  double cos_kappa = 1.0, sin_kappa = 0.0;
+  double x = 0.0, y = 0.0, z = 0.0;                        ///< metres; right, forward, up
+  double beta = 0.0;                                       ///< radians
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< body to ground
+
+  Eigen::Vector3d inBody() const { return {x, y, z}; }
+  double range() const { return inBody().norm(); }
+  /// Unit vector of the pulse, ground frame; straight down at the sensor itself.
+  Eigen::Vector3d beam() const;
 };
 
 using DesignBlock = Eigen::Matrix<double, 3, kSystemParameterCount>;
 
-ScanGeometry scanGeometry(const FlightLine& line, const Eigen::Vector3d& ground_point);
+ScanGeometry scanGeometry(const SensorPose& pose, const Eigen::Vector3d& ground_point);
 
-/** \brief A of Habib et al. 2011, Eq. (8): effect of the biases (assumed - true) on the ground
+/** \brief A of Habib et al. 2011, Eq. (8): effect of small biases (assumed - true) on the ground
  * coordinates.
  *
- * Rows: east, north, up (m). Columns: SystemParameter, internal units (m, rad, 1), at S = 1.
+ * Rows: east, north, up (m). Columns: SystemParameter, internal units (m, rad, 1), at S = 1. With
+ * attitude, its full rotation in place of Rz(kappa), and y where Eq. (8) has zero.
  */
 DesignBlock designBlock(const ScanGeometry& geometry);
+
+/** \brief Takes biases out of a point: Eq. (13), not linearised, X - R (p - u).
+ *
+ * p is the point in the body frame, p = dP + B w, B = Rz(dkappa) Rx(domega) Ry(dphi); u is w with
+ * dr taken off its length and beta divided by 1 + dS. To first order in the biases that is
+ * X - A delta; of 0.5 degrees at 1000 m, the second order is 8 cm.
+ */
+Eigen::Vector3d corrected(const SensorPose& pose, const Eigen::Vector3d& ground_point,
+                          const SystemVector& biases);
+
+/// B = Rz(dkappa) Rx(domega) Ry(dphi) of boresight biases.
+Eigen::Matrix3d boresightRotation(const SystemVector& biases);
 
 }  // namespace pcl_als

@@ -4,43 +4,54 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
 
-/// The local straight flight line at a time: what the quasi-rigorous model knows of the sensor at a
-/// firing.
-struct FlightLine {
+/// Where the sensor is when a point is measured, and how it is turned.
+struct SensorPose {
   Eigen::Vector3d position;  ///< firing point: the interpolated trajectory, metres, ground frame
-  double cos_kappa = 1.0;    ///< the flight direction on the ground is (-sin kappa, cos kappa)
-  double sin_kappa = 0.0;
+  /// Body (right-forward-up) to ground. Without attitude: a turn by kappa about the vertical, the
+  /// direction of the local flight line.
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  bool has_attitude = false;
 };
 
-/// The trajectory between two neighbouring samples: position and direction are linear in time
-/// there.
+/// The trajectory around a time: position is linear in time, the body turns about a fixed axis by
+/// so little (kLargestTurn) that the rotation is quadratic in time to 2e-7.
 struct FlightSpan {
+  static constexpr double kLargestTurn = 0.01;  ///< radians
+
   double from = 0.0, to = 0.0;  ///< seconds, from < to
   Eigen::Vector3d position;     ///< at \a from, metres, ground frame
   Eigen::Vector3d velocity;     ///< metres per second
-  Eigen::Vector2d right;        ///< (cos kappa, sin kappa) at \a from: the unit vector to the right
-  Eigen::Vector2d right_rate;   ///< its change per second; at() makes the sum a unit vector again
+  /// Body to ground: rotation + elapsed * rate + elapsed^2 * curve.
+  Eigen::Matrix3d rotation, rotation_rate, rotation_curve;
+  bool has_attitude = false;
 
-  FlightLine at(double time) const;
+  SensorPose at(double time) const;
 };
+
+/// Body (right-forward-up) to ground: Rz(-heading) Rx(pitch) Ry(roll), radians.
+Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading);
 
 /** \brief A time-sorted flight trajectory with its gaps, and the local line fit of Habib et al.
  * 2011, section 2.1.
  *
  * At every sample a straight line is fitted (least squares in time) through the samples in [t - w,
- * t + w] on its side of any gap; its plan direction gives kappa. Between samples, position and
- * direction are interpolated linearly. All is precomputed: a look-up costs an index and one
- * interpolation. Memory: about 100 bytes per sample while it is made, 52 afterwards.
+ * t + w] on its side of any gap; its plan direction gives kappa. That is all the quasi-rigorous
+ * model knows of the attitude; the rigorous one takes roll, pitch and heading from the samples, and
+ * withAttitude() takes what the points themselves show. Between samples, position is interpolated
+ * linearly and the rotation at a constant rate. A look-up costs an index and one interpolation.
+ * Memory: about 130 bytes per sample while it is made, 68 afterwards.
  *
  * Fails (InputError) for what no line can be fitted to; what can be repaired is, and repairs() says
  * so. Where the sensor stands still (before take-off) the direction is that of the last movement.
@@ -52,6 +63,8 @@ class Trajectory {
         0.5;  ///< w, seconds, > 0; widened where it holds fewer than two samples
     double gap_threshold =
         0.0;  ///< seconds without a sample that are a gap; 0: max(1 s, 5 median steps)
+    /// Take the samples' roll, pitch and heading (rigorous); InputError where one has none.
+    bool use_attitude = false;
   };
   enum class Coverage { covered, before_start, after_end, in_gap };
   struct Gap {
@@ -71,7 +84,19 @@ class Trajectory {
   double endTime() const { return nodes_.back().time; }
   double lineFitHalfWidth() const { return half_width_; }  ///< seconds
   const std::vector<Gap>& gaps() const { return gaps_; }
-  bool hasAttitude() const { return has_attitude_; }
+  bool samplesHaveAttitude() const { return samples_have_attitude_; }  ///< all, whether used or not
+  bool hasAttitude() const {
+    return has_attitude_;
+  }  ///< poses have more than a direction of flight
+
+  /// Pitch (nose up) and crab (turn of the body against the line of flight, counter-clockwise),
+  /// rad.
+  struct PitchAndCrab {
+    double pitch = 0.0, crab = 0.0;
+  };
+  /// The same flight with the body turned against the local flight line; roll stays zero.
+  Trajectory withAttitude(const std::function<PitchAndCrab(double time)>& attitude) const;
+
   /// One line for each kind of repair that was made (unsorted, duplicated, alone between gaps,
   /// standing still); empty when the samples were clean.
   const std::vector<std::string>& repairs() const { return repairs_; }
@@ -79,29 +104,32 @@ class Trajectory {
   /// A time that is not finite counts as before the start (NaN, -inf) or after the end.
   Coverage coverage(double time) const;
 
-  /// The line at a time; false (and \a line untouched) unless coverage(time) is covered. \a cursor
+  /// The pose at a time; false (and \a pose untouched) unless coverage(time) is covered. \a cursor
   /// is a hint that makes a look-up constant-time for times that come nearly in order: start with 0
   /// and pass the same variable on.
-  bool lineAt(double time, FlightLine& line, std::size_t& cursor) const;
+  bool poseAt(double time, SensorPose& pose, std::size_t& cursor) const;
 
-  /// As lineAt, but the whole span that holds the time, for callers with many points in it.
+  /// As poseAt, but the whole span that holds the time, for callers with many points in it.
   bool spanAt(double time, FlightSpan& span, std::size_t& cursor) const;
 
  private:
-  /// A sample with the direction of the line fitted around it.
+  using Rotation = Eigen::Quaternion<double, Eigen::DontAlign>;  ///< body to ground
   struct Node {
     double time;
     Eigen::Vector3d position;
-    Eigen::Vector2d right;
+    Rotation rotation;
   };
 
   void findGaps(const std::vector<TrajectorySample>& samples);
   void fitDirections(const std::vector<TrajectorySample>& samples);
+  void takeAttitude(const std::vector<TrajectorySample>& samples);
   void buildIndex();
   std::size_t bucketOf(double time) const {
     return static_cast<std::size_t>((time - nodes_.front().time) * buckets_per_second_);
   }
   std::size_t locate(double time, std::size_t hint) const;
+  /// The node that begins the span of a covered time.
+  bool spanNode(double time, std::size_t& cursor, std::size_t& node) const;
   bool isGap(std::size_t node) const {
     return nodes_[node + 1].time - nodes_[node].time > gap_threshold_;
   }
@@ -112,7 +140,7 @@ class Trajectory {
   std::vector<std::uint32_t> buckets_;  ///< of equal duration: the first node at or after its start
   double buckets_per_second_ = 0.0;
   double gap_threshold_ = 0.0, half_width_ = 0.0;
-  bool has_attitude_ = false;
+  bool samples_have_attitude_ = false, has_attitude_ = false;
 };
 
 }  // namespace pcl_als

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The two looks of QuasiRigorousCalibration at the points.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr double kControlAreaSize = 4.0;  // metres: a control point needs the patch around it only
+
+std::string seconds(double from, double to) {
+  std::ostringstream text;
+  text.precision(3);
+  text << std::fixed << from << " … " << to << " s";
+  return text.str();
+}
+
+}  // namespace
+
+int QuasiRigorousCalibration::addStrip(const std::string& id) {
+  ids_.push_back(id);
+  used_.push_back(true);
+  if (settings_.recover_attitude && attitude_ == AttitudeSource::none) {
+    recoveries_.emplace_back(trajectory_);
+  }
+  return map_.addStrip();
+}
+
+void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
+                                      std::size_t count) {
+  map_.add(strip, points, count);
+  if (recoveries_.empty()) return;
+  constexpr std::size_t kEvery = 16;  // of the points show the attitude
+  AttitudeRecovery& recovery = recoveries_[static_cast<std::size_t>(strip)];
+  for (std::size_t i = 0; i < count; i += kEvery) recovery.add(points[i].time, points[i].position);
+}
+
+void QuasiRigorousCalibration::recoverAttitude() {
+  if (recoveries_.empty()) return;
+  for (std::size_t strip = 1; strip < recoveries_.size(); ++strip) {
+    recoveries_[0].merge(recoveries_[strip]);
+  }
+  const AttitudeRecovery::Outcome outcome = recoveries_[0].recover();
+  recoveries_.clear();
+  trajectory_ = outcome.flight;
+  if (outcome.found) {
+    attitude_ = AttitudeSource::points;
+  } else {
+    warnings_.push_back(outcome.remark);
+  }
+}
+
+void QuasiRigorousCalibration::leaveOutSmallStrips() {
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    const std::size_t count = map_.pointCount(static_cast<int>(strip));
+    if (map_.invalidCount(static_cast<int>(strip)) > 0) {
+      warnings_.push_back("strip " + ids_[strip] + ": " +
+                          std::to_string(map_.invalidCount(static_cast<int>(strip))) +
+                          " points with a time or coordinate that is not finite were ignored");
+    }
+    if (count >= settings_.minimum_points) continue;
+    used_[strip] = false;
+    warnings_.push_back("strip " + ids_[strip] + " has only " + std::to_string(count) +
+                        " points and is left out");
+  }
+}
+
+void QuasiRigorousCalibration::checkTrajectory() const {
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    if (!used_[strip]) continue;
+    const double start = map_.startTime(static_cast<int>(strip)),
+                 end = map_.endTime(static_cast<int>(strip));
+    if (start < trajectory_->startTime() || end > trajectory_->endTime()) {
+      throw InputError("strip " + ids_[strip] + " was measured at " + seconds(start, end) +
+                       ", the trajectory covers " +
+                       seconds(trajectory_->startTime(), trajectory_->endTime()) +
+                       ": give the trajectory of this flight");
+    }
+    for (const Trajectory::Gap& gap : trajectory_->gaps()) {
+      if (gap.from >= end || gap.to <= start) continue;
+      throw InputError("the trajectory has a gap at " + seconds(gap.from, gap.to) +
+                       " under strip " + ids_[strip] + " (" + seconds(start, end) +
+                       "): give a complete trajectory or leave the strip out");
+    }
+  }
+}
+
+int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
+  const auto found = std::find(ids_.begin(), ids_.end(), id);
+  if (found != ids_.end()) return static_cast<int>(found - ids_.begin());
+  std::string known;
+  for (const std::string& name : ids_) known += (known.empty() ? "" : ", ") + name;
+  throw UsageError("pairs name strip '" + id + "', but the strips are " + known);
+}
+
+void QuasiRigorousCalibration::choosePairs() {
+  std::vector<StripPair> wanted;
+  for (const auto& [a, b] : wanted_pairs_) {
+    const int i = stripNamed(a), j = stripNamed(b);
+    if (i == j) throw UsageError("pairs name strip '" + a + "' with itself");
+    wanted.emplace_back(std::min(i, j), std::max(i, j));
+  }
+  pairs_.clear();
+  for (const SurveyMap::Overlap& overlap : map_.overlaps(settings_.minimum_overlap)) {
+    if (!used_[overlap.strips.first] || !used_[overlap.strips.second]) continue;
+    const bool chosen =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), overlap.strips) != wanted.end();
+    if (chosen) pairs_.push_back(overlap.strips);
+  }
+  for (const StripPair& pair : wanted) {
+    if (std::find(pairs_.begin(), pairs_.end(), pair) != pairs_.end()) continue;
+    warnings_.push_back("strips " + ids_[pair.first] + " and " + ids_[pair.second] +
+                        " do not overlap enough");
+  }
+  if (!pairs_.empty() || !control_.empty()) return;
+  const auto used = std::count(used_.begin(), used_.end(), true);
+  throw InputError(
+      used < 2 ? "fewer than two strips with enough points and no control: nothing to compare"
+               : "no two strips overlap and there is no control: nothing to compare");
+}
+
+void QuasiRigorousCalibration::chooseAreas() {
+  leaveOutSmallStrips();
+  checkTrajectory();
+  recoverAttitude();
+  choosePairs();
+  areas_ = map_.selectAreas(pairs_, settings_.selection);
+  pair_areas_ = areas_.size();
+  for (const ControlPoint& point : control_) {
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlAreaSize);
+    areas_.push_back(
+        {point.position.head<2>() - half, kControlAreaSize, settings_.selection.margin});
+  }
+  index_ = std::make_unique<AreaIndex>(areas_);
+  matchers_.clear();
+  for (const CalibrationArea& area : areas_) matchers_.emplace_back(area, ids_.size());
+}
+
+void QuasiRigorousCalibration::load(int strip, const CalibrationPoint* points, std::size_t count) {
+  if (!used_[static_cast<std::size_t>(strip)]) return;
+  for (const CalibrationPoint* p = points; p != points + count; ++p) {
+    if (!p->position.allFinite() || !std::isfinite(p->time)) continue;
+    for (const int area : index_->candidates(p->position))
+      matchers_[static_cast<std::size_t>(area)].add(strip, *p);
+  }
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/trajectory/attitude_recovery.h>
+#include <pcl_als/trajectory/scan_geometry.h>
+
+#include "flights.h"
+
+namespace pcl_als {
+namespace {
+
+using test::sampled;
+using test::straight;
+
+Eigen::Matrix3d turn(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+/// X = X0 + R (P + B u) of Eq. (1), written out by itself; \a p are the whole parameters.
+Eigen::Vector3d equation1(const SensorPose& pose, double range, double encoder,
+                          const SystemVector& p) {
+  const Eigen::Matrix3d boresight = turn(p[5], Eigen::Vector3d::UnitZ()) *
+                                    turn(p[3], Eigen::Vector3d::UnitX()) *
+                                    turn(p[4], Eigen::Vector3d::UnitY());
+  const double beta = (1.0 + p[7]) * encoder;
+  const Eigen::Vector3d beam(-std::sin(beta), 0.0, -std::cos(beta));
+  return pose.position + pose.rotation * (p.head<3>() + boresight * ((range + p[6]) * beam));
+}
+
+SensorPose tilted() {
+  SensorPose pose;
+  pose.position = Eigen::Vector3d(400.0, -300.0, 1200.0);
+  pose.rotation = groundFromBody(0.05, -0.03, 2.1).toRotationMatrix();
+  pose.has_attitude = true;
+  return pose;
+}
+
+SystemVector biases(double factor) {
+  SystemVector values;
+  values << 1.0, -0.8, 0.5, 8.7e-3, -8.7e-3, 6e-3, 1.0, 4e-3;
+  return factor * values;
+}
+
+TEST(Attitude, RotationFollowsItsSigns) {
+  // Heading east, level: right is south, forward east.
+  EXPECT_TRUE((groundFromBody(0.0, 0.0, kPi / 2.0) * Eigen::Vector3d::UnitY())
+                  .isApprox(Eigen::Vector3d::UnitX()));
+  // Nose up: forward gains height. Right wing down: right loses it.
+  EXPECT_NEAR((groundFromBody(0.0, 0.1, 1.0) * Eigen::Vector3d::UnitY()).z(), std::sin(0.1), 1e-15);
+  EXPECT_NEAR((groundFromBody(0.1, 0.0, 1.0) * Eigen::Vector3d::UnitX()).z(), -std::sin(0.1),
+              1e-15);
+}
+
+TEST(Attitude, CorrectedUndoesEquation1ForLargeBiases) {
+  const SensorPose pose = tilted();
+  for (const double encoder : {-0.6, -0.1, 0.0, 0.35}) {
+    const Eigen::Vector3d truth = equation1(pose, 1100.0, encoder, SystemVector::Zero());
+    const Eigen::Vector3d biased = equation1(pose, 1100.0, encoder, biases(1.0));
+    ASSERT_GT((biased - truth).norm(), 5.0);
+    EXPECT_LT((corrected(pose, biased, biases(1.0)) - truth).norm(), 1e-9);
+  }
+}
+
+TEST(Attitude, DesignEqualsCentralDifferencesOfEquation1) {
+  const SensorPose pose = tilted();
+  for (const double encoder : {-0.4, 0.0, 0.3}) {
+    const Eigen::Vector3d point = equation1(pose, 1300.0, encoder, SystemVector::Zero());
+    const DesignBlock design = designBlock(scanGeometry(pose, point));
+    for (int i = 0; i < kSystemParameterCount; ++i) {
+      const SystemVector step = 1e-4 * SystemVector::Unit(i);
+      const Eigen::Vector3d difference =
+          (equation1(pose, 1300.0, encoder, step) - equation1(pose, 1300.0, encoder, -step)) / 2e-4;
+      // Rounding 1e3 m * 2e-16 / 1e-4; truncation r step^2 / 6.
+      EXPECT_LT((design.col(i) - difference).norm(), 5e-6) << i << ' ' << encoder;
+    }
+  }
+}
+
+/// Rolling, pitching and yawing flight north, sampled at a rate.
+std::vector<TrajectorySample> restless(double step) {
+  auto samples = sampled(straight(0), 0.0, 20.0, step);
+  for (TrajectorySample& s : samples) {
+    s.roll = 0.05 * std::sin(1.1 * s.time);
+    s.pitch = 0.02 + 0.03 * std::sin(0.7 * s.time);
+    s.heading = 0.08 * std::cos(0.5 * s.time);
+  }
+  return samples;
+}
+
+Trajectory::Options withAttitude() {
+  Trajectory::Options options;
+  options.use_attitude = true;
+  return options;
+}
+
+TEST(Attitude, IsInterpolatedBetweenSamples) {
+  const Trajectory fine(restless(0.005), withAttitude()), coarse(restless(0.5), withAttitude());
+  ASSERT_TRUE(fine.hasAttitude());
+  std::size_t cursor = 0, other = 0;
+  for (double time = 1.0; time < 19.0; time += 0.317) {
+    SensorPose pose, sparse;
+    ASSERT_TRUE(fine.poseAt(time, pose, cursor));
+    const Eigen::Matrix3d truth =
+        groundFromBody(0.05 * std::sin(1.1 * time), 0.02 + 0.03 * std::sin(0.7 * time),
+                       0.08 * std::cos(0.5 * time))
+            .toRotationMatrix();
+    // Curvature 0.06 rad/s2 over (5 ms)^2 / 8.
+    EXPECT_LT((pose.rotation - truth).norm(), 5e-7) << time;
+    // Half-second steps turn by 0.03 rad, in several parts: 0.06 (0.5 s)^2 / 8.
+    ASSERT_TRUE(coarse.poseAt(time, sparse, other));
+    EXPECT_LT((sparse.rotation - truth).norm(), 4e-3) << time;
+    EXPECT_LT((sparse.rotation.transpose() * sparse.rotation - Eigen::Matrix3d::Identity()).norm(),
+              1e-6);
+    FlightSpan span;
+    ASSERT_TRUE(coarse.spanAt(time, span, other));
+    EXPECT_LE(span.from, time);
+    EXPECT_GE(span.to, time);
+    EXPECT_LT((span.at(time).rotation - sparse.rotation).norm(), 3e-7) << time;
+  }
+}
+
+TEST(Attitude, PartsOfASpanMeet) {
+  const Trajectory coarse(restless(0.5), withAttitude());
+  std::size_t cursor = 0;
+  FlightSpan span, next;
+  ASSERT_TRUE(coarse.spanAt(3.51, span, cursor));
+  ASSERT_LT(span.to, 4.0);
+  ASSERT_TRUE(coarse.spanAt(span.to + 1e-9, next, cursor));
+  EXPECT_DOUBLE_EQ(next.from, span.to);
+  EXPECT_LT((span.at(span.to).rotation - next.rotation).norm(), 3e-7);  // kLargestTurn^3 / 6
+  EXPECT_LT((span.at(span.to).position - next.position).norm(), 1e-9);
+}
+
+TEST(Attitude, NeedsItInEverySample) {
+  auto samples = restless(0.1);
+  samples[7].pitch = std::nan("");
+  EXPECT_FALSE(Trajectory(samples).samplesHaveAttitude());
+  EXPECT_THROW(Trajectory(samples, withAttitude()), InputError);
+}
+
+struct Pulse {
+  double time;
+  Eigen::Vector3d point;
+};
+
+/// What a linear scanner measures in restless flight: 2 cm of noise across the ground, relief.
+std::vector<Pulse> pulses(const Trajectory& flight, double out_of_plane) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  std::uniform_real_distribution<double> angle(-0.35, 0.35), height(0.0, 60.0);
+  std::vector<Pulse> result;
+  std::size_t cursor = 0;
+  for (double time = 0.0; time < 20.0; time += 0.0005) {
+    SensorPose pose;
+    if (!flight.poseAt(time, pose, cursor)) continue;
+    const double beta = angle(random);
+    const Eigen::Vector3d beam =
+        pose.rotation *
+        Eigen::Vector3d(-std::sin(beta), out_of_plane * std::cos(40.0 * beta), -std::cos(beta));
+    const double range = (pose.position.z() - height(random)) / -beam.z();
+    result.push_back({time, pose.position + range * beam +
+                                Eigen::Vector3d(noise(random), noise(random), noise(random))});
+  }
+  return result;
+}
+
+TEST(AttitudeRecovery, FindsPitchAndCrab) {
+  const Trajectory truth(restless(0.005), withAttitude());
+  const auto flight = std::make_shared<const Trajectory>(restless(0.005));
+  AttitudeRecovery even(flight), odd(flight);
+  std::size_t count = 0;
+  for (const Pulse& pulse : pulses(truth, 0.0)) {
+    (count++ % 2 == 0 ? even : odd).add(pulse.time, pulse.point);
+  }
+  even.merge(odd);
+  const AttitudeRecovery::Outcome outcome = even.recover();
+  ASSERT_TRUE(outcome.found) << outcome.remark;
+  EXPECT_LT(outcome.off_plane, 1e-3);  // 0.03 rad/s over 0.1 s / sqrt(12)
+  std::size_t a = 0, b = 0;
+  for (double time = 0.2; time < 19.8; time += 0.137) {
+    SensorPose found, exact;
+    ASSERT_TRUE(outcome.flight->poseAt(time, found, a));
+    ASSERT_TRUE(truth.poseAt(time, exact, b));
+    // The plane's normal, which roll does not move. Linear motion does not matter; what does is
+    // where in the window the pulses happened to be: 0.03 rad/s * 0.1 s / sqrt(200 pulses).
+    EXPECT_LT((found.rotation.col(1) - exact.rotation.col(1)).norm(), 1e-3) << time;
+  }
+}
+
+TEST(AttitudeRecovery, LeavesAScannerWithoutAPlaneAlone) {
+  const Trajectory truth(restless(0.005), withAttitude());
+  const auto flight = std::make_shared<const Trajectory>(restless(0.005));
+  AttitudeRecovery recovery(flight);
+  for (const Pulse& pulse : pulses(truth, 0.1)) recovery.add(pulse.time, pulse.point);
+  const AttitudeRecovery::Outcome outcome = recovery.recover();
+  EXPECT_FALSE(outcome.found);
+  EXPECT_EQ(outcome.flight, flight);
+  EXPECT_NE(outcome.remark.find("no linear scanner"), std::string::npos) << outcome.remark;
+}
+
+TEST(AttitudeRecovery, WithFewPointsStaysNearZero) {
+  const auto flight = std::make_shared<const Trajectory>(restless(0.005));
+  AttitudeRecovery empty(flight), sliver(flight);
+  EXPECT_FALSE(empty.recover().found);
+  // One place, 300 m aside and 40 m ahead: crab or pitch, nobody knows; no angle may run away.
+  for (int i = 0; i < 50; ++i) sliver.add(10.0, {300.0, 640.0, 0.0});
+  const auto outcome = sliver.recover();
+  ASSERT_TRUE(outcome.found);
+  SensorPose pose;
+  std::size_t cursor = 0;
+  ASSERT_TRUE(outcome.flight->poseAt(10.0, pose, cursor));
+  EXPECT_LT(pose.rotation.col(1).head<2>().normalized().x(), 0.05);
+}
+
+}  // namespace
+}  // namespace pcl_als
