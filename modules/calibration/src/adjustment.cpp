@@ -198,7 +198,7 @@ double Adjustment::residual(const PairObservation& observation,
   return left;
 }
 
-SystemVector Adjustment::score(std::size_t area, const AdjustmentSolution& solution) const {
+Adjustment::Share Adjustment::shareOf(std::size_t area, const AdjustmentSolution& solution) const {
   // Of the area's own normal equations: h - N (parameters, knots), reduced by what the knots take
   // over.
   const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
@@ -212,20 +212,34 @@ SystemVector Adjustment::score(std::size_t area, const AdjustmentSolution& solut
     unknowns.segment<kKnot>(at) = solution.shared.segment<kKnot>(knots[i] * kKnot);
     reduction.middleRows<kKnot>(at) = -reduced_->elimination.middleRows<kKnot>(knots[i] * kKnot);
   }
-  return reduction.transpose() * (own.right - own.matrix * unknowns);
+  return {reduction.transpose() * (own.right - own.matrix * unknowns),
+          reduction.transpose() * own.matrix * reduction};
 }
 
-SystemMatrix Adjustment::scoreScatter(const AdjustmentSolution& solution) const {
-  std::vector<SystemVector> scores(areas_->size(), SystemVector::Zero());
-  parallelFor(areas_->size(), threads_,
-              [&](std::size_t area) { scores[area] = score(area, solution); });
-  SystemMatrix scatter = SystemMatrix::Zero();
+SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
+                                   const std::vector<SystemParameter>& estimate) const {
+  const Eigen::MatrixXd normal = sub(reduced_->normal, estimate);
+  std::vector<Eigen::VectorXd> moves(areas_->size());
+  parallelFor(areas_->size(), threads_, [&](std::size_t area) {
+    const Share share = shareOf(area, solution);
+    Eigen::VectorXd score(estimate.size());
+    for (std::size_t i = 0; i < estimate.size(); ++i) score[i] = share.score[indexOf(estimate[i])];
+    Eigen::MatrixXd inverse;
+    double ignored = 0.0;
+    // Without an area that determines something alone, the whole is as good as it gets.
+    if (!invert(normal - sub(share.normal, estimate), inverse, ignored)) {
+      invert(normal, inverse, ignored);
+    }
+    moves[area] = inverse * score;
+  });
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(normal.rows(), normal.rows());
   double groups = 0.0;
-  for (std::size_t area = 0; area < scores.size(); ++area) {
+  for (std::size_t area = 0; area < moves.size(); ++area) {
     if (!(*areas_)[area].empty()) groups += 1.0;
-    scatter += scores[area] * scores[area].transpose();
+    scatter += moves[area] * moves[area].transpose();
   }
-  return groups > 1.0 ? SystemMatrix(scatter * (groups / (groups - 1.0))) : scatter;
+  if (groups > 1.0) scatter *= (groups - 1.0) / groups;
+  return expanded(scatter, estimate);
 }
 
 AdjustmentSolution Adjustment::unsolved(const SystemVector& held) const {
@@ -252,7 +266,8 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   solution.biases += model * (reduced_->right - reduced_->normal * solution.biases);
   solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
   solution.formal = expanded(formal, estimate);
-  const SystemMatrix robust = model * (scoreScatter(solution) + reduced_->prior_share) * model;
+  const SystemMatrix robust =
+      jackknife(solution, estimate) + model * reduced_->prior_share * model;
   SystemVector inflation = SystemVector::Ones();
   for (const SystemParameter p : estimate) {
     const int i = indexOf(p);

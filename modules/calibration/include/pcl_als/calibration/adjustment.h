@@ -33,8 +33,9 @@ class AreaNormal;  // normal equations of one area
  *
  * Covariance: N^-1 where the model's noise explains the scatter. Pairs of one area may share more
  * than that (a surface that changed, vegetation, an effect the model lacks), so the data's part of
- * N is replaced by the scatter of the areas' summed scores (a cluster-robust sandwich) and the
- * larger standard deviation of the two is kept.
+ * N is replaced by how far the solution moves when areas are left out, one after the other (the
+ * jackknife, from each area's own normal equations), and the larger standard deviation of the two
+ * is kept.
  */
 class Adjustment {
  public:
@@ -74,8 +75,14 @@ class Adjustment {
 
   std::unique_ptr<const Normal> assemble(double shift_variance) const;
   Reduced reduce(const Normal& normal, const SharedErrorLevels& levels) const;
-  SystemVector score(std::size_t area, const AdjustmentSolution& solution) const;
-  SystemMatrix scoreScatter(const AdjustmentSolution& solution) const;
+  /// What one area contributes to the reduced equations at a solution.
+  struct Share {
+    SystemVector score;
+    SystemMatrix normal;
+  };
+  Share shareOf(std::size_t area, const AdjustmentSolution& solution) const;
+  SystemMatrix jackknife(const AdjustmentSolution& solution,
+                         const std::vector<SystemParameter>& estimate) const;
 
   const SharedErrors& errors_;
   int threads_;

@@ -13,13 +13,13 @@ namespace pcl_als {
 
 /** \brief Standard deviation from which on a parameter counts as not determined by the data.
  *
- * Lever arms can be surveyed to about two centimetres, so an estimate must be as good. The others
+ * Lever arms can be surveyed to one to three centimetres, so an estimate must be better. The others
  * are smaller than the biases of a freshly mounted system (0.02-0.1 degree), so that an estimate
  * this uncertain still improves it. A parameter that is dropped keeps its value, and the
  * uncertainty of the others includes that it may be wrong by twice its limit.
  */
 struct DeterminationLimits {
-  double lever_arm = 0.02;                       ///< metres
+  double lever_arm = 0.014;                      ///< metres
   double roll_pitch = 60.0 * kRadiansPerArcsec;  ///< radians
   double heading = 180.0 * kRadiansPerArcsec;    ///< radians
   double range = 0.10;                           ///< metres
