@@ -266,8 +266,7 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   solution.biases += model * (reduced_->right - reduced_->normal * solution.biases);
   solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
   solution.formal = expanded(formal, estimate);
-  const SystemMatrix robust =
-      jackknife(solution, estimate) + model * reduced_->prior_share * model;
+  const SystemMatrix robust = jackknife(solution, estimate) + model * reduced_->prior_share * model;
   SystemVector inflation = SystemVector::Ones();
   for (const SystemParameter p : estimate) {
     const int i = indexOf(p);

@@ -154,6 +154,11 @@ double DeterminationLimits::of(SystemParameter p) const {
   return 0.0;
 }
 
+double DeterminationLimits::whenHeld(SystemParameter p) const {
+  const bool is_lever_arm = indexOf(p) <= indexOf(P::lever_arm_z);
+  return is_lever_arm ? 0.05 : 2.0 * of(p);
+}
+
 std::string inUnit(SystemParameter parameter, double value) {
   const SystemParameterInfo& info = infoOf(parameter);
   std::ostringstream text;
@@ -180,7 +185,7 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
     if (candidates.empty()) {
       for (const P p : wanted) {
         if (choice.status[indexOf(p)] == ParameterStatus::estimated) continue;
-        consider(adjustment, choice.estimate, p, 2.0 * limits.of(p), choice.solution);
+        consider(adjustment, choice.estimate, p, limits.whenHeld(p), choice.solution);
       }
       return choice;
     }

@@ -22,9 +22,15 @@ constexpr std::size_t kFewestCandidates = 150, kMostCandidates = 2000;  // of a 
 constexpr double kLeastScale = 0.25;
 constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
 
-double robustWeight(double standardised) {
+/// Robust standard deviation of values that should have zero mean: a shift counts as scatter.
+double scatterAboutZero(std::vector<double>& values) {
+  for (double& value : values) value = std::abs(value);
+  return 1.4826 * medianInPlace(values);
+}
+
+double robustWeight(double standardised, bool reject) {
   const double size = std::abs(standardised);
-  if (size > kReject) return 0.0;
+  if (reject && size > kReject) return 0.0;
   return size <= kHuber ? 1.0 : kHuber / size;
 }
 
@@ -37,7 +43,9 @@ struct QuasiRigorousCalibration::State {
 
   explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
 
+  /// Pairs of two strips; all control together, for a strip alone sees few points.
   static Group groupOf(const PairObservation& o) {
+    if (o.a == PairObservation::kControl) return {o.a, o.a};
     return {std::min(o.a, o.b), std::max(o.a, o.b)};
   }
   std::size_t observationCount() const {
@@ -48,7 +56,11 @@ struct QuasiRigorousCalibration::State {
 
   Adjustment adjustment;
   ParameterChoice choice;
+  /// Whether choice holds a solution: before, residuals are full of what is sought, and none may be
+  /// called an outlier for it.
+  bool solved = false;
   bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
+  int looks = 0;             ///< how often it was looked for
   bool levels_rest = false;  ///< whether the last look left them as they were
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
@@ -119,7 +131,7 @@ void QuasiRigorousCalibration::weigh(State& state) const {
     }
   }
   for (auto& [group, values] : by_group) {
-    const double scale = values.size() >= kEnoughForScale ? robustSigma(std::move(values)) : 1.0;
+    const double scale = values.size() >= kEnoughForScale ? scatterAboutZero(values) : 1.0;
     state.noise_scale[group] = std::max(scale, kLeastScale);
   }
   double squares = 0.0;
@@ -128,7 +140,7 @@ void QuasiRigorousCalibration::weigh(State& state) const {
   for (std::size_t area = 0; area < standardised.size(); ++area) {
     for (std::size_t i = 0; i < standardised[area].size(); ++i) {
       const double scale = state.noise_scale[State::groupOf(state.observations[area][i])];
-      const double robust = robustWeight(standardised[area][i] / scale);
+      const double robust = robustWeight(standardised[area][i] / scale, state.solved);
       state.weights[area].push_back(robust / (scale * scale));
       if (robust == 0.0) continue;
       squares += standardised[area][i] * standardised[area][i];
@@ -157,6 +169,7 @@ void QuasiRigorousCalibration::adjust(State& state) const {
     state.adjustment.accumulate(state.observations, state.weights);
     state.choice =
         chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
+    state.solved = true;
     if (pass > 0 || !state.levels_open || state.choice.estimate.empty()) continue;
     const SharedErrorLevels levels = state.adjustment.levels();
     state.levels_rest = mostLikelyLevels(state.adjustment, state.choice.estimate) == levels;
@@ -215,16 +228,20 @@ bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVecto
 
 void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
-  // The levels need residuals near their final size, and must rest for the iteration to converge.
-  constexpr std::size_t kLastLook = 8;
+  // The levels are looked for where the geometry has come to rest, for what is left of the biases
+  // looks like errors of the trajectory; and they must rest for the iteration to converge.
+  constexpr int kLooks = 8;
+  constexpr double kNearlyAtRest = 0.005;  // metres
   const std::size_t done = result.iterations.size();
-  state.levels_open = done > 0 && done < kLastLook && !state.levels_rest;
+  state.levels_open = done > 0 && result.iterations.back().largest_update < kNearlyAtRest &&
+                      state.looks < kLooks && !state.levels_rest;
+  if (state.levels_open) ++state.looks;
   adjust(state);
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
   result.iterations.push_back({state.observationCount(), state.sigma0, effect});
   if (progress_) progress_(result.iterations.back());
-  result.converged = done > 2 && !state.levels_open &&
+  result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
                      (effect < settings_.convergence || restsWithin(state, before));
   const BiasEvaluator correction(trajectory_, biases);
   parallelFor(matchers_.size(), settings_.threads,

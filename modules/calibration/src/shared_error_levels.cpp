@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kKinds = 4;
 constexpr int kLowest = -12, kHighest = 4;  // powers of two
-constexpr double kBelief = 2.0;          // standard deviation of ln(level) by the model's own word
+constexpr double kBelief = 1.0;          // standard deviation of ln(level) by the model's own word
 using Powers = std::array<int, kKinds>;  // local last: it costs most to change
 
 SharedErrorLevels levelsOf(const Powers& power) {
@@ -29,9 +29,9 @@ double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& es
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate) {
   Powers best{};
-  const SharedErrorLevels now = adjustment.levels();
-  best = {std::ilogb(now.position), std::ilogb(now.roll_pitch), std::ilogb(now.heading),
-          std::ilogb(now.local)};
+  // From the model's own levels, wherever the last search ended: the answer is of these
+  // observations.
+  adjustment.setLevels(levelsOf(best));
   double lowest = cost(adjustment, estimate, best);
   for (bool changed = true; changed;) {
     changed = false;

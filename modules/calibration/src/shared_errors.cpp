@@ -30,9 +30,8 @@ SharedErrors::SharedErrors(const std::vector<std::pair<double, double>>& spans,
                            const SharedErrorModel& model)
     : model_(model) {
   model_.validate();
-  // Every strip's errors meet those of the strips it overlaps: the time to eliminate them grows
-  // with the cube of knots.
-  constexpr double kMostKnots = 150.0;
+  // Every strip's errors meet those of the strips it overlaps, which makes eliminating them dear.
+  constexpr double kMostKnots = 400.0;
   double total = 0.0;
   for (const auto& [start, end] : spans) total += std::max(0.0, end - start);
   const double spacing = std::max(model_.knot_spacing, total / kMostKnots);

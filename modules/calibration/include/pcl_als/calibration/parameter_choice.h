@@ -13,19 +13,22 @@ namespace pcl_als {
 
 /** \brief Standard deviation from which on a parameter counts as not determined by the data.
  *
- * Lever arms can be surveyed to one to three centimetres, so an estimate must be better. The others
- * are smaller than the biases of a freshly mounted system (0.02-0.1 degree), so that an estimate
- * this uncertain still improves it. A parameter that is dropped keeps its value, and the
- * uncertainty of the others includes that it may be wrong by twice its limit.
+ * Estimates this uncertain are no improvement on a freshly mounted system. Short of that they are
+ * better made than held: what is confused with them (pitch with lever_arm_y) is only right together
+ * with them, and a parameter that is wrongly held looks like errors of the trajectory.
  */
 struct DeterminationLimits {
-  double lever_arm = 0.014;                      ///< metres
+  double lever_arm = 0.08;                       ///< metres
   double roll_pitch = 60.0 * kRadiansPerArcsec;  ///< radians
   double heading = 180.0 * kRadiansPerArcsec;    ///< radians
   double range = 0.10;                           ///< metres
   double scan_angle_scale = 3e-4;                ///< unitless
 
   double of(SystemParameter p) const;
+  /// What a parameter that is dropped may be wrong by (standard deviation), which the uncertainty
+  /// of the others includes: 5 cm for lever arms, which can be surveyed; twice the limit for the
+  /// rest.
+  double whenHeld(SystemParameter p) const;
 };
 
 /// Which parameters are solved for, and why the others are not.

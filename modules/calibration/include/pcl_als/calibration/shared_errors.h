@@ -32,10 +32,10 @@ struct SharedErrorModel {
   double roll_pitch = 8.0 * kRadiansPerArcsec;  ///< radians
   double heading = 16.0 * kRadiansPerArcsec;    ///< radians
   double correlation_time = 20.0;               ///< seconds
-  double knot_spacing =
-      10.0;  ///< seconds, at most, between knots of the linear splines used for the trajectory
-  double local = 0.01;             ///< metres, each axis
-  double ranging_incidence = 0.1;  ///< share of the stretch d
+  double knot_spacing = 1.0;                    ///< seconds, at least, between knots of the
+                                                ///< linear splines used for the trajectory
+  double local = 0.01;                          ///< metres, each axis
+  double ranging_incidence = 0.1;               ///< share of the stretch d
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
