@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/calibration/observability.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/calibration/synthetic_pairs.h>
+
+namespace pcl_als {
+
+/// What is needed to adjust a block as the calibration does.
+struct ObservabilitySettings {
+  std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
+  DeterminationLimits limits;
+  SharedErrorModel shared_errors;
+  SharedErrorLevels levels;  ///< of the shared errors, as found from the data
+  /// For the pairs of lines that are not flown: noise and points per area. The surface is that of
+  /// the block's own pairs unless \a planned is set.
+  SyntheticPairs::Settings pairs;
+  bool planned = false;
+  /// Standard deviations as reported, internal units; where they exceed those of the block as it
+  /// is given, all are enlarged by their ratio. Zero: none reported.
+  SystemVector reported = SystemVector::Zero();
+  bool advise = true;
+  int threads = 0;
+};
+
+/// A line or control that is not there, and what it would do.
+struct Advice {
+  std::string what;  ///< "an opposite line at 540 m over line 3"
+  bool is_line = true;
+  StripGeometry line;                          ///< of a line
+  std::vector<Eigen::Vector2d> control;        ///< places, of control
+  SystemVector before = SystemVector::Zero();  ///< std, internal units; NaN: not determined
+  SystemVector after = SystemVector::Zero();
+  double benefit = 0.0;  ///< sum of ln(before / after); not determined counts as ten limits
+  std::string text;      ///< what and what for, one line
+
+  double duration() const { return is_line ? line.duration() : 0.0; }  ///< seconds
+};
+
+/// What a block determines, why not more, and what would help.
+struct ObservabilityReport {
+  std::string facts;
+  std::vector<ParameterDirection> directions;  ///< weakest first
+  std::vector<WeakCombination> weak;           ///< weakest first
+  std::vector<Advice> advice;                  ///< best first; only what helps
+
+  /// The line with the most benefit for its flying time; null when no line helps.
+  const Advice* cheapestLine() const;
+  /// The report line by line, without directions that are known to a centimetre.
+  std::vector<std::string> text() const;
+};
+
+/// A block adjusted with the shared errors of its strips eliminated.
+class AdjustedBlock {
+ public:
+  /// \a block must outlive it.
+  AdjustedBlock(const ObservedBlock& block, const ObservabilitySettings& settings);
+
+  const Adjustment& adjustment() const { return adjustment_; }
+  const ParameterChoice& choice() const { return choice_; }
+  /// Standard deviations, internal units; NaN for what is not estimated.
+  SystemVector deviations() const;
+
+ private:
+  SharedErrors errors_;
+  Adjustment adjustment_;
+  ParameterChoice choice_;
+};
+
+/// The parameters that are tried where none is asked for: all but lever_arm_z, range_bias only with
+/// control.
+std::vector<SystemParameter> automaticParameters(bool with_control);
+
+/** \brief Directions, weak combinations and advice for a block.
+ *
+ * Every piece of advice is a whole adjustment: the virtual strip with pairs to all strips it
+ * overlaps, its own trajectory errors, and those of the flown strips as unknowns of both.
+ */
+ObservabilityReport describeObservability(const ObservedBlock& block,
+                                          const ObservabilitySettings& settings);
+
+/** \brief A flown strip as straight line, from its trajectory and the pairs it takes part in.
+ *
+ * \param span first and last firing time, seconds; the height is the median of the pairs' (sensor
+ * above patch), the swath what they reach to.
+ */
+StripGeometry flownStrip(const std::string& id, int index, const std::pair<double, double>& span,
+                         const Trajectory& trajectory,
+                         const std::vector<AreaObservations>& observations);
+
+}  // namespace pcl_als
