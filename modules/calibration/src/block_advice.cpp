@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include <pcl_als/calibration/block_advice.h>
@@ -24,19 +25,21 @@ std::string valueOf(P p, double value) {
   return text.substr(0, text.find(' '));
 }
 
-/// "std of boresight_pitch from 12 to 3 arcsec, lever_arm_y determined (0.008 m)"; best first.
-std::string effectOf(const SystemVector& before, const SystemVector& after) {
+/// "reduce the std of boresight_pitch from 12 to 3 arcsec, determine …"; best first.
+std::string effectOf(const SystemVector& before, const SystemVector& after,
+                     const AdjustedBlock& now, const AdjustedBlock& then) {
   std::vector<std::pair<double, std::string>> effects;
   for (const SystemParameterInfo& info : systemParameters()) {
-    const double from = before[indexOf(info.parameter)], to = after[indexOf(info.parameter)];
-    if (std::isnan(to)) continue;
+    const P p = info.parameter;
+    const double from = before[indexOf(p)], to = after[indexOf(p)];
+    if (to >= kWorthSaying * from || !std::isfinite(to)) continue;
     const std::string name(info.name);
-    if (std::isnan(from)) {
-      effects.emplace_back(0.0, "determine " + name + " (std " + inUnit(info.parameter, to) + ")");
-    } else if (to < kWorthSaying * from) {
-      effects.emplace_back(to / from, "reduce the std of " + name + " from " +
-                                          valueOf(info.parameter, from) + " to " +
-                                          inUnit(info.parameter, to));
+    if (then.determines(p) && !now.determines(p)) {
+      effects.emplace_back(0.0, "determine " + name + " (std " + inUnit(p, to) + ")");
+    } else if (std::isfinite(from)) {
+      effects.emplace_back(to / from, "reduce the std of " + name +
+                                          (then.determines(p) ? "" : ", still not determined,") +
+                                          " from " + valueOf(p, from) + " to " + inUnit(p, to));
     }
   }
   std::sort(effects.begin(), effects.end());
@@ -47,39 +50,34 @@ std::string effectOf(const SystemVector& before, const SystemVector& after) {
   return text;
 }
 
-double benefitOf(const Advice& advice, const DeterminationLimits& limits) {
+double benefitOf(const SystemVector& before, const SystemVector& after) {
   double benefit = 0.0;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    if (info.parameter == P::lever_arm_z) continue;
-    const double worst = 10.0 * limits.of(info.parameter);
-    const auto known = [&](double std) { return std::isnan(std) ? worst : std::min(std, worst); };
-    benefit += std::log(known(advice.before[indexOf(info.parameter)]) /
-                        known(advice.after[indexOf(info.parameter)]));
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    if (before[i] > 0.0 && after[i] > 0.0) benefit += std::log(before[i] / after[i]);
   }
   return benefit;
 }
 
-/// Adds what a piece of advice stands for to a copy of the block and adjusts it.
-SystemVector deviationsWith(const Advice& advice, ObservedBlock block,
-                            const ObservabilitySettings& settings) {
-  const SyntheticPairs pairs(settings.pairs);
+/// A copy of the block with what a piece of advice stands for.
+ObservedBlock with(const Advice& advice, ObservedBlock block, const SyntheticPairs& pairs) {
   if (advice.is_line) {
     pairs.addPairs(SyntheticPairs::addStrip(advice.line, block), block);
   } else {
     for (const Eigen::Vector2d& place : advice.control) pairs.addControl(place, block);
   }
-  return AdjustedBlock(block, settings).deviations();
+  return block;
 }
 
-SystemVector effectOnGround(const ObservedBlock& block, const BlockFacts& facts) {
-  double height = 0.0;
-  for (const double h : facts.heights) height += h / static_cast<double>(facts.heights.size());
-  double half_angle = facts.half_angle;
-  if (height <= 0.0) {
-    height = block.strips.front().height;
-    half_angle = block.strips.front().half_angle;
+/// Metres on the ground at the block's mean height and the edge of what its pairs reach to.
+SystemVector groundEffect(const ObservedBlock& block, const BlockFacts& facts) {
+  if (facts.heights.empty()) {
+    const StripGeometry& any = block.strips.front();
+    return Observability::groundEffect(any.height, any.half_angle);
   }
-  return Observability::groundEffect(height, std::max(half_angle, 0.05));
+  constexpr double kLeastAngle = 0.05;  // radians: else the scale of the scan angle does nothing
+  const double sum = std::accumulate(facts.heights.begin(), facts.heights.end(), 0.0);
+  return Observability::groundEffect(sum / static_cast<double>(facts.heights.size()),
+                                     std::max(facts.half_angle, kLeastAngle));
 }
 
 }  // namespace
@@ -98,20 +96,32 @@ AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySett
     : errors_(block.spans, settings.shared_errors), adjustment_(errors_, settings.threads) {
   adjustment_.setLevels(settings.levels);
   adjustment_.accumulate(block.observations, block.weights);
+  const bool automatic = settings.estimate.empty();
+  wanted_ = automatic ? automaticParameters(true) : settings.estimate;
   // What was asked for by name is dropped only when it is hopeless, as in the calibration.
-  const double factor = settings.estimate.empty() ? 1.0 : 10.0;
-  choice_ = chooseParameters(
-      adjustment_,
-      settings.estimate.empty() ? automaticParameters(block.control_points > 0) : settings.estimate,
-      SystemVector::Zero(), settings.limits, factor);
+  const double factor = automatic ? 1.0 : 10.0;
+  choice_ = chooseParameters(adjustment_,
+                             automatic ? automaticParameters(block.control_points > 0) : wanted_,
+                             SystemVector::Zero(), settings.limits, factor);
+  const Observability observability(adjustment_.reducedNormal(), wanted_,
+                                    groundEffect(block, BlockFacts(block)));
+  SystemVector prior;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    prior[indexOf(info.parameter)] = 2.0 * factor * settings.limits.of(info.parameter);
+  }
+  deviations_ = observability.deviations(prior);
+  alone_ =
+      observability.deviations(SystemVector::Constant(std::numeric_limits<double>::infinity()));
 }
 
-SystemVector AdjustedBlock::deviations() const {
-  SystemVector std = SystemVector::Constant(std::numeric_limits<double>::quiet_NaN());
-  for (const P p : choice_.estimate) {
-    std[indexOf(p)] = std::sqrt(choice_.solution.covariance(indexOf(p), indexOf(p)));
-  }
+SystemVector AdjustedBlock::expected() const {
+  SystemVector std = alone_;
+  for (const P p : choice_.estimate) std[indexOf(p)] = deviations_[indexOf(p)];
   return std;
+}
+
+bool AdjustedBlock::determines(P p) const {
+  return choice_.status[indexOf(p)] == ParameterStatus::estimated;
 }
 
 const Advice* ObservabilityReport::cheapestLine() const {
@@ -135,6 +145,30 @@ std::vector<std::string> ObservabilityReport::text() const {
   return lines;
 }
 
+namespace {
+
+/// Fills before, after, benefit and text of everything that could be added; keeps what helps.
+std::vector<Advice> adviceFor(const ObservedBlock& block, const AdjustedBlock& now,
+                              const SystemVector& factor, const ObservabilitySettings& settings) {
+  const SyntheticPairs pairs(settings.pairs);
+  std::vector<Advice> helpful;
+  for (Advice& advice : virtualAdditions(block)) {
+    const ObservedBlock larger = with(advice, block, pairs);
+    const AdjustedBlock then(larger, settings);
+    advice.before = now.expected().cwiseProduct(factor);
+    advice.after = then.expected().cwiseProduct(factor);
+    advice.benefit = benefitOf(now.deviations(), then.deviations());
+    const std::string effect = effectOf(advice.before, advice.after, now, then);
+    advice.text = advice.what + " would " + effect;
+    if (advice.benefit > kHelps && !effect.empty()) helpful.push_back(std::move(advice));
+  }
+  std::stable_sort(helpful.begin(), helpful.end(),
+                   [](const Advice& a, const Advice& b) { return a.benefit > b.benefit; });
+  return helpful;
+}
+
+}  // namespace
+
 ObservabilityReport describeObservability(const ObservedBlock& whole,
                                           const ObservabilitySettings& given) {
   const ObservedBlock block = whole.thinned(kObservations);
@@ -142,30 +176,19 @@ ObservabilityReport describeObservability(const ObservedBlock& whole,
   ObservabilitySettings settings = given;
   if (!settings.planned) settings.pairs.surface = surfaceOf(facts);
   const AdjustedBlock now(block, settings);
-  const SystemVector own = now.deviations();
   SystemVector factor = SystemVector::Ones();
   for (int i = 0; i < kSystemParameterCount; ++i) {
-    if (own[i] > 0.0 && settings.reported[i] > own[i]) factor[i] = settings.reported[i] / own[i];
+    const double own = now.deviations()[i];
+    if (own > 0.0 && settings.reported[i] > own) factor[i] = settings.reported[i] / own;
   }
+  Observability observability(now.adjustment().reducedNormal(), now.wanted(),
+                              groundEffect(block, facts));
+  observability.weaken(factor);
   ObservabilityReport report;
   report.facts = facts.text();
-  std::vector<P> wanted = settings.estimate.empty() ? automaticParameters(true) : settings.estimate;
-  Observability observability(now.adjustment().reducedNormal(), wanted,
-                              effectOnGround(block, facts));
-  observability.weaken(factor);
   report.directions = observability.directions();
   report.weak = observability.combinations(facts, settings.limits);
-  if (!settings.advise) return report;
-  for (Advice& advice : virtualAdditions(block)) {
-    advice.before = own.cwiseProduct(factor);
-    advice.after = deviationsWith(advice, block, settings).cwiseProduct(factor);
-    advice.benefit = benefitOf(advice, settings.limits);
-    const std::string effect = effectOf(advice.before, advice.after);
-    advice.text = advice.what + " would " + effect;
-    if (advice.benefit > kHelps && !effect.empty()) report.advice.push_back(std::move(advice));
-  }
-  std::stable_sort(report.advice.begin(), report.advice.end(),
-                   [](const Advice& a, const Advice& b) { return a.benefit > b.benefit; });
+  if (settings.advise) report.advice = adviceFor(block, now, factor, settings);
   return report;
 }
 

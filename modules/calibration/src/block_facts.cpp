@@ -13,8 +13,10 @@ namespace {
 using P = SystemParameter;
 
 constexpr double kSteep = 5.0 * kRadiansPerDegree;
-constexpr double kFewSlopes = 0.05;   // share of pairs: horizontal shifts hardly show
-constexpr double kLeastAside = 0.25;  // of the swath's half width
+constexpr double kFewSlopes = 0.05;      // share of pairs: horizontal shifts hardly show
+constexpr double kLeastAside = 0.25;     // of the swath's half width
+constexpr std::size_t kEnoughLines = 4;  // of a height, for their trajectory errors to average out
+constexpr double kEdge = 0.3;            // of the largest angle: pairs beyond are at the edge only
 constexpr double kNarrow = 12.0 * kRadiansPerDegree;
 
 bool has(const std::vector<P>& parameters, P p) {
@@ -31,7 +33,7 @@ std::string metres(const std::vector<double>& values) {
 }
 
 void addTo(std::string& text, const std::string& more) {
-  text += (text.empty() ? "" : "; ") + more;
+  if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
 }
 
 /// Moments of the tilts of the pairs, by weight.
@@ -58,7 +60,9 @@ BlockFacts::BlockFacts(const ObservedBlock& block) {
       const double weight = block.weights[area][i];
       if (weight == 0.0) continue;
       seen.insert(o.b);
-      half_angle = std::max(half_angle, std::atan2(o.lateral, o.height));
+      const double angle = std::atan2(o.lateral, o.height);
+      half_angle = std::max(half_angle, angle);
+      least_angle = std::min(least_angle, angle);
       if (o.a == PairObservation::kControl) continue;
       pairs.insert(std::minmax(o.a, o.b));
       tilts.add(o, weight);
@@ -80,11 +84,24 @@ BlockFacts::BlockFacts(const ObservedBlock& block) {
     separation = std::max(separation, lateralSeparation(one, other) / one.halfSwath());
   }
   parallel_lines = separation > kLeastAside;
-  for (const int strip : seen)
-    heights.push_back(block.strips[static_cast<std::size_t>(strip)].height);
-  std::sort(heights.begin(), heights.end());
-  const auto close = [](double low, double high) { return high < 1.1 * low; };
-  heights.erase(std::unique(heights.begin(), heights.end(), close), heights.end());
+  std::vector<double> all;
+  for (const int strip : seen) all.push_back(block.strips[static_cast<std::size_t>(strip)].height);
+  std::sort(all.begin(), all.end());
+  for (const double height : all) {
+    if (heights.empty() || height >= 1.1 * heights.back()) {
+      heights.push_back(height);
+      lines_at.push_back(0);
+    }
+    ++lines_at.back();
+  }
+}
+
+std::string BlockFacts::fewLines() const {
+  const auto fewest = std::min_element(lines_at.begin(), lines_at.end());
+  if (fewest == lines_at.end() || *fewest >= kEnoughLines) return {};
+  const double height = heights[static_cast<std::size_t>(fewest - lines_at.begin())];
+  return "the trajectory errors of " + std::to_string(*fewest) + " line" +
+         (*fewest == 1 ? "" : "s") + " at " + metres({height}) + " hide what the heights tell";
 }
 
 std::string BlockFacts::causeOf(const std::vector<P>& parameters) const {
@@ -101,6 +118,8 @@ std::string BlockFacts::causeOf(const std::vector<P>& parameters) const {
     addTo(cause, "single flying height (" + metres(heights) + ")");
   } else if (lever_arm && angle && !heights_meet) {
     addTo(cause, "no overlap of lines at different heights");
+  } else if (lever_arm && angle) {
+    addTo(cause, fewLines());
   }
   if ((along || across) && !opposite_lines && !crossing_lines && !heading) {
     addTo(cause, "one flight direction: the effect is the same in all strips");
@@ -114,6 +133,7 @@ std::string BlockFacts::causeOf(const std::vector<P>& parameters) const {
   if ((scale || (vertical && control > 0)) && half_angle < kNarrow) {
     addTo(cause, "pairs in the middle of the swath only");
   }
+  if (scale && least_angle > kEdge * half_angle) addTo(cause, "overlap at the swath's edge only");
   if (has(parameters, P::range_bias) && has(parameters, P::lever_arm_z)) {
     addTo(cause, "both shift heights");
   }

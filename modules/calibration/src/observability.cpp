@@ -159,10 +159,13 @@ struct Observability::Known {
   double stdOf(std::size_t i) const { return std[static_cast<Eigen::Index>(i)]; }
 };
 
-Observability::Known Observability::known() const {
+Observability::Known Observability::known(const SystemVector& prior) const {
   Eigen::MatrixXd normal = scaledNormal();
   // Nobody is wrong by a kilometre: a word that keeps the matrix regular and says nothing else.
-  normal.diagonal().array() += 1.0 / (kUnknown * kUnknown);
+  for (Eigen::Index i = 0; i < normal.rows(); ++i) {
+    const int at = indexOf(wanted_[static_cast<std::size_t>(i)]);
+    normal(i, i) += 1.0 / std::pow(std::min(kUnknown, prior[at] * effect_[at]), 2);
+  }
   const auto size = normal.rows();
   Known known;
   known.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
@@ -185,11 +188,23 @@ std::size_t Observability::partnerOf(std::size_t i, const Known& known) const {
   return known.stdOf(at) > kNothing ? at : i;
 }
 
+SystemVector Observability::deviations(const SystemVector& prior) const {
+  SystemVector std = SystemVector::Zero();
+  if (wanted_.empty()) return std;
+  const Known all = known(prior);
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    const int at = indexOf(wanted_[i]);
+    std[at] = all.stdOf(i) > kNothing ? std::numeric_limits<double>::infinity()
+                                      : all.stdOf(i) / effect_[at];
+  }
+  return std;
+}
+
 std::vector<WeakCombination> Observability::combinations(const BlockFacts& facts,
                                                          const DeterminationLimits& limits) const {
   std::vector<WeakCombination> found;
   if (wanted_.empty()) return found;
-  const Known all = known();
+  const Known all = known(SystemVector::Constant(std::numeric_limits<double>::infinity()));
   std::vector<std::pair<double, std::size_t>> order;  // farthest beyond its limit first
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     order.emplace_back(-all.stdOf(i) / (limits.of(wanted_[i]) * effect_[indexOf(wanted_[i])]), i);

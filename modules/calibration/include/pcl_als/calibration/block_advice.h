@@ -35,9 +35,9 @@ struct Advice {
   bool is_line = true;
   StripGeometry line;                          ///< of a line
   std::vector<Eigen::Vector2d> control;        ///< places, of control
-  SystemVector before = SystemVector::Zero();  ///< std, internal units; NaN: not determined
+  SystemVector before = SystemVector::Zero();  ///< see AdjustedBlock::expected()
   SystemVector after = SystemVector::Zero();
-  double benefit = 0.0;  ///< sum of ln(before / after); not determined counts as ten limits
+  double benefit = 0.0;  ///< sum of ln(before / after) of AdjustedBlock::deviations()
   std::string text;      ///< what and what for, one line
 
   double duration() const { return is_line ? line.duration() : 0.0; }  ///< seconds
@@ -64,13 +64,22 @@ class AdjustedBlock {
 
   const Adjustment& adjustment() const { return adjustment_; }
   const ParameterChoice& choice() const { return choice_; }
-  /// Standard deviations, internal units; NaN for what is not estimated.
-  SystemVector deviations() const;
+  /// Standard deviations of what was tried, internal units, if each was known beforehand to twice
+  /// its limit: never larger with more observations, whatever is left out as not determined.
+  const SystemVector& deviations() const { return deviations_; }
+  /// The same of what is determined; of the rest what it would be by the observations alone,
+  /// infinite where they show nothing.
+  SystemVector expected() const;
+  /// What was tried; range_bias among it where nothing was asked for, with control or without.
+  const std::vector<SystemParameter>& wanted() const { return wanted_; }
+  bool determines(SystemParameter p) const;
 
  private:
   SharedErrors errors_;
   Adjustment adjustment_;
   ParameterChoice choice_;
+  std::vector<SystemParameter> wanted_;
+  SystemVector deviations_, alone_;
 };
 
 /// The parameters that are tried where none is asked for: all but lever_arm_z, range_bias only with

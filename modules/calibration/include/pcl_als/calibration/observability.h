@@ -46,6 +46,9 @@ class Observability {
 
   /// Largest first: the singular values of N, as standard deviations on the ground.
   std::vector<ParameterDirection> directions() const;
+  /// Standard deviations with all wanted ones estimated and known beforehand to \a prior (internal
+  /// units; infinite: not at all); infinite where nothing is known, zero for the others.
+  SystemVector deviations(const SystemVector& prior) const;
   /// Weakest first: what correlates by 0.85 and more, and what is beyond its limit alone.
   std::vector<WeakCombination> combinations(const BlockFacts& facts,
                                             const DeterminationLimits& limits) const;
@@ -58,7 +61,7 @@ class Observability {
   struct Known;  // covariance of the parameters looked at
 
   Eigen::MatrixXd scaledNormal() const;
-  Known known() const;
+  Known known(const SystemVector& prior) const;
   /// The parameter that \a i is hardly told apart from; itself when there is none.
   std::size_t partnerOf(std::size_t i, const Known& known) const;
   WeakCombination single(std::size_t index, double std, const BlockFacts& facts) const;
