@@ -112,6 +112,10 @@ AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySett
   deviations_ = observability.deviations(prior);
   alone_ =
       observability.deviations(SystemVector::Constant(std::numeric_limits<double>::infinity()));
+  if (automatic && block.control_points == 0) {  // strips alone hardly see it: no line helps
+    deviations_[indexOf(P::range_bias)] = prior[indexOf(P::range_bias)];
+    alone_[indexOf(P::range_bias)] = std::numeric_limits<double>::infinity();
+  }
 }
 
 SystemVector AdjustedBlock::expected() const {
@@ -192,33 +196,68 @@ ObservabilityReport describeObservability(const ObservedBlock& whole,
   return report;
 }
 
-StripGeometry flownStrip(const std::string& id, int index, const std::pair<double, double>& span,
-                         const Trajectory& trajectory,
-                         const std::vector<AreaObservations>& observations) {
-  StripGeometry strip;
-  strip.id = id;
-  strip.first_time = span.first;
-  SensorPose pose;
-  std::size_t cursor = 0;
-  if (trajectory.poseAt(span.first, pose, cursor)) strip.start = pose.position.head<2>();
-  if (trajectory.poseAt(span.second, pose, cursor)) strip.end = pose.position.head<2>();
-  const double duration = span.second - span.first;
-  if (duration > 0.0 && strip.length() > 0.0) strip.speed = strip.length() / duration;
-  std::vector<double> heights;
-  double widest = 0.0;
+namespace {
+
+/// What a strip's pairs reach to, from their patches: median height, largest angle.
+void measure(int index, const std::vector<AreaObservations>& observations, StripGeometry& strip,
+             std::vector<double>& heights) {
+  double widest = 0.01;  // radians
   for (const AreaObservations& area : observations) {
     for (const PairObservation& o : area) {
-      if (o.b != index) continue;  // lateral and height are the patch's
+      if (o.b != index) continue;
       heights.push_back(o.height);
       widest = std::max(widest, std::atan2(o.lateral, o.height));
     }
   }
-  if (heights.empty()) return strip;
+  if (heights.empty()) return;
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
   strip.height = *middle;
-  strip.half_angle = std::max(widest, 0.01);
+  strip.half_angle = widest;
+}
+
+/// A flown strip as straight line; without a length where it has no pairs.
+StripGeometry straight(int index, const FlownStrip& flown, const Trajectory& trajectory,
+                       const std::vector<AreaObservations>& observations) {
+  StripGeometry strip;
+  strip.id = flown.id;
+  strip.first_time = flown.span.first;
+  std::vector<double> heights;
+  measure(index, observations, strip, heights);
+  const double duration = flown.span.second - flown.span.first;
+  SensorPose first, last;
+  std::size_t cursor = 0;
+  if (heights.empty() || !(duration > 0.0) || !trajectory.poseAt(flown.span.first, first, cursor) ||
+      !trajectory.poseAt(flown.span.second, last, cursor)) {
+    return strip;
+  }
+  strip.start = first.position.head<2>();
+  strip.end = last.position.head<2>();
+  strip.speed = std::max(1.0, strip.length() / duration);
+  const double ground = 2.0 * strip.halfSwath() * strip.length();
+  if (ground > 0.0 && flown.points > 0) {
+    strip.density = static_cast<double>(flown.points) / ground;
+  }
   return strip;
+}
+
+}  // namespace
+
+ObservedBlock observedBlock(const std::vector<FlownStrip>& strips, const Trajectory& trajectory,
+                            std::vector<AreaObservations> observations,
+                            std::vector<std::vector<double>> weights) {
+  ObservedBlock block;
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    block.spans.push_back(strips[i].span);
+    block.strips.push_back(straight(static_cast<int>(i), strips[i], trajectory, observations));
+  }
+  for (const AreaObservations& area : observations) {
+    const bool control = !area.empty() && area.front().a == PairObservation::kControl;
+    if (control) ++block.control_points;
+  }
+  block.observations = std::move(observations);
+  block.weights = std::move(weights);
+  return block;
 }
 
 }  // namespace pcl_als

@@ -31,6 +31,20 @@ std::vector<FlightPlanResult::Overlap> overlapsOf(const ObservedBlock& block) {
   return list;
 }
 
+/// Warnings of a plan, in place of those of a calibration.
+void warn(FlightPlanResult& result) {
+  std::vector<std::string>& warnings = result.expected.warnings;
+  warnings.clear();
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result.expected[info.parameter];
+    if (estimate.status != ParameterStatus::not_estimable) continue;
+    warnings.push_back(std::string(info.name) + " will not be determined: " + estimate.reason);
+  }
+  if (result.control_points == 0) {
+    warnings.push_back("without control the absolute height of the block will not be checked");
+  }
+}
+
 }  // namespace
 
 FlightPlan::FlightPlan(std::vector<StripGeometry> lines, const Settings& settings)
@@ -78,6 +92,7 @@ FlightPlanResult FlightPlan::evaluate() const {
   for (const StripGeometry& line : lines_) ids.push_back(line.id);
   CalibrationReport(ids, block.control_points == 0)
       .addParameters(adjusted.choice(), settings_.adjustment.estimate, result.expected);
+  warn(result);
   result.observability = describeObservability(block, settings_.adjustment);
   return result;
 }

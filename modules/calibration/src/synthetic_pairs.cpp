@@ -145,8 +145,9 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
     if (strip == nullptr) continue;
     const double along = strip->along(place);
     const ScanGeometry g = scanGeometry(strip->poseAbeam(place), sample.position);
-    if (along < 0.0 || along > strip->length() || std::abs(g.beta) > strip->half_angle)
+    if (!(along >= 0.0 && along <= strip->length() && std::abs(g.beta) <= strip->half_angle)) {
       return false;
+    }
     const bool patch = strip == &b;
     (patch ? o.row_b : o.row_a) = o.normal.transpose() * designBlock(g);
     (patch ? o.time_b : o.time_a) = strip->timeAbeam(place);

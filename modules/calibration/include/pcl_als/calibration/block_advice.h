@@ -94,13 +94,21 @@ std::vector<SystemParameter> automaticParameters(bool with_control);
 ObservabilityReport describeObservability(const ObservedBlock& block,
                                           const ObservabilitySettings& settings);
 
-/** \brief A flown strip as straight line, from its trajectory and the pairs it takes part in.
+/// A strip as it was measured.
+struct FlownStrip {
+  std::string id;
+  std::pair<double, double> span;  ///< first and last firing time, seconds
+  std::size_t points = 0;
+};
+
+/** \brief A measured block for describeObservability().
  *
- * \param span first and last firing time, seconds; the height is the median of the pairs' (sensor
- * above patch), the swath what they reach to.
+ * Strips become straight lines from their first to their last pose; their height is the median of
+ * their pairs' (sensor above patch), their swath what the pairs reach to. A strip left out has an
+ * empty span and no pairs.
  */
-StripGeometry flownStrip(const std::string& id, int index, const std::pair<double, double>& span,
-                         const Trajectory& trajectory,
-                         const std::vector<AreaObservations>& observations);
+ObservedBlock observedBlock(const std::vector<FlownStrip>& strips, const Trajectory& trajectory,
+                            std::vector<AreaObservations> observations,
+                            std::vector<std::vector<double>> weights);
 
 }  // namespace pcl_als
