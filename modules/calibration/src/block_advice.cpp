@@ -16,8 +16,9 @@ namespace {
 using P = SystemParameter;
 
 constexpr std::size_t kObservations = 20'000;  // of a block that is adjusted again and again
-constexpr double kHelps = 0.2;                 // benefit from which on advice is worth a line
+constexpr double kHelps = 0.1;                 // benefit from which on advice is worth a line
 constexpr double kWorthSaying = 0.85;          // after / before from which on a change is not told
+constexpr std::size_t kAdviceTold = 6;         // in the text; all of it is in the report
 constexpr double kWellKnown = 0.01;            // metres on the ground
 
 std::string valueOf(P p, double value) {
@@ -36,7 +37,9 @@ std::string effectOf(const SystemVector& before, const SystemVector& after,
     const std::string name(info.name);
     if (then.determines(p) && !now.determines(p)) {
       effects.emplace_back(0.0, "determine " + name + " (std " + inUnit(p, to) + ")");
-    } else if (std::isfinite(from)) {
+    } else if (!std::isfinite(from)) {
+      effects.emplace_back(1.0, "show " + name + " (std " + inUnit(p, to) + "), not yet enough");
+    } else {
       effects.emplace_back(to / from, "reduce the std of " + name +
                                           (then.determines(p) ? "" : ", still not determined,") +
                                           " from " + valueOf(p, from) + " to " + inUnit(p, to));
@@ -145,7 +148,9 @@ std::vector<std::string> ObservabilityReport::text() const {
   for (const ParameterDirection& one : directions) {
     if (one.std > kWellKnown) lines.push_back("direction: " + one.text);
   }
-  for (const Advice& one : advice) lines.push_back("advice: " + one.text);
+  for (std::size_t i = 0; i < std::min(kAdviceTold, advice.size()); ++i) {
+    lines.push_back("advice: " + advice[i].text);
+  }
   return lines;
 }
 

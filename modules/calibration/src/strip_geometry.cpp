@@ -58,6 +58,9 @@ void StripGeometry::validate() const {
     refuse(text.str());
   };
   if (!start.allFinite() || !end.allFinite()) refuse("an end is not finite");
+  constexpr double kFarthest = 1e8;  // metres: no ground frame reaches farther
+  within("an end (m)", std::max(start.cwiseAbs().maxCoeff(), end.cwiseAbs().maxCoeff()), 0.0,
+         kFarthest);
   constexpr double kShortest = 10.0, kLongest = 1e6;  // metres
   within("length (m)", length(), kShortest, kLongest);
   within("height above ground (m)", height, 10.0, 20000.0);

@@ -34,6 +34,14 @@ std::set<Cell> cellsOf(const StripGeometry& strip, double step) {
   return cells;
 }
 
+/// A grid step that keeps large blocks to some hundred thousand cells, metres.
+double stepFor(const std::vector<StripGeometry>& strips, double least) {
+  constexpr double kMostCells = 200'000.0;
+  double area = 0.0;
+  for (const StripGeometry& strip : strips) area += 2.0 * strip.halfSwath() * strip.length();
+  return std::max(least, std::sqrt(area / kMostCells));
+}
+
 /// An order of cells that spreads whatever part of it is taken.
 std::vector<Cell> scattered(std::vector<Cell> cells) {
   const auto key = [](const Cell& cell) {
@@ -68,11 +76,12 @@ std::vector<std::vector<Cell>> overlapsOf(const std::vector<std::set<Cell>>& cel
 
 SyntheticPairs::Places SyntheticPairs::chooseAreas(int first, const ObservedBlock& block) const {
   const SurveyMap::Selection& selection = settings_.selection;
+  const double step = stepFor(block.strips, selection.area_size);
   std::vector<std::set<Cell>> cells;
   std::map<Cell, double> points_of;
   const double side = selection.area_size + 2.0 * selection.margin;
   for (const StripGeometry& strip : block.strips) {
-    cells.push_back(cellsOf(strip, selection.area_size));
+    cells.push_back(cellsOf(strip, step));
     for (const Cell& cell : cells.back()) points_of[cell] += side * side * strip.density;
   }
   const auto wishes = overlapsOf(cells, static_cast<std::size_t>(first));
@@ -89,25 +98,27 @@ SyntheticPairs::Places SyntheticPairs::chooseAreas(int first, const ObservedBloc
       if (chosen.insert(wish[round]).second) budget -= points_of[wish[round]];
     }
   }
+  const double aside = 0.5 * (step - selection.area_size);  // in the middle of its cell
   Places corners;
   for (const Cell& cell : chosen) {
-    corners.emplace_back(selection.area_size * static_cast<double>(cell.first),
-                         selection.area_size * static_cast<double>(cell.second));
+    corners.emplace_back(step * static_cast<double>(cell.first) + aside,
+                         step * static_cast<double>(cell.second) + aside);
   }
   return corners;
 }
 
 std::vector<Eigen::Vector2d> SyntheticPairs::spread(std::size_t count,
                                                     const std::vector<StripGeometry>& strips) {
-  constexpr double kStep = 25.0;  // metres
+  constexpr double kFine = 25.0;  // metres
+  const double step = stepFor(strips, kFine);
   std::set<Cell> covered;
-  for (const StripGeometry& strip : strips) covered.merge(cellsOf(strip, kStep));
+  for (const StripGeometry& strip : strips) covered.merge(cellsOf(strip, step));
   std::vector<Cell> cells = scattered({covered.begin(), covered.end()});
   cells.resize(std::min(cells.size(), std::max<std::size_t>(500, 4 * count)));
   Places free, places;
   for (const Cell& cell : cells) {
-    free.emplace_back(kStep * (static_cast<double>(cell.first) + 0.5),
-                      kStep * (static_cast<double>(cell.second) + 0.5));
+    free.emplace_back(step * (static_cast<double>(cell.first) + 0.5),
+                      step * (static_cast<double>(cell.second) + 0.5));
   }
   // Each next place is the one farthest from all before.
   std::vector<double> distance(free.size(), std::numeric_limits<double>::infinity());

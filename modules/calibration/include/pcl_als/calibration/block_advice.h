@@ -52,7 +52,7 @@ struct ObservabilityReport {
 
   /// The line with the most benefit for its flying time; null when no line helps.
   const Advice* cheapestLine() const;
-  /// The report line by line, without directions that are known to a centimetre.
+  /// The report line by line: directions known worse than a centimetre, the best six of the advice.
   std::vector<std::string> text() const;
 };
 

@@ -27,7 +27,7 @@ struct SurfacePoint {
 struct SurfaceModel {
   double ground_slope = 5.0 * kRadiansPerDegree;  ///< RMS slope of open ground; 0: a plane
   double steep_slope = 25.0 * kRadiansPerDegree;  ///< slope of roofs, banks
-  double steep_share = 0.05;                      ///< their share of the usable surface
+  double steep_share = 0.0625;                    ///< their share of the usable surface
   double usable = 0.5;                            ///< share of the points on solid, smooth surfaces
   /// Pairs are taken evenly over slopes and aspects, as AreaMatcher does, so that steep surfaces
   /// count for more than their share; false: the shares are those of the pairs.
