@@ -85,6 +85,7 @@ BlockFacts::BlockFacts(const ObservedBlock& block) {
   }
   parallel_lines = separation > kLeastAside;
   std::vector<double> all;
+  all.reserve(seen.size());
   for (const int strip : seen) all.push_back(block.strips[static_cast<std::size_t>(strip)].height);
   std::sort(all.begin(), all.end());
   for (const double height : all) {

@@ -21,9 +21,12 @@ std::set<Cell> cellsOf(const StripGeometry& strip, double step) {
   std::set<Cell> cells;
   const Eigen::Vector2d along = strip.direction(), right(along.y(), -along.x());
   const double half = strip.halfSwath();
-  for (double s = 0.5 * step; s < strip.length(); s += step) {
-    for (double t = 0.5 * step - half; t < half; t += step) {
-      const Eigen::Vector2d place = strip.start + s * along + t * right;
+  const auto rows = static_cast<long>(std::ceil(strip.length() / step));
+  const auto columns = static_cast<long>(std::ceil(2.0 * half / step));
+  for (long row = 0; row < rows; ++row) {
+    for (long column = 0; column < columns; ++column) {
+      const Eigen::Vector2d place = strip.start + step * (static_cast<double>(row) + 0.5) * along +
+                                    (step * (static_cast<double>(column) + 0.5) - half) * right;
       const Cell cell(std::lround(std::floor(place.x() / step)),
                       std::lround(std::floor(place.y() / step)));
       const Eigen::Vector2d middle(step * (static_cast<double>(cell.first) + 0.5),
