@@ -84,9 +84,14 @@ BlockFacts::BlockFacts(const ObservedBlock& block) {
     separation = std::max(separation, lateralSeparation(one, other) / one.halfSwath());
   }
   parallel_lines = separation > kLeastAside;
+  countHeights(block, seen);
+}
+
+void BlockFacts::countHeights(const ObservedBlock& block, const std::set<int>& strips) {
   std::vector<double> all;
-  all.reserve(seen.size());
-  for (const int strip : seen) all.push_back(block.strips[static_cast<std::size_t>(strip)].height);
+  all.reserve(strips.size());
+  for (const int strip : strips)
+    all.push_back(block.strips[static_cast<std::size_t>(strip)].height);
   std::sort(all.begin(), all.end());
   for (const double height : all) {
     if (heights.empty() || height >= 1.1 * heights.back()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct BlockFacts {
   std::string text() const;
 
  private:
+  void countHeights(const ObservedBlock& block, const std::set<int>& strips);
   std::string fewLines() const;
 };
 
