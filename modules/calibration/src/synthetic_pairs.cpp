@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include <pcl_als/calibration/modified_weight.h>
+#include <pcl_als/calibration/synthetic_pairs.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr int kGroundSamples = 16, kSteepSamples = 8;  // of an area
+constexpr double kGoldenAngle = 2.399963229728653;     // radians: even aspects for any number
+constexpr double kFewest = 150.0, kMost = 2000.0;      // candidates of a strip in an area
+constexpr double kAccepted = 0.9;  // share of candidates that find a patch worth measuring to
+// A neighbourhood of some nine points, a point spacing apart: its spread in point spacings, and the
+// standard deviations of a tilt from which on AreaMatcher takes it for one.
+constexpr double kSpread = 1.8, kSignificant = 5.0;
+constexpr double kFootShare = 0.5;  // mean sum of squares of the weights of a triangle's vertices
+
+/// Water-filling: how many of each class, as even as they allow, in all \a total.
+void fillEvenly(std::vector<double>& available, double total) {
+  std::vector<std::size_t> order(available.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return available[a] < available[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    double& own = available[order[i]];
+    own = std::min(own, total / static_cast<double>(order.size() - i));
+    total -= own;
+  }
+}
+
+/// The classes of slope and aspect over which AreaMatcher spreads its candidates: flat, then three
+/// steps of slope times eight aspects.
+constexpr std::size_t kAspects = 8, kClasses = 1 + 3 * kAspects;
+
+std::size_t orientationOf(const Eigen::Vector3d& normal) {
+  constexpr std::array<double, 3> kSteps{5.0, 15.0, 30.0};  // degrees
+  const double slope =
+      std::atan2(std::hypot(normal.x(), normal.y()), normal.z()) / kRadiansPerDegree;
+  if (slope < kSteps[0]) return 0;
+  const std::size_t step = slope < kSteps[1] ? 0 : slope < kSteps[2] ? 1 : 2;
+  const double turn = (std::atan2(normal.y(), normal.x()) + kPi) / (2.0 * kPi);
+  const auto aspect = static_cast<std::size_t>(turn * kAspects);
+  return 1 + step * kAspects + std::min(kAspects - 1, aspect);
+}
+
+/// Effect on the normal distance of the pulse's stretch over the footprint, as in AreaMatcher.
+double stretchOf(const ScanGeometry& g, const Eigen::Vector3d& normal, double divergence) {
+  const double cosine = normal.dot(g.beam());
+  return -g.range() * divergence * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
+Eigen::Vector3d normalOf(double slope, double aspect) {
+  return {std::sin(slope) * std::cos(aspect), std::sin(slope) * std::sin(aspect), std::cos(slope)};
+}
+
+/// A number in [0, 1) that looks random and belongs to a place.
+double scatterOf(const Eigen::Vector2d& place) {
+  const double value = std::sin(place.x() * 0.0129898 + place.y() * 0.078233) * 43758.5453;
+  return value - std::floor(value);
+}
+
+double fraction(double value) {
+  return value - std::floor(value);
+}
+
+}  // namespace
+
+/// A piece of surface in an area, with its share of the usable surface there.
+struct SyntheticPairs::Sample {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;
+  double share = 0.0;
+};
+
+SurfacePoint SyntheticPairs::groundAt(const Eigen::Vector2d& place) const {
+  if (!settings_.surface.terrain) return {};
+  return settings_.surface.terrain(place).value_or(SurfacePoint());
+}
+
+std::vector<SyntheticPairs::Sample> SyntheticPairs::samplesOf(const Eigen::Vector2d& corner) const {
+  const SurfaceModel& surface = settings_.surface;
+  const double offset = scatterOf(corner);
+  std::vector<Sample> samples;
+  for (int i = 0; i < kGroundSamples + kSteepSamples; ++i) {
+    const bool steep = i >= kGroundSamples;
+    const int of_kind = steep ? i - kGroundSamples : i;
+    const int kinds = steep ? kSteepSamples : kGroundSamples;
+    const double quantile = (of_kind + 0.5) / kinds;
+    // Slopes of natural ground follow a Rayleigh distribution, those of roofs a band.
+    const double slope = steep ? surface.steep_slope * (0.75 + 0.5 * quantile)
+                               : surface.ground_slope * std::sqrt(-std::log(1.0 - quantile));
+    Sample sample;
+    sample.share = (steep ? surface.steep_share : 1.0 - surface.steep_share) / kinds;
+    if (sample.share <= 0.0) continue;
+    const Eigen::Vector2d inside(fraction(offset + 0.7548776662466927 * i),
+                                 fraction(offset + 0.5698402909980532 * i));
+    const Eigen::Vector2d place = corner + settings_.selection.area_size * inside;
+    const SurfacePoint ground = groundAt(place);
+    sample.position = Eigen::Vector3d(place.x(), place.y(), ground.height);
+    sample.normal = !steep && surface.terrain
+                        ? ground.normal
+                        : normalOf(slope, 2.0 * kPi * offset + kGoldenAngle * i);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<double> SyntheticPairs::pairsPerSample(const std::vector<Sample>& samples,
+                                                   double density, double candidates) const {
+  const double side = settings_.selection.area_size;
+  const double points = settings_.surface.usable * side * side * density;
+  std::vector<double> of_class(kClasses, 0.0), pairs;
+  for (const Sample& sample : samples) of_class[orientationOf(sample.normal)] += sample.share;
+  std::vector<double> taken = of_class;
+  for (double& share : taken) share *= points;
+  if (settings_.surface.balanced) {
+    fillEvenly(taken, candidates);
+  } else {
+    for (double& count : taken) count *= std::min(1.0, candidates / points);
+  }
+  for (const Sample& sample : samples) {
+    const std::size_t orientation = orientationOf(sample.normal);
+    pairs.push_back(kAccepted * taken[orientation] * sample.share / of_class[orientation]);
+  }
+  return pairs;
+}
+
+bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const StripGeometry& b,
+                             PairObservation& o) const {
+  const Eigen::Vector2d place = sample.position.head<2>();
+  const double tilt_noise = kSignificant *
+                            std::hypot(settings_.noise.range, settings_.noise.position) *
+                            std::sqrt(b.density) / kSpread;
+  const double tilt = std::hypot(sample.normal.x(), sample.normal.y());
+  o.normal = tilt < tilt_noise ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : sample.normal;
+  o.variance = o.stretch = 0.0;
+  for (const StripGeometry* strip : {a, &b}) {
+    if (strip == nullptr) continue;
+    const double along = strip->along(place);
+    const ScanGeometry g = scanGeometry(strip->poseAbeam(place), sample.position);
+    if (!(along >= 0.0 && along <= strip->length() && std::abs(g.beta) <= strip->half_angle)) {
+      return false;
+    }
+    const bool patch = strip == &b;
+    (patch ? o.row_b : o.row_a) = o.normal.transpose() * designBlock(g);
+    (patch ? o.time_b : o.time_a) = strip->timeAbeam(place);
+    o.variance +=
+        (patch ? kFootShare : 1.0) * normalVariance(settings_.noise.pointCovariance(g), o.normal);
+    o.stretch += (patch ? -1.0 : 1.0) * stretchOf(g, o.normal, settings_.noise.beam_divergence);
+    o.lateral = std::abs(g.x);
+    o.height = std::abs(g.z);
+  }
+  return true;
+}
+
+void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double candidates,
+                             ObservedBlock& block) const {
+  const std::vector<Sample> samples = samplesOf(corner);
+  std::vector<std::vector<double>> taken;
+  for (const StripGeometry& strip : block.strips) {
+    taken.push_back(pairsPerSample(samples, strip.density, candidates));
+  }
+  AreaObservations observations;
+  std::vector<double> weights;
+  for (int b = first; b < static_cast<int>(block.strips.size()); ++b) {
+    for (int a = 0; a < b; ++a) {
+      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        PairObservation o;
+        o.a = a;
+        o.b = b;
+        if (!observe(samples[k], &block.strips[i], block.strips[j], o)) continue;
+        observations.push_back(o);
+        weights.push_back(taken[i][k] +
+                          taken[j][k]);  // points of each look for patches of the other
+      }
+    }
+  }
+  block.observations.push_back(std::move(observations));
+  block.weights.push_back(std::move(weights));
+}
+
+void SyntheticPairs::addPairs(int first, ObservedBlock& block) const {
+  const Places corners = chooseAreas(first, block);
+  double strips_in_areas = 1.0;
+  const Eigen::Vector2d middle = Eigen::Vector2d::Constant(0.5 * settings_.selection.area_size);
+  for (const Eigen::Vector2d& corner : corners) {
+    for (const StripGeometry& strip : block.strips) {
+      strips_in_areas += strip.covers(corner + middle) ? 1.0 : 0.0;
+    }
+  }
+  const double candidates =
+      std::clamp(static_cast<double>(settings_.candidates) / strips_in_areas, kFewest, kMost);
+  for (const Eigen::Vector2d& corner : corners) addArea(corner, first, candidates, block);
+}
+
+bool SyntheticPairs::addControl(const Eigen::Vector2d& place, ObservedBlock& block) const {
+  const SurfacePoint ground = groundAt(place);
+  const Sample sample{{place.x(), place.y(), ground.height}, Eigen::Vector3d::UnitZ(), 1.0};
+  AreaObservations observations;
+  for (std::size_t b = 0; b < block.strips.size(); ++b) {
+    PairObservation o;
+    o.b = static_cast<int>(b);
+    if (!observe(sample, nullptr, block.strips[b], o)) continue;
+    o.variance += settings_.control_sigma * settings_.control_sigma;
+    observations.push_back(o);
+  }
+  if (observations.empty()) return false;
+  block.weights.emplace_back(observations.size(), 1.0);
+  block.observations.push_back(std::move(observations));
+  ++block.control_points;
+  return true;
+}
+
+int SyntheticPairs::addStrip(StripGeometry strip, ObservedBlock& block) {
+  constexpr double kPause = 1000.0;  // seconds between strips; their errors are independent anyway
+  double last = 0.0;
+  for (const auto& span : block.spans) last = std::max(last, span.second);
+  strip.first_time = last + kPause;
+  block.spans.emplace_back(strip.first_time, strip.first_time + strip.duration());
+  block.strips.push_back(std::move(strip));
+  return static_cast<int>(block.strips.size()) - 1;
+}
+
+}  // namespace pcl_als
