@@ -10,6 +10,17 @@
 
 #include <pcl_als/trajectory/scan_geometry.h>
 
+// Compiled twice, for AVX2 and for every x86-64, and chosen when the program starts: the same
+// operations on more lanes, so the same results. Sanitizers run before that choice is possible.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define ALS_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#define ALS_INLINE __attribute__((always_inline)) inline
+#else
+#define ALS_VECTOR_CLONES
+#define ALS_INLINE inline
+#endif
+
 namespace pcl_als::detail {
 namespace {
 
@@ -19,7 +30,7 @@ constexpr double kTiny = 1e-100, kTinySquare = 1e-200;
 /// atan on [-1, 1] as an odd polynomial: the Chebyshev series 2 sum (-1)^k (sqrt(2) - 1)^(2k+1) /
 /// (2k+1) T_(2k+1) cut after 12 terms. Its error is under 2.6e-11. Summed in pairs of pairs
 /// (Estrin), for a Horner chain of 12 would be all latency.
-inline double arcTangent(double u) {
+ALS_INLINE double arcTangent(double u) {
   const double v = u * u, w = v * v, x = w * w;
   const double p0 = 0.99999999934929584 - 0.33333326328696045 * v;
   const double p1 = 0.19999775029961883 - 0.14282329296523577 * v;
@@ -33,17 +44,17 @@ inline double arcTangent(double u) {
 
 /// beta = -atan2(x, -z) by the half angle, whose tangent stays within [-1, 1] below the sensor;
 /// above it, the angle is taken from the other side.
-inline double scanAngle(double x, double z, double range) {
+ALS_INLINE double scanAngle(double x, double z, double range) {
   const double folded = 2.0 * arcTangent(x / (range + std::abs(z) + kTiny));
   return z <= 0.0 ? -folded : folded - std::copysign(kPi, x);
 }
 
 /// sin and cos of the small angles by which a scale bias turns beams, to 1e-15 up to 0.05 rad.
-inline double smallSine(double a) {
+ALS_INLINE double smallSine(double a) {
   const double q = a * a;
   return a * (1.0 - q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0))));
 }
-inline double smallCosine(double a) {
+ALS_INLINE double smallCosine(double a) {
   const double q = a * a;
   return 1.0 - 0.5 * q * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q / 56.0)));
 }
@@ -51,12 +62,12 @@ inline double smallCosine(double a) {
 /// value(t) = constant + t * rate + t^2 * curve
 struct Quadratic {
   double constant, rate, curve;
-  inline double at(double t) const { return constant + t * (rate + t * curve); }
+  ALS_INLINE double at(double t) const { return constant + t * (rate + t * curve); }
 };
 
 template <bool kRange, bool kScale>
-void kernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
-            std::size_t count, const EffectColumns& effect) {
+ALS_INLINE void kernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
+                       std::size_t count, const EffectColumns& effect) {
   const double from = span.from;
   const double px = span.position.x(), py = span.position.y(), pz = span.position.z();
   const double vx = span.velocity.x(), vy = span.velocity.y(), vz = span.velocity.z();
@@ -94,25 +105,43 @@ void kernel(const FlightSpan& span, const MountingBias& bias, const PointColumns
     double wx = b00 * lx + b10 * ly + b20 * lz;
     double wy = b01 * lx + b11 * ly + b21 * lz;
     double wz = b02 * lx + b12 * ly + b22 * lz;
-    if (kRange || kScale) {
-      const double in_plane_sq = wx * wx + wz * wz + kTinySquare;
-      if (kRange) {
-        const double shrink = 1.0 - range_bias / std::sqrt(in_plane_sq + wy * wy);
-        wx *= shrink, wy *= shrink, wz *= shrink;
-      }
-      if (kScale) {
-        const double angle = turn * scanAngle(wx, wz, std::sqrt(wx * wx + wz * wz + kTinySquare));
-        const double sine = smallSine(angle), cosine = smallCosine(angle);
-        const double turned = wx * cosine + wz * sine;
-        wz = wz * cosine - wx * sine;
-        wx = turned;
-      }
+    // The scan angle does not change with the range: two chains, side by side.
+    const double in_plane_sq = wx * wx + wz * wz + kTinySquare;
+    const double shrink = kRange ? 1.0 - range_bias / std::sqrt(in_plane_sq + wy * wy) : 1.0;
+    if (kScale) {
+      const double angle = turn * scanAngle(wx, wz, std::sqrt(in_plane_sq));
+      const double sine = smallSine(angle), cosine = smallCosine(angle);
+      const double turned = wx * cosine + wz * sine;
+      wz = wz * cosine - wx * sine;
+      wx = turned;
     }
+    if (kRange) wx *= shrink, wy *= shrink, wz *= shrink;
     const double ex = x - wx, ey = y - wy, ez = z - wz;
     effect_x[i] = r00 * ex + r01 * ey + r02 * ez;
     effect_y[i] = r10 * ex + r11 * ey + r12 * ez;
     effect_z[i] = r20 * ex + r21 * ey + r22 * ez;
   }
+}
+
+ALS_VECTOR_CLONES void turns(const FlightSpan& span, const MountingBias& bias,
+                             const PointColumns& points, std::size_t count,
+                             const EffectColumns& effect) {
+  kernel<false, false>(span, bias, points, count, effect);
+}
+ALS_VECTOR_CLONES void turnsAndRange(const FlightSpan& span, const MountingBias& bias,
+                                     const PointColumns& points, std::size_t count,
+                                     const EffectColumns& effect) {
+  kernel<true, false>(span, bias, points, count, effect);
+}
+ALS_VECTOR_CLONES void turnsAndScale(const FlightSpan& span, const MountingBias& bias,
+                                     const PointColumns& points, std::size_t count,
+                                     const EffectColumns& effect) {
+  kernel<false, true>(span, bias, points, count, effect);
+}
+ALS_VECTOR_CLONES void all(const FlightSpan& span, const MountingBias& bias,
+                           const PointColumns& points, std::size_t count,
+                           const EffectColumns& effect) {
+  kernel<true, true>(span, bias, points, count, effect);
 }
 
 }  // namespace
@@ -126,8 +155,7 @@ MountingBias::MountingBias(const SystemVector& biases)
 void biasKernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
                 std::size_t count, const EffectColumns& effect) {
   const bool range = bias.range != 0.0, scale = bias.scale != 0.0;
-  const auto chosen = range ? (scale ? kernel<true, true> : kernel<true, false>)
-                            : (scale ? kernel<false, true> : kernel<false, false>);
+  const auto chosen = range ? (scale ? all : turnsAndRange) : (scale ? turnsAndScale : turns);
   chosen(span, bias, points, count, effect);
 }
 
