@@ -34,6 +34,8 @@ CommandLine commandLine() {
                    "names as in calibration.json");
   app::addModelOption(line);
   line.addFlag("invert", "put the biases in instead of taking them out");
+  line.addFlag("strip_corrections",
+               "with -calibration: take out what it found wrong with each strip's trajectory, too");
   line.addFlag("keep_uncovered",
                "leave points without a trajectory as they are (default: refuse the file)");
   return line;
@@ -101,6 +103,12 @@ int apply(int argc, char** argv) {
   correction.invert = line.has("invert");
   correction.keep_uncovered = line.has("keep_uncovered");
   correction.threads = line.threads();
+  if (line.has("strip_corrections")) {
+    if (calibration.strip_errors.empty()) {
+      throw UsageError("option -strip_corrections: the calibration has no strip corrections");
+    }
+    correction.trajectory_errors = std::make_shared<TrajectoryErrors>(calibration.strip_errors);
+  }
   if (!calibration.converged) app::remark(line, "the calibration did not converge");
   correction.trajectory =
       app::readFlight(line, PointReader::open(files[0])->info().crs,

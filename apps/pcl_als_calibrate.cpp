@@ -45,6 +45,8 @@ CommandLine commandLine() {
                "flight, as published, instead of recovering pitch and crab from the points");
   line.addOptional("output", "calibration.json to write (needed)");
   line.addOptional("corrected", "folder for corrected copies of all strips");
+  line.addFlag("strip_corrections",
+               "with -corrected: take out what was found wrong with each strip's trajectory, too");
   line.addOptional("report", "folder for report.md and tables as CSV");
   line.add("range_noise", "standard deviation of a range, m", defaults.noise.range);
   line.add("angle_noise", "standard deviation of pointing, arcsec",
@@ -168,6 +170,9 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   app::PointFileCorrection correction;
   correction.trajectory = std::move(trajectory);  // with the attitude that was calibrated with
   correction.biases = result.biases();
+  if (line.has("strip_corrections")) {
+    correction.trajectory_errors = std::make_shared<TrajectoryErrors>(result.strip_errors);
+  }
   correction.gps_week = app::gpsWeek(line);
   correction.threads = line.threads();
   correction.keep_uncovered = true;  // strips too small to calibrate may lie outside the trajectory

@@ -36,15 +36,22 @@ void parameterTable(const CalibrationResult& result, std::ostream& out) {
 }
 
 void pairTable(const CalibrationResult& result, std::ostream& out) {
-  out << "\nNormal distances of point-patch pairs between strips (m; mean: first above second)\n\n"
-      << "| strips          |   pairs | rms before | after  | mean before | after   |\n"
-      << "|-----------------|---------|------------|--------|-------------|---------|\n";
+  out << "\nNormal distances of point-patch pairs between strips (m; mean: first above second; "
+         "strips: with "
+         "strip corrections)\n\n"
+      << "| strips          |   pairs | rms before | after  | strips | mean before | after   | "
+         "strips "
+         " |\n"
+      << "|-----------------|---------|------------|--------|--------|-------------|---------|-----"
+         "---"
+         "-|\n";
   out << std::fixed;
   for (const PairFit& pair : result.pairs) {
     out << "| " << std::left << std::setw(15) << (pair.a + " : " + pair.b) << std::right << " | "
         << std::setw(7) << pair.correspondences << " | " << std::setprecision(4) << std::setw(10)
-        << pair.rms_before << " | " << std::setw(6) << pair.rms_after << " | " << std::showpos
-        << std::setw(11) << pair.mean_before << " | " << std::setw(7) << pair.mean_after
+        << pair.rms_before << " | " << std::setw(6) << pair.rms_after << " | " << std::setw(6)
+        << pair.rms_strips << " | " << std::showpos << std::setw(11) << pair.mean_before << " | "
+        << std::setw(7) << pair.mean_after << " | " << std::setw(7) << pair.mean_strips
         << std::noshowpos << " |\n";
   }
 }
@@ -59,6 +66,36 @@ void controlTable(const CalibrationResult& result, std::ostream& out) {
         << fit.points << " | " << std::setprecision(4) << std::setw(10) << fit.rms_before << " | "
         << std::setw(6) << fit.rms_after << " | " << std::showpos << std::setw(11)
         << fit.mean_before << " | " << std::setw(7) << fit.mean_after << std::noshowpos << " |\n";
+  }
+}
+
+/// Mean and RMS over a strip's knots of what its trajectory was found to be wrong by.
+void stripTable(const CalibrationResult& result, std::ostream& out) {
+  if (result.strip_errors.empty()) return;
+  out << "\nErrors of the trajectory by strip, mean and RMS over time (mm; arcsec)\n\n"
+      << "| strip           |      east |     north |        up |     pitch |      roll |   "
+         "heading "
+         "|\n"
+      << "|-----------------|-----------|-----------|-----------|-----------|-----------|----------"
+         "-"
+         "|\n";
+  for (const StripErrors& strip : result.strip_errors) {
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero(), squares = sum;
+    for (const TrajectoryErrorKnot& knot : strip.knots) {
+      Eigen::Matrix<double, 6, 1> errors;
+      errors << 1e3 * knot.position, knot.angles / kRadiansPerArcsec;
+      sum += errors;
+      squares += errors.cwiseAbs2();
+    }
+    const double count = static_cast<double>(strip.knots.size());
+    out << "| " << std::left << std::setw(15) << strip.id << std::right << std::fixed
+        << std::setprecision(1);
+    for (int i = 0; i < 6; ++i) {
+      out << " | " << std::showpos << std::setw(5) << sum[i] / count << std::noshowpos << ' '
+          << std::setw(3) << std::setprecision(0) << std::sqrt(squares[i] / count)
+          << std::setprecision(1);
+    }
+    out << " |\n";
   }
 }
 
@@ -108,6 +145,9 @@ std::string calibrationTables(const CalibrationResult& result) {
   parameterTable(result, out);
   pairTable(result, out);
   controlTable(result, out);
+  stripTable(result, out);
+  if (!result.observability.empty()) out << "\nWhat the block determines\n\n";
+  for (const std::string& text : result.observability) out << "- " << text << '\n';
   out << "\nsigma0 " << std::setprecision(3) << result.sigma0 << ", redundancy "
       << result.redundancy << ", " << result.iterations.size() << " iterations, "
       << (result.converged ? "converged" : "NOT converged") << '\n';

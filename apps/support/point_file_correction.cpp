@@ -165,7 +165,8 @@ IntegerBiasCorrection integerCorrection(const LasFile& file, const PointFileCorr
                                         TimeAlignment alignment) {
   const LasHeader& header = file.header();
   return {file.path().string(),
-          std::make_shared<BiasEvaluator>(std::move(trajectory), correction.biases),
+          std::make_shared<BiasEvaluator>(std::move(trajectory), correction.biases,
+                                          correction.trajectory_errors),
           {header.record_length, static_cast<std::size_t>(file.layout().gps_time), header.scale,
            header.offset},
           std::move(alignment),
@@ -232,6 +233,7 @@ PointFileCorrectionResult correctPcd(const std::filesystem::path& input,
   }
   filter.setLocalFrame(strip.frame);
   filter.setBiases(correction.biases);
+  filter.setTrajectoryErrors(correction.trajectory_errors);
   filter.setInvert(correction.invert);
   filter.setKeepUncovered(true);  // checked below, with the file's name
   filter.setNumberOfThreads(correction.threads);

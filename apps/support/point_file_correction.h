@@ -17,7 +17,8 @@ namespace pcl_als::app {
 /// What to do to a point file.
 struct PointFileCorrection {
   std::shared_ptr<const Trajectory> trajectory;
-  SystemVector biases = SystemVector::Zero();  ///< assumed - true: m, rad, 1
+  SystemVector biases = SystemVector::Zero();                 ///< assumed - true: m, rad, 1
+  std::shared_ptr<const TrajectoryErrors> trajectory_errors;  ///< strip corrections; null: none
   bool recover_attitude = false;  ///< pitch and crab from the points; the trajectory has none
   bool invert = false;            ///< put the biases in instead of taking them out
   bool keep_uncovered = false;    ///< leave points without a trajectory as they are; else refuse

@@ -31,6 +31,9 @@ CalibrationResult example() {
   result.iterations = {{1000, 2.5, 0.75}, {1001, 1.0, 1e-5}};
   result.pairs = {{"1", "2", 500, 0.5, 0.02, -0.1, 1e-4}};
   result.control = {{"1", 37, 0.1, 0.2, 0.3, 0.4}};
+  result.pairs[0].rms_strips = 0.015;
+  result.strip_errors = {{"7", {{401000.5, {0.01, -0.02, 0.03}, {1e-5, -2e-5, 3e-5}}}}, {"8", {}}};
+  result.observability = {"weak: lever_arm_y with boresight_pitch"};
   result.warnings = {"quoted \"text\""};
   result.inputs = {"strip1.las", "a\xff.las"};  // the second is no UTF-8
   return result;
@@ -104,7 +107,16 @@ TEST(CalibrationJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.line_fit_half_width, 0.5);
   ASSERT_EQ(read.iterations.size(), 2U);
   EXPECT_EQ(read.iterations[1].largest_update, 1e-5);
+  ASSERT_EQ(read.strip_errors.size(), 2U);
+  EXPECT_EQ(read.strip_errors[0].id, "7");
+  ASSERT_EQ(read.strip_errors[0].knots.size(), 1U);
+  const TrajectoryErrorKnot& knot = read.strip_errors[0].knots[0];
+  EXPECT_EQ(knot.time, 401000.5);
+  EXPECT_EQ(knot.position, Eigen::Vector3d(0.01, -0.02, 0.03));
+  EXPECT_TRUE(knot.angles.isApprox(Eigen::Vector3d(1e-5, -2e-5, 3e-5)));
+  EXPECT_EQ(read.observability, written.observability);
   ASSERT_EQ(read.pairs.size(), 1U);
+  EXPECT_EQ(read.pairs[0].rms_strips, 0.015);
   EXPECT_EQ(read.pairs[0].b, "2");
   EXPECT_EQ(read.pairs[0].rms_after, 0.02);
   ASSERT_EQ(read.control.size(), 1U);

@@ -277,4 +277,19 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   return solution;
 }
 
+AdjustmentSolution Adjustment::solveNearZero(const std::vector<SystemParameter>& estimate,
+                                             const SystemVector& prior) const {
+  AdjustmentSolution solution = unsolved(SystemVector::Zero());
+  SystemMatrix normal = reduced_->normal;
+  normal.diagonal() += prior.cwiseAbs2().cwiseInverse();
+  Eigen::MatrixXd inverse;
+  double ignored = 0.0;
+  if (!invert(sub(normal, estimate), inverse, ignored)) return solution;
+  solution.covariance = solution.formal = expanded(inverse, estimate);
+  solution.biases = solution.covariance * reduced_->right;
+  solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
+  solution.solved = true;
+  return solution;
+}
+
 }  // namespace pcl_als

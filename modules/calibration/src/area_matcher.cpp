@@ -270,6 +270,8 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
                                observation.row() * corrected_for_;
       observation.variance = normalVariance(point.covariance + foot.covariance, observation.normal);
       observation.stretch = point.stretch(observation.normal) - foot.stretch(observation.normal);
+      observation.ranges = point.range * observation.normal.dot(point.beam) -
+                           foot.range * observation.normal.dot(foot.beam);
       found.push_back(observation);
     }
   }
@@ -299,6 +301,7 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.misclosure = observation.normal.dot(point.position - foot.position) +
                                observation.row() * corrected_for_;
       observation.stretch = -foot.stretch(observation.normal);
+      observation.ranges = -foot.range * observation.normal.dot(foot.beam);
       const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
       const double up = observation.normal.z();
       observation.variance =

@@ -23,6 +23,7 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   row.segment<kShift>(shift(1)) = -o.normal.transpose();
   knots[4] = errors.instrumentBlock();
   row[slot(4)] = o.stretch;
+  row[slot(4) + 1] = o.ranges;
 }
 
 void TouchedRow::place(int index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,

@@ -69,6 +69,34 @@ void CalibrationReport::addFit(const std::vector<AreaObservations>& observations
   }
 }
 
+void CalibrationReport::addStrips(const SharedErrors& errors, const std::vector<bool>& used,
+                                  const AdjustmentSolution& solution,
+                                  CalibrationResult& result) const {
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (!used[i]) continue;
+    result.strip_errors.push_back({ids_[i], errors.errorsOf(static_cast<int>(i), solution.shared)});
+  }
+}
+
+void CalibrationReport::addStripFit(const std::vector<AreaObservations>& observations,
+                                    const Adjustment& adjustment,
+                                    const AdjustmentSolution& solution,
+                                    CalibrationResult& result) const {
+  std::map<std::pair<int, int>, RunningStatistics> statistics;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      if (o.a == PairObservation::kControl) continue;
+      const double distance = adjustment.residual(o, solution);
+      statistics[std::minmax(o.a, o.b)].add(o.a < o.b ? distance : -distance);
+    }
+  }
+  for (const auto& [strips, values] : statistics) {
+    PairFit& fit = pairFit(result, ids_[strips.first], ids_[strips.second]);
+    fit.mean_strips = values.mean();
+    fit.rms_strips = values.rms();
+  }
+}
+
 void CalibrationReport::addParameters(const ParameterChoice& choice,
                                       const std::vector<SystemParameter>& requested,
                                       CalibrationResult& result) const {

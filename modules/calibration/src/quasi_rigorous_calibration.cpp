@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include <pcl_als/calibration/block_advice.h>
 #include <pcl_als/calibration/calibration_report.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
@@ -26,6 +27,14 @@ constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: m
 double scatterAboutZero(std::vector<double>& values) {
   for (double& value : values) value = std::abs(value);
   return 1.4826 * medianInPlace(values);
+}
+
+/// Biases of a system nobody has calibrated (standard deviations): half a degree, metres.
+SystemVector largestBelievable() {
+  constexpr double kAngle = 0.5 * kRadiansPerDegree;
+  SystemVector sigma;
+  sigma << 1.0, 1.0, 1.0, kAngle, kAngle, kAngle, 1.0, 2e-3;
+  return sigma;
 }
 
 double robustWeight(double standardised, bool reject) {
@@ -59,6 +68,8 @@ struct QuasiRigorousCalibration::State {
   /// Whether choice holds a solution: before, residuals are full of what is sought, and none may be
   /// called an outlier for it.
   bool solved = false;
+  /// On the way: nothing is left out for being uncertain, for mismatched pairs make all uncertain.
+  bool coarse = true;
   bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
   int looks = 0;             ///< how often it was looked for
   bool levels_rest = false;  ///< whether the last look left them as they were
@@ -167,8 +178,13 @@ void QuasiRigorousCalibration::adjust(State& state) const {
   for (int pass = 0; pass < kReweightings; ++pass) {
     weigh(state);
     state.adjustment.accumulate(state.observations, state.weights);
-    state.choice =
-        chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
+    if (state.coarse) {
+      state.choice.estimate = wanted;
+      state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
+    } else {
+      state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
+                                      settings_.limits, factor);
+    }
     state.solved = true;
     if (pass > 0 || !state.levels_open || state.choice.estimate.empty()) continue;
     const SharedErrorLevels levels = state.adjustment.levels();
@@ -232,9 +248,11 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   // looks like errors of the trajectory; and they must rest for the iteration to converge.
   constexpr int kLooks = 8;
   constexpr double kNearlyAtRest = 0.005;  // metres
+  constexpr std::size_t kCoarseAtMost = 12;
   const std::size_t done = result.iterations.size();
-  state.levels_open = done > 0 && result.iterations.back().largest_update < kNearlyAtRest &&
-                      state.looks < kLooks && !state.levels_rest;
+  const bool rests = done > 0 && result.iterations.back().largest_update < kNearlyAtRest;
+  if (rests || done >= kCoarseAtMost) state.coarse = false;
+  state.levels_open = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
   if (state.levels_open) ++state.looks;
   adjust(state);
   const SystemVector& biases = state.choice.solution.biases;
@@ -247,6 +265,32 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   parallelFor(matchers_.size(), settings_.threads,
               [&](std::size_t i) { matchers_[i].correct(correction); });
   shrinkThreshold(state);
+}
+
+std::vector<std::string> QuasiRigorousCalibration::observability(
+    const State& state, const std::vector<std::pair<double, double>>& spans,
+    const CalibrationResult& result) const {
+  if (state.observationCount() == 0) return {};
+  std::vector<FlownStrip> flown;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    flown.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
+  }
+  ObservabilitySettings settings;
+  settings.estimate = settings_.estimate;
+  settings.limits = settings_.limits;
+  settings.shared_errors = settings_.shared_errors;
+  settings.levels = state.adjustment.levels();
+  settings.threads = settings_.threads;
+  settings.pairs.noise = settings_.noise;
+  settings.pairs.selection = settings_.selection;
+  settings.pairs.candidates = settings_.candidates;
+  settings.pairs.control_sigma = settings_.control_sigma;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    settings.reported[indexOf(info.parameter)] = result[info.parameter].std;
+  }
+  return describeObservability(
+             observedBlock(flown, *trajectory_, state.observations, state.weights), settings)
+      .text();
 }
 
 CalibrationResult QuasiRigorousCalibration::calibrate() {
@@ -276,9 +320,13 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   result.attitude = attitude_;
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
+  report.addStrips(errors, used_, state.choice.solution, result);
+  if (!result.converged) weigh(state);  // the last pairs are newer than their weights
+  result.observability = observability(state, spans, result);
   state.threshold = settings_.max_normal_distance;
   pairUp(state);
   report.addFit(state.observations, result.biases(), true, result);
+  report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
   return result;
 }
 

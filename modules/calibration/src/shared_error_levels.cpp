@@ -29,9 +29,9 @@ double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& es
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate) {
   Powers best{};
-  // From the model's own levels, wherever the last search ended: the answer is of these
-  // observations.
-  adjustment.setLevels(levelsOf(best));
+  const SharedErrorLevels now = adjustment.levels();
+  best = {std::ilogb(now.position), std::ilogb(now.roll_pitch), std::ilogb(now.heading),
+          std::ilogb(now.local)};
   double lowest = cost(adjustment, estimate, best);
   for (bool changed = true; changed;) {
     changed = false;

@@ -17,7 +17,8 @@ void SharedErrorModel::validate() const {
       {"trajectory correlation time (s)", correlation_time},
       {"trajectory knot spacing (s)", knot_spacing},
       {"local shift sigma (m)", local},
-      {"ranging share", ranging_incidence}};
+      {"ranging share", ranging_incidence},
+      {"range scale", range_scale}};
   for (const auto& [name, value] : values) {
     if (std::isfinite(value) && value > 0.0) continue;
     std::ostringstream text;
@@ -57,6 +58,18 @@ SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
   return {strip.first + knot, strip.first + knot + 1, at - knot};
 }
 
+std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int index,
+                                                        const Eigen::VectorXd& solution) const {
+  const StripKnots& strip = strips_[static_cast<std::size_t>(index)];
+  std::vector<TrajectoryErrorKnot> knots;
+  for (int k = 0; k < strip.count; ++k) {
+    const Eigen::Index at = static_cast<Eigen::Index>(strip.first + k) * kPerKnot;
+    knots.push_back(
+        {strip.start + k * strip.spacing, solution.segment<3>(at), solution.segment<3>(at + 3)});
+  }
+  return knots;
+}
+
 Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
   const double position = model_.position * model_.position * levels.position;
   const double roll_pitch = model_.roll_pitch * model_.roll_pitch * levels.roll_pitch;
@@ -82,10 +95,11 @@ Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLeve
       add(strip.first + k + 1, strip.first + k, -scale * rho);
     }
   }
+  const double instrument[kPerKnot] = {
+      model_.ranging_incidence, model_.range_scale, 1.0, 1.0, 1.0, 1.0};
   for (int i = 0; i < kPerKnot; ++i) {
     const int at = instrumentBlock() * kPerKnot + i;
-    entries.emplace_back(
-        at, at, i == 0 ? 1.0 / (model_.ranging_incidence * model_.ranging_incidence) : 1.0);
+    entries.emplace_back(at, at, 1.0 / (instrument[i] * instrument[i]));
   }
   Eigen::SparseMatrix<double> information(unknowns(), unknowns());
   information.setFromTriplets(entries.begin(), entries.end());

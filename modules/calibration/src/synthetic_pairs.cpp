@@ -140,7 +140,7 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
                             std::sqrt(b.density) / kSpread;
   const double tilt = std::hypot(sample.normal.x(), sample.normal.y());
   o.normal = tilt < tilt_noise ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : sample.normal;
-  o.variance = o.stretch = 0.0;
+  o.variance = o.stretch = o.ranges = 0.0;
   for (const StripGeometry* strip : {a, &b}) {
     if (strip == nullptr) continue;
     const double along = strip->along(place);
@@ -154,6 +154,7 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
     o.variance +=
         (patch ? kFootShare : 1.0) * normalVariance(settings_.noise.pointCovariance(g), o.normal);
     o.stretch += (patch ? -1.0 : 1.0) * stretchOf(g, o.normal, settings_.noise.beam_divergence);
+    o.ranges += (patch ? -1.0 : 1.0) * g.range() * o.normal.dot(g.beam());
     o.lateral = std::abs(g.x);
     o.height = std::abs(g.z);
   }

@@ -159,6 +159,10 @@ void readPairs(const Node& pairs, CalibrationResult& result) {
     pair.rms_after = node["rms_after_m"].numberOrNan();
     pair.mean_before = node["mean_before_m"].numberOrNan();
     pair.mean_after = node["mean_after_m"].numberOrNan();
+    if (node.has("rms_strip_corrections_m")) {
+      pair.rms_strips = node["rms_strip_corrections_m"].numberOrNan();
+      pair.mean_strips = node["mean_strip_corrections_m"].numberOrNan();
+    }
     result.pairs.push_back(std::move(pair));
   }
 }
@@ -173,6 +177,23 @@ void readControlFits(const Node& control, CalibrationResult& result) {
     fit.mean_after = node["mean_after_m"].numberOrNan();
     fit.rms_after = node["rms_after_m"].numberOrNan();
     result.control.push_back(std::move(fit));
+  }
+}
+
+void readStripErrors(const Node& strips, CalibrationResult& result) {
+  for (const Node& node : strips.items()) {
+    StripErrors strip;
+    strip.id = node["strip"].text();
+    for (const Node& at : node["knots"].items()) {
+      TrajectoryErrorKnot knot;
+      knot.time = at["time"].number();
+      knot.position = {at["east_m"].number(), at["north_m"].number(), at["up_m"].number()};
+      knot.angles = kRadiansPerArcsec * Eigen::Vector3d(at["pitch_arcsec"].number(),
+                                                        at["roll_arcsec"].number(),
+                                                        at["heading_arcsec"].number());
+      strip.knots.push_back(knot);
+    }
+    result.strip_errors.push_back(std::move(strip));
   }
 }
 
@@ -227,6 +248,8 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   if (root.has("iterations")) readIterations(root["iterations"], result);
   if (root.has("pairs")) readPairs(root["pairs"], result);
   if (root.has("control")) readControlFits(root["control"], result);
+  if (root.has("strip_corrections")) readStripErrors(root["strip_corrections"], result);
+  if (root.has("observability")) result.observability = textsOf(root["observability"]);
   if (root.has("warnings")) result.warnings = textsOf(root["warnings"]);
   if (root.has("inputs")) result.inputs = textsOf(root["inputs"]);
   return result;

@@ -76,9 +76,29 @@ Json pairsOf(const CalibrationResult& result) {
                          {"rms_before_m", number(pair.rms_before)},
                          {"rms_after_m", number(pair.rms_after)},
                          {"mean_before_m", number(pair.mean_before)},
-                         {"mean_after_m", number(pair.mean_after)}});
+                         {"mean_after_m", number(pair.mean_after)},
+                         {"rms_strip_corrections_m", number(pair.rms_strips)},
+                         {"mean_strip_corrections_m", number(pair.mean_strips)}});
   }
   return pairs;
+}
+
+Json stripErrorsOf(const CalibrationResult& result) {
+  Json strips = Json::array();
+  for (const StripErrors& strip : result.strip_errors) {
+    Json knots = Json::array();
+    for (const TrajectoryErrorKnot& knot : strip.knots) {
+      knots.push_back(Json{{"time", number(knot.time)},
+                           {"east_m", number(knot.position.x())},
+                           {"north_m", number(knot.position.y())},
+                           {"up_m", number(knot.position.z())},
+                           {"pitch_arcsec", number(knot.angles.x() / kRadiansPerArcsec)},
+                           {"roll_arcsec", number(knot.angles.y() / kRadiansPerArcsec)},
+                           {"heading_arcsec", number(knot.angles.z() / kRadiansPerArcsec)}});
+    }
+    strips.push_back(Json{{"strip", strip.id}, {"knots", std::move(knots)}});
+  }
+  return strips;
 }
 
 Json controlOf(const CalibrationResult& result) {
@@ -111,6 +131,8 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["iterations"] = iterationsOf(result);
   root["pairs"] = pairsOf(result);
   root["control"] = controlOf(result);
+  root["strip_corrections"] = stripErrorsOf(result);
+  root["observability"] = result.observability;
   root["warnings"] = result.warnings;
   root["inputs"] = result.inputs;
   root["tool_version"] = PCL_ALS_VERSION;

@@ -101,8 +101,9 @@ std::string CoverageCount::describe(const Trajectory& trajectory) const {
 }
 
 BiasEvaluator::BiasEvaluator(std::shared_ptr<const Trajectory> trajectory,
-                             const SystemVector& biases)
-    : trajectory_(std::move(trajectory)), biases_(biases) {
+                             const SystemVector& biases,
+                             std::shared_ptr<const TrajectoryErrors> errors)
+    : trajectory_(std::move(trajectory)), biases_(biases), errors_(std::move(errors)) {
   if (!trajectory_) throw UsageError("bias evaluation: no trajectory is set");
   checkBiases(biases_);
 }
@@ -128,6 +129,39 @@ void BiasEvaluator::countMissed(double time, CoverageCount& coverage) const {
   }
 }
 
+/// Errors of the trajectory change by some tenths of a millimetre in a tenth of a second: their
+/// angles are those of its middle. The cells are counted from zero, so that the order of points
+/// changes no bit.
+void BiasEvaluator::spanEffect(const FlightSpan& span, const PointColumns& points,
+                               std::size_t count, const EffectColumns& effect) const {
+  constexpr double kCell = 0.1;  // seconds
+  for (std::size_t first = 0, last = 0; first < count; first = last) {
+    const double cell = std::floor(points.time[first] / kCell);
+    const double from_time = cell * kCell, to_time = (cell + 1.0) * kCell;
+    for (++last; last < count && std::floor(points.time[last] / kCell) == cell;) ++last;
+    TrajectoryErrorKnot start, middle, end;
+    errors_->at(0.5 * (from_time + to_time), middle);
+    errors_->at(from_time, start);
+    errors_->at(to_time, end);
+    SystemVector biases = biases_;
+    biases.segment<3>(indexOf(SystemParameter::boresight_pitch)) += middle.angles;
+    // The columns may be the points' own: the errors are kept aside until the kernel is done.
+    std::array<Eigen::Vector3d, kTile> shifts;
+    for (std::size_t tile = first; tile < last; tile += kTile) {
+      const std::size_t size = std::min(kTile, last - tile);
+      for (std::size_t i = 0; i < size; ++i) {
+        const double share = (points.time[tile + i] - from_time) / kCell;
+        shifts[i] = start.position + share * (end.position - start.position);
+      }
+      const EffectColumns out = from(effect, tile);
+      detail::biasKernel(span, detail::MountingBias(biases), from(points, tile), size, out);
+      for (std::size_t i = 0; i < size; ++i) {
+        out.x[i] += shifts[i].x(), out.y[i] += shifts[i].y(), out.z[i] += shifts[i].z();
+      }
+    }
+  }
+}
+
 void BiasEvaluator::effect(const PointColumns& points, std::size_t count,
                            const EffectColumns& effect, CoverageCount& coverage) const {
   coverage.points += count;
@@ -144,7 +178,11 @@ void BiasEvaluator::effect(const PointColumns& points, std::size_t count,
     }
     // A time at span.to belongs to the next span, so that the order of points changes no bit.
     while (last < count && points.time[last] >= span.from && points.time[last] < span.to) ++last;
-    detail::biasKernel(span, mounting, from(points, first), last - first, from(effect, first));
+    if (errors_ != nullptr) {
+      spanEffect(span, from(points, first), last - first, from(effect, first));
+    } else {
+      detail::biasKernel(span, mounting, from(points, first), last - first, from(effect, first));
+    }
   }
 }
 

@@ -59,6 +59,12 @@ class Adjustment {
   AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
                            const SystemVector& held) const;
 
+  /// Solves for all of \a estimate with each believed to be zero give or take \a prior (standard
+  /// deviations): what the observations leave open stays near zero. For the way to a solution; its
+  /// covariances are the model's.
+  AdjustmentSolution solveNearZero(const std::vector<SystemParameter>& estimate,
+                                   const SystemVector& prior) const;
+
   /// A solution that estimates nothing: all parameters held, no shared errors.
   AdjustmentSolution unsolved(const SystemVector& held) const;
 

@@ -27,6 +27,13 @@ class CalibrationReport {
   void addParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
                      CalibrationResult& result) const;
 
+  /// What the solution says of each strip's trajectory.
+  void addStrips(const SharedErrors& errors, const std::vector<bool>& used,
+                 const AdjustmentSolution& solution, CalibrationResult& result) const;
+  /// Fit of pairs with these errors taken out, too.
+  void addStripFit(const std::vector<AreaObservations>& observations, const Adjustment& adjustment,
+                   const AdjustmentSolution& solution, CalibrationResult& result) const;
+
  private:
   const std::vector<std::string>& ids_;
   bool without_control_;

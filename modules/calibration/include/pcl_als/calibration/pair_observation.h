@@ -32,6 +32,7 @@ struct PairObservation {
   double misclosure = 0.0;
   double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
   double stretch = 0.0;   ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
+  double ranges = 0.0;    ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 

@@ -107,6 +107,9 @@ class QuasiRigorousCalibration {
   /// Whether no parameter moved by more than a small part of its standard deviation.
   static bool restsWithin(const State& state, const SystemVector& before);
   void iterate(State& state, CalibrationResult& result);
+  std::vector<std::string> observability(const State& state,
+                                         const std::vector<std::pair<double, double>>& spans,
+                                         const CalibrationResult& result) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   CalibrationSettings settings_;

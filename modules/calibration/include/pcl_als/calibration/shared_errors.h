@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -25,7 +26,8 @@ namespace pcl_als {
  *
  * Ranging: a pulse that meets a surface at incidence theta comes back stretched over d = range *
  * divergence * tan(theta), and what the instrument calls its time shifts with it, by an unknown
- * share of d common to all points.
+ * share of d common to all points. And all ranges are wrong in proportion: the refractive index
+ * changes by 1 ppm with a degree or 3 hPa, and is the mean of a column of air nobody measured.
  */
 struct SharedErrorModel {
   double position = 0.02;                       ///< metres, each axis
@@ -36,6 +38,7 @@ struct SharedErrorModel {
                                                 ///< linear splines used for the trajectory
   double local = 0.01;                          ///< metres, each axis
   double ranging_incidence = 0.1;               ///< share of the stretch d
+  double range_scale = 5e-6;                    ///< of ranges, common to all points
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
@@ -51,8 +54,7 @@ struct SharedErrorLevels {
 };
 
 /// The unknowns of the model: six at every knot of every strip (linear in time between knots), then
-/// one block of six for the instrument, of which the first is the ranging share and the others are
-/// unused.
+/// one block of six for the instrument: the ranging share, the range scale, and four unused.
 class SharedErrors {
  public:
   static constexpr int kPerKnot = 6;
@@ -71,6 +73,8 @@ class SharedErrors {
     double next = 0.0;  ///< share of next_knot, 0 … 1
   };
   Place placeOf(int strip, double time) const;
+  /// The knots of a strip with the values of a solution (AdjustmentSolution::shared).
+  std::vector<TrajectoryErrorKnot> errorsOf(int strip, const Eigen::VectorXd& solution) const;
 
   /// Variance of a strip's shift in an area, each axis, m^2.
   double localVariance(const SharedErrorLevels& levels) const {

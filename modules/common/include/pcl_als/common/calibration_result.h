@@ -45,6 +45,7 @@ struct PairFit {
   std::string a, b;
   std::size_t correspondences = 0;
   double rms_before = 0.0, rms_after = 0.0, mean_before = 0.0, mean_after = 0.0;
+  double rms_strips = 0.0, mean_strips = 0.0;  ///< after, with the strip corrections
 };
 
 /// Fit of one strip to control; vertical differences strip - control, metres.
@@ -52,6 +53,19 @@ struct ControlFit {
   std::string strip;
   std::size_t points = 0;
   double mean_before = 0.0, rms_before = 0.0, mean_after = 0.0, rms_after = 0.0;
+};
+
+/// What the trajectory of a strip is wrong by at a time, assumed - true.
+struct TrajectoryErrorKnot {
+  double time = 0.0;                                   ///< seconds, on the trajectory's clock
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< east, north, up, metres
+  Eigen::Vector3d angles = Eigen::Vector3d::Zero();    ///< pitch, roll, heading as boresight, rad
+};
+
+/// The errors of one strip, linear between knots.
+struct StripErrors {
+  std::string id;
+  std::vector<TrajectoryErrorKnot> knots;
 };
 
 /// The content of calibration.json.
@@ -68,6 +82,8 @@ struct CalibrationResult {
   std::vector<CalibrationIteration> iterations;
   std::vector<PairFit> pairs;
   std::vector<ControlFit> control;
+  std::vector<StripErrors> strip_errors;   ///< of the strips that were calibrated with
+  std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help
   std::vector<std::string> warnings;
   std::vector<std::string> inputs;
 

@@ -59,8 +59,15 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   /// Biases, assumed - true: m, rad, 1. UsageError (in filter()) for values no scanner has.
   void setBiases(const SystemVector& biases) { biases_ = biases; }
   const SystemVector& getBiases() const { return biases_; }
-  /// The biases of a calibration.
+  /// The biases of a calibration; its strip corrections only by setTrajectoryErrors().
   void setCalibration(const CalibrationResult& result) { setBiases(result.biases()); }
+
+  /// Strip corrections: what the calibration found wrong with the trajectory, taken out together
+  /// with the biases; default none.
+  void setTrajectoryErrors(std::shared_ptr<const TrajectoryErrors> errors) {
+    trajectory_errors_ = std::move(errors);
+  }
+  std::shared_ptr<const TrajectoryErrors> getTrajectoryErrors() const { return trajectory_errors_; }
 
   /// Puts the biases in instead of taking them out; default false.
   void setInvert(bool invert) { invert_ = invert; }
@@ -95,6 +102,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
                              PointCloud& output) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
+  std::shared_ptr<const TrajectoryErrors> trajectory_errors_;
   LocalFrame frame_;
   SystemVector biases_ = SystemVector::Zero();
   TimeAlignment alignment_;

@@ -9,6 +9,7 @@
 
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory.h>
+#include <pcl_als/trajectory/trajectory_errors.h>
 
 namespace pcl_als {
 
@@ -58,7 +59,10 @@ class BiasEvaluator {
  public:
   /// \a biases: assumed - true, m, rad, 1. UsageError for values that are not finite or that no
   /// mounted scanner has: angles of 0.1 rad, a scale of 0.1, lengths of 100 m and more.
-  BiasEvaluator(std::shared_ptr<const Trajectory> trajectory, const SystemVector& biases);
+  /// \a errors: of the trajectory itself, taken out with the biases (strip corrections); null:
+  /// none.
+  BiasEvaluator(std::shared_ptr<const Trajectory> trajectory, const SystemVector& biases,
+                std::shared_ptr<const TrajectoryErrors> errors = nullptr);
 
   const Trajectory& trajectory() const { return *trajectory_; }
   const SystemVector& biases() const { return biases_; }
@@ -75,9 +79,12 @@ class BiasEvaluator {
 
  private:
   void countMissed(double time, CoverageCount& coverage) const;
+  void spanEffect(const FlightSpan& span, const PointColumns& points, std::size_t count,
+                  const EffectColumns& effect) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   SystemVector biases_;
+  std::shared_ptr<const TrajectoryErrors> errors_;
 };
 
 }  // namespace pcl_als

@@ -17,7 +17,7 @@ void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
   constexpr std::size_t kChunk = 16384;
   coverage_ = CoverageCount();
   if (!trajectory_) throw UsageError("SystemBiasCorrection: no trajectory is set");
-  const BiasEvaluator evaluator(trajectory_, biases_);
+  const BiasEvaluator evaluator(trajectory_, biases_, trajectory_errors_);
   const std::size_t count = this->indices_->size();
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   std::vector<CoverageCount> coverage(chunks);
