@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
@@ -12,6 +11,7 @@
 #include <pcl_als/common/parallel.h>
 
 #include "area_normal.h"
+#include "error_factor.h"
 
 namespace pcl_als {
 namespace {
@@ -56,13 +56,11 @@ bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log
 
 /// The sum over areas, their shifts eliminated.
 struct Adjustment::Normal {
-  using Block = Eigen::Matrix<double, kKnot, kKnot>;
-
   SystemMatrix gg = SystemMatrix::Zero();
   SystemVector right_g = SystemVector::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, kGlobal> tg;
   Eigen::VectorXd right_t;
-  std::map<std::pair<int, int>, Block> tt;
+  KnotBlocks tt;
   double log_determinant = 0.0, explained = 0.0;
 
   explicit Normal(int unknowns) {
@@ -81,24 +79,10 @@ struct Adjustment::Normal {
       right_t.segment<kKnot>(knots[i] * kKnot) += area.right.segment<kKnot>(at_i);
       for (std::size_t j = 0; j < knots.size(); ++j) {
         const auto at_j = kGlobal + static_cast<Eigen::Index>(j) * kKnot;
-        tt.try_emplace({knots[i], knots[j]}, Block::Zero()).first->second +=
+        tt.try_emplace({knots[i], knots[j]}, KnotBlocks::mapped_type::Zero()).first->second +=
             area.matrix.block<kKnot, kKnot>(at_i, at_j);
       }
     }
-  }
-
-  Eigen::SparseMatrix<double> sparse() const {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (const auto& [knots, block] : tt) {
-      for (int r = 0; r < kKnot; ++r) {
-        for (int c = 0; c < kKnot; ++c) {
-          entries.emplace_back(knots.first * kKnot + r, knots.second * kKnot + c, block(r, c));
-        }
-      }
-    }
-    Eigen::SparseMatrix<double> matrix(right_t.size(), right_t.size());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
   }
 };
 
@@ -152,17 +136,17 @@ void Adjustment::setLevels(const SharedErrorLevels& levels) {
 Adjustment::Reduced Adjustment::reduce(const Normal& normal,
                                        const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(normal.sparse() + prior);
+  const ErrorFactor factor(normal.tt, prior);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> prior_ldlt(prior);
   Reduced reduced;
-  reduced.elimination = ldlt.solve(normal.tg);
-  reduced.eliminated_right = ldlt.solve(normal.right_t);
+  reduced.elimination = factor.solve(normal.tg);
+  reduced.eliminated_right = factor.solve(normal.right_t);
   reduced.normal = normal.gg - normal.tg.transpose() * reduced.elimination;
   reduced.normal = (0.5 * (reduced.normal + reduced.normal.transpose())).eval();
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
   reduced.prior_share = reduced.elimination.transpose() * (prior * reduced.elimination);
-  reduced.log_determinant = normal.log_determinant + ldlt.vectorD().array().log().sum() -
-                            prior_ldlt.vectorD().array().log().sum();
+  reduced.log_determinant =
+      normal.log_determinant + factor.logDeterminant() - prior_ldlt.vectorD().array().log().sum();
   reduced.explained = normal.explained + normal.right_t.dot(reduced.eliminated_right);
   return reduced;
 }

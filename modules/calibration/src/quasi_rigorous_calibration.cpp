@@ -14,9 +14,11 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kHuber = 1.5;    // standard deviations up to which an observation has full weight
-constexpr double kReject = 4.5;   // and from which it has none
-constexpr int kReweightings = 3;  // of one set of pairs
+constexpr double kHuber = 1.5;   // standard deviations up to which an observation has full weight
+constexpr double kReject = 4.5;  // and from which it has none
+// Weightings of the first set of pairs, which begin with nothing known; later sets begin with the
+// weights of the last.
+constexpr int kFirstWeightings = 3;
 constexpr std::size_t kEnoughForScale = 30;
 constexpr std::size_t kFewestCandidates = 150, kMostCandidates = 2000;  // of a strip in an area
 // A TIN between points is never better than some millimetres: pairs that fit better are no better.
@@ -163,32 +165,32 @@ void QuasiRigorousCalibration::weigh(State& state) const {
       state.redundancy > 0 ? std::sqrt(squares / static_cast<double>(state.redundancy)) : 0.0;
 }
 
-void QuasiRigorousCalibration::adjust(State& state) const {
-  std::vector<SystemParameter> wanted = settings_.estimate;
-  if (wanted.empty()) {
-    for (const SystemParameterInfo& info : systemParameters()) {
-      const bool needs_control = info.parameter == SystemParameter::range_bias;
-      if (info.parameter == SystemParameter::lever_arm_z || (needs_control && control_.empty()))
-        continue;
-      wanted.push_back(info.parameter);
-    }
+void QuasiRigorousCalibration::choose(State& state) const {
+  const std::vector<SystemParameter> wanted =
+      settings_.estimate.empty() ? automaticParameters(!control_.empty()) : settings_.estimate;
+  if (state.coarse) {
+    state.choice.estimate = wanted;
+    state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
+  } else {
+    // What was asked for by name is dropped only when it is hopeless.
+    const double factor = settings_.estimate.empty() ? 1.0 : 10.0;
+    state.choice =
+        chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
   }
-  // What was asked for by name is dropped only when it is hopeless.
-  const double factor = settings_.estimate.empty() ? 1.0 : 10.0;
-  for (int pass = 0; pass < kReweightings; ++pass) {
+  state.solved = true;
+}
+
+void QuasiRigorousCalibration::adjust(State& state) const {
+  const int weightings = state.solved ? 1 : kFirstWeightings;
+  for (int i = 0; i < weightings; ++i) {
     weigh(state);
     state.adjustment.accumulate(state.observations, state.weights);
-    if (state.coarse) {
-      state.choice.estimate = wanted;
-      state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
-    } else {
-      state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
-                                      settings_.limits, factor);
-    }
-    state.solved = true;
-    if (pass > 0 || !state.levels_open || state.choice.estimate.empty()) continue;
+    choose(state);
+  }
+  if (state.levels_open && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
     state.levels_rest = mostLikelyLevels(state.adjustment, state.choice.estimate) == levels;
+    choose(state);
   }
   weigh(state);
 }

@@ -102,6 +102,7 @@ class QuasiRigorousCalibration {
   void prepare();
   void pairUp(State& state) const;
   void weigh(State& state) const;
+  void choose(State& state) const;
   void adjust(State& state) const;
   void shrinkThreshold(State& state) const;
   /// Whether no parameter moved by more than a small part of its standard deviation.
