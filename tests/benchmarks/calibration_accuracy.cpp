@@ -2,25 +2,59 @@
 // Copyright (c) 2026, the pcl_als authors
 //
 // calibration_accuracy [-preset P] [-noise N] [-model rigorous|quasi_rigorous|vertical] [-vertical]
-// [-random] [-seeds FROM:TO] [-density F]: simulates a block for every seed (-vertical: without
-// attitude motion; -random: with biases of its own), calibrates it and prints, as Markdown, what is
-// wrong with each parameter beside what is said to be, how often the truth was inside the 68 % and
-// 95 % intervals, what is left in the corrected points, and the time. It judges nothing.
+// [-random] [-seeds FROM:TO] [-density F] [-motion DEG] [-pitch DEG] [-crab DEG] [-bound]
+//
+// Simulates a block for every seed (-vertical: without attitude motion; -motion, -pitch, -crab:
+// largest roll, mean pitch, largest crab; -random: with biases of its own), calibrates it and
+// prints, as Markdown, what is wrong with each parameter beside what is said to be, how often the
+// truth was inside the 68 % and 95 % intervals, what is left in the corrected points, and the time;
+// with -bound also what the range noise alone would leave (FisherBound). It judges nothing.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <random>
 #include <string>
 
 #include <pcl_als/trajectory/scan_geometry.h>
 
+#include "accuracy_table.h"
 #include "simulated_survey.h"
 
 namespace {
 
 using namespace pcl_als;
 using simulation::SimulationOptions;
+
+struct Options {
+  std::string preset = "paper", noise = "range", model = "quasi_rigorous";
+  bool vertical = false, random = false, bound = false;
+  int from = 1, to = 10;
+  double density = 1.0;
+  double motion = 0.5, pitch = 1.0, crab = 3.0;  ///< degrees
+
+  /// Takes one option with its value; how many arguments that were, 0 for none that is known.
+  int take(const std::string& name, const char* value) {
+    if (name == "-vertical" || name == "-random" || name == "-bound") {
+      (name == "-vertical" ? vertical : name == "-random" ? random : bound) = true;
+      return 1;
+    }
+    if (value == nullptr) return 0;
+    std::string* const text = name == "-preset"  ? &preset
+                              : name == "-noise" ? &noise
+                              : name == "-model" ? &model
+                                                 : nullptr;
+    double* const number = name == "-density"  ? &density
+                           : name == "-motion" ? &motion
+                           : name == "-pitch"  ? &pitch
+                           : name == "-crab"   ? &crab
+                                               : nullptr;
+    if (text != nullptr) *text = value;
+    if (number != nullptr) *number = std::atof(value);
+    const bool known = text != nullptr || number != nullptr;
+    return known || (name == "-seeds" && std::sscanf(value, "%d:%d", &from, &to) == 2) ? 2 : 0;
+  }
+};
 
 double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -46,43 +80,6 @@ std::pair<double, double> systematicError(const simulation::Simulator& simulator
   return {sum.head<2>().norm(), std::abs(sum.z())};
 }
 
-struct Totals {
-  SystemVector squares = SystemVector::Zero(), largest = SystemVector::Zero(),
-               standardised = SystemVector::Zero(), inside_68 = SystemVector::Zero(),
-               inside_95 = SystemVector::Zero();
-  SystemVector count = SystemVector::Zero();
-};
-
-void printRow(const CalibrationResult& result, const SystemVector& truth, Totals& totals) {
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const int i = indexOf(info.parameter);
-    const ParameterEstimate& estimate = result[info.parameter];
-    if (info.parameter == SystemParameter::lever_arm_z) continue;
-    if (estimate.status != ParameterStatus::estimated) {
-      std::printf(" held |");
-      continue;
-    }
-    const double error = (estimate.bias - truth[i]) / info.internal_per_unit;
-    std::printf(" %.2g (%.2g) |", error, estimate.std / info.internal_per_unit);
-    totals.squares[i] += error * error;
-    totals.largest[i] = std::max(totals.largest[i], std::abs(error));
-    const double standardised = std::abs(estimate.bias - truth[i]) / estimate.std;
-    totals.standardised[i] += standardised * standardised;
-    if (standardised < 0.9945) totals.inside_68[i] += 1.0;
-    if (standardised < 1.96) totals.inside_95[i] += 1.0;
-    totals.count[i] += 1.0;
-  }
-}
-
-void printTotals(const char* name, const SystemVector& values) {
-  std::printf("| %s |", name);
-  for (const SystemParameterInfo& info : systemParameters()) {
-    if (info.parameter != SystemParameter::lever_arm_z)
-      std::printf(" %.2g |", values[indexOf(info.parameter)]);
-  }
-  std::printf(" | |\n");
-}
-
 /// Biases of a freshly mounted system, different for every seed.
 SystemVector randomBiases(std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -100,66 +97,57 @@ SystemVector randomBiases(std::uint64_t seed) {
   return biases;
 }
 
+SimulationOptions blockOf(const Options& given, int seed) {
+  SimulationOptions options = SimulationOptions::preset(given.preset, 1.0, given.density);
+  options.seed = static_cast<std::uint64_t>(seed);
+  options.noise = simulation::NoiseOptions::named(given.noise);
+  options.vertical = given.vertical;
+  options.attitude_amplitude = given.motion * kRadiansPerDegree;
+  options.mean_pitch = given.pitch * kRadiansPerDegree;
+  options.largest_crab = given.crab * kRadiansPerDegree;
+  if (given.random) options.bias = randomBiases(options.seed);
+  return options;
+}
+
+void runSeed(const Options& given, int seed, bench::AccuracyTable& table) {
+  const SimulationOptions options = blockOf(given, seed);
+  const test::SimulatedSurvey survey(options);
+  test::SimulatedSurvey::Request request;
+  request.settings.recover_attitude = given.model != "vertical";
+  request.rigorous = given.model == "rigorous";
+  request.control = survey.control;
+  const double start = secondsNow();
+  const auto calibration = survey.loaded(request);
+  const CalibrationResult result = calibration->calibrate();
+  const double elapsed = secondsNow() - start;
+  const auto [plan, height] =
+      systematicError(simulation::Simulator(options), *calibration->trajectory(), result.biases());
+  char rest[80];
+  std::snprintf(rest, sizeof rest, "%.4f / %.4f | %.1f", plan, height, elapsed);
+  table.printRow(std::to_string(seed), result, survey.bias, rest);
+  if (!given.bound || options.noise.range == 0.0) return;
+  bench::MatchedBlock block(survey, *calibration, request);
+  block.correct(survey.bias);
+  table.addBound(bench::fisherBound(block, options.noise.range, result.correlation_order));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string preset = "paper", noise = "range";
-  std::string model = "quasi_rigorous";
-  bool vertical = false, random = false;
-  int from = 1, to = 10;
-  double density = 1.0;
-  for (int i = 1; i < argc; ++i) {
-    const bool more = i + 1 < argc;
-    if (std::strcmp(argv[i], "-vertical") == 0) {
-      vertical = true;
-    } else if (std::strcmp(argv[i], "-random") == 0) {
-      random = true;
-    } else if (std::strcmp(argv[i], "-model") == 0 && more) {
-      model = argv[++i];
-    } else if (std::strcmp(argv[i], "-preset") == 0 && more) {
-      preset = argv[++i];
-    } else if (std::strcmp(argv[i], "-noise") == 0 && more) {
-      noise = argv[++i];
-    } else if (std::strcmp(argv[i], "-density") == 0 && more) {
-      density = std::atof(argv[++i]);
-    } else if (std::strcmp(argv[i], "-seeds") != 0 || !more ||
-               std::sscanf(argv[++i], "%d:%d", &from, &to) != 2) {
-      std::fprintf(stderr, "unknown option %s\n", argv[i]);
-      return 1;
-    }
+  Options options;
+  for (int i = 1, taken = 0; i < argc; i += taken) {
+    taken = options.take(argv[i], i + 1 < argc ? argv[i + 1] : nullptr);
+    if (taken > 0) continue;
+    std::fprintf(stderr, "unknown option %s\n", argv[i]);
+    return 1;
   }
-  std::printf("%s block, %s noise, %s, model %s, seeds %d to %d: error (std)\n\n", preset.c_str(),
-              noise.c_str(), vertical ? "flown vertically" : "attitude motion and crab",
-              model.c_str(), from, to);
-  std::printf(
-      "| seed | dX m | dY m | pitch \" | roll \" | heading \" | dr m | dS | plan / height m | s "
-      "|\n");
-  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
-  Totals totals;
-  for (int seed = from; seed <= to; ++seed) {
-    SimulationOptions options = SimulationOptions::preset(preset, 1.0, density);
-    options.seed = static_cast<std::uint64_t>(seed);
-    options.noise = simulation::NoiseOptions::named(noise);
-    options.vertical = vertical;
-    if (random) options.bias = randomBiases(options.seed);
-    const test::SimulatedSurvey survey(options);
-    CalibrationSettings settings;
-    settings.recover_attitude = model != "vertical";
-    std::shared_ptr<const Trajectory> flight;
-    const double start = secondsNow();
-    const CalibrationResult result = survey.calibrate(settings, true, model == "rigorous", &flight);
-    const double elapsed = secondsNow() - start;
-    const auto [plan, height] =
-        systematicError(simulation::Simulator(options), *flight, result.biases());
-    std::printf("| %d%s |", seed, result.converged ? "" : " (not converged)");
-    printRow(result, survey.bias, totals);
-    std::printf(" %.4f / %.4f | %.1f |\n", plan, height, elapsed);
-    std::fflush(stdout);
-  }
-  printTotals("RMS", (totals.squares.array() / totals.count.array()).sqrt());
-  printTotals("largest", totals.largest);
-  printTotals("RMS / std", (totals.standardised.array() / totals.count.array()).sqrt());
-  printTotals("in 68 %", totals.inside_68.array() / totals.count.array());
-  printTotals("in 95 %", totals.inside_95.array() / totals.count.array());
+  std::printf("%s block, %s noise, %s, model %s, seeds %d to %d: error (std)\n\n",
+              options.preset.c_str(), options.noise.c_str(),
+              options.vertical ? "flown vertically" : "attitude motion and crab",
+              options.model.c_str(), options.from, options.to);
+  bench::AccuracyTable::printHeader();
+  bench::AccuracyTable table;
+  for (int seed = options.from; seed <= options.to; ++seed) runSeed(options, seed, table);
+  table.printTotals();
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
@@ -54,27 +55,48 @@ struct SimulatedSurvey {
     return std::make_shared<const Trajectory>(trajectory, options);
   }
 
-  /// \a used receives the trajectory to correct the points with, where not null.
-  CalibrationResult calibrate(const CalibrationSettings& settings = CalibrationSettings(),
-                              bool with_control = true, bool rigorous = false,
-                              std::shared_ptr<const Trajectory>* used = nullptr) const {
+  /// What a calibration is given besides the points.
+  struct Request {
+    CalibrationSettings settings;
+    std::vector<ControlPoint> control;
+    bool rigorous = false;                                   ///< attitude of the trajectory
+    std::vector<std::pair<std::string, std::string>> pairs;  ///< empty: all that overlap
+  };
+
+  /// South-west corner of all points.
+  Eigen::Vector2d corner() const {
     Eigen::Vector2d corner = Eigen::Vector2d::Constant(1e18);
     for (const auto& strip : strips) {
       for (const CalibrationPoint& point : strip)
         corner = corner.cwiseMin(point.position.head<2>());
     }
-    QuasiRigorousCalibration calibration(flight(rigorous), settings, corner);
+    return corner;
+  }
+
+  /// A calibration that has read all strips, named "1", "2" …, and is ready to calibrate().
+  std::unique_ptr<QuasiRigorousCalibration> loaded(const Request& request) const {
+    auto calibration = std::make_unique<QuasiRigorousCalibration>(flight(request.rigorous),
+                                                                  request.settings, corner());
     for (std::size_t i = 0; i < strips.size(); ++i) {
-      const int strip = calibration.addStrip(std::to_string(i + 1));
-      calibration.survey(strip, strips[i].data(), strips[i].size());
+      const int strip = calibration->addStrip(std::to_string(i + 1));
+      calibration->survey(strip, strips[i].data(), strips[i].size());
     }
-    if (with_control) calibration.setControl(control);
-    calibration.chooseAreas();
+    if (!request.control.empty()) calibration->setControl(request.control);
+    if (!request.pairs.empty()) calibration->setPairs(request.pairs);
+    calibration->chooseAreas();
     for (std::size_t i = 0; i < strips.size(); ++i) {
-      calibration.load(static_cast<int>(i), strips[i].data(), strips[i].size());
+      calibration->load(static_cast<int>(i), strips[i].data(), strips[i].size());
     }
-    if (used != nullptr) *used = calibration.trajectory();
-    return calibration.calibrate();
+    return calibration;
+  }
+
+  CalibrationResult calibrate(const CalibrationSettings& settings = CalibrationSettings(),
+                              bool with_control = true, bool rigorous = false) const {
+    Request request;
+    request.settings = settings;
+    request.rigorous = rigorous;
+    if (with_control) request.control = control;
+    return loaded(request)->calibrate();
   }
 };
 

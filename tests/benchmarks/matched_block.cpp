@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "matched_block.h"
+
+#include <algorithm>
+
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
+
+namespace pcl_als::bench {
+
+MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey,
+                           const QuasiRigorousCalibration& calibration,
+                           const test::SimulatedSurvey::Request& request)
+    : flight_(calibration.trajectory()),
+      pairs_(calibration.pairs()),
+      control_(request.control),
+      pair_areas_(calibration.areas().size() - request.control.size()),
+      limits_(request.settings.patches) {
+  load(survey, calibration.areas());
+  prepare(request.settings);
+  limitRoughness();
+}
+
+void MatchedBlock::load(const test::SimulatedSurvey& survey,
+                        const std::vector<CalibrationArea>& areas) {
+  const std::size_t strips = survey.strips.size();
+  const AreaIndex index(areas);
+  for (const CalibrationArea& area : areas) matchers_.emplace_back(area, strips);
+  times_.assign(areas.size(), std::vector<std::vector<double>>(strips));
+  parallelFor(strips, 0, [&](std::size_t strip) {
+    for (const CalibrationPoint& point : survey.strips[strip]) {
+      if (!isSurfacePoint(point)) continue;
+      for (const int i : index.candidates(point.position)) {
+        const auto area = static_cast<std::size_t>(i);
+        if (!areas[area].covers(point.position)) continue;
+        matchers_[area].add(static_cast<int>(strip), point);
+        times_[area][strip].push_back(point.time);
+      }
+    }
+  });
+}
+
+void MatchedBlock::prepare(const CalibrationSettings& settings) {
+  std::size_t strips_in_areas = 1;
+  for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
+  const std::size_t candidates =
+      std::clamp<std::size_t>(settings.candidates / strips_in_areas, 150, 2000);
+  parallelFor(matchers_.size(), 0, [&](std::size_t i) {
+    matchers_[i].prepare(limits_, i < pair_areas_ ? candidates : 0, settings.resolution);
+  });
+}
+
+void MatchedBlock::limitRoughness() {
+  std::vector<double> all;
+  for (const AreaMatcher& matcher : matchers_) matcher.collectRoughness(all);
+  if (all.empty()) return;
+  const double plain = medianInPlace(all);
+  limits_.roughness = std::min(limits_.roughness, 3.0 * plain);
+  for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(limits_.roughness, plain);
+}
+
+void MatchedBlock::correct(const SystemVector& biases) {
+  const BiasEvaluator correction(flight_, biases);
+  parallelFor(matchers_.size(), 0, [&](std::size_t i) { matchers_[i].correct(correction); });
+}
+
+std::vector<AreaObservations> MatchedBlock::match(double threshold, const NoiseModel& noise) const {
+  std::vector<AreaObservations> found(matchers_.size());
+  parallelFor(matchers_.size(), 0, [&](std::size_t i) {
+    found[i] = i < pair_areas_ ? matchers_[i].match(pairs_, threshold, *flight_, noise)
+                               : matchers_[i].matchControl({control_[i - pair_areas_]}, threshold,
+                                                           *flight_, noise, 0.0);
+  });
+  return found;
+}
+
+}  // namespace pcl_als::bench
