@@ -171,7 +171,7 @@ std::string inUnit(SystemParameter parameter, double value) {
 ParameterChoice chooseParameters(const Adjustment& adjustment,
                                  const std::vector<SystemParameter>& wanted,
                                  const SystemVector& held, const DeterminationLimits& limits,
-                                 double limit_factor) {
+                                 double limit_factor, const std::vector<SystemParameter>& unknown) {
   ParameterChoice choice;
   choice.estimate = wanted;
   choice.status.fill(ParameterStatus::fixed);
@@ -185,6 +185,9 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
     if (candidates.empty()) {
       for (const P p : wanted) {
         if (choice.status[indexOf(p)] == ParameterStatus::estimated) continue;
+        consider(adjustment, choice.estimate, p, limits.whenHeld(p), choice.solution);
+      }
+      for (const P p : unknown) {
         consider(adjustment, choice.estimate, p, limits.whenHeld(p), choice.solution);
       }
       return choice;

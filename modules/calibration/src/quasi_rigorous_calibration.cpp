@@ -174,8 +174,12 @@ void QuasiRigorousCalibration::choose(State& state) const {
   } else {
     // What was asked for by name is dropped only when it is hopeless.
     const double factor = settings_.estimate.empty() ? 1.0 : 10.0;
-    state.choice =
-        chooseParameters(state.adjustment, wanted, SystemVector::Zero(), settings_.limits, factor);
+    std::vector<SystemParameter> unknown;
+    if (settings_.estimate.empty() && control_.empty()) {
+      unknown.push_back(SystemParameter::range_bias);
+    }
+    state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
+                                    settings_.limits, factor, unknown);
   }
   state.solved = true;
 }

@@ -47,10 +47,13 @@ struct ParameterChoice {
  * one weak direction confuses, the one that can best be measured otherwise goes first: lever arm,
  * then scale, range, heading, pitch, roll.
  */
+/// \param unknown not estimated and not known either (range_bias without control): the uncertainty
+/// of the others includes that they may be wrong, as for those that are dropped.
 ParameterChoice chooseParameters(const Adjustment& adjustment,
                                  const std::vector<SystemParameter>& wanted,
                                  const SystemVector& held, const DeterminationLimits& limits,
-                                 double limit_factor);
+                                 double limit_factor,
+                                 const std::vector<SystemParameter>& unknown = {});
 
 /// "0.35 m", "12.4 arcsec", "0.00031": a value of a parameter in its interface unit.
 std::string inUnit(SystemParameter parameter, double value);
