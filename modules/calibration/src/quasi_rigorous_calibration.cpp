@@ -173,7 +173,7 @@ void QuasiRigorousCalibration::choose(State& state) const {
     state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
   } else {
     // What was asked for by name is dropped only when it is hopeless.
-    const double factor = settings_.estimate.empty() ? 1.0 : 10.0;
+    const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
     std::vector<SystemParameter> unknown;
     if (settings_.estimate.empty() && control_.empty()) {
       unknown.push_back(SystemParameter::range_bias);
