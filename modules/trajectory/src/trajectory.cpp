@@ -83,6 +83,15 @@ Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading) {
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitY());
 }
 
+Trajectory::Options trajectoryOptions(const CalibrationResult& calibration) {
+  Trajectory::Options options;
+  if (calibration.line_fit_half_width > 0.0) {
+    options.line_fit_half_width = calibration.line_fit_half_width;
+  }
+  options.use_attitude = calibration.attitude == AttitudeSource::trajectory;
+  return options;
+}
+
 SensorPose FlightSpan::at(double time) const {
   const double elapsed = time - from;
   return {position + elapsed * velocity,

@@ -94,9 +94,9 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: pipeline A.las B.las trajectory.csv calibration.json OUT.pcd\n";
     return EXIT_FAILURE;
   }
-  const auto trajectory =
-      std::make_shared<const pcl_als::Trajectory>(pcl_als::readTrajectory(argv[3]));
   const pcl_als::CalibrationResult calibration = pcl_als::readCalibration(argv[4]);
+  const auto trajectory = std::make_shared<const pcl_als::Trajectory>(
+      pcl_als::readTrajectory(argv[3]), pcl_als::trajectoryOptions(calibration));
   const Strip a = pcl_als::loadStrips({argv[1]}).front(),
               b = pcl_als::loadStrips({argv[2]}).front();
   const Strip good_a = corrected(a, trajectory, calibration);

@@ -9,8 +9,8 @@
 
 int main() {
   auto calibration = pcl_als::readCalibration("calibration.json");
-  auto trajectory =
-      std::make_shared<const pcl_als::Trajectory>(pcl_als::readTrajectory("trajectory.csv"));
+  auto trajectory = std::make_shared<const pcl_als::Trajectory>(
+      pcl_als::readTrajectory("trajectory.csv"), pcl_als::trajectoryOptions(calibration));
   for (pcl_als::Strip<>& strip : pcl_als::loadStrips({"strip1.las", "strip2.las"})) {
     pcl_als::SystemBiasCorrection<pcl_als::PointLidar> correction;  // a pcl::Filter
     correction.setTrajectory(trajectory);

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
@@ -142,5 +143,10 @@ class Trajectory {
   double gap_threshold_ = 0.0, half_width_ = 0.0;
   bool samples_have_attitude_ = false, has_attitude_ = false;
 };
+
+/// How to make the trajectory that a calibration's biases are applied with: its window, and
+/// attitude where its model is the rigorous one. Where its attitude is that of the points
+/// (AttitudeSource::points), AttitudeRecovery adds it.
+Trajectory::Options trajectoryOptions(const CalibrationResult& calibration);
 
 }  // namespace pcl_als
