@@ -163,6 +163,27 @@ TEST(QuasiRigorousCalibration, AskedForTheImpossibleSaysSo) {
   EXPECT_FALSE(result.warnings.empty());
 }
 
+TEST(QuasiRigorousCalibration, ConvergesFromHalfADegreeAndAMetre) {
+  SimulationOptions options = block("range", false, 11);
+  const double angle = 0.5 * kRadiansPerDegree;
+  options.bias << 1.0, -1.0, 0.0, angle, -angle, angle, 1.0, 1e-3;
+  const SimulatedSurvey survey(options);
+  const CalibrationResult result = survey.calibrate(CalibrationSettings(), true, true);
+  EXPECT_TRUE(result.converged);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    if (info.parameter == P::lever_arm_z) continue;
+    const ParameterEstimate& estimate = result[info.parameter];
+    ASSERT_EQ(estimate.status, ParameterStatus::estimated) << info.name;
+    EXPECT_NEAR(estimate.bias, survey.bias[indexOf(info.parameter)], 3.5 * estimate.std)
+        << info.name;
+    // As well determined as from small biases.
+    EXPECT_LT(estimate.std, info.unit == "m"   ? 0.03
+                            : info.unit == "1" ? 3e-5
+                                               : 10.0 * kRadiansPerArcsec)
+        << info.name;
+  }
+}
+
 TEST(QuasiRigorousCalibration, RefusesATrajectoryOfAnotherFlight) {
   SimulatedSurvey survey(block("range", true, 10));
   for (TrajectorySample& sample : survey.trajectory) sample.time += 90000.0;
