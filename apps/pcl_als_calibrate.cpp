@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -10,6 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 
+#include "adjustment_options.h"
 #include "calibration_tables.h"
 #include "command_line.h"
 #include "flight_options.h"
@@ -35,10 +35,7 @@ CommandLine commandLine() {
   app::addFlightOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   line.addOptional("pairs", "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap)");
-  line.add<std::string>("estimate",
-                        "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that "
-                        "the data determine",
-                        "auto");
+  app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
   line.addFlag("vertical",
                "with quasi_rigorous: take the sensor as vertical and looking along the line of "
@@ -48,36 +45,12 @@ CommandLine commandLine() {
   line.addFlag("strip_corrections",
                "with -corrected: take out what was found wrong with each strip's trajectory, too");
   line.addOptional("report", "folder for report.md and tables as CSV");
-  line.add("range_noise", "standard deviation of a range, m", defaults.noise.range);
-  line.add("angle_noise", "standard deviation of pointing, arcsec",
-           defaults.noise.angle / kRadiansPerArcsec);
-  line.add("beam_divergence", "full angle at 1/e^2, mrad", 1e3 * defaults.noise.beam_divergence);
-  line.add("position_sigma", "trajectory errors that a strip shares: position, m",
-           defaults.shared_errors.position);
-  line.add("roll_pitch_sigma", "the same: roll and pitch, arcsec",
-           defaults.shared_errors.roll_pitch / kRadiansPerArcsec);
-  line.add("heading_sigma", "the same: heading, arcsec",
-           defaults.shared_errors.heading / kRadiansPerArcsec);
-  line.add("control_sigma", "heights of control points whose file gives no sigma, m",
-           defaults.control_sigma);
+  app::addErrorOptions(line);
   line.add("max_distance", "normal distance of a pair at the start, m",
            defaults.max_normal_distance);
   line.add("points", "points used at most, millions",
            1e-6 * static_cast<double>(defaults.selection.point_budget));
   return line;
-}
-
-std::vector<SystemParameter> parametersToEstimate(const std::string& list) {
-  std::vector<SystemParameter> parameters;
-  if (list == "auto") return parameters;
-  for (const std::string& name : app::splitList(list)) {
-    const SystemParameter parameter = app::parameterNamed(name, "option -estimate");
-    if (std::find(parameters.begin(), parameters.end(), parameter) == parameters.end()) {
-      parameters.push_back(parameter);
-    }
-  }
-  if (parameters.empty()) throw UsageError("option -estimate: names no parameter");
-  return parameters;
 }
 
 std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& line) {
@@ -97,15 +70,10 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
 CalibrationSettings settingsOf(const CommandLine& line) {
   CalibrationSettings settings;
   settings.recover_attitude = !line.has("vertical");
-  settings.estimate = parametersToEstimate(line.text("estimate"));
-  settings.noise.range = line.number("range_noise", 1e-4, 1.0, "m");
-  settings.noise.angle = line.number("angle_noise", 0.0, 1000.0, "arcsec") * kRadiansPerArcsec;
-  settings.noise.beam_divergence = 1e-3 * line.number("beam_divergence", 0.0, 10.0, "mrad");
-  SharedErrorModel& shared = settings.shared_errors;
-  shared.position = line.number("position_sigma", 1e-5, 10.0, "m");
-  shared.roll_pitch = line.number("roll_pitch_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
-  shared.heading = line.number("heading_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
-  settings.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
+  settings.estimate = app::parametersToEstimate(line);
+  settings.noise = app::noiseOf(line);
+  settings.shared_errors = app::sharedErrorsOf(line);
+  settings.control_sigma = app::controlSigmaOf(line);
   settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
   settings.selection.point_budget =
       static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
@@ -116,11 +84,7 @@ CalibrationSettings settingsOf(const CommandLine& line) {
 /// What can be known to fail should fail before the work, not after it.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
-  const fs::path folder = fs::absolute(line.text("output")).parent_path();
-  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK) != 0) {
-    throw InputError("cannot write " + line.text("output") + ": " + folder.string() +
-                     " is no folder that can be written to");
-  }
+  app::checkWritable(line.text("output"));
   for (const char* option : {"corrected", "report"}) {
     if (!line.has(option)) continue;
     std::error_code error;
@@ -187,18 +151,6 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   }
 }
 
-/// Why a result is not to be trusted, in one line.
-std::string whyNot(const CalibrationResult& result) {
-  std::string why;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = result[info.parameter];
-    if (estimate.status != ParameterStatus::not_estimable) continue;
-    why += (why.empty() ? "" : "; ") + std::string(info.name) + " is not determined (" +
-           estimate.reason + ")";
-  }
-  return why.empty() ? "the adjustment did not converge" : why;
-}
-
 int calibrate(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -230,7 +182,9 @@ int calibrate(int argc, char** argv) {
     app::writeCalibrationReport(line.text("report"), result, calibration.areas());
   }
   if (!result.converged) {
-    std::cerr << "pcl_als_calibrate: no reliable answer: " << whyNot(result) << std::endl;
+    const std::string why = app::notDetermined(result, "is not");
+    std::cerr << "pcl_als_calibrate: no reliable answer: "
+              << (why.empty() ? "the adjustment did not converge" : why) << std::endl;
     return app::kNoReliableAnswer;
   }
   if (line.has("corrected")) writeCorrected(line, files, calibration.trajectory(), result);

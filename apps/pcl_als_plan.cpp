@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
-
-#include <unistd.h>
 
 #include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/plan_io.h>
 
+#include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
 #include "plan_report.h"
@@ -22,22 +19,6 @@ namespace {
 using namespace pcl_als;
 using app::CommandLine;
 using app::Step;
-namespace fs = std::filesystem;
-
-void addErrorOptions(CommandLine& line) {
-  const CalibrationSettings defaults;
-  line.add("range_noise", "standard deviation of a range, m", defaults.noise.range);
-  line.add("angle_noise", "standard deviation of pointing, arcsec",
-           defaults.noise.angle / kRadiansPerArcsec);
-  line.add("beam_divergence", "full angle at 1/e^2, mrad", 1e3 * defaults.noise.beam_divergence);
-  line.add("position_sigma", "trajectory errors that a strip shares: position, m",
-           defaults.shared_errors.position);
-  line.add("roll_pitch_sigma", "the same: roll and pitch, arcsec",
-           defaults.shared_errors.roll_pitch / kRadiansPerArcsec);
-  line.add("heading_sigma", "the same: heading, arcsec",
-           defaults.shared_errors.heading / kRadiansPerArcsec);
-  line.add("control_sigma", "heights of control points, m", defaults.control_sigma);
-}
 
 CommandLine commandLine() {
   const SurfaceModel surface;
@@ -63,12 +44,9 @@ CommandLine commandLine() {
                    "elevations in the frame of the lines: ESRI ASCII grid (.asc), in "
                    "place of -ground_slope");
   line.add("control", "vertical control points, spread over the block", 0);
-  line.add<std::string>("estimate",
-                        "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that "
-                        "the flight determines",
-                        "auto");
+  app::addEstimateOption(line, "the flight determines");
   line.addOptional("output", "plan.json to write");
-  addErrorOptions(line);
+  app::addErrorOptions(line);
   return line;
 }
 
@@ -109,32 +87,13 @@ SurfaceModel surfaceOf(const CommandLine& line) {
   return surface;
 }
 
-std::vector<SystemParameter> parametersToEstimate(const std::string& list) {
-  std::vector<SystemParameter> parameters;
-  if (list == "auto") return parameters;
-  for (const std::string& name : app::splitList(list)) {
-    const SystemParameter parameter = app::parameterNamed(name, "option -estimate");
-    if (std::find(parameters.begin(), parameters.end(), parameter) == parameters.end()) {
-      parameters.push_back(parameter);
-    }
-  }
-  if (parameters.empty()) throw UsageError("option -estimate: names no parameter");
-  return parameters;
-}
-
 FlightPlan::Settings settingsOf(const CommandLine& line) {
   FlightPlan::Settings settings;
   ObservabilitySettings& adjustment = settings.adjustment;
-  adjustment.estimate = parametersToEstimate(line.text("estimate"));
-  NoiseModel& noise = adjustment.pairs.noise;
-  noise.range = line.number("range_noise", 1e-4, 1.0, "m");
-  noise.angle = line.number("angle_noise", 0.0, 1000.0, "arcsec") * kRadiansPerArcsec;
-  noise.beam_divergence = 1e-3 * line.number("beam_divergence", 0.0, 10.0, "mrad");
-  SharedErrorModel& shared = adjustment.shared_errors;
-  shared.position = line.number("position_sigma", 1e-5, 10.0, "m");
-  shared.roll_pitch = line.number("roll_pitch_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
-  shared.heading = line.number("heading_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
-  adjustment.pairs.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
+  adjustment.estimate = app::parametersToEstimate(line);
+  adjustment.pairs.noise = app::noiseOf(line);
+  adjustment.shared_errors = app::sharedErrorsOf(line);
+  adjustment.pairs.control_sigma = app::controlSigmaOf(line);
   adjustment.threads = line.threads();
   const int control = line.get<int>("control");
   if (control < 0 || control > 1000) {
@@ -170,33 +129,13 @@ std::vector<StripGeometry> plannedLines(const CommandLine& line) {
   return lines;
 }
 
-/// What can be known to fail should fail before the work, not after it.
-void checkOutput(const CommandLine& line) {
-  if (!line.has("output")) return;
-  const fs::path folder = fs::absolute(line.text("output")).parent_path();
-  if (fs::is_directory(folder) && access(folder.c_str(), W_OK) == 0) return;
-  throw InputError("cannot write " + line.text("output") + ": " + folder.string() +
-                   " is no folder that can be written to");
-}
-
-std::string whyNot(const CalibrationResult& expected) {
-  std::string why;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = expected[info.parameter];
-    if (estimate.status != ParameterStatus::not_estimable) continue;
-    why += (why.empty() ? "" : "; ") + std::string(info.name) + " will not be determined (" +
-           estimate.reason + ")";
-  }
-  return why;
-}
-
 int plan(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
   line.inputs(0, 0);
   if (!line.has("lines")) throw UsageError("option -lines is needed");
   FlightPlan::Settings settings = settingsOf(line);
-  checkOutput(line);
+  if (line.has("output")) app::checkWritable(line.text("output"));
   std::vector<StripGeometry> lines = plannedLines(line);
   settings.adjustment.pairs.surface = surfaceOf(line);
   const FlightPlan flight(std::move(lines), settings);
@@ -211,7 +150,8 @@ int plan(int argc, char** argv) {
   }
   if (!line.quiet()) std::cout << '\n' << app::planTables(result) << std::flush;
   if (result.expected.converged) return app::kDone;
-  std::cerr << "pcl_als_plan: no reliable answer: " << whyNot(result.expected) << std::endl;
+  std::cerr << "pcl_als_plan: no reliable answer: "
+            << app::notDetermined(result.expected, "will not be") << std::endl;
   return app::kNoReliableAnswer;
 }
 

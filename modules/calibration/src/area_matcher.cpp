@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/modified_weight.h>
 #include <pcl_als/common/statistics.h>
+
+#include "pairing_rules.h"
 
 namespace pcl_als {
 namespace {
@@ -15,39 +16,12 @@ constexpr std::size_t kTooFew =
     30;  // points of a strip in an area with margin that are not worth a TIN
 constexpr double kGentle =
     0.26;  // radians: slopes on which the roughness of plain ground is measured
-constexpr int kAspects = 8;
-constexpr double kSignificant = 5.0;  // standard deviations of a tilt from which on it is one
-constexpr std::array<double, 3> kSlopeSteps{0.087, 0.26, 0.52};  // radians: 5, 15, 30 degrees
-constexpr std::size_t kClasses = 1 + kSlopeSteps.size() * kAspects;
-
-/// Class of a surface's orientation: 0 for flat, then slope step times aspect.
-std::size_t orientationClass(const Eigen::Vector3d& normal) {
-  const double slope = std::atan2(std::hypot(normal.x(), normal.y()), normal.z());
-  if (slope < kSlopeSteps[0]) return 0;
-  const int step = slope < kSlopeSteps[1] ? 0 : slope < kSlopeSteps[2] ? 1 : 2;
-  // Coordinates are multiples of a step, so directions along the axes and diagonals are common:
-  // borders between classes lie aside, or rounding would decide.
-  constexpr double kAside = 0.1234;
-  const double turn =
-      std::fmod(std::atan2(normal.y(), normal.x()) + 3.0 * kPi + kAside, 2.0 * kPi) / (2.0 * kPi);
-  return static_cast<std::size_t>(1 + step * kAspects +
-                                  std::min(kAspects - 1, static_cast<int>(turn * kAspects)));
-}
-
-/// How many to take of each class so that they are as even as the classes allow and the sum is at
-/// most total.
-std::vector<std::size_t> evenShares(const std::vector<std::vector<std::int32_t>>& classes,
-                                    std::size_t total) {
-  std::vector<std::size_t> order(classes.size()), shares(classes.size(), 0);
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return classes[a].size() < classes[b].size();
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    shares[order[i]] = std::min(classes[order[i]].size(), total / (order.size() - i));
-    total -= shares[order[i]];
-  }
-  return shares;
+/// How many to take of each class.
+std::vector<std::size_t> sharesOf(const std::vector<std::vector<std::int32_t>>& classes,
+                                  std::size_t total) {
+  std::vector<std::size_t> sizes;
+  for (const auto& members : classes) sizes.push_back(members.size());
+  return evenShares(sizes, total);
 }
 
 }  // namespace
@@ -104,13 +78,13 @@ Eigen::Vector3d AreaMatcher::measuringNormal(const PatchQuality& quality) const 
   const Eigen::Vector3d& normal = quality.plane_normal;
   const double noise = std::max<double>(quality.roughness, limits_.plain_roughness);
   const double tilt = noise / std::max<double>(quality.spread, 1e-3);
-  return std::hypot(normal.x(), normal.y()) < kSignificant * tilt
+  return std::hypot(normal.x(), normal.y()) < kSignificantTilt * tilt
              ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
              : normal;
 }
 
 std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const StripPart& part) const {
-  std::vector<std::vector<std::int32_t>> classes(kClasses);
+  std::vector<std::vector<std::int32_t>> classes(kOrientationClasses);
   std::vector<bool> seen(part.biased.size(), false);
   const auto& triangles = part.surface.tin().triangles();
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -128,8 +102,8 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   // is there.
   constexpr std::size_t kLooks = 4;
   const auto rough = trianglesByClass(part);
-  std::vector<std::vector<std::int32_t>> classes(kClasses);
-  const std::vector<std::size_t> looks = evenShares(rough, kLooks * count);
+  std::vector<std::vector<std::int32_t>> classes(kOrientationClasses);
+  const std::vector<std::size_t> looks = sharesOf(rough, kLooks * count);
   for (std::size_t c = 0; c < rough.size(); ++c) {
     for (std::size_t k = 0; k < looks[c]; ++k) {
       const std::int32_t triangle = rough[c][k * rough[c].size() / looks[c]];
@@ -140,7 +114,7 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
       if (quality.slope < kGentle) part.roughness.push_back(quality.roughness);
     }
   }
-  const std::vector<std::size_t> shares = evenShares(classes, count);
+  const std::vector<std::size_t> shares = sharesOf(classes, count);
   part.candidates.clear();
   for (std::size_t c = 0; c < classes.size(); ++c) {
     for (std::size_t k = 0; k < shares[c]; ++k) {
@@ -226,12 +200,8 @@ class AreaMatcher::PointGeometry {
   Eigen::Vector3d beam;                             ///< unit, downward
   double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
 
-  /// Effect on the normal distance of the pulse's stretch over the footprint, n'u range divergence
-  /// tan(incidence).
   double stretch(const Eigen::Vector3d& normal) const {
-    const double cosine = -normal.dot(beam);
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    return -range * noise_.beam_divergence * sine;
+    return stretchEffect(range, beam, normal, noise_.beam_divergence);
   }
 
  private:

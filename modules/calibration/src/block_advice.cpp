@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <pcl_als/calibration/block_advice.h>
+#include <pcl_als/common/statistics.h>
 
 #include "virtual_lines.h"
 
@@ -215,9 +216,7 @@ void measure(int index, const std::vector<AreaObservations>& observations, Strip
     }
   }
   if (heights.empty()) return;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  strip.height = *middle;
+  strip.height = medianInPlace(heights);
   strip.half_angle = widest;
 }
 

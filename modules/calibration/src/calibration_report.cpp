@@ -38,15 +38,18 @@ CalibrationReport::CalibrationReport(const std::vector<std::string>& strip_ids,
                                      bool without_control)
     : ids_(strip_ids), without_control_(without_control) {}
 
-void CalibrationReport::addFit(const std::vector<AreaObservations>& observations,
-                               const SystemVector& biases, bool after,
-                               CalibrationResult& result) const {
-  std::map<std::pair<int, int>, RunningStatistics> statistics;
+namespace {
+
+using FitStatistics = std::map<std::pair<int, int>, RunningStatistics>;
+
+/// By pair of strips, of what \a residual leaves of every observation. Means are of the first strip
+/// above the second; for control, of the strip above the point, vertically.
+template <typename Residual>
+FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Residual& residual) {
+  FitStatistics statistics;
   for (const AreaObservations& area : observations) {
     for (const PairObservation& o : area) {
-      const double distance = o.distance(biases);
-      // Means are of the first strip above the second; for control, of the strip above the point,
-      // vertically.
+      const double distance = residual(o);
       if (o.a == PairObservation::kControl) {
         statistics[{o.a, o.b}].add(-distance / o.normal.z());
       } else {
@@ -54,17 +57,28 @@ void CalibrationReport::addFit(const std::vector<AreaObservations>& observations
       }
     }
   }
-  for (const auto& [strips, values] : statistics) {
+  return statistics;
+}
+
+}  // namespace
+
+void CalibrationReport::addFit(const std::vector<AreaObservations>& observations,
+                               const SystemVector& biases, bool after,
+                               CalibrationResult& result) const {
+  const auto fill = [after](const RunningStatistics& values, auto& fit) {
+    (after ? fit.mean_after : fit.mean_before) = values.mean();
+    (after ? fit.rms_after : fit.rms_before) = values.rms();
+  };
+  const auto distance = [&](const PairObservation& o) { return o.distance(biases); };
+  for (const auto& [strips, values] : fitOf(observations, distance)) {
     if (strips.first == PairObservation::kControl) {
       ControlFit& fit = controlFit(result, ids_[strips.second]);
       fit.points = values.count();
-      (after ? fit.mean_after : fit.mean_before) = values.mean();
-      (after ? fit.rms_after : fit.rms_before) = values.rms();
+      fill(values, fit);
     } else {
       PairFit& fit = pairFit(result, ids_[strips.first], ids_[strips.second]);
       fit.correspondences = values.count();
-      (after ? fit.mean_after : fit.mean_before) = values.mean();
-      (after ? fit.rms_after : fit.rms_before) = values.rms();
+      fill(values, fit);
     }
   }
 }
@@ -82,15 +96,9 @@ void CalibrationReport::addStripFit(const std::vector<AreaObservations>& observa
                                     const Adjustment& adjustment,
                                     const AdjustmentSolution& solution,
                                     CalibrationResult& result) const {
-  std::map<std::pair<int, int>, RunningStatistics> statistics;
-  for (const AreaObservations& area : observations) {
-    for (const PairObservation& o : area) {
-      if (o.a == PairObservation::kControl) continue;
-      const double distance = adjustment.residual(o, solution);
-      statistics[std::minmax(o.a, o.b)].add(o.a < o.b ? distance : -distance);
-    }
-  }
-  for (const auto& [strips, values] : statistics) {
+  const auto residual = [&](const PairObservation& o) { return adjustment.residual(o, solution); };
+  for (const auto& [strips, values] : fitOf(observations, residual)) {
+    if (strips.first == PairObservation::kControl) continue;
     PairFit& fit = pairFit(result, ids_[strips.first], ids_[strips.second]);
     fit.mean_strips = values.mean();
     fit.rms_strips = values.rms();

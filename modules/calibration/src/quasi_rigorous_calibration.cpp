@@ -11,6 +11,8 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 
+#include "pairing_rules.h"
+
 namespace pcl_als {
 namespace {
 
@@ -20,7 +22,6 @@ constexpr double kReject = 4.5;  // and from which it has none
 // weights of the last.
 constexpr int kFirstWeightings = 3;
 constexpr std::size_t kEnoughForScale = 30;
-constexpr std::size_t kFewestCandidates = 150, kMostCandidates = 2000;  // of a strip in an area
 // A TIN between points is never better than some millimetres: pairs that fit better are no better.
 constexpr double kLeastScale = 0.25;
 constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
@@ -101,8 +102,7 @@ std::size_t QuasiRigorousCalibration::loadedPoints() const {
 void QuasiRigorousCalibration::prepare() {
   std::size_t strips_in_areas = 1;
   for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
-  const std::size_t candidates =
-      std::clamp(settings_.candidates / strips_in_areas, kFewestCandidates, kMostCandidates);
+  const std::size_t candidates = candidatesPerStrip(settings_.candidates, strips_in_areas);
   std::vector<std::vector<double>> roughness(matchers_.size());
   parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
     const bool control = i >= pair_areas_;

@@ -1,60 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
 #include <pcl_als/calibration/modified_weight.h>
 #include <pcl_als/calibration/synthetic_pairs.h>
 
+#include "pairing_rules.h"
+
 namespace pcl_als {
 namespace {
 
 constexpr int kGroundSamples = 16, kSteepSamples = 8;  // of an area
 constexpr double kGoldenAngle = 2.399963229728653;     // radians: even aspects for any number
-constexpr double kFewest = 150.0, kMost = 2000.0;      // candidates of a strip in an area
-constexpr double kAccepted = 0.9;  // share of candidates that find a patch worth measuring to
-// A neighbourhood of some nine points, a point spacing apart: its spread in point spacings, and the
-// standard deviations of a tilt from which on AreaMatcher takes it for one.
-constexpr double kSpread = 1.8, kSignificant = 5.0;
+constexpr double kAccepted = 0.9;   // share of candidates that find a patch worth measuring to
+constexpr double kSpread = 1.8;     // of a neighbourhood of some nine points, in point spacings
 constexpr double kFootShare = 0.5;  // mean sum of squares of the weights of a triangle's vertices
-
-/// Water-filling: how many of each class, as even as they allow, in all \a total.
-void fillEvenly(std::vector<double>& available, double total) {
-  std::vector<std::size_t> order(available.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return available[a] < available[b]; });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    double& own = available[order[i]];
-    own = std::min(own, total / static_cast<double>(order.size() - i));
-    total -= own;
-  }
-}
-
-/// The classes of slope and aspect over which AreaMatcher spreads its candidates: flat, then three
-/// steps of slope times eight aspects.
-constexpr std::size_t kAspects = 8, kClasses = 1 + 3 * kAspects;
-
-std::size_t orientationOf(const Eigen::Vector3d& normal) {
-  constexpr std::array<double, 3> kSteps{5.0, 15.0, 30.0};  // degrees
-  const double slope =
-      std::atan2(std::hypot(normal.x(), normal.y()), normal.z()) / kRadiansPerDegree;
-  if (slope < kSteps[0]) return 0;
-  const std::size_t step = slope < kSteps[1] ? 0 : slope < kSteps[2] ? 1 : 2;
-  const double turn = (std::atan2(normal.y(), normal.x()) + kPi) / (2.0 * kPi);
-  const auto aspect = static_cast<std::size_t>(turn * kAspects);
-  return 1 + step * kAspects + std::min(kAspects - 1, aspect);
-}
-
-/// Effect on the normal distance of the pulse's stretch over the footprint, as in AreaMatcher.
-double stretchOf(const ScanGeometry& g, const Eigen::Vector3d& normal, double divergence) {
-  const double cosine = normal.dot(g.beam());
-  return -g.range() * divergence * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-}
 
 Eigen::Vector3d normalOf(double slope, double aspect) {
   return {std::sin(slope) * std::cos(aspect), std::sin(slope) * std::sin(aspect), std::cos(slope)};
@@ -116,17 +79,17 @@ std::vector<double> SyntheticPairs::pairsPerSample(const std::vector<Sample>& sa
                                                    double density, double candidates) const {
   const double side = settings_.selection.area_size;
   const double points = settings_.surface.usable * side * side * density;
-  std::vector<double> of_class(kClasses, 0.0), pairs;
-  for (const Sample& sample : samples) of_class[orientationOf(sample.normal)] += sample.share;
+  std::vector<double> of_class(kOrientationClasses, 0.0), pairs;
+  for (const Sample& sample : samples) of_class[orientationClass(sample.normal)] += sample.share;
   std::vector<double> taken = of_class;
   for (double& share : taken) share *= points;
   if (settings_.surface.balanced) {
-    fillEvenly(taken, candidates);
+    taken = evenShares(taken, candidates);
   } else {
     for (double& count : taken) count *= std::min(1.0, candidates / points);
   }
   for (const Sample& sample : samples) {
-    const std::size_t orientation = orientationOf(sample.normal);
+    const std::size_t orientation = orientationClass(sample.normal);
     pairs.push_back(kAccepted * taken[orientation] * sample.share / of_class[orientation]);
   }
   return pairs;
@@ -135,7 +98,7 @@ std::vector<double> SyntheticPairs::pairsPerSample(const std::vector<Sample>& sa
 bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const StripGeometry& b,
                              PairObservation& o) const {
   const Eigen::Vector2d place = sample.position.head<2>();
-  const double tilt_noise = kSignificant *
+  const double tilt_noise = kSignificantTilt *
                             std::hypot(settings_.noise.range, settings_.noise.position) *
                             std::sqrt(b.density) / kSpread;
   const double tilt = std::hypot(sample.normal.x(), sample.normal.y());
@@ -153,7 +116,8 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
     (patch ? o.time_b : o.time_a) = strip->timeAbeam(place);
     o.variance +=
         (patch ? kFootShare : 1.0) * normalVariance(settings_.noise.pointCovariance(g), o.normal);
-    o.stretch += (patch ? -1.0 : 1.0) * stretchOf(g, o.normal, settings_.noise.beam_divergence);
+    o.stretch += (patch ? -1.0 : 1.0) *
+                 stretchEffect(g.range(), g.beam(), o.normal, settings_.noise.beam_divergence);
     o.ranges += (patch ? -1.0 : 1.0) * g.range() * o.normal.dot(g.beam());
     o.lateral = std::abs(g.x);
     o.height = std::abs(g.z);
@@ -198,7 +162,7 @@ void SyntheticPairs::addPairs(int first, ObservedBlock& block) const {
     }
   }
   const double candidates =
-      std::clamp(static_cast<double>(settings_.candidates) / strips_in_areas, kFewest, kMost);
+      candidatesPerStrip(static_cast<double>(settings_.candidates), strips_in_areas);
   for (const Eigen::Vector2d& corner : corners) addArea(corner, first, candidates, block);
 }
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "adjustment_options.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/errors.h>
+
+#include "flight_options.h"
+
+namespace pcl_als::app {
+
+void addErrorOptions(CommandLine& line) {
+  const CalibrationSettings defaults;
+  line.add("range_noise", "standard deviation of a range, m", defaults.noise.range);
+  line.add("angle_noise", "standard deviation of pointing, arcsec",
+           defaults.noise.angle / kRadiansPerArcsec);
+  line.add("beam_divergence", "full angle at 1/e^2, mrad", 1e3 * defaults.noise.beam_divergence);
+  line.add("position_sigma", "trajectory errors that a strip shares: position, m",
+           defaults.shared_errors.position);
+  line.add("roll_pitch_sigma", "the same: roll and pitch, arcsec",
+           defaults.shared_errors.roll_pitch / kRadiansPerArcsec);
+  line.add("heading_sigma", "the same: heading, arcsec",
+           defaults.shared_errors.heading / kRadiansPerArcsec);
+  line.add("control_sigma", "heights of control points that come without a sigma, m",
+           defaults.control_sigma);
+}
+
+NoiseModel noiseOf(const CommandLine& line) {
+  NoiseModel noise;
+  noise.range = line.number("range_noise", 1e-4, 1.0, "m");
+  noise.angle = line.number("angle_noise", 0.0, 1000.0, "arcsec") * kRadiansPerArcsec;
+  noise.beam_divergence = 1e-3 * line.number("beam_divergence", 0.0, 10.0, "mrad");
+  return noise;
+}
+
+SharedErrorModel sharedErrorsOf(const CommandLine& line) {
+  SharedErrorModel shared;
+  shared.position = line.number("position_sigma", 1e-5, 10.0, "m");
+  shared.roll_pitch = line.number("roll_pitch_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
+  shared.heading = line.number("heading_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
+  return shared;
+}
+
+double controlSigmaOf(const CommandLine& line) {
+  return line.number("control_sigma", 1e-4, 10.0, "m");
+}
+
+void addEstimateOption(CommandLine& line, const std::string& subject) {
+  const std::string help =
+      "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that " + subject;
+  line.add<std::string>("estimate", help.c_str(), "auto");
+}
+
+std::vector<SystemParameter> parametersToEstimate(const CommandLine& line) {
+  std::vector<SystemParameter> parameters;
+  const std::string list = line.text("estimate");
+  if (list == "auto") return parameters;
+  for (const std::string& name : splitList(list)) {
+    const SystemParameter parameter = parameterNamed(name, "option -estimate");
+    if (std::find(parameters.begin(), parameters.end(), parameter) == parameters.end()) {
+      parameters.push_back(parameter);
+    }
+  }
+  if (parameters.empty()) throw UsageError("option -estimate: names no parameter");
+  return parameters;
+}
+
+std::string notDetermined(const CalibrationResult& result, const std::string& verb) {
+  std::string why;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    if (estimate.status != ParameterStatus::not_estimable) continue;
+    why += (why.empty() ? "" : "; ") + std::string(info.name) + " " + verb + " determined (" +
+           estimate.reason + ")";
+  }
+  return why;
+}
+
+void checkWritable(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  if (std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK) == 0) return;
+  throw InputError("cannot write " + path + ": " + folder.string() +
+                   " is no folder that can be written to");
+}
+
+}  // namespace pcl_als::app

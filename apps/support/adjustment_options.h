@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/noise_model.h>
+#include <pcl_als/calibration/shared_errors.h>
+#include <pcl_als/common/calibration_result.h>
+
+#include "command_line.h"
+
+namespace pcl_als::app {
+
+/// What an adjustment is told about errors, whether its data exist or are planned:
+/// -range_noise, -angle_noise, -beam_divergence, -position_sigma, -roll_pitch_sigma,
+/// -heading_sigma, -control_sigma.
+void addErrorOptions(CommandLine& line);
+NoiseModel noiseOf(const CommandLine& line);
+SharedErrorModel sharedErrorsOf(const CommandLine& line);
+double controlSigmaOf(const CommandLine& line);
+
+/// -estimate: names separated by commas, or auto (an empty list). \a subject determines them.
+void addEstimateOption(CommandLine& line, const std::string& subject);
+std::vector<SystemParameter> parametersToEstimate(const CommandLine& line);
+
+/// Every parameter that \a result does not determine, with the reason; \a verb is "is not" or "will
+/// not be".
+std::string notDetermined(const CalibrationResult& result, const std::string& verb);
+
+/// Throws InputError where a file \a path cannot be written; what can be known to fail should fail
+/// before the work.
+void checkWritable(const std::string& path);
+
+}  // namespace pcl_als::app
