@@ -87,6 +87,44 @@ TEST(SharedErrors, PlacesTimesBetweenKnots) {
   EXPECT_EQ(errors.placeOf(1, 50.0).knot, errors.placeOf(1, 50.0).next_knot);
 }
 
+TEST(SharedErrors, BridgesWhatNobodyObserves) {
+  // Knots at 0, 10, ... 100 s; observed from 0 to 5 s and at 72 s: those at 0, 10, 70, 80 remain,
+  // with the covariance that the whole chain gives them.
+  const SharedErrors whole({{0.0, 100.0}}, model());
+  const SharedErrors part({{0.0, 100.0}}, model(), {{{72.0, 72.0}, {0.0, 5.0}}});
+  ASSERT_EQ(whole.knotCount(), 11);
+  ASSERT_EQ(part.knotCount(), 4);
+  const Eigen::MatrixXd all = Eigen::MatrixXd(whole.priorInformation()).inverse();
+  const Eigen::MatrixXd kept = Eigen::MatrixXd(part.priorInformation()).inverse();
+  const int steps[] = {0, 1, 7, 8};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j)
+      EXPECT_NEAR(kept(6 * i, 6 * j), all(6 * steps[i], 6 * steps[j]), 1e-15);
+  }
+  EXPECT_EQ(part.placeOf(0, 75.0).knot, 2);
+  EXPECT_DOUBLE_EQ(part.placeOf(0, 75.0).next, 0.5);
+}
+
+TEST(SharedErrors, ExpectsOfUnobservedTimesWhatTheProcessDoes) {
+  const SharedErrors whole({{0.0, 100.0}}, model());
+  const SharedErrors part({{0.0, 100.0}}, model(), {{{72.0, 72.0}, {0.0, 5.0}}});
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(part.unknowns());
+  for (int knot = 0; knot < 4; ++knot) known[6 * knot] = 0.01 * (knot + 1);
+  // The other knots of the whole chain, given those: -(N_oo)^-1 N_ok x_k.
+  const Eigen::MatrixXd information = Eigen::MatrixXd(whole.priorInformation());
+  const std::vector<int> given{0, 1, 7, 8}, open{2, 3, 4, 5, 6, 9, 10};
+  Eigen::MatrixXd oo(7, 7), ok(7, 4);
+  for (int r = 0; r < 7; ++r) {
+    for (int c = 0; c < 7; ++c) oo(r, c) = information(6 * open[r], 6 * open[c]);
+    for (int c = 0; c < 4; ++c) ok(r, c) = information(6 * open[r], 6 * given[c]);
+  }
+  const Eigen::VectorXd expected = -oo.ldlt().solve(ok * Eigen::Vector4d(0.01, 0.02, 0.03, 0.04));
+  const auto errors = part.errorsOf(0, known);
+  ASSERT_EQ(errors.size(), 11U);
+  EXPECT_DOUBLE_EQ(errors[7].position.x(), 0.03);
+  for (int i = 0; i < 7; ++i) EXPECT_NEAR(errors[open[i]].position.x(), expected[i], 1e-15);
+}
+
 TEST(SharedErrors, RefusesAnImpossibleModel) {
   SharedErrorModel errors;
   errors.heading = 0.0;

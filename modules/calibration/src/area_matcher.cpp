@@ -45,6 +45,13 @@ std::size_t AreaMatcher::stripCount() const {
       strips_.begin(), strips_.end(), [](const StripPart& part) { return !part.biased.empty(); }));
 }
 
+std::optional<TimeSpan> AreaMatcher::timesOf(int strip) const {
+  const std::vector<double>& times = strips_[static_cast<std::size_t>(strip)].times;
+  if (times.empty()) return std::nullopt;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  return TimeSpan(*first, *last);
+}
+
 void AreaMatcher::prepare(const PatchLimits& limits, std::size_t candidates, double resolution) {
   limits_ = limits;
   for (StripPart& part : strips_) {

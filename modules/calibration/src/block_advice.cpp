@@ -97,7 +97,9 @@ std::vector<P> automaticParameters(bool with_control) {
 }
 
 AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySettings& settings)
-    : errors_(block.spans, settings.shared_errors), adjustment_(errors_, settings.threads) {
+    : errors_(block.spans, settings.shared_errors,
+              observedTimes(block.observations, block.spans.size())),
+      adjustment_(errors_, settings.threads) {
   adjustment_.setLevels(settings.levels);
   adjustment_.accumulate(block.observations, block.weights);
   const bool automatic = settings.estimate.empty();

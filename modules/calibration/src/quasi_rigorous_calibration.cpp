@@ -299,6 +299,17 @@ std::vector<std::string> QuasiRigorousCalibration::observability(
       .text();
 }
 
+std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() const {
+  std::vector<std::vector<TimeSpan>> times(ids_.size());
+  for (const AreaMatcher& matcher : matchers_) {
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const auto span = matcher.timesOf(static_cast<int>(i));
+      if (span) times[i].push_back(*span);
+    }
+  }
+  return times;
+}
+
 CalibrationResult QuasiRigorousCalibration::calibrate() {
   prepare();
   std::vector<std::pair<double, double>> spans;
@@ -307,7 +318,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
     spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
                              : std::pair(0.0, 0.0));
   }
-  const SharedErrors errors(spans, settings_.shared_errors);
+  const SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
   State state(errors, settings_.threads);
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;

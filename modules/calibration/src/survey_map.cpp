@@ -92,18 +92,26 @@ void SurveyMap::add(int index, const CalibrationPoint* points, std::size_t count
 }
 
 std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
-  std::vector<Overlap> found;
-  for (int a = 0; a < static_cast<int>(strips_.size()); ++a) {
-    for (int b = a + 1; b < static_cast<int>(strips_.size()); ++b) {
-      const auto& small =
-          strips_[a].cells.size() < strips_[b].cells.size() ? strips_[a].cells : strips_[b].cells;
-      const auto& large = &small == &strips_[a].cells ? strips_[b].cells : strips_[a].cells;
-      const auto common = std::count_if(small.begin(), small.end(), [&](const auto& entry) {
-        return large.count(entry.first) != 0;
-      });
-      const double area = static_cast<double>(common) * kCell * kCell;
-      if (area > 0.0 && area >= minimum_area) found.push_back({{a, b}, area});
+  // By cell and not by pair: of a thousand strips hardly any two meet.
+  std::vector<std::pair<std::int64_t, int>> touched;
+  for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
+    for (const auto& [key, cell] : strips_[strip].cells) {
+      touched.emplace_back(key, static_cast<int>(strip));
     }
+  }
+  std::sort(touched.begin(), touched.end());
+  std::map<StripPair, std::size_t> common;
+  for (auto first = touched.begin(); first != touched.end();) {
+    auto end = first;
+    while (end != touched.end() && end->first == first->first) ++end;
+    for (; first != end; ++first) {
+      for (auto other = first + 1; other != end; ++other) ++common[{first->second, other->second}];
+    }
+  }
+  std::vector<Overlap> found;
+  for (const auto& [strips, cells] : common) {
+    const double area = static_cast<double>(cells) * kCell * kCell;
+    if (area >= minimum_area) found.push_back({strips, area});
   }
   return found;
 }

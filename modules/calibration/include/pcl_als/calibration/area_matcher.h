@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -43,6 +44,9 @@ class AreaMatcher {
   const CalibrationArea& area() const { return area_; }
   std::size_t pointCount() const;
   std::size_t stripCount() const;  ///< strips with points in the area or its margin
+
+  /// When a strip measured the area and its margin; empty where it has no points in it.
+  std::optional<TimeSpan> timesOf(int strip) const;
 
   /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
   /// aspects.

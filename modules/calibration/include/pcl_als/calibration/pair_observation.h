@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,5 +46,12 @@ struct PairObservation {
 /// The pairs found in one area: the unit that is computed at a time and, for the uncertainty, a
 /// group that may share an error the model does not know.
 using AreaObservations = std::vector<PairObservation>;
+
+/// First and last of some times, seconds.
+using TimeSpan = std::pair<double, double>;
+
+/// When each of \a strips strips is observed, one span for every area it is seen in.
+std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
+                                                 std::size_t strips);
 
 }  // namespace pcl_als

@@ -100,6 +100,7 @@ class QuasiRigorousCalibration {
   void choosePairs();
   int stripNamed(const std::string& id) const;
   void prepare();
+  std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
   void pairUp(State& state) const;
   void weigh(State& state) const;
   void choose(State& state) const;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/system_parameters.h>
 
@@ -53,14 +54,22 @@ struct SharedErrorLevels {
   }
 };
 
-/// The unknowns of the model: six at every knot of every strip (linear in time between knots), then
-/// one block of six for the instrument: the ranging share, the range scale, and four unused.
+/** \brief The unknowns of the model: six at every knot of every strip (linear in time between
+ * knots), then one block of six for the instrument: the ranging share, the range scale, and four
+ * unused.
+ *
+ * Knots are a knot_spacing apart, and only where something was observed: what lies between is
+ * bridged by the process itself, exactly, so that a survey costs what its observations cost and not
+ * what its flight lines are long.
+ */
 class SharedErrors {
  public:
   static constexpr int kPerKnot = 6;
 
-  /// \param spans first and last firing time of every strip, seconds
-  SharedErrors(const std::vector<std::pair<double, double>>& spans, const SharedErrorModel& model);
+  /// \param spans firing times of every strip
+  /// \param observed by strip, when observations are made, in any order; empty: always
+  SharedErrors(const std::vector<TimeSpan>& spans, const SharedErrorModel& model,
+               const std::vector<std::vector<TimeSpan>>& observed = {});
 
   int knotCount() const { return knot_count_; }
   int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
@@ -73,7 +82,9 @@ class SharedErrors {
     double next = 0.0;  ///< share of next_knot, 0 … 1
   };
   Place placeOf(int strip, double time) const;
-  /// The knots of a strip with the values of a solution (AdjustmentSolution::shared).
+  /// The errors of a strip by a solution (AdjustmentSolution::shared), a knot_spacing apart from
+  /// its start to its end; where nothing was observed, what the process expects between its
+  /// neighbours.
   std::vector<TrajectoryErrorKnot> errorsOf(int strip, const Eigen::VectorXd& solution) const;
 
   /// Variance of a strip's shift in an area, each axis, m^2.
@@ -88,9 +99,16 @@ class SharedErrors {
 
  private:
   struct StripKnots {
-    double start = 0.0, spacing = 1.0;
-    int first = 0, count = 1;
+    double start = 0.0, spacing = 1.0;  ///< seconds
+    int steps = 0;                      ///< from start to end
+    int first = 0;                      ///< knot, counted over all strips
+    std::vector<int> at;                ///< steps at which the strip has its knots
+    /// The knot of the strip at or before a step; 0 before the first.
+    int before(double step) const;
   };
+  static StripKnots knotsOf(const TimeSpan& span, double spacing,
+                            const std::vector<TimeSpan>* observed);
+
   std::vector<StripKnots> strips_;
   int knot_count_ = 0;
   SharedErrorModel model_;
