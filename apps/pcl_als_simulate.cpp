@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -63,8 +64,43 @@ CommandLine declare() {
                         "week");
   line.addFlag("truth_points",
                "extra bytes bias_x, bias_y, bias_z: what the biases did to each point, m");
+  line.add<double>("gain", "digital number of a white target at 1000 m in vacuum; under 70: 8-bit",
+                   10000.0);
+  line.addOptional("strip_gains", "ID=FACTOR,…: on the gain of single lines, 0.01 to 100");
+  line.add<double>("range_exponent", "power of range that intensity falls with", 2.0);
+  line.add<double>("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0);
+  line.add<double>("visibility", "of the air, km", 48.3);
   line.add<std::string>("format", "of the strips: las, or laz where built with LASzip", "las");
   return line;
+}
+
+double factorIn(const std::string& text) {
+  double value = 0.0;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error == std::errc() && end == last && std::isfinite(value)) return value;
+  throw UsageError("option -strip_gains: '" + text + "' is not a number");
+}
+
+void setStripGains(const std::string& list, SimulationOptions& options) {
+  for (const std::string& part : splitList(list)) {
+    const std::size_t equals = std::min(part.find('='), part.size());
+    bool found = false;
+    for (simulation::PlannedLine& planned : options.lines) {
+      if (std::to_string(planned.id) != part.substr(0, equals)) continue;
+      planned.gain = factorIn(part.substr(std::min(equals + 1, part.size())));
+      found = true;
+    }
+    if (!found) throw UsageError("option -strip_gains: '" + part + "' names no line (ID=FACTOR)");
+  }
+}
+
+void setIntensity(const CommandLine& line, SimulationOptions& options) {
+  options.scanner.gain = line.number("gain", 1.0, 1e7, "(digital number)");
+  options.scanner.range_exponent = line.number("range_exponent", 0.0, 4.0, "(exponent)");
+  options.scanner.incidence_exponent = line.number("incidence_exponent", 0.0, 4.0, "(exponent)");
+  options.atmosphere.visibility_km = line.number("visibility", 0.1, 500.0, "km");
+  if (line.has("strip_gains")) setStripGains(line.text("strip_gains"), options);
 }
 
 Eigen::Vector3d parseOrigin(const std::string& text) {
@@ -94,6 +130,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.scene.relief = line.number("relief", 0.0, 1.5, "(factor)");
   options.scene.buildings = line.number("buildings", 0.0, 1.0, "(factor)");
   options.scene.trees = line.number("trees", 0.0, 4.0, "(factor)");
+  setIntensity(line, options);
   options.check();
   return options;
 }

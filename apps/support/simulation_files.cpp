@@ -167,6 +167,7 @@ nlohmann::ordered_json stripJson(const SimulationOptions& options, std::size_t i
           {"course_deg", std::round(degrees < 0.0 ? degrees + 360.0 : degrees)},
           {"speed_m_s", line.speed},
           {"pulses_per_m2", line.density},
+          {"gain", line.gain},
           {"pulses", summary.pulses},
           {"points", summary.points}};
 }
@@ -243,6 +244,8 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
   json["field_of_view_deg"] = s.scanner.field_of_view / kRadiansPerDegree;
   json["beam_divergence_mrad"] = s.scanner.divergence * 1e3;
   json["intensity"] = {{"gain_at_1000_m", s.scanner.gain},
+                       {"range_exponent", s.scanner.range_exponent},
+                       {"incidence_exponent", s.scanner.incidence_exponent},
                        {"extinction_per_km", simulation::extinctionPerKilometre(s.atmosphere)},
                        {"visibility_km", s.atmosphere.visibility_km},
                        {"temperature_c", s.atmosphere.temperature_c},

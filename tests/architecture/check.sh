@@ -13,7 +13,8 @@ breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 # What a module may declare: arrows go down only, and nobody may use simulation or visualization.
 declare -A may=(
   [common]="" [io]="common" [trajectory]="common" [tin]="common" [registration]="common tin"
-  [calibration]="common trajectory tin registration" [filters]="common trajectory tin"
+  [calibration]="common trajectory tin registration" [radiometry]="common trajectory tin"
+  [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common tin registration trajectory"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )

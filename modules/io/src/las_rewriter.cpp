@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/io/las_rewriter.h>
 
+#include "las_extension.h"
 #include "las_output.h"
 #include "las_tally.h"
 
@@ -31,12 +33,17 @@ struct Boxes {
 
 class Rewrite {
  public:
-  Rewrite(const LasFile& input, const std::filesystem::path& output, const LasEdit& edit)
+  Rewrite(const LasFile& input, const std::filesystem::path& output, const LasEdit& edit,
+          const LasExtension& extension)
       : input_(input),
         edit_(edit),
         header_(input.header()),
-        per_block_(std::max<std::size_t>(1, kBlockBytes / header_.record_length)),
-        output_(output, detail::readLasHead(input)) {}
+        head_(detail::extendedHead(input, extension.fields)),
+        out_length_(head_.header.record_length),
+        per_block_(extension.block_records > 0
+                       ? extension.block_records
+                       : std::max<std::size_t>(1, kBlockBytes / out_length_)),
+        output_(output, head_) {}
 
   LasRewriteResult run(int threads) {
     const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
@@ -57,17 +64,31 @@ class Rewrite {
     thread_local std::vector<std::byte> buffer;
     const std::uint64_t first = block * per_block_;
     const std::size_t count = std::min<std::uint64_t>(per_block_, header_.point_count - first);
-    buffer.resize(per_block_ * header_.record_length);
-    input_.readRecords(first, count, buffer.data());
+    buffer.resize(per_block_ * out_length_);
+    readBlock(first, count, buffer);
     detail::LasBox before, after;
-    before.add(buffer.data(), count, header_.record_length);
-    edit_({buffer.data(), count, header_.record_length, first});
-    after.add(buffer.data(), count, header_.record_length);
+    before.add(buffer.data(), count, out_length_);
+    edit_({buffer.data(), count, out_length_, first});
+    after.add(buffer.data(), count, out_length_);
     boxes_.add(before, after);
     if (output_.compressed())
       output_.append(buffer.data(), count);
     else
       output_.putAt(first, buffer.data(), count);
+  }
+
+  /// The input's records, each followed by zeros up to the output's length.
+  void readBlock(std::uint64_t first, std::size_t count, std::vector<std::byte>& buffer) const {
+    const std::size_t length = header_.record_length;
+    if (length == out_length_) return input_.readRecords(first, count, buffer.data());
+    thread_local std::vector<std::byte> packed;
+    packed.resize(count * length);
+    input_.readRecords(first, count, packed.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      std::byte* record = &buffer[i * out_length_];
+      std::memcpy(record, &packed[i * length], length);
+      std::memset(record + length, 0, out_length_ - length);
+    }
   }
 
   /// Where the bytes behind the points begin. Behind compressed points only what the header points
@@ -113,6 +134,8 @@ class Rewrite {
   const LasFile& input_;
   const LasEdit& edit_;
   const LasHeader header_;
+  const detail::LasHead head_;
+  const std::size_t out_length_;
   const std::size_t per_block_;
   detail::LasOutput output_;
   Boxes boxes_;
@@ -122,10 +145,15 @@ class Rewrite {
 
 LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& output,
                             const LasEdit& edit, int threads) {
+  return extendLas(input, output, LasExtension(), edit, threads);
+}
+
+LasRewriteResult extendLas(const LasFile& input, const std::filesystem::path& output,
+                           const LasExtension& extension, const LasEdit& edit, int threads) {
   std::error_code absent;
   if (std::filesystem::equivalent(input.path(), output, absent))
     throw UsageError(output.string() + ": input and output are the same file");
-  return Rewrite(input, output, edit).run(threads);
+  return Rewrite(input, output, edit, extension).run(threads);
 }
 
 LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::filesystem::path& output,

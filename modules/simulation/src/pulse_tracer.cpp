@@ -31,11 +31,18 @@ Echo joined(const Echo& a, const Echo& b) {
 
 }  // namespace
 
+/// What comes back of a surface, as a share of what comes back at normal incidence.
+double PulseTracer::returned(double cosine) const {
+  const double exponent = scanner_.incidence_exponent;
+  return exponent == 1.0 ? cosine : std::pow(cosine, exponent);
+}
+
 void PulseTracer::addParts(const Eigen::Vector3d& direction, double energy) {
   for (const SurfaceHit& hit : hits_) {
     const double share = energy * hit.opacity;
-    const double cosine =
-        hit.cover == LandCover::tree ? kFoliageCosine : std::abs(hit.normal.dot(direction));
+    const double cosine = hit.cover == LandCover::tree
+                              ? kFoliageCosine
+                              : returned(std::abs(hit.normal.dot(direction)));
     parts_.push_back(
         {hit.range, share, share * hit.reflectance * cosine, hit.reflectance, hit.cover});
     energy -= share;
@@ -67,7 +74,7 @@ bool PulseTracer::formOpenGroundEcho(const Eigen::Vector3d& origin,
   Echo& echo = echoes_.emplace_back();
   echo.range = hit.range;
   echo.share = 1.0;
-  echo.signal = hit.reflectance * cosine;
+  echo.signal = hit.reflectance * returned(cosine);
   echo.spread = 0.25 * scanner_.divergence * hit.range * tangent;
   echo.reflectance = hit.reflectance;
   echo.cover = hit.cover;

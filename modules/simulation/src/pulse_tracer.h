@@ -42,6 +42,7 @@ class PulseTracer {
     double range, share, signal, reflectance;
     LandCover cover;
   };
+  double returned(double cosine) const;
   void addParts(const Eigen::Vector3d& direction, double energy);
   void addRing(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
   bool formOpenGroundEcho(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);

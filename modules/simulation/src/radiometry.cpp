@@ -23,9 +23,10 @@ double extinctionPerKilometre(const AtmosphereOptions& atmosphere) {
   return aerosol + rayleigh;
 }
 
-double digitalNumber(double gain, double signal, double range, double extinction_per_km) {
+double digitalNumber(double gain, double signal, double range, double extinction_per_km,
+                     double range_exponent) {
   const double kilometres = range / 1000.0;
-  return gain * signal / (kilometres * kilometres) *
+  return gain * signal / std::pow(kilometres, range_exponent) *
          std::exp(-2.0 * extinction_per_km * kilometres);
 }
 

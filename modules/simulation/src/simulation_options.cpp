@@ -59,6 +59,7 @@ void checkLine(const PlannedLine& line) {
   require(line.height, 100.0, 6000.0, name + "height (m)");
   require(line.speed, 10.0, 300.0, name + "speed (m/s)");
   require(line.density, 1e-4, 200.0, name + "density (pulses/m2)");
+  require(line.gain, 0.01, 100.0, name + "gain");
 }
 
 }  // namespace
@@ -126,6 +127,8 @@ void SimulationOptions::check() const {
   require(scanner.return_separation, 0.01, 20.0, "separation of returns (m)");
   require(scanner.detection_threshold, 0.0, 0.5, "detection threshold");
   require(scanner.gain, 1.0, 1e7, "gain");
+  require(scanner.range_exponent, 0.0, 4.0, "range exponent");
+  require(scanner.incidence_exponent, 0.0, 4.0, "incidence exponent");
   require(atmosphere.visibility_km, 0.1, 500.0, "visibility (km)");
   require(atmosphere.temperature_c, -60.0, 60.0, "temperature (C)");
   require(atmosphere.pressure_kpa, 20.0, 120.0, "pressure (kPa)");

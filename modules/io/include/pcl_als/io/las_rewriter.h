@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -42,5 +43,24 @@ LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::files
                             const LasEdit& edit, int threads = 0);
 LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& output,
                             const LasEdit& edit, int threads = 0);
+
+/// What a rewritten file is to have besides.
+struct LasExtension {
+  std::vector<LasExtraField> fields;  ///< appended to every record, zeros before the edit
+  std::size_t block_records = 0;      ///< records of the blocks handed to the edit; 0: about 1 MiB
+};
+
+/** \brief Where the fields will lie in the records of the output: behind all that is there.
+ *
+ * UsageError for a name that the file has already, or more bytes than a record can hold; InputError
+ * where the file describes its extra bytes in an extended VLR.
+ */
+std::vector<LasExtraField> placeExtension(const LasFile& input,
+                                          const std::vector<LasExtraField>& fields);
+
+/// As rewriteLas(), with longer records: the extra-bytes VLR is extended (or made); bytes of the
+/// records that the input did not describe are described as undocumented. All else is kept.
+LasRewriteResult extendLas(const LasFile& input, const std::filesystem::path& output,
+                           const LasExtension& extension, const LasEdit& edit, int threads = 0);
 
 }  // namespace pcl_als

@@ -14,13 +14,14 @@ namespace pcl_als::simulation {
  */
 double extinctionPerKilometre(const AtmosphereOptions& atmosphere);
 
-/** \brief Digital number of an echo by the radar equation for extended Lambertian targets.
+/** \brief Digital number of an echo by the radar equation for extended targets.
  *
- * Habib et al. 2011, Eq. (35)-(36): gain * signal * (1000 m / range)^2 * exp(-2 extinction range),
- * where signal is the sum over the footprint of energy share * reflectance * cos(incidence).
- * Not rounded, not limited.
+ * Habib et al. 2011, Eq. (35)-(36): gain * signal * (1000 m / range)^e * exp(-2 extinction range),
+ * e = 2 but for receivers that are not linear, where signal is the sum over the footprint of energy
+ * share * reflectance * cos(incidence). Not rounded, not limited.
  */
-double digitalNumber(double gain, double signal, double range, double extinction_per_km);
+double digitalNumber(double gain, double signal, double range, double extinction_per_km,
+                     double range_exponent = 2.0);
 
 /// cos(incidence) that stands for the leaves of a clump, which turn to all sides.
 inline constexpr double kFoliageCosine = 0.5;

@@ -43,6 +43,8 @@ struct ScannerOptions {
   double detection_threshold = 0.05;  ///< share of the pulse's energy that a return needs
   double gain = 10000.0;  ///< digital number of a full-footprint target of reflectance 1, normal to
                           ///< the beam, at 1000 m in vacuum
+  double range_exponent = 2.0;      ///< signal falls with range to this power
+  double incidence_exponent = 1.0;  ///< of surfaces (not leaves): 1 Lambertian
 };
 
 /// Air between sensor and ground, at 1064 nm.
@@ -60,6 +62,7 @@ struct PlannedLine {
   double height = 1000.0;  ///< metres above the origin's height (mean terrain)
   double speed = 60.0;     ///< metres per second
   double density = 1.0;    ///< pulses per square metre, mean over the nominal swath
+  double gain = 1.0;       ///< factor on the scanner's gain while this line is flown
 };
 
 struct SceneOptions {

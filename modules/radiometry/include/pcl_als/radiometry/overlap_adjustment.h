@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/radiometry/radiometric_cells.h>
+#include <pcl_als/radiometry/radiometric_model.h>
+
+namespace pcl_als {
+
+/// What overlaps can tell of a RadiometricModel, besides the strips' gains.
+enum class RadiometricTerm : std::uint8_t { range_exponent, incidence_exponent, extinction };
+inline constexpr std::size_t kRadiometricTermCount = 3;
+const char* nameOf(RadiometricTerm term);  ///< "range_exponent", …
+const char* unitOf(RadiometricTerm term);  ///< "1" or "1/km"
+double valueOf(RadiometricTerm term, const RadiometricModel& model);
+void setValue(RadiometricTerm term, double value, RadiometricModel& model);
+
+enum class TermStatus : std::uint8_t { fixed, estimated, not_estimable };
+const char* nameOf(TermStatus status);
+
+struct OverlapSettings {
+  std::array<bool, kRadiometricTermCount> estimate{};  ///< by RadiometricTerm
+  bool estimate_gains = false;
+  /// A term whose standard deviation exceeds this is not estimable: it keeps the model's value.
+  std::array<double, kRadiometricTermCount> largest_std = {0.2, 0.2, 0.05};
+  double largest_gain_std = 0.05;  ///< relative
+  double cluster_size = 40.0;      ///< metres: cells nearer than this share errors
+  std::size_t least_cells = 50;
+  int most_iterations = 30;
+};
+
+/// A parameter and what is known of it.
+struct EstimatedTerm {
+  double value = 0.0, std = 0.0;
+  double std_formal = 0.0;  ///< as if cells were independent
+  TermStatus status = TermStatus::fixed;
+  std::string reason;  ///< why it is not estimable
+};
+
+struct OverlapResult {
+  RadiometricModel model;  ///< the given one with what was estimated
+  std::array<EstimatedTerm, kRadiometricTermCount> terms;
+  /// By strip: factor on what the strip received, geometric mean 1 over each group of strips that
+  /// overlap; std is relative.
+  std::vector<EstimatedTerm> gains;
+  std::vector<double> gainFactors() const;  ///< 1 where not estimated
+
+  std::vector<std::string> order;  ///< of the correlation: terms, then "gain NAME"
+  Eigen::MatrixXd correlation;
+  double sigma0 = 0.0;  ///< relative standard deviation of a cell's mean of five points
+  std::size_t cells = 0, observations = 0, clusters = 0;
+  int iterations = 0;
+  bool converged = false;  ///< true where there was nothing to estimate
+  std::vector<std::string> warnings;
+  CellVariation before, physics, after;  ///< as they are; with the given model; with this result
+  bool reliable() const;                 ///< converged, and nothing asked for was left out
+};
+
+/** \brief Estimates radiometric parameters from what overlapping strips saw in the same cells.
+ *
+ * ln I_cs = ln rho_c + ln g_s - m ln(r / r0) + k ln cos(theta) - 2 a (r - r0) + e: reflectances of
+ * the cells are eliminated, the rest is least squares with Huber's weights. The covariance is that
+ * of clusters of cells (sandwich, Liang and Zeger 1986), since cells of one roof or field share
+ * errors. What all cells share (a receiver that is not linear, a wrong trajectory) no residual
+ * shows.
+ *
+ * Observability: strips of one height differ little in range, so m and a come apart only in blocks
+ * of two heights, and there only where gains are fixed or known; on level ground cos(theta) and r
+ * are functions of one another, so m and k need slopes. A term whose standard deviation exceeds its
+ * limit is set back to the given model, worst first, and says which other it cannot be told from.
+ */
+OverlapResult adjustOverlaps(const std::vector<SharedCell>& cells, double cell_size,
+                             const std::vector<std::string>& strips, const RadiometricModel& model,
+                             const OverlapSettings& settings);
+
+}  // namespace pcl_als

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pcl_als {
+
+/// A place of known reflectance at the laser's wavelength.
+struct ReferenceTarget {
+  std::string id;
+  double x = 0.0, y = 0.0;   ///< metres, ground frame
+  double reflectance = 0.0;  ///< (0, 2]
+  double sigma = 0.0;        ///< standard deviation of the reflectance; 0: not stated
+};
+
+/// The factor from corrected intensity to reflectance: reflectance = intensity / constant.
+struct ReferenceResult {
+  struct Target {
+    std::string id;
+    std::size_t points = 0;
+    double reflectance = 0.0, measured = 0.0;  ///< given; from the points with the constant found
+    double relative_std = 0.0;                 ///< of the points' median and the given value
+    bool used = false;
+  };
+  double constant = 0.0;      ///< corrected intensity of reflectance 1; 0: none found
+  double relative_std = 0.0;  ///< of the constant
+  /// Root mean square of (measured - given) / given over used targets; 0 for a single one.
+  double relative_rms = 0.0;
+  std::vector<Target> targets;
+  std::vector<std::string> warnings;
+};
+
+/** \brief Finds the constant from corrected points within a radius around targets.
+ *
+ * The median of a target's points over its reflectance estimates the constant; targets are weighted
+ * by the spread of their points and their own sigma, and where they differ by more than that the
+ * standard deviation grows accordingly. A single target cannot show such differences: the result
+ * says so. Memory: 8 bytes for each point in a target.
+ */
+class ReferenceCalibration {
+ public:
+  static constexpr std::size_t kLeastPoints = 3;
+
+  /// UsageError for no targets, a reflectance outside (0, 2], a radius that is not positive.
+  ReferenceCalibration(std::vector<ReferenceTarget> targets, double radius);
+
+  /// Whether any target is within reach of a box.
+  bool touches(double min_x, double min_y, double max_x, double max_y) const;
+  /// Points with a surface, neither zero nor saturated.
+  void add(double x, double y, double corrected_intensity);
+  ReferenceResult solve() const;
+
+ private:
+  std::vector<ReferenceTarget> targets_;
+  double radius_;
+  std::vector<std::vector<double>> values_;
+};
+
+}  // namespace pcl_als

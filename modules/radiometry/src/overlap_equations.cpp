@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "overlap_equations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr double kHuber = 1.5;  ///< standard deviations within which residuals count fully
+/// A cell's mean has the variance of its points and as much again as of this many of them.
+constexpr double kPointsOfTexture = 5.0;
+constexpr double kSingular = 1e-11;  ///< smallest eigenvalue of the scaled normal matrix
+
+double weightOf(double points) {
+  return 2.0 * points / (points + kPointsOfTexture);
+}
+
+}  // namespace
+
+struct OverlapEquations::Reduced {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd right;
+};
+
+OverlapEquations::OverlapEquations(const std::vector<SharedCell>& cells, double cell_size,
+                                   const RadiometricModel& model, const OverlapSettings& settings)
+    : settings_(settings) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::uint32_t> numbers;
+  const double per_cluster = std::max(1.0, settings.cluster_size / cell_size);
+  for (const SharedCell& cell : cells) {
+    first_.push_back(rows_.size());
+    const auto column = static_cast<std::int32_t>(std::floor(cell.column / per_cluster));
+    const auto row = static_cast<std::int32_t>(std::floor(cell.row / per_cluster));
+    const auto number = static_cast<std::uint32_t>(numbers.size());
+    cluster_.push_back(numbers.try_emplace({column, row}, number).first->second);
+    for (const SharedCell::View& view : cell.views) {
+      const double given = std::log(view.intensity * model.factor(view.range, view.cosine));
+      const double reference = model.reference_range;
+      rows_.push_back({cluster_.size() - 1, view.strip, weightOf(view.points), given,
+                       {-std::log(view.range / reference), std::log(view.cosine),
+                        -2.0 * (view.range - reference) / 1000.0}});
+    }
+  }
+  first_.push_back(rows_.size());
+  clusters_ = numbers.size();
+}
+
+Eigen::VectorXd OverlapEquations::designOf(const OverlapUnknowns& unknowns, const Row& row) const {
+  Eigen::VectorXd design = Eigen::VectorXd::Zero(unknowns.count);
+  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
+    if (unknowns.term[t] >= 0) design[unknowns.term[t]] = row.effect[t];
+  }
+  const int gain = unknowns.gain[static_cast<std::size_t>(row.strip)];
+  if (gain >= 0) design[gain] = 1.0;
+  return design;
+}
+
+/// Normal equations with the cells' reflectances eliminated: weighted deviations from cell means.
+OverlapEquations::Reduced OverlapEquations::reduce(const OverlapUnknowns& unknowns,
+                                                   const std::vector<double>& robust) const {
+  Reduced reduced{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count),
+                  Eigen::VectorXd::Zero(unknowns.count)};
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(unknowns.count);
+    double sum = 0.0, given = 0.0;
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const double weight = rows_[i].weight * robust[i];
+      mean += weight * designOf(unknowns, rows_[i]);
+      given += weight * rows_[i].given;
+      sum += weight;
+    }
+    if (sum <= 0.0) continue;
+    mean /= sum;
+    given /= sum;
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const double weight = rows_[i].weight * robust[i];
+      const Eigen::VectorXd design = designOf(unknowns, rows_[i]) - mean;
+      reduced.normal.noalias() += weight * design * design.transpose();
+      reduced.right += weight * (rows_[i].given - given) * design;
+    }
+  }
+  return reduced;
+}
+
+/// Residuals, in standard deviations of unit weight: about the robust mean of their cell.
+std::vector<double> OverlapEquations::residuals(const OverlapUnknowns& unknowns,
+                                                const Eigen::VectorXd& x,
+                                                const std::vector<double>& robust) const {
+  std::vector<double> residual(rows_.size());
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+    double sum = 0.0, mean = 0.0;
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      residual[i] = rows_[i].given - designOf(unknowns, rows_[i]).dot(x);
+      const double weight = rows_[i].weight * robust[i];
+      mean += weight * residual[i];
+      sum += weight;
+    }
+    mean /= sum;
+    const auto views = static_cast<double>(first_[cell + 1] - first_[cell]);
+    // With two views both residuals are half their difference: the mean has taken the rest.
+    const double inflated = std::sqrt(views / (views - 1.0));
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i)
+      residual[i] = (residual[i] - mean) * std::sqrt(rows_[i].weight) * inflated;
+  }
+  return residual;
+}
+
+void OverlapEquations::covariances(const OverlapUnknowns& unknowns,
+                                   const std::vector<double>& residual,
+                                   const std::vector<double>& robust, double scale,
+                                   OverlapSolution& solution) const {
+  const int n = unknowns.count;
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(clusters_));
+  // What a small change of the unknowns does to the score: only residuals within the limit move.
+  std::vector<double> inside(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    inside[i] = std::abs(residual[i]) <= kHuber * scale ? 1.0 : 1e-9;
+  const Eigen::MatrixXd sensitivity = reduce(unknowns, inside).normal;
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
+    double sum = 0.0;
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const double weight = rows_[i].weight * robust[i];
+      mean += weight * designOf(unknowns, rows_[i]);
+      sum += weight;
+    }
+    mean /= sum;
+    const auto views = static_cast<double>(first_[cell + 1] - first_[cell]);
+    const double deflated = std::sqrt((views - 1.0) / views);
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const double weighted = std::sqrt(rows_[i].weight) * robust[i] * residual[i] * deflated;
+      scores.col(cluster_[cell]) += weighted * (designOf(unknowns, rows_[i]) - mean);
+    }
+  }
+  const Eigen::MatrixXd inverse =
+      sensitivity.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const auto clusters = static_cast<double>(clusters_);
+  // Few clusters make the sandwich too narrow: the usual correction for n unknowns.
+  const double small = clusters / std::max(1.0, clusters - n);
+  solution.covariance = small * inverse * scores * scores.transpose() * inverse;
+  solution.formal = scale * scale * inverse;
+}
+
+OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
+  OverlapSolution solution;
+  solution.clusters = clusters_;
+  solution.unknowns = Eigen::VectorXd::Zero(unknowns.count);
+  if (unknowns.count == 0) {
+    solution.covariance = solution.formal = Eigen::MatrixXd::Zero(0, 0);
+    solution.regular = solution.converged = true;
+    return solution;
+  }
+  std::vector<double> robust(rows_.size(), 1.0), residual;
+  double scale = 0.0;
+  for (int round = 1; round <= settings_.most_iterations && !solution.converged; ++round) {
+    const Reduced reduced = reduce(unknowns, robust);
+    const Eigen::VectorXd diagonal = reduced.normal.diagonal().cwiseSqrt().cwiseMax(1e-150);
+    const Eigen::MatrixXd scaled =
+        diagonal.cwiseInverse().asDiagonal() * reduced.normal * diagonal.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+    solution.regular = eigen.eigenvalues()[0] > kSingular;
+    if (!solution.regular) return solution;
+    const Eigen::VectorXd next = reduced.normal.ldlt().solve(reduced.right);
+    const double change = (next - solution.unknowns).cwiseAbs().maxCoeff();
+    solution.unknowns = next;
+    solution.iterations = round;
+    residual = residuals(unknowns, next, robust);
+    scale = std::max(robustSigma(residual), 1e-12);
+    solution.converged = round > 1 && change < 1e-6;
+    if (solution.converged) break;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      robust[i] = std::min(1.0, kHuber * scale / std::max(std::abs(residual[i]), 1e-300));
+  }
+  solution.sigma0 = scale;
+  covariances(unknowns, residual, robust, scale, solution);
+  return solution;
+}
+
+}  // namespace pcl_als::detail
