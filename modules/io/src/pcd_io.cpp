@@ -24,7 +24,14 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-std::string headerOf(const Strip<PointLidar>& strip) {
+/// " VALUE" once for every column.
+std::string repeated(const char* value, std::size_t times) {
+  std::string text;
+  for (std::size_t i = 0; i < times; ++i) text.append(" ").append(value);
+  return text;
+}
+
+std::string headerOf(const Strip<PointLidar>& strip, const std::vector<PcdColumn>& columns) {
   const auto& cloud = *strip.cloud;
   const bool organized = std::size_t{cloud.width} * cloud.height == cloud.size();
   const std::size_t width = organized ? cloud.width : cloud.size();
@@ -37,10 +44,11 @@ std::string headerOf(const Strip<PointLidar>& strip) {
   if (!strip.frame.crs.empty()) text << detail::kPcdCrsComment << oneLine(strip.frame.crs) << '\n';
   text << "VERSION 0.7\n"
           "FIELDS x y z gps_time intensity scan_angle point_source_id return_number "
-          "number_of_returns classification flags\n"
-          "SIZE 4 4 4 8 4 4 2 1 1 1 1\n"
-          "TYPE F F F F F F U U U U U\n"
-          "COUNT 1 1 1 1 1 1 1 1 1 1 1\n"
+          "number_of_returns classification flags";
+  for (const PcdColumn& column : columns) text << ' ' << column.name;
+  text << "\nSIZE 4 4 4 8 4 4 2 1 1 1 1" << repeated("4", columns.size())
+       << "\nTYPE F F F F F F U U U U U" << repeated("F", columns.size())
+       << "\nCOUNT 1 1 1 1 1 1 1 1 1 1 1" << repeated("1", columns.size()) << '\n'
        << "WIDTH " << width << "\nHEIGHT " << height << "\nVIEWPOINT " << strip.frame.origin.x()
        << ' ' << strip.frame.origin.y() << ' ' << strip.frame.origin.z() << " 1 0 0 0\nPOINTS "
        << cloud.size() << "\nDATA binary\n";
@@ -96,14 +104,28 @@ std::string idOf(const detail::PcdFile& file, const std::filesystem::path& path,
 }  // namespace
 
 void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip) {
+  savePcd(path, strip, {});
+}
+
+void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
+             const std::vector<PcdColumn>& columns) {
+  for (const PcdColumn& column : columns) {
+    if (column.values.size() != strip.cloud->size())
+      throw UsageError(path.string() + ": column " + column.name + " is not as long as the cloud");
+  }
   AtomicFile file(path);
-  file.write(headerOf(strip));
+  file.write(headerOf(strip, columns));
+  const std::size_t length = kRecord + sizeof(float) * columns.size();
   std::vector<char> block;
   const auto& points = strip.cloud->points;
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - first);
-    block.resize(count * kRecord);
-    for (std::size_t i = 0; i < count; ++i) putPoint(&block[i * kRecord], points[first + i]);
+    block.resize(count * length);
+    for (std::size_t i = 0; i < count; ++i) {
+      putPoint(&block[i * length], points[first + i]);
+      char* at = &block[i * length + kRecord];
+      for (const PcdColumn& column : columns) put(at, column.values[first + i]);
+    }
     file.write(block.data(), block.size());
   }
   file.commit();

@@ -31,4 +31,17 @@ struct ControlPoint {
   double sigma = 0.0;  ///< standard deviation of the height, metres; 0 when the file gives none
 };
 
+/// A place of known reflectance at the laser's wavelength.
+struct ReferenceTarget {
+  std::string id;
+  double x = 0.0, y = 0.0;   ///< metres, ground frame
+  double reflectance = 0.0;  ///< (0, 2]
+  double sigma = 0.0;        ///< standard deviation of the reflectance; 0: not stated
+};
+
+/// What a receiver multiplies intensities by where its gain control stands at a value.
+struct GainStep {
+  double value = 0.0, gain = 1.0;
+};
+
 }  // namespace pcl_als

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <pcl_als/common/strip.h>
 
@@ -16,6 +18,16 @@ namespace pcl_als {
  * (see LocalFrame). AtomicFile; InputError names the file.
  */
 void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip);
+
+/// A field besides those of PointLidar: one float per point.
+struct PcdColumn {
+  std::string name;
+  std::vector<float> values;
+};
+/// The same with further fields behind the others. UsageError where a column is not as long as the
+/// cloud.
+void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
+             const std::vector<PcdColumn>& columns);
 
 /** \brief Reads any PCD with float or double x, y, z; fields are found by name, those that are
  * missing keep PointLidar's defaults, points without finite coordinates are left out.

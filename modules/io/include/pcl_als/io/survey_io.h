@@ -26,6 +26,14 @@ std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
 /// and column.
 std::vector<ControlPoint> readControl(const std::filesystem::path& path);
 
+/// Reads places of known reflectance: CSV x,y,reflectance[,id][,sigma], columns found by name; a
+/// target without an id is called by its number. InputError names file, line and column.
+std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& path);
+
+/// Reads the gain of a receiver by the value of its gain control: CSV value,gain (gain > 0), sorted
+/// by value. InputError names file, line and column, or a value that comes twice.
+std::vector<GainStep> readGainSteps(const std::filesystem::path& path);
+
 /// Writes / reads calibration.json (its schema is in the module's README). Angles are arc-seconds
 /// in the file.
 void writeCalibration(const std::filesystem::path& path, const CalibrationResult& result);

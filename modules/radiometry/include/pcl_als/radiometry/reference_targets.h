@@ -6,15 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace pcl_als {
+#include <pcl_als/common/survey_types.h>
 
-/// A place of known reflectance at the laser's wavelength.
-struct ReferenceTarget {
-  std::string id;
-  double x = 0.0, y = 0.0;   ///< metres, ground frame
-  double reflectance = 0.0;  ///< (0, 2]
-  double sigma = 0.0;        ///< standard deviation of the reflectance; 0: not stated
-};
+namespace pcl_als {
 
 /// The factor from corrected intensity to reflectance: reflectance = intensity / constant.
 struct ReferenceResult {

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <filesystem>
+#include <iostream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "command_line.h"
+#include "flight_options.h"
+#include "intensity_options.h"
+#include "intensity_output.h"
+#include "intensity_report.h"
+#include "intensity_run.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+using app::grouped;
+using app::Step;
+
+CommandLine commandLine() {
+  CommandLine line(
+      "pcl_als_intensity",
+      "corrects intensity for range, incidence and atmosphere (radar equation; Habib et al. 2011, "
+      "Eq. 35-36), from the points' calibrated geometry and the trajectory.\n"
+      "I_c = I / gain (r / r0)^m / cos(incidence)^k exp(2 a (r - r0)), linear, in the intensity "
+      "field times -scale; extra bytes: original_intensity, range, incidence_angle, and with "
+      "-targets reflectance. Points without a surface (trees) and returns before the last are "
+      "corrected for range and atmosphere only.",
+      "IN OUT -trajectory T [options], or STRIP… -corrected DIR -trajectory T [options]",
+      "pcl_als_intensity strip*.las -corrected out -trajectory flight.csv -visibility 48.3 "
+      "-temperature 29.8 -pressure 101.81 -estimate strip_gains -report report");
+  app::addFlightOptions(line);
+  app::addIntensityOptions(line);
+  return line;
+}
+
+/// Input files, and where each goes.
+struct Files {
+  std::vector<std::string> inputs, outputs;
+};
+
+Files filesOf(const CommandLine& line) {
+  Files files;
+  if (!line.has("corrected")) {
+    const std::vector<std::string>& names = line.inputs(2, 2);
+    files.inputs = {names[0]};
+    files.outputs = {names[1]};
+    return files;
+  }
+  files.inputs = line.inputs(1, 100000);
+  const std::filesystem::path folder = line.text("corrected");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(folder.string() + ": cannot make this folder");
+  for (const std::string& input : files.inputs) {
+    const std::string output = (folder / std::filesystem::path(input).filename()).string();
+    if (std::find(files.outputs.begin(), files.outputs.end(), output) != files.outputs.end())
+      throw UsageError("option -corrected: two inputs would become " + output);
+    files.outputs.push_back(output);
+  }
+  return files;
+}
+
+void useStored(const CommandLine& line, app::IntensityRun& run) {
+  if (!line.has("radiometry")) return;
+  const app::StoredRadiometry stored = app::readIntensityJson(line.text("radiometry"));
+  run.useModel(stored.model);
+  run.useConstant(stored.constant);
+  std::vector<double> gains;
+  for (const std::string& strip : run.strips()) {
+    const auto at = stored.gains.find(strip);
+    if (at == stored.gains.end())
+      throw InputError(line.text("radiometry") + ": knows no strip " + strip);
+    gains.push_back(at->second);
+  }
+  run.useGains(gains);
+}
+
+/// What is to be learned before anything can be written.
+void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport& report) {
+  const bool estimates = line.has("estimate");
+  if (estimates || (run.settings().statistics && run.strips().size() > 1)) {
+    Step step("Comparing strips", line.quiet());
+    const OverlapResult& overlaps =
+        run.adjust([&step](double fraction) { step.progress(fraction); });
+    step.done(grouped(overlaps.cells) + " smooth cells seen by several strips");
+    if (!line.quiet()) std::cout << app::overlapText(overlaps, run.strips());
+    report.overlaps = overlaps;
+    for (const std::string& warning : overlaps.warnings) report.warnings.push_back(warning);
+  }
+  if (line.has("targets")) {
+    Step step("Reading " + line.text("targets"), line.quiet());
+    const ReferenceResult& reference =
+        run.refer(readReferenceTargets(line.text("targets")),
+                  line.number("target_radius", 0.01, 1000.0, "m"));
+    step.done(grouped(reference.targets.size()) + " targets");
+    if (!line.quiet()) std::cout << app::referenceText(reference);
+    report.reference = reference;
+    for (const std::string& warning : reference.warnings) report.warnings.push_back(warning);
+    if (reference.constant <= 0.0)
+      report.warnings.push_back("no reflectance is written: no target has enough points");
+  }
+  for (const std::string& warning : report.warnings) app::remark(line, warning);
+}
+
+bool reliable(const CommandLine& line, const app::IntensityReport& report) {
+  if (line.has("estimate") && !report.overlaps->reliable()) return false;
+  return !report.reference || report.reference->constant > 0.0;
+}
+
+void checkCombinations(const CommandLine& line) {
+  if (line.has("radiometry") && line.has("estimate"))
+    throw UsageError("options -radiometry and -estimate exclude each other");
+}
+
+int intensity(int argc, const char* const* argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  checkCombinations(line);
+  const app::ExtinctionChoice extinction = app::extinctionChoice(line);
+  const app::IntensitySettings settings = app::intensitySettings(line, extinction.per_km);
+  const app::IntensityOutput output = app::intensityOutput(line);
+  const Files files = filesOf(line);
+  const auto flight = app::readFlight(line, PointReader::open(files.inputs[0])->info().crs, 0.0,
+                                      app::AttitudeUse::ignore);
+
+  Step looking("Looking at " + std::to_string(files.inputs.size()) + " files", line.quiet());
+  app::IntensityRun run(files.inputs, flight, settings);
+  looking.done(grouped(run.strips().size()) + " strips");
+  for (const std::string& remark : run.remarks()) app::remark(line, remark);
+  useStored(line, run);
+  if (!line.has("radiometry")) app::remark(line, extinction.remark);
+
+  app::IntensityOutcome outcome(run.strips().size());
+  app::IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
+  learn(line, run, report);
+  for (std::size_t i = 0; i < files.inputs.size(); ++i) {
+    Step step("Writing " + files.outputs[i], line.quiet());
+    app::writeCorrected(run, i, files.outputs[i], output,
+                        [&step](double fraction) { step.progress(fraction); }, outcome);
+    step.done(grouped(outcome.counts[i].points) + " points");
+    if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
+  }
+  if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
+  if (line.has("report")) app::writeIntensityReport(line.text("report"), report);
+  return reliable(line, report) ? app::kDone : app::kNoReliableAnswer;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_intensity", [argc, argv] { return intensity(argc, argv); });
+}

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "intensity_input.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/io/pcd_io.h>
+
+namespace pcl_als::app {
+namespace {
+
+constexpr std::size_t kBlock = 4096;  ///< records that share a box
+constexpr std::size_t kIntensity = 12, kReturns = 14;
+
+/// Collects what a survey says of points.
+struct SurveyTally {
+  std::map<std::uint16_t, PointSource> sources;
+  TimeRange times, zero_times;
+  std::uint64_t zeros = 0;
+  double largest = 0.0;
+
+  void add(std::uint16_t id, double time, double intensity, const Eigen::Vector3d& position) {
+    const auto [at, fresh] = sources.try_emplace(id);
+    PointSource& source = at->second;
+    if (fresh) {
+      source.id = id;
+      source.first_time = source.last_time = time;
+      source.minimum = source.maximum = position;
+    }
+    ++source.points;
+    source.first_time = std::min(source.first_time, time);
+    source.last_time = std::max(source.last_time, time);
+    source.minimum = source.minimum.cwiseMin(position);
+    source.maximum = source.maximum.cwiseMax(position);
+    (time == 0.0 ? zero_times : times).add(time);
+    zeros += intensity == 0.0 ? 1 : 0;
+    largest = std::max(largest, intensity);
+  }
+
+  void merge(const SurveyTally& other) {
+    for (const auto& [id, theirs] : other.sources) {
+      const auto [at, fresh] = sources.try_emplace(id, theirs);
+      if (fresh) continue;
+      PointSource& mine = at->second;
+      mine.points += theirs.points;
+      mine.first_time = std::min(mine.first_time, theirs.first_time);
+      mine.last_time = std::max(mine.last_time, theirs.last_time);
+      mine.minimum = mine.minimum.cwiseMin(theirs.minimum);
+      mine.maximum = mine.maximum.cwiseMax(theirs.maximum);
+    }
+    for (const auto& [mine, theirs] : {std::pair(&times, &other.times),
+                                       std::pair(&zero_times, &other.zero_times)}) {
+      mine->first = std::min(mine->first, theirs->first);
+      mine->last = std::max(mine->last, theirs->last);
+    }
+    zeros += other.zeros;
+    largest = std::max(largest, other.largest);
+  }
+
+  void store(IntensitySurvey& survey) const {
+    for (const auto& [id, source] : sources) survey.sources.sources.push_back(source);
+    const TimeRange& range = times.empty() ? zero_times : times;
+    survey.first_time = range.first;
+    survey.last_time = range.last;
+    survey.zeros = zeros;
+    survey.largest = largest;
+  }
+};
+
+/// Where one strip's points of a block lie, in units of the file.
+struct BlockBox {
+  std::uint32_t block = 0;
+  std::uint16_t source = 0;
+  std::int32_t min_x, min_y, max_x, max_y;
+
+  bool near(const BlockBox& other, double margin_x, double margin_y) const {
+    return source == other.source && min_x <= other.max_x + margin_x &&
+           max_x >= other.min_x - margin_x && min_y <= other.max_y + margin_y &&
+           max_y >= other.min_y - margin_y;
+  }
+};
+
+class LasInput : public IntensityInput {
+ public:
+  LasInput(const std::string& path, const std::string& gain_control, int threads)
+      : IntensityInput(path), file_(path) {
+    survey_.sources.info = file_.info();
+    survey_.has_time = file_.layout().gps_time >= 0;
+    findGainControl(gain_control);
+    look(file_.header().compressed ? 1 : threads);
+  }
+
+  std::size_t windows() const override {
+    return (file_.header().point_count + kWindow - 1) / kWindow;
+  }
+  const LasFile* las() const override { return &file_; }
+
+  void load(std::size_t window, const std::map<std::uint16_t, double>& margins,
+            IntensityWindow& out) const override {
+    const std::uint64_t first = window * std::uint64_t{kWindow};
+    const std::size_t count =
+        std::min<std::uint64_t>(kWindow, file_.header().point_count - first);
+    thread_local std::vector<std::byte> records;
+    read(first, count, records);
+    out.origin = positionOf(records.data());
+    out.points.resize(count);
+    out.surface_points.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      out.points[i] = pointOf(&records[i * length()], out.origin);
+      addSurfacePoint(out.points[i], out);
+    }
+    out.gain_control.clear();
+    if (gain_control_ >= 0)
+      decodeLasExtraField(records.data(), count, length(),
+                          file_.extraFields()[static_cast<std::size_t>(gain_control_)],
+                          out.gain_control);
+    loadNeighbours(window, margins, out);
+  }
+
+ private:
+  std::size_t length() const { return file_.header().record_length; }
+
+  void read(std::uint64_t first, std::size_t count, std::vector<std::byte>& records) const {
+    records.resize(count * length());
+    file_.readRecords(first, count, records.data());
+  }
+
+  void findGainControl(const std::string& name) {
+    if (name.empty()) return;
+    const std::vector<LasExtraField>& fields = file_.extraFields();
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (fields[i].name == name && fields[i].type != LasExtraType::undocumented)
+        gain_control_ = static_cast<int>(i);
+    }
+    if (gain_control_ >= 0) return;
+    std::string names;
+    for (const LasExtraField& field : fields) names += " " + field.name;
+    throw InputError(path_ + ": has no extra field " + name + " for -agc_field" +
+                     (names.empty() ? "; it has none at all" : "; it has" + names));
+  }
+
+  Eigen::Vector3d positionOf(const std::byte* record) const {
+    const LasHeader& header = file_.header();
+    Eigen::Vector3d position;
+    for (int axis = 0; axis < 3; ++axis)
+      position[axis] =
+          loadLas<std::int32_t>(record + 4 * axis) * header.scale[axis] + header.offset[axis];
+    return position;
+  }
+
+  std::uint16_t sourceOf(const std::byte* record) const {
+    return loadLas<std::uint16_t>(record + file_.layout().point_source_id);
+  }
+
+  IntensityPoint pointOf(const std::byte* record, const Eigen::Vector3d& origin) const {
+    const LasRecordLayout& layout = file_.layout();
+    IntensityPoint point;
+    point.position = (positionOf(record) - origin).cast<float>();
+    if (layout.gps_time >= 0) point.time = loadLas<double>(record + layout.gps_time);
+    point.intensity = loadLas<std::uint16_t>(record + kIntensity);
+    point.source = sourceOf(record);
+    const auto returns = loadLas<std::uint8_t>(record + kReturns);
+    point.return_number = layout.extended ? returns & 15U : returns & 7U;
+    point.number_of_returns = layout.extended ? returns >> 4U : (returns >> 3U) & 7U;
+    const auto code = loadLas<std::uint8_t>(record + layout.classification);
+    point.classification = layout.extended ? code : code & 31U;
+    return point;
+  }
+
+  static void addSurfacePoint(const IntensityPoint& point, IntensityWindow& out) {
+    if (point.return_number >= point.number_of_returns)
+      out.surface_points[point.source].push_back(point.position);
+  }
+
+  /// The first look: survey and boxes, window by window.
+  void look(int threads) {
+    std::vector<SurveyTally> tallies(windows());
+    std::vector<std::vector<BlockBox>> boxes(windows());
+    parallelFor(windows(), threads, [&](std::size_t window) {
+      std::vector<std::byte> records;
+      const std::uint64_t first = window * std::uint64_t{kWindow};
+      const std::size_t count =
+          std::min<std::uint64_t>(kWindow, file_.header().point_count - first);
+      read(first, count, records);
+      for (std::size_t at = 0; at < count; at += kBlock)
+        lookAtBlock(static_cast<std::uint32_t>((first + at) / kBlock), &records[at * length()],
+                    std::min(kBlock, count - at), tallies[window], boxes[window]);
+    });
+    SurveyTally sum;
+    for (const SurveyTally& tally : tallies) sum.merge(tally);
+    sum.store(survey_);
+    for (const std::vector<BlockBox>& part : boxes) {
+      first_box_.push_back(boxes_.size());
+      boxes_.insert(boxes_.end(), part.begin(), part.end());
+    }
+    first_box_.push_back(boxes_.size());
+  }
+
+  void lookAtBlock(std::uint32_t block, const std::byte* records, std::size_t count,
+                   SurveyTally& tally, std::vector<BlockBox>& boxes) const {
+    const std::size_t first_of_block = boxes.size();
+    const int time_at = file_.layout().gps_time;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::byte* record = records + i * length();
+      const std::uint16_t source = sourceOf(record);
+      const auto x = loadLas<std::int32_t>(record), y = loadLas<std::int32_t>(record + 4);
+      tally.add(source, time_at < 0 ? 0.0 : loadLas<double>(record + time_at),
+                loadLas<std::uint16_t>(record + kIntensity), positionOf(record));
+      const auto box = std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block),
+                                    boxes.end(),
+                                    [source](const BlockBox& b) { return b.source == source; });
+      if (box == boxes.end()) {
+        boxes.push_back({block, source, x, y, x, y});
+        continue;
+      }
+      box->min_x = std::min(box->min_x, x);
+      box->min_y = std::min(box->min_y, y);
+      box->max_x = std::max(box->max_x, x);
+      box->max_y = std::max(box->max_y, y);
+    }
+  }
+
+  /// Blocks outside the window with points within the margin of a block of the same strip in it.
+  std::set<std::uint32_t> blocksAround(std::size_t window,
+                                       const std::map<std::uint16_t, double>& margins) const {
+    std::set<std::uint32_t> blocks;
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (i >= first_box_[window] && i < first_box_[window + 1]) continue;
+      const auto margin = margins.find(boxes_[i].source);
+      if (margin == margins.end()) continue;
+      const double x = margin->second / file_.header().scale.x();
+      const double y = margin->second / file_.header().scale.y();
+      for (std::size_t own = first_box_[window]; own < first_box_[window + 1]; ++own) {
+        if (!boxes_[i].near(boxes_[own], x, y)) continue;
+        blocks.insert(boxes_[i].block);
+        break;
+      }
+    }
+    if (blocks.size() * kBlock > kMostNeighbours)
+      throw InputError(path_ + ": its points are in no order of time or place (around " +
+                       std::to_string(kWindow) + " of them lie more than " +
+                       std::to_string(kMostNeighbours) + " others); sort it by time");
+    return blocks;
+  }
+
+  void loadNeighbours(std::size_t window, const std::map<std::uint16_t, double>& margins,
+                      IntensityWindow& out) const {
+    if (margins.empty()) return;
+    std::map<std::uint16_t, Eigen::AlignedBox2f> reach;
+    for (const IntensityPoint& point : out.points)
+      reach[point.source].extend(Eigen::Vector2f(point.position.head<2>()));
+    for (auto& [source, box] : reach) {
+      const auto margin = margins.find(source);
+      const auto metres = static_cast<float>(margin == margins.end() ? 0.0 : margin->second);
+      box.min().array() -= metres;
+      box.max().array() += metres;
+    }
+    std::vector<std::byte> records;
+    for (const std::uint32_t block : blocksAround(window, margins)) {
+      const std::uint64_t first = block * std::uint64_t{kBlock};
+      const std::size_t count =
+          std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
+      read(first, count, records);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto box = reach.find(sourceOf(&records[i * length()]));
+        if (box == reach.end()) continue;
+        const IntensityPoint point = pointOf(&records[i * length()], out.origin);
+        if (box->second.contains(Eigen::Vector2f(point.position.head<2>())))
+          addSurfacePoint(point, out);
+      }
+    }
+  }
+
+  LasFile file_;
+  int gain_control_ = -1;  ///< index of the extra field
+  std::vector<BlockBox> boxes_;
+  std::vector<std::size_t> first_box_;  ///< of each window, and the end
+};
+
+class PcdInput : public IntensityInput {
+ public:
+  PcdInput(const std::string& path, const std::string& gain_control)
+      : IntensityInput(path), strip_(loadPcd(path)) {
+    if (!gain_control.empty())
+      throw UsageError("option -agc_field: " + path + " is a PCD; gain control is read from LAS");
+    survey_.sources.info = PointReader::open(path)->info();
+    SurveyTally tally;
+    for (const PointLidar& point : *strip_.cloud)
+      tally.add(point.point_source_id, point.gps_time, static_cast<double>(point.intensity),
+                strip_.frame.toGround(point.getVector3fMap()));
+    tally.store(survey_);
+  }
+
+  std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
+  const Strip<PointLidar>* strip() const override { return &strip_; }
+
+  void load(std::size_t, const std::map<std::uint16_t, double>&,
+            IntensityWindow& out) const override {
+    out.origin = strip_.frame.origin;
+    out.points.clear();
+    out.surface_points.clear();
+    out.gain_control.clear();
+    for (const PointLidar& p : *strip_.cloud) {
+      out.points.push_back({p.gps_time, p.getVector3fMap(), p.intensity, p.point_source_id,
+                            p.return_number, p.number_of_returns, p.classification});
+      if (p.return_number >= p.number_of_returns)
+        out.surface_points[p.point_source_id].push_back(p.getVector3fMap());
+    }
+  }
+
+ private:
+  Strip<PointLidar> strip_;
+};
+
+}  // namespace
+
+std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
+                                                     const std::string& gain_control,
+                                                     int threads) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".pcd") return std::make_unique<PcdInput>(path, gain_control);
+  if (extension == ".las" || extension == ".laz")
+    return std::make_unique<LasInput>(path, gain_control, threads);
+  throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");
+}
+
+}  // namespace pcl_als::app

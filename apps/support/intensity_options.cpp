@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "intensity_options.h"
+
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "flight_options.h"
+
+namespace pcl_als::app {
+namespace {
+
+void addModelOptions(CommandLine& line) {
+  const RadiometricModel model;
+  line.add<double>("reference_range", "range that intensities are referred to, m",
+                   model.reference_range);
+  line.add<double>("range_exponent", "power of range, 0 to 6", model.range_exponent);
+  line.add<double>("incidence_exponent", "power of cos(incidence), 0 to 4",
+                   model.incidence_exponent);
+  line.add<double>("largest_incidence", "degrees; steeper incidence counts as this, and is counted",
+                   model.largest_incidence);
+  line.addFlag("no_range", "leave the range term out");
+  line.addFlag("no_incidence", "leave the incidence term out");
+  line.addFlag("no_atmosphere", "leave the atmosphere out");
+}
+
+void addAirOptions(CommandLine& line) {
+  const Atmosphere air;
+  line.add<double>("visibility", "km (Kruse, Kim)", air.visibility_km);
+  line.add<double>("temperature", "of the air, C", air.temperature_c);
+  line.add<double>("pressure", "of the air, kPa", air.pressure_kpa);
+  line.add<double>("humidity", "relative, %", air.relative_humidity);
+  line.add<double>("wavelength", "of the laser, nm, 500 to 1650", air.wavelength_nm);
+  line.addOptional("attenuation", "dB/km, one way, instead of the weather");
+}
+
+void addGainOptions(CommandLine& line) {
+  line.addOptional("gains", "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
+  line.addOptional("pulse_rates",
+                   "STRIP=HZ,…, all or none: pulse energy in inverse proportion (constant power)");
+  line.addOptional("agc_field", "extra field of the LAS points that holds the gain control's value");
+  line.addOptional("agc_gain", "CSV value,gain: the gain at values of -agc_field, linear between");
+  line.addOptional("saturation",
+                   "digital number at which intensity is saturated (default: 255 where none is "
+                   "greater, else 65535)");
+}
+
+void addSurfaceOptions(CommandLine& line) {
+  const LocalSurfaceSettings surfaces;
+  line.add<double>("surface_radius",
+                   "of the local planes in plan, m; 0: that of 16 points, at least the footprint",
+                   surfaces.radius);
+  line.add<double>("surface_tolerance", "points closer than this to a plane lie on it, m",
+                   surfaces.tolerance);
+  line.add<double>("divergence", "of the beam, mrad", 0.3);
+}
+
+void addOverlapOptions(CommandLine& line) {
+  line.addOptional("estimate",
+                   "from overlaps: a list of range_exponent, incidence_exponent, extinction, "
+                   "strip_gains, or all; what they do not determine keeps its given value");
+  line.add<double>("cell", "of the comparison of strips, m; 0: that of 6 points", 0.0);
+  line.addOptional("radiometry", "JSON of an earlier run: its model, gains and constant are used");
+  line.addOptional("targets", "CSV x,y,reflectance[,id][,sigma]: output becomes reflectance, too");
+  line.add<double>("target_radius", "points this close belong to a target, m", 1.0);
+}
+
+void addOutputOptions(CommandLine& line) {
+  line.addOptional("corrected", "folder for the corrected files; then all files named are inputs");
+  line.add<double>("scale", "factor on corrected intensities in the 16-bit field", 1.0);
+  line.addFlag("no_original", "do not keep the original intensity as extra bytes");
+  line.addFlag("no_fields", "add no range, incidence angle and reflectance as extra bytes");
+  line.addFlag("keep_uncovered", "leave points without a trajectory as they are (default: refuse)");
+  line.addOptional("json", "file for model, uncertainties, counts and statistics");
+  line.addOptional("report", "folder for report.md and tables as CSV: what the correction did");
+}
+
+double positiveOption(const CommandLine& line, const char* option) {
+  const std::string what = std::string("option -") + option;
+  const double value = numberIn(line.text(option), what);
+  if (value <= 0.0) throw UsageError(what + ": must be more than 0");
+  return value;
+}
+
+void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {
+  if (!line.has("estimate")) return;
+  for (const std::string& name : splitList(line.text("estimate"))) {
+    bool known = name == "all" || name == "strip_gains";
+    if (known) overlaps.estimate_gains = true;
+    for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
+      const bool meant = name == nameOf(static_cast<RadiometricTerm>(t));
+      known = known || meant;
+      if (meant || name == "all") overlaps.estimate[t] = true;
+    }
+    if (!known)
+      throw UsageError("option -estimate: '" + name +
+                       "' is none of range_exponent, incidence_exponent, extinction, strip_gains, "
+                       "all");
+  }
+}
+
+}  // namespace
+
+void addIntensityOptions(CommandLine& line) {
+  addModelOptions(line);
+  addAirOptions(line);
+  addGainOptions(line);
+  addSurfaceOptions(line);
+  addOverlapOptions(line);
+  addOutputOptions(line);
+}
+
+ExtinctionChoice extinctionChoice(const CommandLine& line) {
+  ExtinctionChoice choice;
+  std::ostringstream text;
+  text.precision(3);
+  if (line.has("no_atmosphere")) {
+    choice.remark = "atmosphere: left out";
+    return choice;
+  }
+  if (line.has("attenuation")) {
+    try {
+      choice.per_km = extinctionFromDecibel(numberIn(line.text("attenuation"), "option -attenuation"));
+    } catch (const UsageError& error) {
+      throw UsageError(std::string("option -attenuation: ") + error.what());
+    }
+    text << "atmosphere: extinction " << choice.per_km << " per km as given";
+  } else {
+    Atmosphere air;
+    air.visibility_km = line.number("visibility", 0.01, 500.0, "km");
+    air.temperature_c = line.number("temperature", -60.0, 60.0, "C");
+    air.pressure_kpa = line.number("pressure", 20.0, 120.0, "kPa");
+    air.relative_humidity = line.number("humidity", 0.0, 100.0, "%");
+    air.wavelength_nm = line.number("wavelength", 500.0, 1650.0, "nm");
+    choice.air = air;
+    choice.parts = extinctionOf(air);
+    choice.per_km = choice.parts.total();
+    text << "atmosphere: extinction " << choice.per_km << " per km (aerosol " << choice.parts.aerosol
+         << ", Rayleigh " << choice.parts.rayleigh << ", water vapour "
+         << choice.parts.water_vapour << ", mixed gases " << choice.parts.mixed_gases << ")";
+  }
+  text << ", two-way transmission of 1 km " << twoWayTransmission(choice.per_km, 1000.0);
+  choice.remark = text.str();
+  return choice;
+}
+
+std::map<std::string, double> valuesByStrip(const CommandLine& line, const char* option) {
+  std::map<std::string, double> values;
+  if (!line.has(option)) return values;
+  const std::string what = std::string("option -") + option;
+  for (const std::string& part : splitList(line.text(option))) {
+    const std::size_t equals = part.rfind('=');
+    if (equals == std::string::npos) throw UsageError(what + ": '" + part + "' is not STRIP=VALUE");
+    const double value = numberIn(part.substr(equals + 1), what);
+    if (value <= 0.0) throw UsageError(what + ": '" + part + "' must be more than 0");
+    if (!values.emplace(part.substr(0, equals), value).second)
+      throw UsageError(what + ": strip " + part.substr(0, equals) + " is given twice");
+  }
+  if (values.empty()) throw UsageError(what + ": names no strip");
+  return values;
+}
+
+IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km) {
+  IntensitySettings settings;
+  RadiometricModel& model = settings.model;
+  model.reference_range = line.number("reference_range", 1.0, 20000.0, "m");
+  model.range_exponent = line.number("range_exponent", 0.0, 6.0, "(exponent)");
+  model.incidence_exponent = line.number("incidence_exponent", 0.0, 4.0, "(exponent)");
+  model.largest_incidence = line.number("largest_incidence", 1.0, 89.0, "degrees");
+  model.extinction_per_km = extinction_per_km;
+  if (line.has("no_range")) model.range_exponent = 0.0;
+  if (line.has("no_incidence")) model.incidence_exponent = 0.0;
+  settings.surfaces.radius = line.number("surface_radius", 0.0, 1000.0, "m");
+  settings.surfaces.tolerance = line.number("surface_tolerance", 0.001, 10.0, "m");
+  settings.footprint_mrad = line.number("divergence", 0.0, 10.0, "mrad");
+  settings.cell = line.number("cell", 0.0, 100.0, "m");
+  setEstimates(line, settings.overlaps);
+  settings.gains = valuesByStrip(line, "gains");
+  settings.pulse_rates = valuesByStrip(line, "pulse_rates");
+  if (line.has("agc_field") != line.has("agc_gain"))
+    throw UsageError("options -agc_field and -agc_gain: give both or none");
+  if (line.has("agc_field")) {
+    settings.gain_control = line.text("agc_field");
+    settings.gain_steps = readGainSteps(line.text("agc_gain"));
+  }
+  if (line.has("saturation")) settings.saturation = positiveOption(line, "saturation");
+  settings.keep_uncovered = line.has("keep_uncovered");
+  settings.statistics = line.has("json") || line.has("report");
+  settings.gps_week = gpsWeek(line);
+  settings.threads = line.threads();
+  return settings;
+}
+
+IntensityOutput intensityOutput(const CommandLine& line) {
+  IntensityOutput output;
+  output.scale = line.number("scale", 1e-6, 1e6, "(factor)");
+  output.keep_original = !line.has("no_original");
+  output.extra_fields = !line.has("no_fields");
+  return output;
+}
+
+}  // namespace pcl_als::app

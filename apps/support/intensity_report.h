@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "intensity_options.h"
+#include "intensity_output.h"
+#include "intensity_run.h"
+
+namespace pcl_als::app {
+
+/// Everything about a run that is printed or written.
+struct IntensityReport {
+  const IntensityRun* run = nullptr;
+  const IntensityOutcome* outcome = nullptr;
+  ExtinctionChoice extinction;
+  IntensityOutput output;
+  std::vector<std::string> outputs;  ///< names, by file
+  std::optional<OverlapResult> overlaps;
+  std::optional<ReferenceResult> reference;
+  std::vector<std::string> warnings;
+};
+
+/// What estimation and targets found, as lines for a user.
+std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips);
+std::string referenceText(const ReferenceResult& reference);
+std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
+
+/// Factor that brings corrected values to the mean of the given ones.
+double meanScale(const IntensityStatistics& statistics);
+
+/// model.json of a run; see the tool's help for what it holds.
+void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
+
+/// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv into a folder, made if missing.
+void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report);
+
+/// Model, gains by strip and constant of a JSON of an earlier run.
+struct StoredRadiometry {
+  RadiometricModel model;
+  std::map<std::string, double> gains;
+  double constant = 0.0;
+};
+StoredRadiometry readIntensityJson(const std::filesystem::path& path);
+
+}  // namespace pcl_als::app

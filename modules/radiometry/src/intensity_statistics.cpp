@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
+#include <pcl_als/radiometry/intensity_statistics.h>
+
+namespace pcl_als {
+
+double varianceToMean(const RunningStatistics& statistics) {
+  if (statistics.mean() <= 0.0) return 0.0;
+  const double sigma = statistics.standardDeviation();
+  return sigma * sigma / statistics.mean();
+}
+
+IntensityStatistics::IntensityStatistics(std::size_t strips) : strips_(strips), classes_(256) {}
+
+void IntensityStatistics::add(std::size_t strip, double before, double after, double slope,
+                              std::uint8_t classification) {
+  std::size_t bin = kSlopeBins;
+  if (!std::isnan(slope))
+    bin = std::min(kSlopeBins - 1, static_cast<std::size_t>(slope / kSlopeStep));
+  strips_[strip].all.add(before, after);
+  strips_[strip].slopes[bin].add(before, after);
+  classes_[classification].add(before, after);
+}
+
+void IntensityStatistics::merge(const IntensityStatistics& other) {
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    strips_[i].all.merge(other.strips_[i].all);
+    for (std::size_t bin = 0; bin <= kSlopeBins; ++bin)
+      strips_[i].slopes[bin].merge(other.strips_[i].slopes[bin]);
+  }
+  for (std::size_t code = 0; code < classes_.size(); ++code)
+    classes_[code].merge(other.classes_[code]);
+}
+
+BeforeAfter IntensityStatistics::slope(std::size_t bin) const {
+  BeforeAfter sum;
+  for (const Strip& strip : strips_) sum.merge(strip.slopes[bin]);
+  return sum;
+}
+
+BeforeAfter IntensityStatistics::all() const {
+  BeforeAfter sum;
+  for (const Strip& strip : strips_) sum.merge(strip.all);
+  return sum;
+}
+
+}  // namespace pcl_als
