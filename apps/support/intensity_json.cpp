@@ -164,10 +164,11 @@ Json histogramJson(const IntensityHistogram& histogram) {
 
 Json reportJson(const IntensityReport& report) {
   const IntensityStatistics& statistics = report.outcome->statistics;
-  const double scale = meanScale(statistics);
+  const double scale = meanScale(statistics.all());
   Json json;
   json["note"] =
-      "after: corrected intensity, not scaled; its variance_to_mean is brought to the mean of before";
+      "after: corrected intensity without output_scale; its variance_to_mean is brought to the mean "
+      "before of all points, under strips to that of the strip";
   json["all"] = pairJson(statistics.all(), scale);
   json["slopes"] = slopesJson([&](std::size_t bin) { return statistics.slope(bin); }, scale);
   json["classes"] = Json::array();
@@ -181,9 +182,10 @@ Json reportJson(const IntensityReport& report) {
   json["strips"] = Json::array();
   for (std::size_t i = 0; i < statistics.strips(); ++i) {
     Json entry = {{"strip", report.run->strips()[i]}};
-    entry.update(pairJson(statistics.strip(i), scale));
+    const double own = meanScale(statistics.strip(i));
+    entry.update(pairJson(statistics.strip(i), own));
     entry["slopes"] =
-        slopesJson([&](std::size_t bin) { return statistics.stripSlope(i, bin); }, scale);
+        slopesJson([&](std::size_t bin) { return statistics.stripSlope(i, bin); }, own);
     entry["histogram"] = histogramJson(report.outcome->histograms[i]);
     json["strips"].push_back(entry);
   }

@@ -102,8 +102,7 @@ void termLine(const std::string& name, const EstimatedTerm& term, std::ostream& 
 
 }  // namespace
 
-double meanScale(const IntensityStatistics& statistics) {
-  const BeforeAfter all = statistics.all();
+double meanScale(const BeforeAfter& all) {
   return all.after.mean() > 0.0 ? all.before.mean() / all.after.mean() : 1.0;
 }
 
@@ -174,7 +173,7 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + ": cannot make this folder");
   const IntensityStatistics& statistics = report.outcome->statistics;
-  const double scale = meanScale(statistics);
+  const double scale = meanScale(statistics.all());
   Table slopes("slope_deg"), classes("class"), strips("strip");
   for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
     slopes.add(slopeName(bin), statistics.slope(bin), scale);
@@ -182,7 +181,7 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
     classes.add(std::to_string(code) + " " + className(code),
                 statistics.classOf(static_cast<std::uint8_t>(code)), scale);
   for (std::size_t i = 0; i < statistics.strips(); ++i)
-    strips.add(report.run->strips()[i], statistics.strip(i), scale);
+    strips.add(report.run->strips()[i], statistics.strip(i), meanScale(statistics.strip(i)));
   save(folder / "slopes.csv", slopes.csv.str());
   save(folder / "classes.csv", classes.csv.str());
   save(folder / "strips.csv", strips.csv.str());
@@ -193,7 +192,7 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
        << " m, range exponent " << model.range_exponent << ", incidence exponent "
        << model.incidence_exponent << ", extinction " << model.extinction_per_km << " per km; "
        << report.extinction.remark << ".\n\nVariance-to-mean ratios after correction are brought to "
-       << "the mean of the given intensities. Zero and saturated intensities are left out.\n\n"
+       << "the mean of the given intensities (of all points; by strip: of the strip). Zero and saturated intensities are left out.\n\n"
        << "## By slope\n\n" << slopes.markdown.str() << "\n## By class\n\n"
        << classes.markdown.str() << "\n## By strip\n\n" << strips.markdown.str();
   if (report.overlaps)

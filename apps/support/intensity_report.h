@@ -31,7 +31,7 @@ std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
 
 /// Factor that brings corrected values to the mean of the given ones.
-double meanScale(const IntensityStatistics& statistics);
+double meanScale(const BeforeAfter& all);
 
 /// model.json of a run; see the tool's help for what it holds.
 void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
