@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -18,6 +19,8 @@ namespace {
 constexpr double kHuber = 1.5;  ///< standard deviations within which residuals count fully
 /// A cell's mean has the variance of its points and as much again as of this many of them.
 constexpr double kPointsOfTexture = 5.0;
+constexpr int kScaleRounds = 6;     ///< after which the scale of the residuals stays
+constexpr double kNoWitness = 1e3;
 constexpr double kSingular = 1e-11;  ///< smallest eigenvalue of the scaled normal matrix
 
 double weightOf(double points) {
@@ -29,6 +32,15 @@ double weightOf(double points) {
 struct OverlapEquations::Reduced {
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
+};
+
+/// Residuals and weights of the solution.
+struct OverlapEquations::Weighing {
+  const std::vector<double>&residual, &robust;
+  double scale;
+  double inside(std::size_t i) const {
+    return std::abs(residual[i]) <= kHuber * scale ? 1.0 : 1e-9;
+  }
 };
 
 OverlapEquations::OverlapEquations(const std::vector<SharedCell>& cells, double cell_size,
@@ -52,6 +64,11 @@ OverlapEquations::OverlapEquations(const std::vector<SharedCell>& cells, double 
   }
   first_.push_back(rows_.size());
   clusters_ = numbers.size();
+  by_cluster_.resize(cells.size());
+  std::iota(by_cluster_.begin(), by_cluster_.end(), std::size_t{0});
+  std::stable_sort(by_cluster_.begin(), by_cluster_.end(), [this](std::size_t a, std::size_t b) {
+    return cluster_[a] < cluster_[b];
+  });
 }
 
 Eigen::VectorXd OverlapEquations::designOf(const OverlapUnknowns& unknowns, const Row& row) const {
@@ -114,40 +131,61 @@ std::vector<double> OverlapEquations::residuals(const OverlapUnknowns& unknowns,
   return residual;
 }
 
-void OverlapEquations::covariances(const OverlapUnknowns& unknowns,
-                                   const std::vector<double>& residual,
-                                   const std::vector<double>& robust, double scale,
+/// Scores and sensitivity of one cell. Sensitivity: what a small change of the unknowns does to the
+/// score, where only residuals within the limit move.
+void OverlapEquations::addCell(const OverlapUnknowns& unknowns, std::size_t cell,
+                               const Weighing& weighing, Eigen::VectorXd& score,
+                               Eigen::MatrixXd& sensitivity) const {
+  const int n = unknowns.count;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n), inner_mean = mean;
+  double sum = 0.0, inner_sum = 0.0;
+  for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+    const Eigen::VectorXd design = designOf(unknowns, rows_[i]);
+    const double weight = rows_[i].weight * weighing.robust[i];
+    const double inner = rows_[i].weight * weighing.inside(i);
+    mean += weight * design;
+    sum += weight;
+    inner_mean += inner * design;
+    inner_sum += inner;
+  }
+  mean /= sum;
+  inner_mean /= inner_sum;
+  const auto views = static_cast<double>(first_[cell + 1] - first_[cell]);
+  const double deflated = std::sqrt((views - 1.0) / views);
+  for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+    const Eigen::VectorXd design = designOf(unknowns, rows_[i]);
+    const double weighted = std::sqrt(rows_[i].weight) * weighing.robust[i] * weighing.residual[i];
+    score += weighted * deflated * (design - mean);
+    const Eigen::VectorXd inner = design - inner_mean;
+    sensitivity.noalias() += rows_[i].weight * weighing.inside(i) * inner * inner.transpose();
+  }
+}
+
+/// Jackknife over clusters, one step each (CR3): where a few clusters (steep roofs) carry an unknown,
+/// the plain sandwich is too narrow.
+void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighing& weighing,
                                    OverlapSolution& solution) const {
   const int n = unknowns.count;
-  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(clusters_));
-  // What a small change of the unknowns does to the score: only residuals within the limit move.
-  std::vector<double> inside(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    inside[i] = std::abs(residual[i]) <= kHuber * scale ? 1.0 : 1e-9;
-  const Eigen::MatrixXd sensitivity = reduce(unknowns, inside).normal;
-  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
-    double sum = 0.0;
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const double weight = rows_[i].weight * robust[i];
-      mean += weight * designOf(unknowns, rows_[i]);
-      sum += weight;
-    }
-    mean /= sum;
-    const auto views = static_cast<double>(first_[cell + 1] - first_[cell]);
-    const double deflated = std::sqrt((views - 1.0) / views);
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const double weighted = std::sqrt(rows_[i].weight) * robust[i] * residual[i] * deflated;
-      scores.col(cluster_[cell]) += weighted * (designOf(unknowns, rows_[i]) - mean);
-    }
+  Eigen::VectorXd ignored = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell)
+    addCell(unknowns, cell, weighing, ignored, all);
+  solution.formal = weighing.scale * weighing.scale *
+                    all.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  solution.covariance = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t at = 0; at < by_cluster_.size();) {
+    const std::uint32_t cluster = cluster_[by_cluster_[at]];
+    Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n);
+    for (; at < by_cluster_.size() && cluster_[by_cluster_[at]] == cluster; ++at)
+      addCell(unknowns, by_cluster_[at], weighing, score, own);
+    Eigen::VectorXd moved = (all - own).ldlt().solve(score);
+    // An unknown that stands on this cluster alone has no other witness.
+    if (!moved.allFinite()) moved.setConstant(kNoWitness);
+    solution.covariance += moved * moved.transpose();
   }
-  const Eigen::MatrixXd inverse =
-      sensitivity.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   const auto clusters = static_cast<double>(clusters_);
-  // Few clusters make the sandwich too narrow: the usual correction for n unknowns.
-  const double small = clusters / std::max(1.0, clusters - n);
-  solution.covariance = small * inverse * scores * scores.transpose() * inverse;
-  solution.formal = scale * scale * inverse;
+  solution.covariance *= (clusters - 1.0) / clusters;
 }
 
 OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
@@ -174,14 +212,15 @@ OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
     solution.unknowns = next;
     solution.iterations = round;
     residual = residuals(unknowns, next, robust);
-    scale = std::max(robustSigma(residual), 1e-12);
+    // A scale that moves with the weights can go round in a circle with them.
+    if (round <= kScaleRounds) scale = std::max(robustSigma(residual), 1e-12);
     solution.converged = round > 1 && change < 1e-6;
     if (solution.converged) break;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       robust[i] = std::min(1.0, kHuber * scale / std::max(std::abs(residual[i]), 1e-300));
   }
   solution.sigma0 = scale;
-  covariances(unknowns, residual, robust, scale, solution);
+  covariances(unknowns, {residual, robust, scale}, solution);
   return solution;
 }
 

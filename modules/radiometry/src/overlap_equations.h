@@ -50,15 +50,18 @@ class OverlapEquations {
   Reduced reduce(const OverlapUnknowns& unknowns, const std::vector<double>& robust) const;
   std::vector<double> residuals(const OverlapUnknowns& unknowns, const Eigen::VectorXd& x,
                                 const std::vector<double>& robust) const;
-  void covariances(const OverlapUnknowns& unknowns, const std::vector<double>& residual,
-                   const std::vector<double>& robust, double scale,
+  struct Weighing;
+  void addCell(const OverlapUnknowns& unknowns, std::size_t cell, const Weighing& weighing,
+               Eigen::VectorXd& score, Eigen::MatrixXd& sensitivity) const;
+  void covariances(const OverlapUnknowns& unknowns, const Weighing& weighing,
                    OverlapSolution& solution) const;
   Eigen::VectorXd designOf(const OverlapUnknowns& unknowns, const Row& row) const;
 
   const OverlapSettings settings_;
   std::vector<Row> rows_;              ///< cell by cell
   std::vector<std::size_t> first_;     ///< row of each cell, and the end
-  std::vector<std::uint32_t> cluster_; ///< of each cell
+  std::vector<std::uint32_t> cluster_;  ///< of each cell
+  std::vector<std::size_t> by_cluster_;  ///< cells, cluster by cluster
   std::size_t clusters_ = 0;
 };
 

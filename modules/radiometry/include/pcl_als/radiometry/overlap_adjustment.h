@@ -33,7 +33,7 @@ struct OverlapSettings {
   double largest_gain_std = 0.05;  ///< relative
   double cluster_size = 40.0;      ///< metres: cells nearer than this share errors
   std::size_t least_cells = 50;
-  int most_iterations = 30;
+  int most_iterations = 60;
 };
 
 /// A parameter and what is known of it.
@@ -66,9 +66,9 @@ struct OverlapResult {
 /** \brief Estimates radiometric parameters from what overlapping strips saw in the same cells.
  *
  * ln I_cs = ln rho_c + ln g_s - m ln(r / r0) + k ln cos(theta) - 2 a (r - r0) + e: reflectances of
- * the cells are eliminated, the rest is least squares with Huber's weights. The covariance is that
- * of clusters of cells (sandwich, Liang and Zeger 1986), since cells of one roof or field share
- * errors. What all cells share (a receiver that is not linear, a wrong trajectory) no residual
+ * the cells are eliminated, the rest is least squares with Huber's weights. The covariance is a
+ * jackknife over clusters of cells (Bell and McCaffrey 2002, CR3), since cells of one roof or field
+ * share errors. What all cells share (a receiver that is not linear, a wrong trajectory) no residual
  * shows.
  *
  * Observability: strips of one height differ little in range, so m and a come apart only in blocks
