@@ -188,6 +188,8 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
   if (line.has("saturation")) settings.saturation = positiveOption(line, "saturation");
   settings.keep_uncovered = line.has("keep_uncovered");
   settings.statistics = line.has("json") || line.has("report");
+  settings.find_surfaces = model.incidence_exponent != 0.0 || settings.statistics ||
+                           !line.has("no_fields") || line.has("estimate") || line.has("targets");
   settings.gps_week = gpsWeek(line);
   settings.threads = line.threads();
   return settings;

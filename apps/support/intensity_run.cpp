@@ -178,11 +178,13 @@ double IntensityRun::gainControl(double value, const std::string& path) const {
 void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
                             const std::function<bool(double x, double y)>& wanted) const {
   std::map<std::uint16_t, double> margins;
-  for (const auto& [source, strip] : strip_of_[file]) margins[source] = radius(strip);
+  for (const auto& [source, strip] : strip_of_[file])
+    if (settings_.find_surfaces) margins[source] = radius(strip);
   inputs_[file]->load(window, margins, out.window);
   const std::vector<IntensityPoint>& points = out.window.points;
   std::map<std::uint16_t, LocalSurfaces> surfaces;
   for (const auto& [source, neighbours] : out.window.surface_points) {
+    if (!settings_.find_surfaces) break;
     LocalSurfaceSettings settings = settings_.surfaces;
     settings.radius = radius(strip_of_[file].at(source));
     surfaces.emplace(source, LocalSurfaces(neighbours, settings));
@@ -199,7 +201,7 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
     const int strip = strip_of_[file].at(point.source);
     out.strip[i] = strip;
     if (wanted && !wanted(place.x(), place.y())) continue;
-    if (point.return_number >= point.number_of_returns)
+    if (settings_.find_surfaces && point.return_number >= point.number_of_returns)
       out.surfaces[i] = surfaces.at(point.source).at(point.position);
     out.radiometry[i] = evaluator.evaluate(
         {times_[file](point.time), place, point.return_number, point.number_of_returns},

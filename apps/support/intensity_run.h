@@ -36,6 +36,7 @@ struct IntensitySettings {
   double saturation = 0.0;  ///< digital number; 0: 255 for 8-bit data, else 65535
   bool keep_uncovered = false;
   bool statistics = false;
+  bool find_surfaces = true;  ///< false: no incidence angles are wanted by anyone
   std::optional<int> gps_week;
   int threads = 0;
 };

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# intensity_speed.sh BIN_DIR FILE.las TRAJECTORY [ROUNDS]: pcl_als_intensity against cp of the same file, run in turn; the
+# best of the rounds, one thread, wall clock in milliseconds, and the most memory.
+set -euo pipefail
+export LC_ALL=C
+bin=$1 file=$2 flight=$3 rounds=${4:-5}
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+declare -A best memory
+measure() {  # NAME COMMAND…
+  local name=$1 start end
+  shift
+  start=$(date +%s%N)
+  command time -f %M -o "$work/memory" "$@" >/dev/null
+  end=$(date +%s%N)
+  local ms=$(((end - start) / 1000000))
+  [[ -n ${best[$name]:-} && ${best[$name]} -le $ms ]] || best[$name]=$ms
+  memory[$name]=$(<"$work/memory")
+}
+run() { measure "$1" "$bin/pcl_als_intensity" "$file" "$work/out.las" -trajectory "$flight" -threads 1 -quiet "${@:2}"; }
+for ((round = 0; round < rounds; ++round)); do
+  measure cp cp "$file" "$work/copy.las"
+  run no_normals -no_incidence -no_fields -no_original
+  run no_fields -no_fields -no_original
+  run all
+  rm -f -- "$work"/*.las
+done
+printf '%-12s %8s %8s %10s\n' what ms "of cp" "memory MB"
+for name in cp no_normals no_fields all; do
+  printf '%-12s %8d %8.2f %10d\n' $name "${best[$name]}" "$(bc -l <<<"${best[$name]} / ${best[cp]}")" $((memory[$name] / 1024))
+done
