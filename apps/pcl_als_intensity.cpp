@@ -95,9 +95,8 @@ void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport
   }
   if (line.has("targets")) {
     Step step("Reading " + line.text("targets"), line.quiet());
-    const ReferenceResult& reference =
-        run.refer(readReferenceTargets(line.text("targets")),
-                  line.number("target_radius", 0.01, 1000.0, "m"));
+    const ReferenceResult& reference = run.refer(readReferenceTargets(line.text("targets")),
+                                                 line.number("target_radius", 0.01, 1000.0, "m"));
     step.done(grouped(reference.targets.size()) + " targets");
     if (!line.quiet()) std::cout << app::referenceText(reference);
     report.reference = reference;
@@ -141,8 +140,9 @@ int intensity(int argc, const char* const* argv) {
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
     Step step("Writing " + files.outputs[i], line.quiet());
-    app::writeCorrected(run, i, files.outputs[i], output,
-                        [&step](double fraction) { step.progress(fraction); }, outcome);
+    app::writeCorrected(
+        run, i, files.outputs[i], output, [&step](double fraction) { step.progress(fraction); },
+        outcome);
     step.done(grouped(outcome.counts[i].points) + " points");
     if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
   }

@@ -55,8 +55,8 @@ struct SurveyTally {
       mine.minimum = mine.minimum.cwiseMin(theirs.minimum);
       mine.maximum = mine.maximum.cwiseMax(theirs.maximum);
     }
-    for (const auto& [mine, theirs] : {std::pair(&times, &other.times),
-                                       std::pair(&zero_times, &other.zero_times)}) {
+    for (const auto& [mine, theirs] :
+         {std::pair(&times, &other.times), std::pair(&zero_times, &other.zero_times)}) {
       mine->first = std::min(mine->first, theirs->first);
       mine->last = std::max(mine->last, theirs->last);
     }
@@ -105,8 +105,7 @@ class LasInput : public IntensityInput {
   void load(std::size_t window, const std::map<std::uint16_t, double>& margins,
             IntensityWindow& out) const override {
     const std::uint64_t first = window * std::uint64_t{kWindow};
-    const std::size_t count =
-        std::min<std::uint64_t>(kWindow, file_.header().point_count - first);
+    const std::size_t count = std::min<std::uint64_t>(kWindow, file_.header().point_count - first);
     thread_local std::vector<std::byte> records;
     read(first, count, records);
     out.origin = positionOf(records.data());
@@ -213,9 +212,9 @@ class LasInput : public IntensityInput {
       const auto x = loadLas<std::int32_t>(record), y = loadLas<std::int32_t>(record + 4);
       tally.add(source, time_at < 0 ? 0.0 : loadLas<double>(record + time_at),
                 loadLas<std::uint16_t>(record + kIntensity), positionOf(record));
-      const auto box = std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block),
-                                    boxes.end(),
-                                    [source](const BlockBox& b) { return b.source == source; });
+      const auto box =
+          std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block), boxes.end(),
+                       [source](const BlockBox& b) { return b.source == source; });
       if (box == boxes.end()) {
         boxes.push_back({block, source, x, y, x, y});
         continue;
@@ -265,8 +264,7 @@ class LasInput : public IntensityInput {
     std::vector<std::byte> records;
     for (const std::uint32_t block : blocksAround(window, margins)) {
       const std::uint64_t first = block * std::uint64_t{kBlock};
-      const std::size_t count =
-          std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
+      const std::size_t count = std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
       read(first, count, records);
       for (std::size_t i = 0; i < count; ++i) {
         const auto box = reach.find(sourceOf(&records[i * length()]));
@@ -322,8 +320,7 @@ class PcdInput : public IntensityInput {
 }  // namespace
 
 std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
-                                                     const std::string& gain_control,
-                                                     int threads) {
+                                                     const std::string& gain_control, int threads) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".pcd") return std::make_unique<PcdInput>(path, gain_control);

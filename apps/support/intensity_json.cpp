@@ -127,7 +127,8 @@ Json statisticsJson(const RunningStatistics& s, double scale) {
 }
 
 Json pairJson(const BeforeAfter& pair, double scale) {
-  return {{"before", statisticsJson(pair.before, 1.0)}, {"after", statisticsJson(pair.after, scale)}};
+  return {{"before", statisticsJson(pair.before, 1.0)},
+          {"after", statisticsJson(pair.after, scale)}};
 }
 
 Json slopesJson(const std::function<BeforeAfter(std::size_t)>& of, double scale) {
@@ -167,7 +168,8 @@ Json reportJson(const IntensityReport& report) {
   const double scale = meanScale(statistics.all());
   Json json;
   json["note"] =
-      "after: corrected intensity without output_scale; its variance_to_mean is brought to the mean "
+      "after: corrected intensity without output_scale; its variance_to_mean is brought to the "
+      "mean "
       "before of all points, under strips to that of the strip";
   json["all"] = pairJson(statistics.all(), scale);
   json["slopes"] = slopesJson([&](std::size_t bin) { return statistics.slope(bin); }, scale);

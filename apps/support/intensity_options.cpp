@@ -37,10 +37,12 @@ void addAirOptions(CommandLine& line) {
 }
 
 void addGainOptions(CommandLine& line) {
-  line.addOptional("gains", "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
+  line.addOptional("gains",
+                   "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
   line.addOptional("pulse_rates",
                    "STRIP=HZ,…, all or none: pulse energy in inverse proportion (constant power)");
-  line.addOptional("agc_field", "extra field of the LAS points that holds the gain control's value");
+  line.addOptional("agc_field",
+                   "extra field of the LAS points that holds the gain control's value");
   line.addOptional("agc_gain", "CSV value,gain: the gain at values of -agc_field, linear between");
   line.addOptional("saturation",
                    "digital number at which intensity is saturated (default: 255 where none is "
@@ -122,7 +124,8 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
   }
   if (line.has("attenuation")) {
     try {
-      choice.per_km = extinctionFromDecibel(numberIn(line.text("attenuation"), "option -attenuation"));
+      choice.per_km =
+          extinctionFromDecibel(numberIn(line.text("attenuation"), "option -attenuation"));
     } catch (const UsageError& error) {
       throw UsageError(std::string("option -attenuation: ") + error.what());
     }
@@ -137,8 +140,8 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
     choice.air = air;
     choice.parts = extinctionOf(air);
     choice.per_km = choice.parts.total();
-    text << "atmosphere: extinction " << choice.per_km << " per km (aerosol " << choice.parts.aerosol
-         << ", Rayleigh " << choice.parts.rayleigh << ", water vapour "
+    text << "atmosphere: extinction " << choice.per_km << " per km (aerosol "
+         << choice.parts.aerosol << ", Rayleigh " << choice.parts.rayleigh << ", water vapour "
          << choice.parts.water_vapour << ", mixed gases " << choice.parts.mixed_gases << ")";
   }
   text << ", two-way transmission of 1 km " << twoWayTransmission(choice.per_km, 1000.0);

@@ -65,9 +65,8 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
   if (found.surfaces[i].found())
     slope = std::acos(std::clamp(static_cast<double>(found.surfaces[i].normal.z()), 0.0, 1.0)) /
             kRadiansPerDegree;
-  out.statistics.add(static_cast<std::size_t>(found.strip[i]),
-                     static_cast<double>(given.intensity), point.intensity, slope,
-                     given.classification);
+  out.statistics.add(static_cast<std::size_t>(found.strip[i]), static_cast<double>(given.intensity),
+                     point.intensity, slope, given.classification);
 }
 
 std::uint16_t rounded(double value) {

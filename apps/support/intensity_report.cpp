@@ -26,10 +26,18 @@ std::string slopeName(std::size_t bin) {
 }
 
 std::string className(int code) {
-  static const std::map<int, std::string> names = {
-      {0, "never classified"}, {1, "unclassified"}, {2, "ground"},   {3, "low vegetation"},
-      {4, "medium vegetation"}, {5, "high vegetation"}, {6, "building"}, {7, "low noise"},
-      {9, "water"},            {11, "road"},         {17, "bridge"},  {18, "high noise"}};
+  static const std::map<int, std::string> names = {{0, "never classified"},
+                                                   {1, "unclassified"},
+                                                   {2, "ground"},
+                                                   {3, "low vegetation"},
+                                                   {4, "medium vegetation"},
+                                                   {5, "high vegetation"},
+                                                   {6, "building"},
+                                                   {7, "low noise"},
+                                                   {9, "water"},
+                                                   {11, "road"},
+                                                   {17, "bridge"},
+                                                   {18, "high noise"}};
   const auto at = names.find(code);
   return at == names.end() ? "class" : at->second;
 }
@@ -156,8 +164,9 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
         << " above the sensor, " << grouped(count(RadiometryStatus::not_finite))
         << " without coordinates\n";
   if (counts.zeros + counts.saturated > 0)
-    out << "  of intensity 0: " << grouped(counts.zeros) << " points; saturated (" << run.saturation()
-        << " and more): " << grouped(counts.saturated) << ", their values are lower bounds\n";
+    out << "  of intensity 0: " << grouped(counts.zeros) << " points; saturated ("
+        << run.saturation() << " and more): " << grouped(counts.saturated)
+        << ", their values are lower bounds\n";
   if (counts.clipped > 0)
     out << "  beyond 65535 after correction: " << grouped(counts.clipped)
         << " points, written as 65535; a smaller -scale keeps them\n";
@@ -191,17 +200,23 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
   page << "# Radiometric correction\n\nReference range " << model.reference_range
        << " m, range exponent " << model.range_exponent << ", incidence exponent "
        << model.incidence_exponent << ", extinction " << model.extinction_per_km << " per km; "
-       << report.extinction.remark << ".\n\nVariance-to-mean ratios after correction are brought to "
-       << "the mean of the given intensities (of all points; by strip: of the strip). Zero and saturated intensities are left out.\n\n"
-       << "## By slope\n\n" << slopes.markdown.str() << "\n## By class\n\n"
-       << classes.markdown.str() << "\n## By strip\n\n" << strips.markdown.str();
+       << report.extinction.remark
+       << ".\n\nVariance-to-mean ratios after correction are brought to "
+       << "the mean of the given intensities (of all points; by strip: of the strip). Zero and "
+          "saturated intensities are left out.\n\n"
+       << "## By slope\n\n"
+       << slopes.markdown.str() << "\n## By class\n\n"
+       << classes.markdown.str() << "\n## By strip\n\n"
+       << strips.markdown.str();
   if (report.overlaps)
-    page << "\n## Overlaps\n\n```\n" << overlapText(*report.overlaps, report.run->strips())
-         << "```\n";
-  if (report.reference) page << "\n## Targets\n\n```\n" << referenceText(*report.reference) << "```\n";
+    page << "\n## Overlaps\n\n```\n"
+         << overlapText(*report.overlaps, report.run->strips()) << "```\n";
+  if (report.reference)
+    page << "\n## Targets\n\n```\n" << referenceText(*report.reference) << "```\n";
   page << "\n## Points\n";
   for (std::size_t i = 0; i < report.run->files(); ++i)
-    page << "\n" << report.run->input(i).path() << "\n```\n"
+    page << "\n"
+         << report.run->input(i).path() << "\n```\n"
          << countsText(report.outcome->counts[i], *report.run) << "```\n";
   for (const std::string& warning : report.warnings) page << "\n- " << warning;
   save(folder / "report.md", page.str() + "\n");

@@ -15,9 +15,9 @@
 namespace pcl_als::app {
 namespace {
 
-constexpr std::size_t kProbes = 8;          ///< windows looked at for the spacing of points
-constexpr double kPointsPerCell = 6.0;      ///< of the sparsest strip
-constexpr double kCellShare = 0.7;          ///< of the strips' area that their boxes hold, roughly
+constexpr std::size_t kProbes = 8;      ///< windows looked at for the spacing of points
+constexpr double kPointsPerCell = 6.0;  ///< of the sparsest strip
+constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxes hold, roughly
 
 }  // namespace
 
@@ -58,8 +58,9 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
     largest = std::max(largest, survey.largest);
     sources.push_back(survey.sources);
   }
-  saturation_ = settings_.saturation > 0.0 ? settings_.saturation : largest <= 255.0 ? 255.0
-                                                                                     : 65535.0;
+  saturation_ = settings_.saturation > 0.0 ? settings_.saturation
+                : largest <= 255.0         ? 255.0
+                                           : 65535.0;
   naming_.emplace(sources);
   for (std::size_t file = 0; file < sources.size(); ++file) {
     std::map<std::uint16_t, int>& strips = strip_of_.emplace_back();
@@ -72,7 +73,8 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
   for (const auto* given : {&settings_.gains, &settings_.pulse_rates}) {
     for (const auto& [name, value] : *given) {
       if (std::find(strips().begin(), strips().end(), name) == strips().end())
-        throw UsageError("option " + std::string(given == &settings_.gains ? "-gains" : "-pulse_rates") +
+        throw UsageError("option " +
+                         std::string(given == &settings_.gains ? "-gains" : "-pulse_rates") +
                          ": there is no strip " + name);
     }
   }
@@ -107,8 +109,8 @@ void IntensityRun::alignTimes() {
   }
 }
 
-/// The radius of each strip's surfaces: from the spacing of its points in some windows, and at least
-/// half the footprint.
+/// The radius of each strip's surfaces: from the spacing of its points in some windows, and at
+/// least half the footprint.
 void IntensityRun::chooseRadii() {
   std::vector<std::vector<double>> found(strips().size());
   for (std::size_t file = 0; file < files(); ++file) {
@@ -261,8 +263,9 @@ const ReferenceResult& IntensityRun::refer(std::vector<ReferenceTarget> targets,
         const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
         const double divisor =
             found.divisor[i] * estimated_gains_[static_cast<std::size_t>(found.strip[i])];
-        calibration.add(place.x(), place.y(),
-                        static_cast<double>(point.intensity) * found.radiometry[i].factor / divisor);
+        calibration.add(
+            place.x(), place.y(),
+            static_cast<double>(point.intensity) * found.radiometry[i].factor / divisor);
       }
     }
   }

@@ -27,8 +27,8 @@ struct IntensitySettings {
   LocalSurfaceSettings surfaces;
   double footprint_mrad = 0.3;  ///< beam divergence: surfaces are at least this large
   OverlapSettings overlaps;
-  double cell = 0.0;                ///< metres; 0: found
-  std::size_t most_cells = 200000;  ///< of the plan, kept for the overlaps
+  double cell = 0.0;                          ///< metres; 0: found
+  std::size_t most_cells = 200000;            ///< of the plan, kept for the overlaps
   std::map<std::string, double> gains;        ///< by strip: known factors on what it received
   std::map<std::string, double> pulse_rates;  ///< by strip, Hz: energy is in inverse proportion
   std::string gain_control;                   ///< name of the extra field

@@ -4,7 +4,6 @@
 // What normals cost: our local planes against PCL's, of the same strip with the same neighbourhood;
 // and the radar equation per point.
 #include <benchmark/benchmark.h>
-
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/search/kdtree.h>
 
@@ -88,9 +87,10 @@ void RadarEquation(benchmark::State& state) {
     std::size_t cursor = 0;
     double sum = 0.0;
     for (const PointLidar& p : *flown.cloud)
-      sum += evaluator
-                 .evaluate({p.gps_time, flown.frame.toGround(p.getVector3fMap()), 1, 1}, level, cursor)
-                 .factor;
+      sum +=
+          evaluator
+              .evaluate({p.gps_time, flown.frame.toGround(p.getVector3fMap()), 1, 1}, level, cursor)
+              .factor;
     benchmark::DoNotOptimize(sum);
   }
   perPoint(state, flown.cloud->size());

@@ -66,9 +66,8 @@ Ratios ratiosOf(const test::SimulatedStrips& block, const RadiometricModel& mode
       if (degrees >= kIncidence.back()) continue;
       const auto bin = static_cast<std::size_t>(
           std::upper_bound(kIncidence.begin(), kIncidence.end(), degrees) - kIncidence.begin() - 1);
-      const double value =
-          static_cast<double>(correct ? corrected[i].intensity : given.intensity) /
-          static_cast<double>(simulated.reflectance[i]);
+      const double value = static_cast<double>(correct ? corrected[i].intensity : given.intensity) /
+                           static_cast<double>(simulated.reflectance[i]);
       ratios.all.push_back(value);
       bins[bin].push_back(value);
     }
@@ -108,9 +107,10 @@ void printRatios(const char* title, const Ratios& ratios) {
     spread.add(value / constant);
     within += std::abs(value / constant - 1.0) <= 0.02 ? 1 : 0;
   }
-  std::printf("\nworst mean of 100 points or more: %.2f %%; all points: sd %.2f %%, within 2 %%: %.1f %%\n",
-              100.0 * worst, 100.0 * spread.standardDeviation(),
-              100.0 * static_cast<double>(within) / static_cast<double>(all.size()));
+  std::printf(
+      "\nworst mean of 100 points or more: %.2f %%; all points: sd %.2f %%, within 2 %%: %.1f %%\n",
+      100.0 * worst, 100.0 * spread.standardDeviation(),
+      100.0 * static_cast<double>(within) / static_cast<double>(all.size()));
 }
 
 /// The strips with the biases taken out that a calibration finds.
@@ -173,10 +173,11 @@ struct Coverage {
     }
     const auto n = static_cast<double>(z.size());
     if (z.empty()) return;
-    std::printf("%-20s n %3zu  RMS error %.5f  mean error %+.5f  mean std %.5f  RMS z %.2f  within 1: "
-                "%3.0f %%  2: %3.0f %%  worst %.1f\n",
-                name, z.size(), std::sqrt(e_sq / n), bias / n, mean_std / n, std::sqrt(z_sq / n),
-                100.0 * inside1 / n, 100.0 * inside2 / n, worst);
+    std::printf(
+        "%-20s n %3zu  RMS error %.5f  mean error %+.5f  mean std %.5f  RMS z %.2f  within 1: "
+        "%3.0f %%  2: %3.0f %%  worst %.1f\n",
+        name, z.size(), std::sqrt(e_sq / n), bias / n, mean_std / n, std::sqrt(z_sq / n),
+        100.0 * inside1 / n, 100.0 * inside2 / n, worst);
   }
 };
 
@@ -192,7 +193,8 @@ void coverage(int seeds, bool gains, const char* noise) {
     options.scanner.range_exponent = gains ? 1.8 : 2.0;
     options.scanner.incidence_exponent = 0.8;
     const std::array<double, 5> factors = {1.15, 0.9, 1.05, 0.8, 1.1};
-    for (std::size_t i = 0; gains && i < options.lines.size(); ++i) options.lines[i].gain = factors[i];
+    for (std::size_t i = 0; gains && i < options.lines.size(); ++i)
+      options.lines[i].gain = factors[i];
     if (!gains) options.atmosphere.visibility_km = 8.0;
     const test::SimulatedStrips block(options);
     RadiometricModel model = modelOf(options);
@@ -207,7 +209,8 @@ void coverage(int seeds, bool gains, const char* noise) {
       ++lost;
       continue;
     }
-    if (gains) range.add(result.terms[0].value, options.scanner.range_exponent, result.terms[0].std);
+    if (gains)
+      range.add(result.terms[0].value, options.scanner.range_exponent, result.terms[0].std);
     incidence.add(result.terms[1].value, 0.8, result.terms[1].std);
     if (!gains) extinction.add(result.terms[2].value, truth, result.terms[2].std);
     double mean = 0.0;

@@ -20,12 +20,11 @@ struct UserPoint {
   std::uint8_t return_number = 1, number_of_returns = 1;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
-POINT_CLOUD_REGISTER_POINT_STRUCT(UserPoint,
-                                  (float, x, x)(float, y, y)(float, z, z)(float, intensity,
-                                                                          intensity)(
-                                      double, gps_time, gps_time)(std::uint8_t, return_number,
-                                                                  return_number)(
-                                      std::uint8_t, number_of_returns, number_of_returns))
+POINT_CLOUD_REGISTER_POINT_STRUCT(
+    UserPoint, (float, x, x)(float, y, y)(float, z, z)(float, intensity, intensity)(
+                   double, gps_time, gps_time)(std::uint8_t, return_number,
+                                               return_number)(std::uint8_t, number_of_returns,
+                                                              number_of_returns))
 
 namespace pcl_als {
 namespace {
@@ -215,11 +214,13 @@ TEST(IntensityCorrection, IsProportionalToReflectanceOverStripsAndHeights) {
     }
   }
   // A full, white, perpendicular target at 1000 m has the gain, in the air of one kilometre.
-  const double constant = options.scanner.gain * twoWayTransmission(modelOf(options).extinction_per_km, 1000.0);
+  const double constant =
+      options.scanner.gain * twoWayTransmission(modelOf(options).extinction_per_km, 1000.0);
   std::size_t within = 0;
   for (const double value : after) within += std::abs(value / constant - 1.0) <= 0.02;
   EXPECT_GT(static_cast<double>(within), 0.99 * static_cast<double>(after.size()));
-  for (std::vector<double>& strip : by_strip) EXPECT_NEAR(medianInPlace(strip) / constant, 1.0, 0.005);
+  for (std::vector<double>& strip : by_strip)
+    EXPECT_NEAR(medianInPlace(strip) / constant, 1.0, 0.005);
   // Before, the heights alone make a factor of five.
   std::sort(before.begin(), before.end());
   EXPECT_GT(before[before.size() * 9 / 10], 3.0 * before[before.size() / 10]);

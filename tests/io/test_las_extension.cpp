@@ -57,8 +57,9 @@ TEST_P(LasExtensionMatrix, KeepsEverythingAndAddsTheFields) {
                    fullFile(std::get<0>(GetParam()), std::get<1>(GetParam())).str());
   const LasFile in(folder / "in.las");
   const auto fields = placeExtension(in, kTwo);
-  extendLas(in, folder / "out.las", {kTwo, 64},
-            [&](const LasRecordBlock& block) { fill(block, fields); }, 2);
+  extendLas(
+      in, folder / "out.las", {kTwo, 64}, [&](const LasRecordBlock& block) { fill(block, fields); },
+      2);
   const LasFile out(folder / "out.las");
   EXPECT_EQ(out.header().point_count, 300U);
   EXPECT_EQ(out.header().record_length, in.header().record_length + 6);
@@ -84,9 +85,8 @@ TEST_P(LasExtensionMatrix, KeepsEverythingAndAddsTheFields) {
   out.readRecords(0, 300, after.data());
   for (std::size_t i = 0; i < 300; ++i) {
     const std::byte* record = &after[i * out.header().record_length];
-    ASSERT_EQ(std::memcmp(record, &before[i * in.header().record_length],
-                          in.header().record_length),
-              0);
+    ASSERT_EQ(
+        std::memcmp(record, &before[i * in.header().record_length], in.header().record_length), 0);
   }
   std::vector<double> values;
   decodeLasExtraField(after.data(), 300, out.header().record_length, out.extraFields()[2], values);

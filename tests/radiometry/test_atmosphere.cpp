@@ -51,8 +51,8 @@ TEST(Atmosphere, AerosolAt550NanometresIsTheDefinitionOfVisibility) {
 TEST(Atmosphere, RayleighAgreesWithAnIndependentFormula) {
   // Bucholtz 1995 (Appl. Opt. 34, 2765), table 3: volume scattering coefficient of standard air (15
   // C, 1013.25 hPa) above 500 nm, 1.02167e-3 lambda^-(3.99668 + 1.10298e-3 lambda + 0.0271393 /
-  // lambda) per km, lambda in um: 7.960e-4 at 1.064 um. 0.5 % is what the two differ by up to 1.1 um; at 1.55
-  // um, beyond the fit of either (where it is 1.8e-4 per km), 1 %.
+  // lambda) per km, lambda in um: 7.960e-4 at 1.064 um. 0.5 % is what the two differ by up to 1.1
+  // um; at 1.55 um, beyond the fit of either (where it is 1.8e-4 per km), 1 %.
   for (const double um : {0.532, 0.905, 1.064, 1.550}) {
     Atmosphere air;
     air.wavelength_nm = 1000.0 * um;

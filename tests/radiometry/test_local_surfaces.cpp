@@ -55,8 +55,9 @@ TEST(LocalSurfaces, APlaneIsFoundExactly) {
 }
 
 TEST(LocalSurfaces, NoiseTurnsThePlaneByWhatLeastSquaresAllows) {
-  // 16 points within 1.1 m: spread about 0.55 m per axis, so 0.02 / (0.55 sqrt(16)) = 0.0091 rad per
-  // axis, 0.74 degrees in both; mean of the Rayleigh distribution 0.0091 * 1.2533 = 0.65 degrees.
+  // 16 points within 1.1 m: spread about 0.55 m per axis, so 0.02 / (0.55 sqrt(16)) = 0.0091 rad
+  // per axis, 0.74 degrees in both; mean of the Rayleigh distribution 0.0091 * 1.2533 = 0.65
+  // degrees.
   const Points points = field([](float, float) { return 0.0F; }, 0.02F);
   const LocalSurfaces surfaces(points, LocalSurfaceSettings());
   double sum = 0.0;

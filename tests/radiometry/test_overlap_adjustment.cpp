@@ -53,7 +53,8 @@ std::vector<SharedCell> cellsOf(const Truth& truth, const Scene& scene) {
         double number = 3e9 * truth.gains[s] * reflectance * std::pow(cosine, truth.cosine_power) /
                         std::pow(range, truth.range_power) *
                         std::exp(-2.0 * truth.extinction * range / 1000.0);
-        number *= std::exp(scene.noise * normal(random) + (scene.texture > 0 ? shared(of_area) : 0));
+        number *=
+            std::exp(scene.noise * normal(random) + (scene.texture > 0 ? shared(of_area) : 0));
         cell.views.push_back({static_cast<int>(s), 6.0, number, range, cosine});
       }
       cells.push_back(cell);
@@ -76,8 +77,8 @@ TEST(OverlapAdjustment, GainsOfTwoStripsByHand) {
   std::vector<SharedCell> cells;
   for (std::int32_t i = 0; i < 60; ++i)
     cells.push_back({i, 0, {{0, 5.0, 200.0, 1000.0, 1.0}, {1, 5.0, 50.0, 1000.0, 1.0}}});
-  const OverlapResult result = adjustOverlaps(cells, 2.0, {"1", "2"}, RadiometricModel(),
-                                              asked(false, false, false, true));
+  const OverlapResult result =
+      adjustOverlaps(cells, 2.0, {"1", "2"}, RadiometricModel(), asked(false, false, false, true));
   EXPECT_NEAR(result.gains[0].value, 2.0, 1e-9);
   EXPECT_NEAR(result.gains[1].value, 0.5, 1e-9);
   // 200 and 50: mean 125, standard deviation 150 / sqrt 2 = 106.07, ratio 0.8485.
@@ -152,8 +153,8 @@ TEST(OverlapAdjustment, StandardDeviationsCoverErrorsThatAreasShare) {
     scene.seed = seed;
     scene.noise = 0.03;
     scene.texture = 0.02;
-    const OverlapResult result = adjustOverlaps(cellsOf(Truth(), scene), 2.0, kStrips,
-                                                RadiometricModel(), asked(false, true, false, true));
+    const OverlapResult result = adjustOverlaps(
+        cellsOf(Truth(), scene), 2.0, kStrips, RadiometricModel(), asked(false, true, false, true));
     const auto add = [&](double error, const EstimatedTerm& term) {
       squares += std::pow(error / term.std, 2);
       formal += std::pow(error / term.std_formal, 2);
@@ -171,17 +172,18 @@ TEST(OverlapAdjustment, GrossErrorsDoNotMoveIt) {
   scene.noise = 0.02;
   auto cells = cellsOf(Truth(), scene);
   for (std::size_t i = 0; i < cells.size(); i += 20) cells[i].views[0].intensity *= 4.0;  // a car
-  const OverlapResult result = adjustOverlaps(cells, 2.0, kStrips, RadiometricModel(),
-                                              asked(false, false, false, true));
-  // 5 % of cells of 1250 wrong: Huber's weights leave a bias of 0.05 * 1.5 * 0.02 / 0.87, times 2/3.
+  const OverlapResult result =
+      adjustOverlaps(cells, 2.0, kStrips, RadiometricModel(), asked(false, false, false, true));
+  // 5 % of cells of 1250 wrong: Huber's weights leave a bias of 0.05 * 1.5 * 0.02 / 0.87, times
+  // 2/3.
   EXPECT_NEAR(std::log(result.gains[0].value), 0.0, 0.003);
 }
 
 TEST(OverlapAdjustment, StripsWithoutOverlapAreNamed) {
   auto cells = cellsOf(Truth(), Scene());
   for (SharedCell& cell : cells) cell.views.pop_back();
-  const OverlapResult result = adjustOverlaps(cells, 2.0, kStrips, RadiometricModel(),
-                                              asked(false, false, false, true));
+  const OverlapResult result =
+      adjustOverlaps(cells, 2.0, kStrips, RadiometricModel(), asked(false, false, false, true));
   EXPECT_EQ(result.gains[2].status, TermStatus::not_estimable);
   EXPECT_FALSE(result.gains[2].reason.empty());
   EXPECT_EQ(result.gainFactors()[2], 1.0);

@@ -67,12 +67,11 @@ TEST(RadiometricModel, TermsAreWeighedOneByOne) {
 }
 
 TEST(RadiometricModel, RefusesWhatNoReceiverDoes) {
-  for (const auto& spoil :
-       {+[](RadiometricModel& m) { m.range_exponent = -1.0; },
-        +[](RadiometricModel& m) { m.incidence_exponent = NAN; },
-        +[](RadiometricModel& m) { m.extinction_per_km = -0.1; },
-        +[](RadiometricModel& m) { m.reference_range = 0.0; },
-        +[](RadiometricModel& m) { m.largest_incidence = 90.0; }}) {
+  for (const auto& spoil : {+[](RadiometricModel& m) { m.range_exponent = -1.0; },
+                            +[](RadiometricModel& m) { m.incidence_exponent = NAN; },
+                            +[](RadiometricModel& m) { m.extinction_per_km = -0.1; },
+                            +[](RadiometricModel& m) { m.reference_range = 0.0; },
+                            +[](RadiometricModel& m) { m.largest_incidence = 90.0; }}) {
     RadiometricModel model;
     spoil(model);
     EXPECT_THROW(model.check(), UsageError);

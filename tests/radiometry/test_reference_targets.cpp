@@ -13,8 +13,8 @@ namespace {
 TEST(ReferenceCalibration, ConstantByHand) {
   // Medians 1000 and 2400 over reflectances 0.1 and 0.25: 10000 and 9600, equally certain:
   // geometric mean 9797.96, off by 2.06 and -2.02 %.
-  ReferenceCalibration calibration({{"dark", 10.0, 10.0, 0.1, 0.0}, {"bright", 50.0, 10.0, 0.25, 0.0}},
-                                   2.0);
+  ReferenceCalibration calibration(
+      {{"dark", 10.0, 10.0, 0.1, 0.0}, {"bright", 50.0, 10.0, 0.25, 0.0}}, 2.0);
   for (const double value : {990.0, 1000.0, 1010.0}) calibration.add(10.5, 9.5, value);
   for (const double value : {2376.0, 2400.0, 2424.0}) calibration.add(50.0, 11.5, value);
   calibration.add(30.0, 10.0, 77777.0);  // belongs to none

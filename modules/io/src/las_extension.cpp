@@ -85,8 +85,9 @@ std::vector<LasExtraField> placeExtension(const LasFile& input,
   const std::string name = input.path().string();
   for (const LasVlrEntry& vlr : input.vlrs()) {
     if (vlr.extended && isExtraBytes(vlr.user_id, vlr.record_id))
-      throw InputError(name + ": describes its extra bytes in an extended VLR, which cannot be "
-                              "added to; write it anew with a plain VLR");
+      throw InputError(name +
+                       ": describes its extra bytes in an extended VLR, which cannot be "
+                       "added to; write it anew with a plain VLR");
   }
   std::vector<LasExtraField> placed = fields;
   std::size_t position = input.header().record_length;

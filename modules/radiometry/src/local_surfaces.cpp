@@ -100,8 +100,7 @@ double LocalSurfaces::radiusFor(const std::vector<Eigen::Vector3f>& points) {
 
 LocalSurfaces::LocalSurfaces(const std::vector<Eigen::Vector3f>& points,
                              const LocalSurfaceSettings& settings)
-    : settings_(settings),
-      radius_(settings.radius > 0.0 ? settings.radius : radiusFor(points)) {
+    : settings_(settings), radius_(settings.radius > 0.0 ? settings.radius : radiusFor(points)) {
   settings.check();
   if (points.empty()) return;
   Eigen::Vector2f low = points[0].head<2>(), high = low;

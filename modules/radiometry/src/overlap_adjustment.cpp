@@ -112,7 +112,8 @@ class Adjustment {
     Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(terms + gains, unknowns_.count);
     transform.topLeftCorner(terms, terms).setIdentity();
     for (int i = 0; i < gains; ++i) {
-      const auto members = static_cast<double>(std::count(groups_.begin(), groups_.end(), group(i)));
+      const auto members =
+          static_cast<double>(std::count(groups_.begin(), groups_.end(), group(i)));
       for (int j = 0; j < strips; ++j) {
         const int column = unknowns_.gain[static_cast<std::size_t>(j)];
         if (column < 0 || group(j) != group(i)) continue;
@@ -195,8 +196,9 @@ class Adjustment {
     term.std_formal = std::sqrt(formal_(row, row));
     term.status = TermStatus::estimated;
     if (term.value < 0.0) {
-      result_.warnings.push_back(std::string(nameOf(static_cast<RadiometricTerm>(t))) + " came out as " +
-                                 number(term.value) + ", which is impossible; 0 is used");
+      result_.warnings.push_back(std::string(nameOf(static_cast<RadiometricTerm>(t))) +
+                                 " came out as " + number(term.value) +
+                                 ", which is impossible; 0 is used");
       term.value = 0.0;
     }
     setValue(static_cast<RadiometricTerm>(t), term.value, result_.model);
@@ -221,15 +223,16 @@ class Adjustment {
       gain.reason = "its standard deviation is " + number(gain.std) + ": " + twinOf(row);
     }
     if (std::any_of(groups_.begin(), groups_.end(), [this](int g) { return g != groups_[0]; }))
-      result_.warnings.push_back("not all strips are connected by overlaps: gains are relative within "
-                                 "each group of strips only");
+      result_.warnings.push_back(
+          "not all strips are connected by overlaps: gains are relative within "
+          "each group of strips only");
   }
 
   void storeCorrelation() {
     for (int row = 0; row < covariance_.rows(); ++row) {
       const std::string name = nameOfRow(row);
       result_.order.push_back(name.rfind("the gain of strip ", 0) == 0 ? "gain " + name.substr(18)
-                                                                      : name);
+                                                                       : name);
     }
     const Eigen::VectorXd sigma = covariance_.diagonal().cwiseSqrt().cwiseMax(1e-150);
     result_.correlation =

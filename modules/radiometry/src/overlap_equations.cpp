@@ -19,7 +19,7 @@ namespace {
 constexpr double kHuber = 1.5;  ///< standard deviations within which residuals count fully
 /// A cell's mean has the variance of its points and as much again as of this many of them.
 constexpr double kPointsOfTexture = 5.0;
-constexpr int kScaleRounds = 6;     ///< after which the scale of the residuals stays
+constexpr int kScaleRounds = 6;  ///< after which the scale of the residuals stays
 constexpr double kNoWitness = 1e3;
 constexpr double kSingular = 1e-11;  ///< smallest eigenvalue of the scaled normal matrix
 
@@ -57,7 +57,10 @@ OverlapEquations::OverlapEquations(const std::vector<SharedCell>& cells, double 
     for (const SharedCell::View& view : cell.views) {
       const double given = std::log(view.intensity * model.factor(view.range, view.cosine));
       const double reference = model.reference_range;
-      rows_.push_back({cluster_.size() - 1, view.strip, weightOf(view.points), given,
+      rows_.push_back({cluster_.size() - 1,
+                       view.strip,
+                       weightOf(view.points),
+                       given,
                        {-std::log(view.range / reference), std::log(view.cosine),
                         -2.0 * (view.range - reference) / 1000.0}});
     }
@@ -66,9 +69,8 @@ OverlapEquations::OverlapEquations(const std::vector<SharedCell>& cells, double 
   clusters_ = numbers.size();
   by_cluster_.resize(cells.size());
   std::iota(by_cluster_.begin(), by_cluster_.end(), std::size_t{0});
-  std::stable_sort(by_cluster_.begin(), by_cluster_.end(), [this](std::size_t a, std::size_t b) {
-    return cluster_[a] < cluster_[b];
-  });
+  std::stable_sort(by_cluster_.begin(), by_cluster_.end(),
+                   [this](std::size_t a, std::size_t b) { return cluster_[a] < cluster_[b]; });
 }
 
 Eigen::VectorXd OverlapEquations::designOf(const OverlapUnknowns& unknowns, const Row& row) const {
@@ -161,8 +163,8 @@ void OverlapEquations::addCell(const OverlapUnknowns& unknowns, std::size_t cell
   }
 }
 
-/// Jackknife over clusters, one step each (CR3): where a few clusters (steep roofs) carry an unknown,
-/// the plain sandwich is too narrow.
+/// Jackknife over clusters, one step each (CR3): where a few clusters (steep roofs) carry an
+/// unknown, the plain sandwich is too narrow.
 void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighing& weighing,
                                    OverlapSolution& solution) const {
   const int n = unknowns.count;
@@ -170,8 +172,8 @@ void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighi
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell)
     addCell(unknowns, cell, weighing, ignored, all);
-  solution.formal = weighing.scale * weighing.scale *
-                    all.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  solution.formal =
+      weighing.scale * weighing.scale * all.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   solution.covariance = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t at = 0; at < by_cluster_.size();) {
     const std::uint32_t cluster = cluster_[by_cluster_[at]];
@@ -202,8 +204,8 @@ OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
   for (int round = 1; round <= settings_.most_iterations && !solution.converged; ++round) {
     const Reduced reduced = reduce(unknowns, robust);
     const Eigen::VectorXd diagonal = reduced.normal.diagonal().cwiseSqrt().cwiseMax(1e-150);
-    const Eigen::MatrixXd scaled =
-        diagonal.cwiseInverse().asDiagonal() * reduced.normal * diagonal.cwiseInverse().asDiagonal();
+    const Eigen::MatrixXd scaled = diagonal.cwiseInverse().asDiagonal() * reduced.normal *
+                                   diagonal.cwiseInverse().asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
     solution.regular = eigen.eigenvalues()[0] > kSingular;
     if (!solution.regular) return solution;

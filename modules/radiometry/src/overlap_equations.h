@@ -58,9 +58,9 @@ class OverlapEquations {
   Eigen::VectorXd designOf(const OverlapUnknowns& unknowns, const Row& row) const;
 
   const OverlapSettings settings_;
-  std::vector<Row> rows_;              ///< cell by cell
-  std::vector<std::size_t> first_;     ///< row of each cell, and the end
-  std::vector<std::uint32_t> cluster_;  ///< of each cell
+  std::vector<Row> rows_;                ///< cell by cell
+  std::vector<std::size_t> first_;       ///< row of each cell, and the end
+  std::vector<std::uint32_t> cluster_;   ///< of each cell
   std::vector<std::size_t> by_cluster_;  ///< cells, cluster by cluster
   std::size_t clusters_ = 0;
 };

@@ -140,9 +140,8 @@ void PulseRun::record(const Shot& shot, const Echo& echo, Random& random,
                    instrument_.true_system.distance(measured) * shot.unbiased_direction;
   point.position = options_.origin + shot.assumed_origin +
                    instrument_.assumed_system.distance(measured) * shot.assumed_direction;
-  double number =
-      digitalNumber(options_.scanner.gain * line_.plan().gain, echo.signal, echo.range,
-                    instrument_.extinction, options_.scanner.range_exponent);
+  double number = digitalNumber(options_.scanner.gain * line_.plan().gain, echo.signal, echo.range,
+                                instrument_.extinction, options_.scanner.range_exponent);
   if (noise.intensity > 0.0) number *= 1.0 + noise.intensity * random.normal();
   point.intensity = static_cast<std::uint16_t>(std::clamp(std::round(number), 0.0, 65535.0));
   point.reflectance = static_cast<float>(echo.reflectance);

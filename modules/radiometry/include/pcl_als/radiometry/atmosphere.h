@@ -19,12 +19,12 @@ struct Atmosphere {
 /** \brief Extinction of the air near the ground by its causes, 1/km.
  *
  * - aerosol: 3.91 / V (lambda / 550 nm)^-q. Kruse, McGlauchlin, McQuistan 1962; q of Kim, McArthur,
- *   Korevaar 2001 (Proc. SPIE 4214): 1.6 above 50 km, 1.3 from 6, 0.16 V + 0.34 from 1, V - 0.5 from
- *   0.5, else 0. The formula jumps by 0.1 (6 %) at V = 50 km, as published.
- * - rayleigh: cross section of Bodhaine, Wood, Dutton, Slusser 1999 (J. Atmos. Oceanic Technol. 16),
- *   Eq. (29), times the number of molecules, p / (k T).
- * - water_vapour, mixed_gases: band model of Bird and Riordan 1984 (SERI/TR-215-2436), Eq. (2-8) and
- *   (2-11), for one kilometre; vapour from the humidity with the Magnus formula (WMO-No. 8).
+ *   Korevaar 2001 (Proc. SPIE 4214): 1.6 above 50 km, 1.3 from 6, 0.16 V + 0.34 from 1, V - 0.5
+ * from 0.5, else 0. The formula jumps by 0.1 (6 %) at V = 50 km, as published.
+ * - rayleigh: cross section of Bodhaine, Wood, Dutton, Slusser 1999 (J. Atmos. Oceanic Technol.
+ * 16), Eq. (29), times the number of molecules, p / (k T).
+ * - water_vapour, mixed_gases: band model of Bird and Riordan 1984 (SERI/TR-215-2436), Eq. (2-8)
+ * and (2-11), for one kilometre; vapour from the humidity with the Magnus formula (WMO-No. 8).
  *   These are means over bands of 10 to 30 nm: a laser line can lie on or between absorption lines.
  */
 struct Extinction {

@@ -27,8 +27,8 @@ double varianceToMean(const RunningStatistics& statistics);
 /** \brief What a correction of intensity did, by slope, by class and by strip.
  *
  * The variance-to-mean ratio has the unit of the intensity: to compare it before and after, scale
- * the corrected values to the mean of the given ones. Merging in one order gives one result. Memory:
- * some kilobytes per strip, whatever the number of points.
+ * the corrected values to the mean of the given ones. Merging in one order gives one result.
+ * Memory: some kilobytes per strip, whatever the number of points.
  */
 class IntensityStatistics {
  public:

@@ -23,11 +23,11 @@ struct LocalSurface {
 struct LocalSurfaceSettings {
   /// Metres in plan; 0: that of about 16 points, at least the footprint. See radiusFor().
   double radius = 0.0;
-  double tolerance = 0.10;      ///< metres: points closer to a plane lie on it
-  int least_support = 6;        ///< points on the plane
-  double least_share = 0.45;    ///< of the neighbours
-  double steepest = 75.0;       ///< degrees: planes are not sought in walls
-  std::size_t most_points = 24; ///< nearest neighbours looked at
+  double tolerance = 0.10;       ///< metres: points closer to a plane lie on it
+  int least_support = 6;         ///< points on the plane
+  double least_share = 0.45;     ///< of the neighbours
+  double steepest = 75.0;        ///< degrees: planes are not sought in walls
+  std::size_t most_points = 24;  ///< nearest neighbours looked at
 
   void check() const;  ///< UsageError
 };

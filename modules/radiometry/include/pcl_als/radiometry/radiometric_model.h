@@ -35,13 +35,13 @@ struct RadiometricModel {
 
 /// What could be done for a point.
 enum class RadiometryStatus : std::uint8_t {
-  surface,      ///< range, atmosphere and incidence
-  limited,      ///< the same, with the largest incidence in place of a steeper one
-  no_surface,   ///< no plane (leaves, wires, edges): range and atmosphere only
-  partial,      ///< a return that is not the last: only part of the energy; range and atmosphere
-  uncovered,    ///< the trajectory does not cover its time: left as it is
-  above_sensor, ///< not below the sensor: left as it is
-  not_finite,   ///< no coordinates: left as it is
+  surface,       ///< range, atmosphere and incidence
+  limited,       ///< the same, with the largest incidence in place of a steeper one
+  no_surface,    ///< no plane (leaves, wires, edges): range and atmosphere only
+  partial,       ///< a return that is not the last: only part of the energy; range and atmosphere
+  uncovered,     ///< the trajectory does not cover its time: left as it is
+  above_sensor,  ///< not below the sensor: left as it is
+  not_finite,    ///< no coordinates: left as it is
 };
 inline constexpr std::size_t kRadiometryStatusCount = 7;
 /// "surface", "limited_incidence", "no_surface", …: the names in reports.

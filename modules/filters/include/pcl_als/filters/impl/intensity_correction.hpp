@@ -19,8 +19,8 @@ void IntensityCorrection<PointT>::checkSettings() const {
   if (!std::isfinite(gain_) || gain_ <= 0.0)
     throw UsageError("IntensityCorrection: the gain must be more than 0");
   if (normals_ && normals_->size() != this->input_->size())
-    throw UsageError("IntensityCorrection: " + std::to_string(normals_->size()) +
-                     " normals for " + std::to_string(this->input_->size()) + " points");
+    throw UsageError("IntensityCorrection: " + std::to_string(normals_->size()) + " normals for " +
+                     std::to_string(this->input_->size()) + " points");
 }
 
 /// Single and last returns: what lies on surfaces.
