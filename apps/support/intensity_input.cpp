@@ -22,18 +22,23 @@ constexpr std::size_t kIntensity = 12, kReturns = 14;
 /// Collects what a survey says of points.
 struct SurveyTally {
   std::map<std::uint16_t, PointSource> sources;
+  PointSource* last = nullptr;  ///< in sources
   TimeRange times, zero_times;
   std::uint64_t zeros = 0;
   double largest = 0.0;
 
   void add(std::uint16_t id, double time, double intensity, const Eigen::Vector3d& position) {
-    const auto [at, fresh] = sources.try_emplace(id);
-    PointSource& source = at->second;
-    if (fresh) {
-      source.id = id;
-      source.first_time = source.last_time = time;
-      source.minimum = source.maximum = position;
+    // Points of one strip come in long runs: the map is asked when the strip changes.
+    if (last == nullptr || last->id != id) {
+      const auto [at, fresh] = sources.try_emplace(id);
+      last = &at->second;
+      if (fresh) {
+        last->id = id;
+        last->first_time = last->last_time = time;
+        last->minimum = last->maximum = position;
+      }
     }
+    PointSource& source = *last;
     ++source.points;
     source.first_time = std::min(source.first_time, time);
     source.last_time = std::max(source.last_time, time);
@@ -74,6 +79,25 @@ struct SurveyTally {
   }
 };
 
+/// Sorts single and last returns by strip; the map is asked when the strip changes.
+class SurfacePoints {
+ public:
+  explicit SurfacePoints(IntensityWindow& window) : window_(window) {}
+  void add(const IntensityPoint& point) {
+    if (point.return_number < point.number_of_returns) return;
+    if (last_ == nullptr || source_ != point.source) {
+      source_ = point.source;
+      last_ = &window_.surface_points[source_];
+    }
+    last_->push_back(point.position);
+  }
+
+ private:
+  IntensityWindow& window_;
+  std::vector<Eigen::Vector3f>* last_ = nullptr;
+  std::uint16_t source_ = 0;
+};
+
 /// Where one strip's points of a block lie, in units of the file.
 struct BlockBox {
   std::uint32_t block = 0;
@@ -111,10 +135,10 @@ class LasInput : public IntensityInput {
     out.origin = positionOf(records.data());
     out.points.resize(count);
     out.surface_points.clear();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
       out.points[i] = pointOf(&records[i * length()], out.origin);
-      addSurfacePoint(out.points[i], out);
-    }
+    SurfacePoints surface_points(out);
+    for (const IntensityPoint& point : out.points) surface_points.add(point);
     out.gain_control.clear();
     if (gain_control_ >= 0)
       decodeLasExtraField(records.data(), count, length(),
@@ -171,11 +195,6 @@ class LasInput : public IntensityInput {
     const auto code = loadLas<std::uint8_t>(record + layout.classification);
     point.classification = layout.extended ? code : code & 31U;
     return point;
-  }
-
-  static void addSurfacePoint(const IntensityPoint& point, IntensityWindow& out) {
-    if (point.return_number >= point.number_of_returns)
-      out.surface_points[point.source].push_back(point.position);
   }
 
   /// The first look: survey and boxes, window by window.
@@ -262,6 +281,7 @@ class LasInput : public IntensityInput {
       box.max().array() += metres;
     }
     std::vector<std::byte> records;
+    SurfacePoints surface_points(out);
     for (const std::uint32_t block : blocksAround(window, margins)) {
       const std::uint64_t first = block * std::uint64_t{kBlock};
       const std::size_t count = std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
@@ -271,7 +291,7 @@ class LasInput : public IntensityInput {
         if (box == reach.end()) continue;
         const IntensityPoint point = pointOf(&records[i * length()], out.origin);
         if (box->second.contains(Eigen::Vector2f(point.position.head<2>())))
-          addSurfacePoint(point, out);
+          surface_points.add(point);
       }
     }
   }

@@ -113,7 +113,7 @@ void IntensityRun::alignTimes() {
 /// least half the footprint.
 void IntensityRun::chooseRadii() {
   std::vector<std::vector<double>> found(strips().size());
-  for (std::size_t file = 0; file < files(); ++file) {
+  for (std::size_t file = 0; settings_.find_surfaces && file < files(); ++file) {
     const std::size_t windows = inputs_[file]->windows();
     const std::size_t probes = std::min(windows, kProbes);
     for (std::size_t probe = 0; probe < probes; ++probe) {
@@ -197,10 +197,11 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
   out.strip.resize(points.size());
   out.divisor.resize(points.size());
   std::size_t cursor = 0;
+  int strip = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const IntensityPoint& point = points[i];
     const Eigen::Vector3d place = out.window.origin + point.position.cast<double>();
-    const int strip = strip_of_[file].at(point.source);
+    if (i == 0 || points[i - 1].source != point.source) strip = strip_of_[file].at(point.source);
     out.strip[i] = strip;
     if (wanted && !wanted(place.x(), place.y())) continue;
     if (settings_.find_surfaces && point.return_number >= point.number_of_returns)

@@ -3,7 +3,7 @@
 # Copyright (c) 2026, the pcl_als authors
 #
 # intensity_speed.sh BIN_DIR FILE.las TRAJECTORY [ROUNDS]: pcl_als_intensity against cp of the same file, run in turn; the
-# best of the rounds, one thread, wall clock in milliseconds, and the most memory.
+# best of the rounds, one thread, processor time in milliseconds (a machine that is shared says little of the clock), and memory.
 set -euo pipefail
 export LC_ALL=C
 bin=$1 file=$2 flight=$3 rounds=${4:-5}
@@ -11,14 +11,13 @@ work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 declare -A best memory
 measure() {  # NAME COMMAND…
-  local name=$1 start end
+  local name=$1 kilobytes user system ms
   shift
-  start=$(date +%s%N)
-  command time -f %M -o "$work/memory" "$@" >/dev/null
-  end=$(date +%s%N)
-  local ms=$(((end - start) / 1000000))
+  command time -f '%M %U %S' -o "$work/used" "$@" >/dev/null
+  read -r kilobytes user system <"$work/used"
+  ms=$(bc -l <<<"1000 * ($user + $system) / 1" | cut -d. -f1)
   [[ -n ${best[$name]:-} && ${best[$name]} -le $ms ]] || best[$name]=$ms
-  memory[$name]=$(<"$work/memory")
+  memory[$name]=$kilobytes
 }
 run() { measure "$1" "$bin/pcl_als_intensity" "$file" "$work/out.las" -trajectory "$flight" -threads 1 -quiet "${@:2}"; }
 for ((round = 0; round < rounds; ++round)); do
@@ -30,5 +29,5 @@ for ((round = 0; round < rounds; ++round)); do
 done
 printf '%-12s %8s %8s %10s\n' what ms "of cp" "memory MB"
 for name in cp no_normals no_fields all; do
-  printf '%-12s %8d %8.2f %10d\n' $name "${best[$name]}" "$(bc -l <<<"${best[$name]} / ${best[cp]}")" $((memory[$name] / 1024))
+  printf '%-12s %8d %8.1f %10d\n' $name "${best[$name]}" "$(bc -l <<<"${best[$name]} / ${best[cp]}")" $((memory[$name] / 1024))
 done
