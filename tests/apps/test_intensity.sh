@@ -75,6 +75,17 @@ rm -f x.las
 expect 0 'saturated' intensity small/strip3.las eight.las -trajectory small/trajectory.csv -saturation 150
 expect 0 '' intensity small/strip3.las eight.las -trajectory small/trajectory.csv -scale 100
 
+# PCD: one point 500 m below the sensor: 400 (500/1000)^2 = 100; its fields behind the others. No surface: NaN.
+printf 'time,x,y,z\n0,0,0,500\n5,250,0,500\n10,500,0,500\n' >line.csv
+printf '%s\n' 'VERSION 0.7' 'FIELDS x y z intensity gps_time' 'SIZE 4 4 4 4 8' 'TYPE F F F F F' 'COUNT 1 1 1 1 1' 'WIDTH 1' \
+  'HEIGHT 1' 'VIEWPOINT 0 0 0 1 0 0 0' 'POINTS 1' 'DATA ascii' '250 0 0 400 5' >point.pcd
+expect 0 '1 without a surface' intensity point.pcd corrected.pcd -trajectory line.csv -no_atmosphere
+floats() { tail -c 46 corrected.pcd | od -An -tf4 -j"$1" -N4 | tr -d ' '; }
+check "PCD: intensity $(floats 20)" test "$(floats 20)" = 100
+check "PCD: original intensity $(floats 34)" test "$(floats 34)" = 400
+check "PCD: range $(floats 38)" test "$(floats 38)" = 500
+check "PCD: no incidence $(floats 42)" test "$(floats 42)" = nan
+
 # What it refuses, in one line, leaving nothing.
 expect 1 'option -trajectory is needed' intensity block/strip1.las x.las
 expect 1 'option -visibility: 0 km' intensity block/strip1.las x.las "${flight[@]}" -visibility 0
