@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include <unistd.h>
-
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
@@ -13,6 +11,7 @@
 #include "calibration_tables.h"
 #include "command_line.h"
 #include "flight_options.h"
+#include "output_check.h"
 #include "point_file_correction.h"
 #include "survey_reader.h"
 
@@ -86,13 +85,7 @@ void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
   for (const char* option : {"corrected", "report"}) {
-    if (!line.has(option)) continue;
-    std::error_code error;
-    fs::create_directories(line.text(option), error);
-    if (!fs::is_directory(line.text(option)) || access(line.text(option).c_str(), W_OK) != 0) {
-      throw InputError(std::string("option -") + option + ": " + line.text(option) +
-                       " is no folder that can be written to");
-    }
+    if (line.has(option)) app::makeOutputFolder(option, line.text(option));
   }
 }
 

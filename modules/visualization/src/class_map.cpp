@@ -13,33 +13,6 @@ namespace {
 
 constexpr double kMargin = 20.0, kTitle = 44.0, kCaption = 30.0, kLabels = 92.0, kFoot = 66.0;
 
-/// Coordinates along two sides of a map's box.
-void drawCoordinates(Canvas& canvas, const ClassRaster& raster, const PixelBox& box,
-                     double metres_per_pixel) {
-  TextStyle style;
-  style.size = 12.0;
-  style.color = ink::gray;
-  const double west = raster.north_west.x(), north = raster.north_west.y();
-  const double east = west + box.width * metres_per_pixel;
-  const double south = north - box.height * metres_per_pixel;
-  style.horizontal = Align::center;
-  style.vertical = Align::low;
-  const Ticks across = niceTicks(west, east, std::max(2, static_cast<int>(box.width / 110.0)));
-  for (const double value : across.values) {
-    const double x = box.x + (value - west) / metres_per_pixel;
-    canvas.line({x, box.bottom()}, {x, box.bottom() + 5.0}, 1.0, ink::gray);
-    canvas.text(across.label(value), {x, box.bottom() + 7.0}, style);
-  }
-  style.horizontal = Align::high;
-  style.vertical = Align::center;
-  const Ticks up = niceTicks(south, north, std::max(2, static_cast<int>(box.height / 60.0)));
-  for (const double value : up.values) {
-    const double y = box.y + (north - value) / metres_per_pixel;
-    canvas.line({box.x - 5.0, y}, {box.x, y}, 1.0, ink::gray);
-    canvas.text(up.label(value), {box.x - 8.0, y}, style);
-  }
-}
-
 }  // namespace
 
 void ClassMapPicture::addMap(std::string caption, ClassRaster raster) {
@@ -98,7 +71,7 @@ void ClassMapPicture::drawMap(Canvas& canvas, const Map& map, const Eigen::Vecto
   canvas.text(map.caption, {box.x, corner.y() + 0.5 * kCaption}, style);
   canvas.draw(image, static_cast<int>(box.x), static_cast<int>(box.y));
   canvas.frame({box.x - 1.0, box.y - 1.0, box.width + 2.0, box.height + 2.0}, 1.0, ink::gray);
-  drawCoordinates(canvas, map.raster, box, metres_per_pixel);
+  drawCoordinates(canvas, map.raster.north_west, metres_per_pixel, box);
 }
 
 Canvas ClassMapPicture::draw(int width, int height) const {

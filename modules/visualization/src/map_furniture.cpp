@@ -101,4 +101,30 @@ void drawNorthArrow(Canvas& canvas, const Eigen::Vector2d& center, double length
   canvas.text("N", tip + 11.0 * up, style);
 }
 
+void drawCoordinates(Canvas& canvas, const Eigen::Vector2d& north_west, double metres_per_pixel,
+                     const PixelBox& box) {
+  TextStyle style;
+  style.size = 12.0;
+  style.color = ink::gray;
+  const double west = north_west.x(), north = north_west.y();
+  const double east = west + box.width * metres_per_pixel;
+  const double south = north - box.height * metres_per_pixel;
+  style.horizontal = Align::center;
+  style.vertical = Align::low;
+  const Ticks across = niceTicks(west, east, std::max(2, static_cast<int>(box.width / 110.0)));
+  for (const double value : across.values) {
+    const double x = box.x + (value - west) / metres_per_pixel;
+    canvas.line({x, box.bottom()}, {x, box.bottom() + 5.0}, 1.0, ink::gray);
+    canvas.text(across.label(value), {x, box.bottom() + 7.0}, style);
+  }
+  style.horizontal = Align::high;
+  style.vertical = Align::center;
+  const Ticks up = niceTicks(south, north, std::max(2, static_cast<int>(box.height / 60.0)));
+  for (const double value : up.values) {
+    const double y = box.y + (north - value) / metres_per_pixel;
+    canvas.line({box.x - 5.0, y}, {box.x, y}, 1.0, ink::gray);
+    canvas.text(up.label(value), {box.x - 8.0, y}, style);
+  }
+}
+
 }  // namespace pcl_als

@@ -36,4 +36,9 @@ PixelBox drawScaleBar(Canvas& canvas, double metres_per_pixel, double most_pixel
 void drawNorthArrow(Canvas& canvas, const Eigen::Vector2d& center, double length,
                     const Eigen::Vector2d& direction = {0.0, -1.0});
 
+/// Ticks with ground coordinates below and on the left of a map whose upper left corner is known.
+/// Needs some 90 pixels on the left and 30 below.
+void drawCoordinates(Canvas& canvas, const Eigen::Vector2d& north_west, double metres_per_pixel,
+                     const PixelBox& box);
+
 }  // namespace pcl_als
