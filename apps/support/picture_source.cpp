@@ -97,6 +97,16 @@ std::uint64_t PictureSource::pointCount() const {
   return count;
 }
 
+std::uint64_t PictureSource::pointsOf(int strip) const {
+  std::uint64_t count = 0;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : files_[file].sources) {
+      if (stripNamed(naming_->nameOf(file, source.id), "") == strip) count += source.points;
+    }
+  }
+  return count;
+}
+
 double PictureSource::cellFor(int strip, double points) const {
   // From the boxes of the files: a slanting strip fills its box in part, and gets larger cells.
   double area = 0.0, count = 0.0;

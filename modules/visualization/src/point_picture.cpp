@@ -97,7 +97,7 @@ double closingPointSize(const PixelThinning& points) {
   if (used == 0.0) return 1.0;
   if (squares < 20.0) return 5.0;  // so few points that they are to be found
   const double fill = used / (squares * kSquare * kSquare);
-  return std::clamp(std::ceil(std::sqrt(1.0 / fill) - 0.15), 1.0, 5.0);
+  return std::clamp(std::ceil(std::sqrt(1.0 / fill) - 0.02), 1.0, 5.0);
 }
 
 PointPicture::PointPicture(int width, int height, bool bare)
