@@ -8,6 +8,7 @@
 #include <pcl_als/io/survey_io.h>
 
 #include "adjustment_options.h"
+#include "calibration_page.h"
 #include "calibration_tables.h"
 #include "command_line.h"
 #include "flight_options.h"
@@ -43,7 +44,7 @@ CommandLine commandLine() {
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
                "with -corrected: take out what was found wrong with each strip's trajectory, too");
-  line.addOptional("report", "folder for report.md and tables as CSV");
+  line.addOptional("report", "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
   line.add("max_distance", "normal distance of a pair at the start, m",
            defaults.max_normal_distance);
@@ -91,12 +92,14 @@ void checkOutputs(const CommandLine& line) {
 
 /// Both looks at the points and the adjustment.
 CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& survey,
+                                  app::CalibrationPage& page,
                                   QuasiRigorousCalibration& calibration) {
   for (const std::string& id : survey.strips()) calibration.addStrip(id);
   {
     Step step("Surveying the block", line.quiet());
     survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
       calibration.survey(strip, points, count);
+      page.add(strip, points, count);
     });
     calibration.chooseAreas();
     step.done(std::to_string(calibration.pairs().size()) + " overlapping pairs, " +
@@ -144,6 +147,15 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   }
 }
 
+void writeReport(const CommandLine& line, const CalibrationResult& result,
+                 const std::vector<CalibrationArea>& areas, const app::CalibrationPage& page) {
+  const fs::path folder = line.text("report");
+  Step step("Writing " + (folder / "report.html").string(), line.quiet());
+  app::writeCalibrationCsv(folder, result, areas);
+  page.write(line, result, areas);
+  step.done(app::CalibrationPage::draws() ? "with pictures" : "none: built without VTK; report.md");
+}
+
 int calibrate(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -165,15 +177,14 @@ int calibrate(int argc, char** argv) {
   QuasiRigorousCalibration calibration(trajectory, settings, survey.corner());
   calibration.setPairs(pairs);
   if (line.has("control")) calibration.setControl(readControl(line.text("control")));
-  CalibrationResult result = calibrateSurvey(line, survey, calibration);
+  app::CalibrationPage page(survey, line.has("report"));
+  CalibrationResult result = calibrateSurvey(line, survey, page, calibration);
   result.inputs = files;
   result.inputs.push_back(line.text("trajectory"));
   if (line.has("control")) result.inputs.push_back(line.text("control"));
   writeCalibration(line.text("output"), result);
   if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
-  if (line.has("report")) {
-    app::writeCalibrationReport(line.text("report"), result, calibration.areas());
-  }
+  if (line.has("report")) writeReport(line, result, calibration.areas(), page);
   if (!result.converged) {
     const std::string why = app::notDetermined(result, "is not");
     std::cerr << "pcl_als_calibrate: no reliable answer: "

@@ -160,7 +160,7 @@ int profile(int argc, char** argv) {
   if (automatic) {
     app::makeOutputFolder("output", line.text("output"));
   } else {
-    app::requireWritable(line.text("output"));
+    app::checkWritable(line.text("output"));
   }
 
   Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());

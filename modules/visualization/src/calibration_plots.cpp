@@ -42,20 +42,6 @@ std::vector<UnitGroup> unitGroups() {
   return groups;
 }
 
-std::string estimateText(const SystemParameterInfo& info, const ParameterEstimate& estimate) {
-  if (estimate.status == ParameterStatus::estimated) {
-    const double std = estimate.std / info.internal_per_unit;
-    // Two digits of the standard deviation say what there is to say.
-    const int leading = std > 0.0 ? static_cast<int>(std::floor(std::log10(std))) : -6;
-    const int decimals = std::clamp(1 - leading, 0, 9);
-    return numberText(estimate.bias / info.internal_per_unit, decimals) + " ± " +
-           numberText(std, decimals) + (info.unit == "1" ? "" : " " + std::string(info.unit));
-  }
-  const std::string status =
-      estimate.status == ParameterStatus::fixed ? "not estimated" : "not determined";
-  return estimate.reason.empty() ? status : status + ": " + estimate.reason;
-}
-
 void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const UnitGroup& group,
                         const PixelBox& box) {
   std::vector<double> reach;
@@ -84,7 +70,7 @@ void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const U
     name.color = value.color = known ? ink::black : ink::gray;
     canvas.text(plainName(info), {box.x - 14.0, pixel_y}, name);
     const double room = canvas.width() - kPlotMargin - right;
-    canvas.text(detail::shortened(estimateText(info, estimate), room, value), {right, pixel_y},
+    canvas.text(detail::shortened(estimateText(info.parameter, estimate), room, value), {right, pixel_y},
                 value);
     if (!known) continue;
     const double bias = estimate.bias / info.internal_per_unit;
@@ -106,6 +92,21 @@ std::vector<double> numbersTo(std::size_t count) {
 }
 
 }  // namespace
+
+std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate) {
+  const SystemParameterInfo& info = infoOf(parameter);
+  if (estimate.status == ParameterStatus::estimated) {
+    const double std = estimate.std / info.internal_per_unit;
+    // Two digits of the standard deviation say what there is to say.
+    const int leading = std > 0.0 ? static_cast<int>(std::floor(std::log10(std))) : -6;
+    const int decimals = std::clamp(1 - leading, 0, 9);
+    return numberText(estimate.bias / info.internal_per_unit, decimals) + " ± " +
+           numberText(std, decimals) + (info.unit == "1" ? "" : " " + std::string(info.unit));
+  }
+  const std::string status =
+      estimate.status == ParameterStatus::fixed ? "not estimated" : "not determined";
+  return estimate.reason.empty() ? status : status + ": " + estimate.reason;
+}
 
 Canvas drawParameters(const CalibrationResult& result, PictureSize size) {
   Canvas canvas(size.width, size.height);
@@ -235,6 +236,18 @@ Canvas drawPairs(const CalibrationResult& result, PictureSize size) {
   canvas.marker(Marker::disk, {before.right() + 30.0, top + 20.0}, 11.0, ink::after);
   canvas.text("calibrated", {before.right() + 44.0, top + 20.0}, key);
   return canvas;
+}
+
+Canvas drawResiduals(const CalibrationResult& result, PictureSize size) {
+  HistogramPlot plot;
+  plot.title = "Normal distances of point-patch pairs";
+  plot.x_label = "normal distance, m";
+  plot.edges = result.residuals.edges;
+  const auto& before = result.residuals.before;
+  const auto& after = result.residuals.after;
+  plot.series = {{"before", {before.begin(), before.end()}}, {"after", {after.begin(), after.end()}}};
+  if (plot.edges.empty()) throw UsageError("plot of residuals: the result has no histogram");
+  return drawHistogram(plot, size);
 }
 
 Canvas drawStripErrors(const CalibrationResult& result, PictureSize size) {

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <string>
+
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/visualization/result_plots.h>
 
@@ -19,6 +21,14 @@ Canvas drawConvergence(const CalibrationResult& result, PictureSize size = {});
 
 /// RMS of the normal distances of each pair of strips before and after. UsageError without pairs.
 Canvas drawPairs(const CalibrationResult& result, PictureSize size = {});
+
+/// Normal distances of the pairs before and after as histograms. UsageError where the result has
+/// none.
+Canvas drawResiduals(const CalibrationResult& result, PictureSize size = {});
+
+/// An estimate with its standard deviation to two digits, "−90.13 ± 0.28 arcsec", or why there is
+/// none: as pictures and reports say it.
+std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate);
 
 /// What each strip's trajectory was found to be wrong by over time: position and angles.
 /// UsageError without strip corrections.
