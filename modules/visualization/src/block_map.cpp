@@ -132,15 +132,17 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, title_);
   constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0;
+  const double rim = 3.0 * coverage.cell();  // so that outlines are not cut
   const Eigen::Vector2d extent =
-      coverage.cell() * Eigen::Vector2d(coverage.columns(), coverage.rows());
+      coverage.cell() * Eigen::Vector2d(coverage.columns(), coverage.rows()) +
+      Eigen::Vector2d::Constant(2.0 * rim);
   const double room_x = size.width - kLeft - kPanel - kPlotMargin, room_y = size.height - top - kFoot;
   if (room_x < 100.0 || room_y < 100.0) throw UsageError("a picture too small for a block map");
   MapFrame frame;
   frame.metres_per_pixel = std::max(extent.x() / room_x, extent.y() / room_y);
   frame.box = {kLeft, std::round(top), std::floor(extent.x() / frame.metres_per_pixel),
                std::floor(extent.y() / frame.metres_per_pixel)};
-  frame.north_west = coverage.minimum() + Eigen::Vector2d(0.0, extent.y());
+  frame.north_west = coverage.minimum() + Eigen::Vector2d(-rim, extent.y() - rim);
   const StripCoverage whole = closed(coverage);
   drawOverlaps(canvas, whole, frame);
   canvas.setClip(frame.box);

@@ -70,8 +70,12 @@ void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const U
     name.color = value.color = known ? ink::black : ink::gray;
     canvas.text(plainName(info), {box.x - 14.0, pixel_y}, name);
     const double room = canvas.width() - kPlotMargin - right;
-    canvas.text(detail::shortened(estimateText(info.parameter, estimate), room, value), {right, pixel_y},
-                value);
+    value.size = known ? 15.0 : 13.0;
+    const auto lines = detail::wrapped(estimateText(info.parameter, estimate), room, value, 3);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const double shift = static_cast<double>(k) - 0.5 * static_cast<double>(lines.size() - 1);
+      canvas.text(lines[k], {right, pixel_y + 17.0 * shift}, value);
+    }
     if (!known) continue;
     const double bias = estimate.bias / info.internal_per_unit;
     const double half = kNinetyFivePercent * estimate.std / info.internal_per_unit;

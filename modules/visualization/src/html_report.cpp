@@ -37,10 +37,21 @@ std::string gradeClass(VerdictGrade grade) {
   return grade == VerdictGrade::good ? "good" : grade == VerdictGrade::bad ? "bad" : "attention";
 }
 
-/// Whether a cell is to stand on the right: all that begins like a number.
+/// All that begins like a number.
 bool numeric(const std::string& cell) {
   if (cell.rfind("−", 0) == 0 || cell.rfind("–", 0) == 0) return true;
   return !cell.empty() && std::string("+-.0123456789").find(cell[0]) != std::string::npos;
+}
+
+/// Columns that hold numbers only, or nothing.
+std::vector<bool> numericColumns(const ReportTable& table) {
+  std::vector<bool> numbers(table.columns.size(), !table.rows.empty());
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      numbers[i] = numbers[i] && (row[i].empty() || numeric(row[i]));
+    }
+  }
+  return numbers;
 }
 
 std::string csvCell(std::string cell) {
@@ -66,15 +77,17 @@ std::string tableHtml(const ReportTable& table) {
       << ">";
   if (!table.caption.empty()) out << "<caption>" << escapeHtml(table.caption) << "</caption>";
   out << "<thead><tr>";
-  for (const std::string& column : table.columns) {
-    out << "<th scope=\"col\">" << escapeHtml(column) << "</th>";
+  const std::vector<bool> numbers = numericColumns(table);
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    out << "<th scope=\"col\"" << (numbers[i] ? " class=\"n\">" : ">")
+        << escapeHtml(table.columns[i]) << "</th>";
   }
   out << "</tr></thead>\n<tbody>";
   for (const auto& row : table.rows) {
     out << "<tr>";
-    for (const std::string& cell : row) {
-      out << (numeric(cell) ? "<td class=\"n\">" : "<td>") << (cell.empty() ? "–" : escapeHtml(cell))
-          << "</td>";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      out << (numbers[i] ? "<td class=\"n\">" : "<td>")
+          << (row[i].empty() ? "–" : escapeHtml(row[i])) << "</td>";
     }
     out << "</tr>\n";
   }

@@ -46,22 +46,39 @@ std::string shortened(const std::string& text, double width, const TextStyle& st
   return {};
 }
 
+std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style,
+                                 std::size_t most) {
+  std::vector<std::string> lines;
+  std::string rest = text;
+  while (!rest.empty() && lines.size() + 1 < most && Canvas::textSize(rest, style).x() > width) {
+    std::size_t end = rest.size();
+    do {
+      end = rest.rfind(' ', end - 1);
+    } while (end != std::string::npos && end > 0 &&
+             Canvas::textSize(rest.substr(0, end), style).x() > width);
+    if (end == std::string::npos || end == 0) break;
+    lines.push_back(rest.substr(0, end));
+    rest = rest.substr(end + 1);
+  }
+  lines.push_back(shortened(rest, width, style));
+  return lines;
+}
+
 PixelBox drawHeatMap(Canvas& canvas, const HeatMap& heat, const ColorMap& map,
                      const PixelBox& box) {
   TextStyle style;
   style.size = kNameSize;
-  const bool upright = !heat.columns.empty() &&
-                       widest(heat.columns, style) >
-                           0.9 * box.width / static_cast<double>(heat.columns.size() + 2);
   const double heading = heat.row_heading.empty() ? 0.0 : 28.0;
   const double left = std::min(widest(heat.rows, style), 0.4 * box.width) + 14.0 + heading;
+  const double count = static_cast<double>(heat.columns.size());
+  const bool upright = widest(heat.columns, style) > std::min((box.width - left) / count, 130.0) - 6.0;
   const double top = (upright ? std::min(widest(heat.columns, style), 0.4 * box.height) : kNameSize) +
                      18.0 + heading;
   const double cell = std::floor(
-      std::min({(box.width - left) / static_cast<double>(heat.columns.size()),
+      std::min({(box.width - left) / count,
                 (box.height - top) / static_cast<double>(heat.rows.size()), 130.0}));
   const PixelBox cells{std::round(box.x + left), std::round(box.y + top),
-                       cell * static_cast<double>(heat.columns.size()),
+                       cell * count,
                        cell * static_cast<double>(heat.rows.size())};
   TextStyle number;
   number.size = std::clamp(std::floor(0.24 * cell), 9.0, 18.0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <pcl_als/visualization/canvas.h>
 
@@ -15,6 +16,10 @@ double drawTitle(Canvas& canvas, const std::string& title);
 
 /// The text with "…" for its end where it is wider than so many pixels.
 std::string shortened(const std::string& text, double width, const TextStyle& style);
+
+/// The text in lines of at most so many pixels, broken at blanks; the last of \a most is shortened.
+std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style,
+                                 std::size_t most);
 
 /// Names of what rows and columns of a matrix stand for, and the matrix as coloured cells with
 /// numbers. Text is white on dark cells.

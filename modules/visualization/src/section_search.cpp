@@ -94,7 +94,7 @@ std::optional<SectionSearch::Place> SectionSearch::gableFrom(
     place.difference = 0.5 * (side.difference + other.difference);
     const Eigen::Vector2d across = (side.downhill - other.downhill).normalized();
     place.line = lineThrough(0.5 * (side.center + other.center), across,
-                             0.5 * apart + std::max(6.0, 2.0 * step), std::max(1.0, 0.75 * step));
+                             0.5 * apart + std::max(8.0, 2.0 * step), std::max(1.0, 0.75 * step));
     return place;
   }
   return std::nullopt;
