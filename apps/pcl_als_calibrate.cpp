@@ -44,7 +44,8 @@ CommandLine commandLine() {
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
                "with -corrected: take out what was found wrong with each strip's trajectory, too");
-  line.addOptional("report", "folder for report.html (pictures inside), report.md and tables as CSV");
+  line.addOptional("report",
+                   "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
   line.add("max_distance", "normal distance of a pair at the start, m",
            defaults.max_normal_distance);

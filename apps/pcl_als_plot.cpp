@@ -26,8 +26,9 @@ CommandLine commandLine() {
                    "RESULT.json... -output FOLDER [-plots NAME,...]",
                    "pcl_als_plot calibration.json -output plots -plots parameters,correlation");
   line.addOptional("output", "folder for NAME.png of every plot (needed)");
-  line.addOptional("plots", "only these, e.g. parameters,residuals (default: all that the files "
-                            "hold)");
+  line.addOptional("plots",
+                   "only these, e.g. parameters,residuals (default: all that the files "
+                   "hold)");
   app::addSizeOption(line);
   return line;
 }

@@ -31,10 +31,12 @@ CommandLine commandLine() {
   line.addOptional("from", "start of the section: X,Y, m");
   line.addOptional("to", "end of the section: X,Y, m");
   line.add("width", "of the section, m; 0: 2 m, with -auto by the density of the points", 0.0);
-  line.addOptional("auto", "instead of -from and -to: find so many gable roofs and slopes where a "
-                           "misfit shows best");
-  line.addOptional("after", "the same strips corrected, drawn below: a folder with files of the "
-                            "same names, or files parted by commas");
+  line.addOptional("auto",
+                   "instead of -from and -to: find so many gable roofs and slopes where a "
+                   "misfit shows best");
+  line.addOptional("after",
+                   "the same strips corrected, drawn below: a folder with files of the "
+                   "same names, or files parted by commas");
   line.addOptional("strips", "draw these strips only, e.g. 1,2");
   line.addOptional("output", "PNG to write, with -auto a folder for profile1.png, … (needed)");
   app::addSizeOption(line);

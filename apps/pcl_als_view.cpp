@@ -38,10 +38,12 @@ CommandLine commandLine() {
                         "or an extra-bytes field",
                         "elevation");
   line.addOptional("reference", "with -color difference: the strip that heights are above");
-  line.add("cell", "with -color difference: cells of the reference's planes, m; 0: by density", 0.0);
+  line.add("cell", "with -color difference: cells of the reference's planes, m; 0: by density",
+           0.0);
   line.addOptional("map", "colour map: viridis, cividis, diverging, gray (default: by attribute)");
-  line.addOptional("range", "LOW:HIGH of the colours (default: 1st to 99th percentile of what is "
-                            "shown)");
+  line.addOptional("range",
+                   "LOW:HIGH of the colours (default: 1st to 99th percentile of what is "
+                   "shown)");
   line.addOptional("strips", "draw these strips only, e.g. 1,2");
   line.add("azimuth", "direction the camera looks to, degrees clockwise from north", 0.0);
   line.add("elevation", "height of the camera above the horizon, degrees; 90: top view", 90.0);
@@ -136,13 +138,16 @@ void showWindow(const CommandLine& line, const PictureSource& source, const Sele
                 const PointAttribute& attribute, const PixelThinning& points,
                 const PointColoring& coloring) {
   if (!PrivateDisplay::answers(std::getenv("DISPLAY") == nullptr ? "" : std::getenv("DISPLAY"))) {
-    throw InputError("option -window: there is no display (DISPLAY is not set to one that answers); "
-                     "use -output");
+    throw InputError(
+        "option -window: there is no display (DISPLAY is not set to one that answers); "
+        "use -output");
   }
   VoxelThinning voxels(points.camera().center(), source.maximum() - source.minimum());
-  source.read([&](const PictureSource::Point& point) {
-    if (selection(point)) voxels.add(point.position, attribute.valueOf(point));
-  }, attribute.extraField());
+  source.read(
+      [&](const PictureSource::Point& point) {
+        if (selection(point)) voxels.add(point.position, attribute.valueOf(point));
+      },
+      attribute.extraField());
   std::vector<Color> colors;
   for (const float value : voxels.values()) colors.push_back(coloring(value));
   PointScene scene;
@@ -178,9 +183,11 @@ int view(int argc, char** argv) {
   attribute.prepare(cell);
   camera.frame(extentOf(camera, source, selection), picture.mapWidth(), picture.mapHeight(), zoom);
   PixelThinning points(camera);
-  source.read([&](const PictureSource::Point& point) {
-    if (selection(point)) points.add(point.position, attribute.valueOf(point));
-  }, attribute.extraField());
+  source.read(
+      [&](const PictureSource::Point& point) {
+        if (selection(point)) points.add(point.position, attribute.valueOf(point));
+      },
+      attribute.extraField());
   if (points.seen() == 0) throw InputError("no point lies in the picture");
   PointColoring coloring = attribute.coloring();
   if (coloring.categories.empty()) {
@@ -188,9 +195,10 @@ int view(int argc, char** argv) {
   } else {
     coloring.keepShown(points);
   }
-  step.done(grouped(source.pointCount()) + " points, " + grouped(points.seen()) +
-            " in the picture, " + grouped(points.shown()) + " shown" +
-            (points.invalid() > 0 ? ", " + grouped(points.invalid()) + " without coordinates" : ""));
+  step.done(
+      grouped(source.pointCount()) + " points, " + grouped(points.seen()) + " in the picture, " +
+      grouped(points.shown()) + " shown" +
+      (points.invalid() > 0 ? ", " + grouped(points.invalid()) + " without coordinates" : ""));
   if (line.has("window")) {
     showWindow(line, source, selection, attribute, points, coloring);
     return app::kDone;

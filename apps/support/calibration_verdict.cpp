@@ -42,8 +42,8 @@ std::string againstSpecification(double rms) {
   for (const SwathLimit& limit : kSwathLimits) {
     if (rms > limit.rmsdz) continue;
     return "The fit after calibration is inside the " + centimetres(limit.rmsdz) +
-           " that the USGS Lidar Base Specification allows between swaths at " + limit.levels + "." +
-           caution;
+           " that the USGS Lidar Base Specification allows between swaths at " + limit.levels +
+           "." + caution;
   }
   return "The fit after calibration is outside what the USGS Lidar Base Specification allows "
          "between swaths at any quality level." +

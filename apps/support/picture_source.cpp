@@ -158,7 +158,8 @@ PointAttribute::PointAttribute(std::string name, const PictureSource& source,
     : name_(std::move(name)), source_(source) {
   if (name_ == "difference") {
     if (reference.empty()) {
-      throw UsageError("option -color difference: needs -reference STRIP, the strip to compare with");
+      throw UsageError(
+          "option -color difference: needs -reference STRIP, the strip to compare with");
     }
     reference_ = source.stripNamed(reference, "reference");
     return;
@@ -223,7 +224,8 @@ PointColoring PointAttribute::coloring() const {
   if (name_ == "intensity") coloring.map = ColorMap::named("gray");
   if (name_ == "scan_angle") coloring.map = ColorMap::named("diverging");
   if (name_ == "difference") {
-    coloring.heading = "above strip " + source_.strips()[static_cast<std::size_t>(reference_)] + ", m";
+    coloring.heading =
+        "above strip " + source_.strips()[static_cast<std::size_t>(reference_)] + ", m";
     coloring.map = ColorMap::named("diverging");
     coloring.no_value = "not comparable";
     coloring.no_value_color = {0xd8, 0xd8, 0xd8};

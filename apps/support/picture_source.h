@@ -51,7 +51,8 @@ class PictureSource {
   };
   /// Calls \a sink with every point, in file order. \a extra_field: empty or the name of an
   /// extra-bytes field; UsageError where no file has it, points of files without it get NaN.
-  void read(const std::function<void(const Point&)>& sink, const std::string& extra_field = {}) const;
+  void read(const std::function<void(const Point&)>& sink,
+            const std::string& extra_field = {}) const;
 
  private:
   std::vector<PointFileSources> files_;

@@ -53,12 +53,12 @@ void addCurves(const Json& curves, std::vector<NamedPlot>& plots) {
   for (const Json& entry : curves) {
     CurvePlot plot{entry.value("title", ""), entry.at("x"), entry.at("y"), {}};
     for (const Json& series : entry.at("series")) {
-      plot.series.push_back({series.value("name", ""), numbers(series.at("x")),
-                             numbers(series.at("y")),
-                             series.contains("std") ? numbers(series["std"]) : std::vector<double>{}});
+      plot.series.push_back(
+          {series.value("name", ""), numbers(series.at("x")), numbers(series.at("y")),
+           series.contains("std") ? numbers(series["std"]) : std::vector<double>{}});
     }
-    plots.push_back({fileName(entry.at("name")),
-                     [plot](PictureSize size) { return drawCurves(plot, size); }});
+    plots.push_back(
+        {fileName(entry.at("name")), [plot](PictureSize size) { return drawCurves(plot, size); }});
   }
 }
 
@@ -89,8 +89,10 @@ void addOffsets(const Json& pairs, std::vector<NamedPlot>& plots) {
       {"time_s", "offset_against_time", "time, s"},
       {"scan_angle_deg", "offset_against_scan_angle", "scan angle, degrees"}};
   for (const Against& against : kAgainst) {
-    CurvePlot plot{std::string("Height offset of strips against ") + against.label, against.label,
-                   "first strip above the second, m", {}};
+    CurvePlot plot{std::string("Height offset of strips against ") + against.label,
+                   against.label,
+                   "first strip above the second, m",
+                   {}};
     for (const Json& pair : pairs) {
       const Json profiles = pair.value("trends", Json::object()).value("profiles", Json::object());
       CurvePlot::Series series;

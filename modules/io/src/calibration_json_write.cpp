@@ -84,9 +84,8 @@ Json pairsOf(const CalibrationResult& result) {
 }
 
 Json histogramOf(const ResidualHistogram& histogram) {
-  return Json{{"edges_m", histogram.edges},
-              {"before", histogram.before},
-              {"after", histogram.after}};
+  return Json{
+      {"edges_m", histogram.edges}, {"before", histogram.before}, {"after", histogram.after}};
 }
 
 Json stripErrorsOf(const CalibrationResult& result) {

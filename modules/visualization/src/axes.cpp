@@ -48,7 +48,8 @@ Axes::Axes(Canvas& canvas, const PixelBox& box, const Axis& x, const Axis& y)
   TextStyle style;
   style.size = kTextSize;
   double widest = 0.0;
-  for (const Mark& mark : x_marks_) widest = std::max(widest, Canvas::textSize(mark.label, style).x());
+  for (const Mark& mark : x_marks_)
+    widest = std::max(widest, Canvas::textSize(mark.label, style).x());
   if (!x_.logarithmic && widest > 0.0) {
     const int most = static_cast<int>(box_.width / (1.35 * widest + 4.0));
     if (static_cast<int>(x_marks_.size()) > most) x_marks_ = marksOf(x_, std::max(2, most));
@@ -61,7 +62,8 @@ std::vector<Axes::Mark> Axes::marksOf(const Axis& axis, int most) {
   if (!axis.ticks) return marks;
   if (!axis.logarithmic) {
     const Ticks ticks = niceTicks(axis.low, axis.high, most);
-    for (const double value : ticks.values) marks.push_back({axis.share(value), ticks.label(value)});
+    for (const double value : ticks.values)
+      marks.push_back({axis.share(value), ticks.label(value)});
     return marks;
   }
   const double first = std::ceil(std::log10(axis.low) - 1e-9);

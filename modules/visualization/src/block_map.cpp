@@ -18,8 +18,9 @@ using detail::kPlotMargin;
 constexpr double kMostCells = 16e6, kMostSide = 1000.0;
 
 Color overlapColor(int strips) {
-  static const std::array<Color, 5> shades = {ink::white, Color::rgb(0xe9eef2), Color::rgb(0xc3d7e6),
-                                              Color::rgb(0x8db6d3), Color::rgb(0x4f8fba)};
+  static const std::array<Color, 5> shades = {ink::white, Color::rgb(0xe9eef2),
+                                              Color::rgb(0xc3d7e6), Color::rgb(0x8db6d3),
+                                              Color::rgb(0x4f8fba)};
   return shades[static_cast<std::size_t>(std::min(strips, 4))];
 }
 
@@ -48,7 +49,8 @@ void drawOverlaps(Canvas& canvas, const StripCoverage& coverage, const MapFrame&
           ++strips;
         }
       }
-      if (strips > 0) canvas.fill({frame.box.x + x, frame.box.y + y, 1.0, 1.0}, overlapColor(strips));
+      if (strips > 0)
+        canvas.fill({frame.box.x + x, frame.box.y + y, 1.0, 1.0}, overlapColor(strips));
     }
   }
 }
@@ -128,7 +130,8 @@ bool StripCoverage::covers(std::size_t strip, int column, int row) const {
 
 Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::string>& names,
                       PictureSize size) const {
-  if (names.size() != coverage.strips()) throw UsageError("a block map needs a name for each strip");
+  if (names.size() != coverage.strips())
+    throw UsageError("a block map needs a name for each strip");
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, title_);
   constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0;
@@ -136,7 +139,8 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   const Eigen::Vector2d extent =
       coverage.cell() * Eigen::Vector2d(coverage.columns(), coverage.rows()) +
       Eigen::Vector2d::Constant(2.0 * rim);
-  const double room_x = size.width - kLeft - kPanel - kPlotMargin, room_y = size.height - top - kFoot;
+  const double room_x = size.width - kLeft - kPanel - kPlotMargin,
+               room_y = size.height - top - kFoot;
   if (room_x < 100.0 || room_y < 100.0) throw UsageError("a picture too small for a block map");
   MapFrame frame;
   frame.metres_per_pixel = std::max(extent.x() / room_x, extent.y() / room_y);
@@ -149,8 +153,9 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   for (const Area& area : areas_) {
     const Eigen::Vector2d low = frame.pixel({area.minimum.x(), area.maximum.y()});
     const Eigen::Vector2d high = frame.pixel({area.maximum.x(), area.minimum.y()});
-    canvas.fill({low.x(), low.y(), std::max(2.0, high.x() - low.x()),
-                 std::max(2.0, high.y() - low.y())}, Color::rgb(0xd55e00).withAlpha(150));
+    canvas.fill(
+        {low.x(), low.y(), std::max(2.0, high.x() - low.x()), std::max(2.0, high.y() - low.y())},
+        Color::rgb(0xd55e00).withAlpha(150));
   }
   for (std::size_t s = 0; s < coverage.strips(); ++s) {
     drawOutline(canvas, whole, s, frame, categoryColor(s));

@@ -152,9 +152,8 @@ Canvas drawCorrelation(const CalibrationResult& result, PictureSize size) {
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, "Correlation of the estimated parameters");
   const ColorMap map = ColorMap::named("diverging");
-  const PixelBox cells =
-      detail::drawHeatMap(canvas, heat, map,
-                          {kPlotMargin, top, size.width - 240.0, size.height - top - kPlotMargin});
+  const PixelBox cells = detail::drawHeatMap(
+      canvas, heat, map, {kPlotMargin, top, size.width - 240.0, size.height - top - kPlotMargin});
   const double height = std::clamp(cells.height - 40.0, 60.0, 400.0);
   drawColorBar(canvas, map, -1.0, 1.0, "correlation",
                {cells.right() + 50.0, cells.y + 30.0, 24.0, height});
@@ -170,8 +169,8 @@ Canvas drawConvergence(const CalibrationResult& result, PictureSize size) {
                                                     : std::numeric_limits<double>::quiet_NaN());
   }
   Canvas canvas(size.width, size.height);
-  const double top = detail::drawTitle(
-      canvas, result.converged ? "Convergence" : "Convergence (not reached)");
+  const double top =
+      detail::drawTitle(canvas, result.converged ? "Convergence" : "Convergence (not reached)");
   const std::vector<double> number = numbersTo(result.iterations.size());
   Axis x = Axis::around(number, "iteration");
   x.low = 0.5;
@@ -249,7 +248,8 @@ Canvas drawResiduals(const CalibrationResult& result, PictureSize size) {
   plot.edges = result.residuals.edges;
   const auto& before = result.residuals.before;
   const auto& after = result.residuals.after;
-  plot.series = {{"before", {before.begin(), before.end()}}, {"after", {after.begin(), after.end()}}};
+  plot.series = {{"before", {before.begin(), before.end()}},
+                 {"after", {after.begin(), after.end()}}};
   if (plot.edges.empty()) throw UsageError("plot of residuals: the result has no histogram");
   return drawHistogram(plot, size);
 }
@@ -258,12 +258,12 @@ Canvas drawStripErrors(const CalibrationResult& result, PictureSize size) {
   if (result.strip_errors.empty()) throw UsageError("plot of strip errors: none in the result");
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, "What each strip's trajectory is wrong by");
-  static const char* const kLabels[6] = {"east, mm", "north, mm", "up, mm",
+  static const char* const kLabels[6] = {"east, mm",      "north, mm",    "up, mm",
                                          "pitch, arcsec", "roll, arcsec", "heading, arcsec"};
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < result.strip_errors.size(); ++i) {
-    entries.push_back({detail::shortened(result.strip_errors[i].id, 150.0, {}), categoryColor(i),
-                       true});
+    entries.push_back(
+        {detail::shortened(result.strip_errors[i].id, 150.0, {}), categoryColor(i), true});
   }
   const double legend = std::max(legendSize(entries, "strip").x(), 60.0);
   const double panel_w = (size.width - legend - 2.0 * kPlotMargin) / 3.0;

@@ -73,8 +73,8 @@ std::string joined(const std::vector<std::string>& cells, const std::string& sep
 
 std::string tableHtml(const ReportTable& table) {
   std::ostringstream out;
-  out << "<div class=\"wide\"><table" << (table.name.empty() ? "" : " id=\"" + escapeHtml(table.name) + "\"")
-      << ">";
+  out << "<div class=\"wide\"><table"
+      << (table.name.empty() ? "" : " id=\"" + escapeHtml(table.name) + "\"") << ">";
   if (!table.caption.empty()) out << "<caption>" << escapeHtml(table.caption) << "</caption>";
   out << "<thead><tr>";
   const std::vector<bool> numbers = numericColumns(table);
@@ -117,11 +117,20 @@ std::string escapeHtml(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;
@@ -133,8 +142,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t left = bytes.size() - i;
-    const unsigned group = (bytes[i] << 16U) | (left > 1 ? bytes[i + 1] << 8U : 0U) |
-                           (left > 2 ? bytes[i + 2] : 0U);
+    const unsigned group =
+        (bytes[i] << 16U) | (left > 1 ? bytes[i + 1] << 8U : 0U) | (left > 2 ? bytes[i + 2] : 0U);
     text += letters[group >> 18U];
     text += letters[(group >> 12U) & 63U];
     text += left > 1 ? letters[(group >> 6U) & 63U] : '=';
@@ -180,8 +189,13 @@ void HtmlReport::addTable(ReportTable table) {
 }
 
 void HtmlReport::addPicture(const Image& image, std::string caption) {
-  blocks_.push_back({Kind::picture, std::move(caption), {}, {}, base64(encodePng(image)),
-                     image.width, image.height});
+  blocks_.push_back({Kind::picture,
+                     std::move(caption),
+                     {},
+                     {},
+                     base64(encodePng(image)),
+                     image.width,
+                     image.height});
 }
 
 void HtmlReport::addSetting(std::string name, std::string value) {
@@ -193,8 +207,8 @@ void HtmlReport::addInput(const std::filesystem::path& path) {
   if (stat(path.c_str(), &facts) != 0) {
     inputs_.push_back({path.string(), "missing", ""});
   } else {
-    inputs_.push_back({path.string(), sizeText(static_cast<double>(facts.st_size)),
-                       timeText(facts.st_mtime)});
+    inputs_.push_back(
+        {path.string(), sizeText(static_cast<double>(facts.st_size)), timeText(facts.st_mtime)});
   }
 }
 
@@ -211,9 +225,15 @@ ReportTable HtmlReport::inputsTable() const {
 std::string HtmlReport::htmlOf(const Block& block) const {
   std::ostringstream out;
   switch (block.kind) {
-    case Kind::heading: out << "<h2>" << escapeHtml(block.text) << "</h2>\n"; break;
-    case Kind::text: out << "<p>" << escapeHtml(block.text) << "</p>\n"; break;
-    case Kind::table: out << tableHtml(block.table); break;
+    case Kind::heading:
+      out << "<h2>" << escapeHtml(block.text) << "</h2>\n";
+      break;
+    case Kind::text:
+      out << "<p>" << escapeHtml(block.text) << "</p>\n";
+      break;
+    case Kind::table:
+      out << tableHtml(block.table);
+      break;
     case Kind::list:
       out << "<ul>";
       for (const std::string& item : block.items) out << "<li>" << escapeHtml(item) << "</li>\n";

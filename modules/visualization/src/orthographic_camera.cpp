@@ -40,7 +40,8 @@ void OrthographicCamera::frame(const Eigen::Vector3d& minimum, const Eigen::Vect
   ViewExtent extent;
   extent.reference = 0.5 * (minimum + maximum);
   for (int corner = 0; corner < 8; ++corner) {
-    add({(corner & 1) != 0 ? maximum.x() : minimum.x(), (corner & 2) != 0 ? maximum.y() : minimum.y(),
+    add({(corner & 1) != 0 ? maximum.x() : minimum.x(),
+         (corner & 2) != 0 ? maximum.y() : minimum.y(),
          (corner & 4) != 0 ? maximum.z() : minimum.z()},
         extent);
   }
@@ -56,10 +57,11 @@ void OrthographicCamera::frame(const ViewExtent& extent, int width, int height, 
   const Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
   center_ = extent.reference + middle.x() * right_ + middle.y() * up_ + middle.z() * to_camera_;
   const Eigen::Vector3d size = extent.high - extent.low;
-  const double needed = std::max(size.x() / width, size.y() / height);
-  // A hair more, so that rounding leaves the outermost points inside.
-  metres_per_pixel_ =
-      (needed > 0.0 ? needed * (1.0 + 1e-7) : 1.0 / std::min(width, height)) / zoom;
+  // A rim of a hundredth of a pixel: rounding, ours and the renderer's, leaves the outermost points
+  // inside.
+  constexpr double kRim = 0.02;
+  const double needed = std::max(size.x() / (width - kRim), size.y() / (height - kRim));
+  metres_per_pixel_ = (needed > 0.0 ? needed : 1.0 / std::min(width, height)) / zoom;
 }
 
 }  // namespace pcl_als

@@ -57,8 +57,8 @@ std::vector<float> shade(const PixelThinning& points, const Brightness& brightne
   const int width = points.camera().width();
   for (int y = 0; y < points.camera().height(); ++y) {
     for (int x = 0; x < width; ++x) {
-      const std::size_t i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x);
       if (points.pixels()[i].used()) shades[i] = static_cast<float>(brightness(x, y));
     }
   }
@@ -69,7 +69,8 @@ std::vector<float> shade(const PixelThinning& points, const Brightness& brightne
 
 PixelThinning::PixelThinning(const OrthographicCamera& camera)
     : camera_(camera),
-      pixels_(static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height())) {}
+      pixels_(static_cast<std::size_t>(camera.width()) *
+              static_cast<std::size_t>(camera.height())) {}
 
 void PixelThinning::add(const Eigen::Vector3d& ground, float value) {
   if (!ground.allFinite()) {

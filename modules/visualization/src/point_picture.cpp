@@ -51,8 +51,9 @@ void PointColoring::fitScale(const PixelThinning& points, double p, bool symmetr
   }
   if (values.empty()) return;
   const auto quantile = [&](double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(
-                                         std::lround(share * static_cast<double>(values.size() - 1)));
+    const auto at =
+        values.begin() +
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
     std::nth_element(values.begin(), at, values.end());
     return static_cast<double>(*at);
   };
@@ -87,7 +88,8 @@ double closingPointSize(const PixelThinning& points) {
   std::vector<int> counts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
   for (std::size_t i = 0; i < points.pixels().size(); ++i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    if (points.pixels()[i].used()) ++counts[static_cast<std::size_t>(y / kSquare * columns + x / kSquare)];
+    if (points.pixels()[i].used())
+      ++counts[static_cast<std::size_t>(y / kSquare * columns + x / kSquare)];
   }
   double used = 0.0, squares = 0.0;
   for (const int count : counts) {
@@ -149,8 +151,8 @@ Canvas PointPicture::draw(const PixelThinning& points, const PointColoring& colo
   canvas.text(detail::shortened(facts, room, style), {kMargin, 50.0}, style);
   if (camera.isTopView()) {
     const Eigen::Vector2d north_west =
-        camera.center().head<2>() + camera.metresPerPixel() *
-                                        Eigen::Vector2d(-0.5 * map_.width, 0.5 * map_.height);
+        camera.center().head<2>() +
+        camera.metresPerPixel() * Eigen::Vector2d(-0.5 * map_.width, 0.5 * map_.height);
     drawCoordinates(canvas, north_west, camera.metresPerPixel(), map_);
   }
   drawPanel(canvas, points, coloring);
@@ -172,7 +174,8 @@ void PointPicture::drawPanel(Canvas& canvas, const PixelThinning& points,
     bold.bold = true;
     const double height = std::clamp(room - 60.0, 60.0, 420.0);
     drawColorBar(canvas, coloring.map, coloring.low, coloring.high,
-                 detail::shortened(coloring.heading, kPanel, bold), {left, top + 28.0, 24.0, height});
+                 detail::shortened(coloring.heading, kPanel, bold),
+                 {left, top + 28.0, 24.0, height});
     if (gaps) {
       drawLegend(canvas, {{coloring.no_value, coloring.no_value_color}}, "",
                  {left, top + 28.0 + height + 14.0});

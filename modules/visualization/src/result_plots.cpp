@@ -186,9 +186,8 @@ Canvas drawConfusion(const ConfusionPlot& plot, PictureSize size) {
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, plot.title);
   const ColorMap map = ColorMap::named("cividis");
-  const PixelBox cells =
-      detail::drawHeatMap(canvas, heat, map,
-                          {kPlotMargin, top, size.width - 260.0, size.height - top - kPlotMargin});
+  const PixelBox cells = detail::drawHeatMap(
+      canvas, heat, map, {kPlotMargin, top, size.width - 260.0, size.height - top - kPlotMargin});
   const double height = std::min(cells.height - 40.0, 400.0);
   drawColorBar(canvas, map, 0.0, 100.0, "share of the row, %",
                {cells.right() + 50.0, cells.y + 30.0, 24.0, std::max(height, 60.0)});

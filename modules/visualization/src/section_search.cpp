@@ -8,13 +8,13 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kSmooth = 0.12;           // m: rms of a plane's points
-constexpr double kLeastTangent = 0.2;      // 11 degrees
-constexpr double kMostTangent = 1.7;       // 60 degrees: steeper are walls
-constexpr double kSameSurface = 0.97;      // cosine between the strips' normals: 14 degrees
-constexpr double kFarthestSurface = 2.0;   // m: strips further apart see different things
-constexpr double kWidestRoof = 30.0;       // m, between the sides of a gable
-constexpr double kApart = 25.0;            // m, between places
+constexpr double kSmooth = 0.12;          // m: rms of a plane's points
+constexpr double kLeastTangent = 0.2;     // 11 degrees
+constexpr double kMostTangent = 1.7;      // 60 degrees: steeper are walls
+constexpr double kSameSurface = 0.97;     // cosine between the strips' normals: 14 degrees
+constexpr double kFarthestSurface = 2.0;  // m: strips further apart see different things
+constexpr double kWidestRoof = 30.0;      // m, between the sides of a gable
+constexpr double kApart = 25.0;           // m, between places
 
 /// Worth of a place: the misfit that is seen, a little for the slope that would show one, and the
 /// number of strips.
@@ -26,7 +26,8 @@ double worthOf(const SectionSearch::Place& place) {
 SectionLine lineThrough(const Eigen::Vector2d& middle, const Eigen::Vector2d& direction,
                         double half_length, double half_width) {
   // Drawn from west to east (from south to north where it runs so), as maps are read.
-  const bool turned = direction.x() < -1e-9 || (std::abs(direction.x()) <= 1e-9 && direction.y() < 0);
+  const bool turned =
+      direction.x() < -1e-9 || (std::abs(direction.x()) <= 1e-9 && direction.y() < 0);
   const Eigen::Vector2d along = turned ? Eigen::Vector2d(-direction) : direction;
   return {middle - half_length * along, middle + half_length * along, half_width};
 }
@@ -133,9 +134,8 @@ std::vector<SectionSearch::Place> SectionSearch::find(std::size_t most) const {
     if (auto place = gableFrom(slopes, entry.first)) places.push_back(*place);
     if (auto place = slopeAround(slopes, entry.first)) places.push_back(*place);
   }
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-    return worthOf(a) > worthOf(b);
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return worthOf(a) > worthOf(b); });
   std::vector<Place> chosen;
   for (const Place& place : places) {
     if (chosen.size() >= most) break;

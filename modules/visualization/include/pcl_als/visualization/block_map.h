@@ -11,15 +11,14 @@
 
 namespace pcl_als {
 
-/** \brief Where the points of each strip lie, as cells of a grid; filled point by point, strips from
- * different threads at once.
+/** \brief Where the points of each strip lie, as cells of a grid; filled point by point, strips
+ * from different threads at once.
  *
  * One byte per cell and strip; cells are so large that the whole takes at most some 16 MB.
  */
 class StripCoverage {
  public:
-  StripCoverage(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum,
-                std::size_t strips);
+  StripCoverage(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, std::size_t strips);
 
   void add(const Eigen::Vector3d& ground, std::size_t strip);
 

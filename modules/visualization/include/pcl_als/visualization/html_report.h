@@ -14,9 +14,9 @@ namespace pcl_als {
 /// A table of a report. Numbers are given as text with the digits to be shown; a cell that is
 /// empty is shown as a dash.
 struct ReportTable {
-  std::string name;                     ///< of its CSV file: NAME.csv; empty: no file
-  std::string caption;                  ///< what the table shows, with units
-  std::vector<std::string> columns;     ///< headings
+  std::string name;                  ///< of its CSV file: NAME.csv; empty: no file
+  std::string caption;               ///< what the table shows, with units
+  std::vector<std::string> columns;  ///< headings
   std::vector<std::vector<std::string>> rows;
 };
 

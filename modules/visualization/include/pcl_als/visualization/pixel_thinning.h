@@ -34,10 +34,10 @@ class PixelThinning {
 
   const OrthographicCamera& camera() const { return camera_; }
   const std::vector<Shown>& pixels() const { return pixels_; }  ///< row by row from the upper left
-  std::size_t seen() const { return seen_; }        ///< points inside the picture
-  std::size_t outside() const { return outside_; }  ///< finite ones that are not
-  std::size_t invalid() const { return invalid_; }  ///< not finite
-  std::size_t shown() const;                        ///< pixels with a point
+  std::size_t seen() const { return seen_; }                    ///< points inside the picture
+  std::size_t outside() const { return outside_; }              ///< finite ones that are not
+  std::size_t invalid() const { return invalid_; }              ///< not finite
+  std::size_t shown() const;                                    ///< pixels with a point
 
  private:
   OrthographicCamera camera_;

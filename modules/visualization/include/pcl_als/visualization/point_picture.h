@@ -22,7 +22,7 @@ struct PointColoring {
   std::vector<Category> categories;  ///< empty: a scale
   ColorMap map = ColorMap::named("viridis");
   double low = 0.0, high = 1.0;
-  std::string no_value = "no value";     ///< what NaN means, for the legend
+  std::string no_value = "no value";  ///< what NaN means, for the legend
   Color no_value_color{0xb4, 0xb4, 0xb4};
 
   Color operator()(float value) const;
