@@ -64,9 +64,9 @@ void addParameters(const CalibrationResult& result, std::vector<std::string>& se
       sentences.push_back(plainName(info.parameter) + ": " +
                           estimateText(info.parameter, estimate) + ".");
     } else if (estimate.status == ParameterStatus::not_estimable) {
-      sentences.push_back(plainName(info.parameter) + ": not determined because " +
+      sentences.push_back(plainName(info.parameter) + ": not determined (" +
                           (estimate.reason.empty() ? "the data do not show it" : estimate.reason) +
-                          ".");
+                          ").");
     }
   }
 }

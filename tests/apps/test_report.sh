@@ -33,7 +33,9 @@ verdict_agrees() {  # PAGE_TEXT
         split(substr(text, start + length(name) + 2), words, " ")
         digits = index(words[1], ".") ? length(words[1]) - index(words[1], ".") : 0
         sub(/[^0-9]*$/, "", words[3])
-        expected = sprintf("%." digits "f ± %." digits "f", bias, std)
+        expected = sprintf("%." digits "f", bias)
+        if (expected ~ /^-[0.]*$/) sub(/-/, "", expected)
+        expected = expected " ± " sprintf("%." digits "f", std)
         if (words[1] " ± " words[3] != expected) {
           print name ": the page has " words[1] " ± " words[3] ", the JSON " expected; bad = 1
         }

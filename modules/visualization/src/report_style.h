@@ -21,7 +21,7 @@ table{border-collapse:collapse;font-size:14px}
 caption{text-align:left;color:#555;padding:4px 0}
 th,td{padding:4px 12px;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 th{border-bottom:2px solid #888}
-th.n{text-align:right}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+th{white-space:nowrap}th.n{text-align:right}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 figure{margin:18px 0}
 img{max-width:100%;height:auto;border:1px solid #ddd}
 figcaption{color:#555;font-size:14px}
