@@ -151,10 +151,11 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
 void writeReport(const CommandLine& line, const CalibrationResult& result,
                  const std::vector<CalibrationArea>& areas, const app::CalibrationPage& page) {
   const fs::path folder = line.text("report");
-  Step step("Writing " + (folder / "report.html").string(), line.quiet());
+  Step step("Writing the report into " + folder.string(), line.quiet());
   app::writeCalibrationCsv(folder, result, areas);
   page.write(line, result, areas);
-  step.done(app::CalibrationPage::draws() ? "with pictures" : "none: built without VTK; report.md");
+  step.done(app::CalibrationPage::draws() ? "report.html with pictures, report.md"
+                                          : "report.md; no report.html: built without VTK");
 }
 
 int calibrate(int argc, char** argv) {
