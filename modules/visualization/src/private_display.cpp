@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -33,7 +34,7 @@ std::string findXvfb() {
   std::string folders = path == nullptr ? "/usr/bin" : path;
   for (std::size_t from = 0; from <= folders.size();) {
     const std::size_t to = std::min(folders.find(':', from), folders.size());
-    const std::string file = folders.substr(from, to - from) + "/Xvfb";
+    std::string file = folders.substr(from, to - from) + "/Xvfb";
     if (to > from && access(file.c_str(), X_OK) == 0) return file;
     from = to + 1;
   }

@@ -48,8 +48,8 @@ struct PairFit {
   double rms_strips = 0.0, mean_strips = 0.0;  ///< after, with the strip corrections
 };
 
-/// Normal distances of all strip pairs (the first strip above the second) in bins, before and after.
-/// Distances beyond the edges are counted nowhere; edges are 2.5 times the RMS before.
+/// Normal distances of all strip pairs (the first strip above the second) in bins, before and
+/// after. Distances beyond the edges are counted nowhere; edges are 2.5 times the RMS before.
 struct ResidualHistogram {
   std::vector<double> edges;  ///< metres; one more than counts
   std::vector<std::size_t> before, after;
