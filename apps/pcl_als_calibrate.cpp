@@ -3,16 +3,16 @@
 #include <filesystem>
 #include <iostream>
 
-#include <unistd.h>
-
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "adjustment_options.h"
+#include "calibration_page.h"
 #include "calibration_tables.h"
 #include "command_line.h"
 #include "flight_options.h"
+#include "output_check.h"
 #include "point_file_correction.h"
 #include "survey_reader.h"
 
@@ -44,7 +44,8 @@ CommandLine commandLine() {
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
                "with -corrected: take out what was found wrong with each strip's trajectory, too");
-  line.addOptional("report", "folder for report.md and tables as CSV");
+  line.addOptional("report",
+                   "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
   line.add("max_distance", "normal distance of a pair at the start, m",
            defaults.max_normal_distance);
@@ -86,24 +87,20 @@ void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
   for (const char* option : {"corrected", "report"}) {
-    if (!line.has(option)) continue;
-    std::error_code error;
-    fs::create_directories(line.text(option), error);
-    if (!fs::is_directory(line.text(option)) || access(line.text(option).c_str(), W_OK) != 0) {
-      throw InputError(std::string("option -") + option + ": " + line.text(option) +
-                       " is no folder that can be written to");
-    }
+    if (line.has(option)) app::makeOutputFolder(option, line.text(option));
   }
 }
 
 /// Both looks at the points and the adjustment.
 CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& survey,
+                                  app::CalibrationPage& page,
                                   QuasiRigorousCalibration& calibration) {
   for (const std::string& id : survey.strips()) calibration.addStrip(id);
   {
     Step step("Surveying the block", line.quiet());
     survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
       calibration.survey(strip, points, count);
+      page.add(strip, points, count);
     });
     calibration.chooseAreas();
     step.done(std::to_string(calibration.pairs().size()) + " overlapping pairs, " +
@@ -151,6 +148,16 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   }
 }
 
+void writeReport(const CommandLine& line, const CalibrationResult& result,
+                 const std::vector<CalibrationArea>& areas, const app::CalibrationPage& page) {
+  const fs::path folder = line.text("report");
+  Step step("Writing the report into " + folder.string(), line.quiet());
+  app::writeCalibrationCsv(folder, result, areas);
+  page.write(line, result, areas);
+  step.done(app::CalibrationPage::draws() ? "report.html with pictures, report.md"
+                                          : "report.md; no report.html: built without VTK");
+}
+
 int calibrate(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -172,15 +179,14 @@ int calibrate(int argc, char** argv) {
   QuasiRigorousCalibration calibration(trajectory, settings, survey.corner());
   calibration.setPairs(pairs);
   if (line.has("control")) calibration.setControl(readControl(line.text("control")));
-  CalibrationResult result = calibrateSurvey(line, survey, calibration);
+  app::CalibrationPage page(survey, line.has("report"));
+  CalibrationResult result = calibrateSurvey(line, survey, page, calibration);
   result.inputs = files;
   result.inputs.push_back(line.text("trajectory"));
   if (line.has("control")) result.inputs.push_back(line.text("control"));
   writeCalibration(line.text("output"), result);
   if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
-  if (line.has("report")) {
-    app::writeCalibrationReport(line.text("report"), result, calibration.areas());
-  }
+  if (line.has("report")) writeReport(line, result, calibration.areas(), page);
   if (!result.converged) {
     const std::string why = app::notDetermined(result, "is not");
     std::cerr << "pcl_als_calibrate: no reliable answer: "

@@ -12,6 +12,7 @@
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
+#include "output_check.h"
 #include "plan_report.h"
 
 namespace {

@@ -14,8 +14,9 @@ pcl_als_packages_build=(
   g++:c++ cmake:cmake ninja-build:ninja ccache:ccache mawk:awk
   libpcl-dev libeigen3-dev libboost-program-options-dev libproj-dev
   nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
+  fonts-dejavu-core:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf xvfb:Xvfb
 )
-pcl_als_packages_test=(libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz)
+pcl_als_packages_test=(libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz chromium:chromium)
 
 _pcl_als_present() {  # package[:program-or-file]
   local package=${1%%:*} witness=${1#*:}

@@ -3,9 +3,6 @@
 #include "adjustment_options.h"
 
 #include <algorithm>
-#include <filesystem>
-
-#include <unistd.h>
 
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
@@ -79,13 +76,6 @@ std::string notDetermined(const CalibrationResult& result, const std::string& ve
            estimate.reason + ")";
   }
   return why;
-}
-
-void checkWritable(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  if (std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK) == 0) return;
-  throw InputError("cannot write " + path + ": " + folder.string() +
-                   " is no folder that can be written to");
 }
 
 }  // namespace pcl_als::app

@@ -29,8 +29,4 @@ std::vector<SystemParameter> parametersToEstimate(const CommandLine& line);
 /// not be".
 std::string notDetermined(const CalibrationResult& result, const std::string& verb);
 
-/// Throws InputError where a file \a path cannot be written; what can be known to fail should fail
-/// before the work.
-void checkWritable(const std::string& path);
-
 }  // namespace pcl_als::app

@@ -155,9 +155,8 @@ std::string calibrationTables(const CalibrationResult& result) {
   return out.str();
 }
 
-void writeCalibrationReport(const std::filesystem::path& folder, const CalibrationResult& result,
-                            const std::vector<CalibrationArea>& areas) {
-  writeText(folder / "report.md", "# Calibration\n\n" + calibrationTables(result));
+void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
+                         const std::vector<CalibrationArea>& areas) {
   writeText(folder / "pairs.csv", pairsCsv(result));
   writeText(folder / "iterations.csv", iterationsCsv(result));
   writeText(folder / "areas.csv", areasCsv(areas));

@@ -14,9 +14,8 @@ namespace pcl_als::app {
 /// The result as tables for a terminal: parameters, pairs, control, warnings.
 std::string calibrationTables(const CalibrationResult& result);
 
-/// Writes report.md (the tables), pairs.csv, iterations.csv and areas.csv into a folder, which is
-/// made if need be.
-void writeCalibrationReport(const std::filesystem::path& folder, const CalibrationResult& result,
-                            const std::vector<CalibrationArea>& areas);
+/// Writes pairs.csv, iterations.csv and areas.csv into a folder.
+void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
+                         const std::vector<CalibrationArea>& areas);
 
 }  // namespace pcl_als::app

@@ -66,7 +66,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
     return false;
   }
   if (has("version")) {
-    std::cout << tool_ << ' ' << PCL_ALS_VERSION << '\n';
+    std::cout << toolAndVersion() << '\n';
     return false;
   }
   if (values_.count("input") != 0) inputs_ = values_["input"].as<std::vector<std::string>>();
@@ -94,6 +94,25 @@ const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t
 
 int CommandLine::threads() const {
   return get<int>("threads");
+}
+
+std::string CommandLine::toolAndVersion() const {
+  return tool_ + " " + PCL_ALS_VERSION;
+}
+
+std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const auto& [name, value] : values_) {
+    if (name == "input") continue;
+    std::ostringstream text;
+    if (const auto* number = boost::any_cast<double>(&value.value())) text << *number;
+    if (const auto* whole = boost::any_cast<int>(&value.value())) text << *whole;
+    if (const auto* word = boost::any_cast<std::string>(&value.value())) {
+      text << (word->empty() ? "yes" : *word);
+    }
+    settings.emplace_back(name, text.str());
+  }
+  return settings;
 }
 
 Step::Step(std::string what, bool quiet)

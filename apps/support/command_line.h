@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <boost/program_options.hpp>
@@ -48,6 +49,10 @@ class CommandLine {
   const std::vector<std::string>& inputs(std::size_t low, std::size_t high) const;
   bool quiet() const { return has("quiet"); }
   int threads() const;
+  /// "pcl_als_info 0.1.0"
+  std::string toolAndVersion() const;
+  /// All options that have a value, as given or by default, for a report: name, text.
+  std::vector<std::pair<std::string, std::string>> settings() const;
 
  private:
   std::string help() const;

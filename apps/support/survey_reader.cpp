@@ -41,6 +41,16 @@ Eigen::Vector2d SurveyReader::corner() const {
   return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
 
+Eigen::Vector2d SurveyReader::farCorner() const {
+  Eigen::Vector2d corner = Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity());
+  for (const PointFileSources& file : files_) {
+    for (const PointSource& source : file.sources) {
+      corner = corner.cwiseMax(source.maximum.head<2>());
+    }
+  }
+  return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
+}
+
 double SurveyReader::resolution() const {
   double finest = std::numeric_limits<double>::infinity();
   for (const PointFileSources& file : files_) {

@@ -35,6 +35,8 @@ class SurveyReader {
   std::string crs() const;
   /// South-west corner of all points, metres.
   Eigen::Vector2d corner() const;
+  /// North-east corner of all points, metres.
+  Eigen::Vector2d farCorner() const;
   /// Finest coordinate step of the files, metres.
   double resolution() const;
 

@@ -49,7 +49,7 @@ pcl_als_step "Calibrating ${#strips[@]} strips"
 status=0
 if outdated "$result" "$bin/pcl_als_calibrate" "$block/truth.json"; then
   "$bin/pcl_als_calibrate" "${strips[@]}" -trajectory "$block/trajectory.csv" \
-    -control "$block/control.csv" -output "$result" | tee "$out/calibration.txt" | sed '/^$/,$d' ||
+    -control "$block/control.csv" -output "$result" -report "$out/report" | tee "$out/calibration.txt" | sed '/^$/,$d' ||
     status=$?
   # 3: an answer that is written but not reliable; it is shown all the same.
   [[ $status == 0 || $status == 3 ]] || exit "$status"
@@ -69,6 +69,20 @@ for strip in "${strips[@]}"; do
   fi
 done
 
+pcl_als_step "Pictures"
+pictures=$out/pictures
+mkdir -p -- "$pictures"
+if outdated "$pictures/profile1.png" "$bin/pcl_als_profile" "$corrected/strip1.las"; then
+  "$bin/pcl_als_view" "${strips[@]}" -output "$pictures/elevation.png" -shade hill | grep '^Drawing'
+  "$bin/pcl_als_view" "$block"/strip[12].las -color difference -reference 1 \
+    -output "$pictures/difference_before.png" -range=-0.5:0.5 | grep '^Drawing'
+  "$bin/pcl_als_view" "$corrected"/strip[12].las -color difference -reference 1 \
+    -output "$pictures/difference_after.png" -range=-0.5:0.5 | grep '^Drawing'
+  "$bin/pcl_als_profile" "${strips[@]}" -after "$corrected" -auto 3 -output "$pictures" | grep '^Drawing'
+else
+  echo "$pictures is up to date"
+fi
+
 pcl_als_step "Results"
 cmake -DCALIBRATION="$result" -DTRUTH="$block/truth.json" -DOUTPUT="$out/summary.tsv" \
   -P "$demo/summary.cmake"
@@ -76,6 +90,8 @@ awk -f "$demo/tables.awk" "$out/summary.tsv" | tee "$out/summary.txt"
 cat <<END
 
 Look at:
+  $out/report/report.html  verdict, tables, plots and map on one page (any browser)
+  $pictures/  the block, two strips' differences and three roofs before and after
   $result  biases, uncertainty, correlations, fits; in words: calibration.txt
   $corrected/  the corrected strips (any LAS viewer)
   $block/  the simulated strips, trajectory, control and truth

@@ -95,6 +95,13 @@ TEST(QuasiRigorousCalibration, IsWithinItsIntervalsUnderTrajectoryErrors) {
 TEST(QuasiRigorousCalibration, MakesStripsAndControlFit) {
   const SimulatedSurvey survey(block("range", false, 4));
   const CalibrationResult result = survey.calibrate();
+  // All pairs that are no further apart than 2.5 RMS are in the histogram: of distances that are
+  // uniform or normal at least 98 %, and never more than there are.
+  std::size_t pairs = 0, counted = 0;
+  for (const PairFit& pair : result.pairs) pairs += pair.correspondences;
+  for (const std::size_t count : result.residuals.after) counted += count;
+  EXPECT_LE(counted, pairs);
+  EXPECT_GT(counted, pairs * 98 / 100);
   ASSERT_GE(result.pairs.size(), 4U);
   for (const PairFit& pair : result.pairs) {
     EXPECT_GT(pair.rms_before, 0.05) << pair.a << ":" << pair.b;

@@ -42,3 +42,8 @@ grep -aq '^FIELDS x y z .*gps_time' a.pcd
 ln -s "$block"/{strip1.las,strip2.las,trajectory.csv} .
 ./project/readme
 test -s corrected1.pcd -a -s corrected2.pcd
+
+if [[ -x project/drawing ]]; then
+  mkdir drawn && env -u DISPLAY ./project/drawing drawn
+  test -s drawn/squares.png -a -s drawn/report.html
+fi

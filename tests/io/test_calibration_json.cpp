@@ -32,6 +32,7 @@ CalibrationResult example() {
   result.pairs = {{"1", "2", 500, 0.5, 0.02, -0.1, 1e-4}};
   result.control = {{"1", 37, 0.1, 0.2, 0.3, 0.4}};
   result.pairs[0].rms_strips = 0.015;
+  result.residuals = {{-0.5, 0.0, 0.5}, {3, 4}, {0, 9}};
   result.strip_errors = {{"7", {{401000.5, {0.01, -0.02, 0.03}, {1e-5, -2e-5, 3e-5}}}}, {"8", {}}};
   result.observability = {"weak: lever_arm_y with boresight_pitch"};
   result.warnings = {"quoted \"text\""};
@@ -119,6 +120,9 @@ TEST(CalibrationJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.pairs[0].rms_strips, 0.015);
   EXPECT_EQ(read.pairs[0].b, "2");
   EXPECT_EQ(read.pairs[0].rms_after, 0.02);
+  EXPECT_EQ(read.residuals.edges, (std::vector<double>{-0.5, 0.0, 0.5}));
+  EXPECT_EQ(read.residuals.before, (std::vector<std::size_t>{3, 4}));
+  EXPECT_EQ(read.residuals.after, (std::vector<std::size_t>{0, 9}));
   ASSERT_EQ(read.control.size(), 1U);
   EXPECT_EQ(read.control[0].rms_after, 0.4);
   EXPECT_EQ(read.warnings, written.warnings);

@@ -60,6 +60,42 @@ FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Res
   return statistics;
 }
 
+constexpr int kHistogramBins = 200;
+
+/// Symmetric edges from the fits before.
+std::vector<double> histogramEdges(const std::vector<PairFit>& pairs) {
+  double squares = 0.0, count = 0.0;
+  for (const PairFit& pair : pairs) {
+    const auto weight = static_cast<double>(pair.correspondences);
+    squares += weight * pair.rms_before * pair.rms_before;
+    count += weight;
+  }
+  const double reach = 2.5 * std::sqrt(squares / std::max(1.0, count));
+  if (!(reach > 0.0)) return {};
+  std::vector<double> edges;
+  for (int i = 0; i <= kHistogramBins; ++i) {
+    edges.push_back(reach * (2.0 * i / kHistogramBins - 1.0));
+  }
+  return edges;
+}
+
+template <typename Residual>
+std::vector<std::size_t> histogramOf(const std::vector<AreaObservations>& observations,
+                                     const std::vector<double>& edges, const Residual& residual) {
+  std::vector<std::size_t> counts(edges.empty() ? 0 : kHistogramBins, 0);
+  if (edges.empty()) return counts;
+  const double width = (edges.back() - edges.front()) / kHistogramBins;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      if (o.a == PairObservation::kControl) continue;
+      const double distance = o.a < o.b ? residual(o) : -residual(o);
+      const double bin = std::floor((distance - edges.front()) / width);
+      if (bin >= 0.0 && bin < kHistogramBins) ++counts[static_cast<std::size_t>(bin)];
+    }
+  }
+  return counts;
+}
+
 }  // namespace
 
 void CalibrationReport::addFit(const std::vector<AreaObservations>& observations,
@@ -81,6 +117,10 @@ void CalibrationReport::addFit(const std::vector<AreaObservations>& observations
       fill(values, fit);
     }
   }
+  ResidualHistogram& histogram = result.residuals;
+  if (!after) histogram.edges = histogramEdges(result.pairs);
+  (after ? histogram.after : histogram.before) =
+      histogramOf(observations, histogram.edges, distance);
 }
 
 void CalibrationReport::addStrips(const SharedErrors& errors, const std::vector<bool>& used,

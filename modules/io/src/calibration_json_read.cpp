@@ -167,6 +167,16 @@ void readPairs(const Node& pairs, CalibrationResult& result) {
   }
 }
 
+void readResiduals(const Node& residuals, ResidualHistogram& histogram) {
+  for (const Node& edge : residuals["edges_m"].items()) histogram.edges.push_back(edge.number());
+  for (const Node& count : residuals["before"].items()) histogram.before.push_back(count.count());
+  for (const Node& count : residuals["after"].items()) histogram.after.push_back(count.count());
+  if (histogram.before.size() + 1 != histogram.edges.size() ||
+      histogram.after.size() != histogram.before.size()) {
+    residuals.refuse("must have one count before and after for each bin between 'edges_m'");
+  }
+}
+
 void readControlFits(const Node& control, CalibrationResult& result) {
   for (const Node& node : control.items()) {
     ControlFit fit;
@@ -247,6 +257,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   }
   if (root.has("iterations")) readIterations(root["iterations"], result);
   if (root.has("pairs")) readPairs(root["pairs"], result);
+  if (root.has("residuals")) readResiduals(root["residuals"], result.residuals);
   if (root.has("control")) readControlFits(root["control"], result);
   if (root.has("strip_corrections")) readStripErrors(root["strip_corrections"], result);
   if (root.has("observability")) result.observability = textsOf(root["observability"]);

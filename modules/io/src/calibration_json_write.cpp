@@ -83,6 +83,11 @@ Json pairsOf(const CalibrationResult& result) {
   return pairs;
 }
 
+Json histogramOf(const ResidualHistogram& histogram) {
+  return Json{
+      {"edges_m", histogram.edges}, {"before", histogram.before}, {"after", histogram.after}};
+}
+
 Json stripErrorsOf(const CalibrationResult& result) {
   Json strips = Json::array();
   for (const StripErrors& strip : result.strip_errors) {
@@ -130,6 +135,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["line_fit_half_width_s"] = number(result.line_fit_half_width);
   root["iterations"] = iterationsOf(result);
   root["pairs"] = pairsOf(result);
+  if (!result.residuals.edges.empty()) root["residuals"] = histogramOf(result.residuals);
   root["control"] = controlOf(result);
   root["strip_corrections"] = stripErrorsOf(result);
   root["observability"] = result.observability;

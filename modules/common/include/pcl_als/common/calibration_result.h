@@ -48,6 +48,13 @@ struct PairFit {
   double rms_strips = 0.0, mean_strips = 0.0;  ///< after, with the strip corrections
 };
 
+/// Normal distances of all strip pairs (the first strip above the second) in bins, before and
+/// after. Distances beyond the edges are counted nowhere; edges are 2.5 times the RMS before.
+struct ResidualHistogram {
+  std::vector<double> edges;  ///< metres; one more than counts
+  std::vector<std::size_t> before, after;
+};
+
 /// Fit of one strip to control; vertical differences strip - control, metres.
 struct ControlFit {
   std::string strip;
@@ -81,6 +88,7 @@ struct CalibrationResult {
       0.0;  ///< seconds: the trajectory window the design used; apply uses the same
   std::vector<CalibrationIteration> iterations;
   std::vector<PairFit> pairs;
+  ResidualHistogram residuals;
   std::vector<ControlFit> control;
   std::vector<StripErrors> strip_errors;   ///< of the strips that were calibrated with
   std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help

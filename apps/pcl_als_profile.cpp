@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/visualization/section.h>
+#include <pcl_als/visualization/section_search.h>
+#include <pcl_als/visualization/ticks.h>
+
+#include "command_line.h"
+#include "output_check.h"
+#include "picture_options.h"
+#include "picture_source.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+using app::grouped;
+using app::PictureSource;
+using app::Step;
+namespace fs = std::filesystem;
+
+CommandLine commandLine() {
+  CommandLine line("pcl_als_profile",
+                   "draws sections through overlapping strips, points coloured by strip",
+                   "FILE... -from X,Y -to X,Y -output PROFILE.png | FILE... -auto N -output FOLDER",
+                   "pcl_als_profile block/strip*.las -after corrected -auto 3 -output profiles");
+  line.addOptional("from", "start of the section: X,Y, m");
+  line.addOptional("to", "end of the section: X,Y, m");
+  line.add("width", "of the section, m; 0: 2 m, with -auto by the density of the points", 0.0);
+  line.addOptional("auto",
+                   "instead of -from and -to: find so many gable roofs and slopes where a "
+                   "misfit shows best");
+  line.addOptional("after",
+                   "the same strips corrected, drawn below: a folder with files of the "
+                   "same names, or files parted by commas");
+  line.addOptional("strips", "draw these strips only, e.g. 1,2");
+  line.addOptional("output", "PNG to write, with -auto a folder for profile1.png, … (needed)");
+  app::addSizeOption(line);
+  line.addOptional("title", "text above (default: names of the files)");
+  return line;
+}
+
+std::vector<std::string> filesAfter(const CommandLine& line,
+                                    const std::vector<std::string>& before) {
+  if (!line.has("after")) return {};
+  const std::string text = line.text("after");
+  if (!fs::is_directory(text)) return app::splitList(text);
+  std::vector<std::string> files;
+  for (const std::string& file : before) {
+    files.push_back((fs::path(text) / fs::path(file).filename()).string());
+  }
+  return files;
+}
+
+SectionLine lineOf(const CommandLine& line) {
+  if (!line.has("from") || !line.has("to")) {
+    throw UsageError("-from X,Y and -to X,Y are needed, or -auto N");
+  }
+  const std::vector<double> from = app::numbersOf(line, "from", ',', 2);
+  const std::vector<double> to = app::numbersOf(line, "to", ',', 2);
+  const double width = line.number("width", 0.0, 1000.0, "m");
+  SectionLine section{{from[0], from[1]}, {to[0], to[1]}, width > 0.0 ? 0.5 * width : 1.0};
+  if (section.from == section.to) throw UsageError("options -from and -to: are the same point");
+  return section;
+}
+
+std::size_t countOf(const CommandLine& line) {
+  if (line.has("from") || line.has("to")) {
+    throw UsageError("option -auto: finds the sections itself, without -from and -to");
+  }
+  const double count = app::numbersOf(line, "auto", ' ', 1)[0];
+  if (!(count >= 1.0 && count <= 100.0 && count == std::floor(count))) {
+    throw UsageError("option -auto: must be a whole number from 1 to 100");
+  }
+  return static_cast<std::size_t>(count);
+}
+
+/// Strips that are drawn; empty: all.
+std::vector<bool> chosenStrips(const CommandLine& line, const PictureSource& source) {
+  std::vector<bool> chosen(source.strips().size(), !line.has("strips"));
+  if (!line.has("strips")) return chosen;
+  for (const std::string& name : app::splitList(line.text("strips"))) {
+    chosen[static_cast<std::size_t>(source.stripNamed(name, "strips"))] = true;
+  }
+  return chosen;
+}
+
+std::vector<SectionSearch::Place> search(const PictureSource& source,
+                                         const std::vector<bool>& chosen, std::size_t count,
+                                         double width) {
+  double cell = 1.0;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    // A few stray points of a strip tell nothing of its density.
+    const int strip = static_cast<int>(i);
+    if (chosen[i] && source.pointsOf(strip) > 1000) {
+      cell = std::max(cell, source.cellFor(strip, 10.0));
+    }
+  }
+  SectionSearch search(source.minimum().head<2>(), source.maximum().head<2>(), std::min(cell, 4.0),
+                       chosen.size());
+  source.read([&](const PictureSource::Point& point) {
+    const auto strip = static_cast<std::size_t>(point.strip);
+    if (chosen[strip] && point.chunk->number_of_returns[point.index] <= 1) {
+      search.add(point.position, strip);
+    }
+  });
+  auto places = search.find(count);
+  for (auto& place : places) {
+    if (width > 0.0) place.line.half_width = 0.5 * width;
+  }
+  if (places.empty()) {
+    throw InputError("no gable roof and no slope that two strips see: give -from and -to");
+  }
+  return places;
+}
+
+/// Points of all sections from one reading of the files. Strips are those of \a names.
+std::vector<SectionPoints> collect(const PictureSource& source,
+                                   const std::vector<SectionSearch::Place>& places,
+                                   const std::vector<std::string>& names,
+                                   const std::vector<bool>& chosen) {
+  std::vector<int> strip_of;
+  for (const std::string& name : source.strips()) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw InputError("option -after: strip " + name + " is not among the strips before");
+    }
+    strip_of.push_back(static_cast<int>(found - names.begin()));
+  }
+  std::vector<SectionPoints> sections;
+  for (const SectionSearch::Place& place : places) sections.emplace_back(place.line);
+  source.read([&](const PictureSource::Point& point) {
+    const int strip = strip_of[static_cast<std::size_t>(point.strip)];
+    if (!chosen[static_cast<std::size_t>(strip)]) return;
+    for (SectionPoints& section : sections) section.add(point.position, strip);
+  });
+  return sections;
+}
+
+std::string describe(const SectionSearch::Place& place) {
+  const Eigen::Vector2d middle = 0.5 * (place.line.from + place.line.to);
+  return std::string(place.gable ? "gable" : "slope") + " at " + numberText(middle.x(), 1) + ", " +
+         numberText(middle.y(), 1) + ", " + std::to_string(place.strips) +
+         " strips, heights differ by " + numberText(place.difference, 3) + " m";
+}
+
+int profile(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const auto& inputs = line.inputs(1, 100000);
+  const PictureSize size = app::sizeOf(line);
+  const double width = line.number("width", 0.0, 1000.0, "m");
+  if (!line.has("output")) throw UsageError("option -output is needed");
+  const bool automatic = line.has("auto");
+  std::vector<SectionSearch::Place> places(1);
+  const std::size_t count = automatic ? countOf(line) : 1;
+  if (!automatic) places[0].line = lineOf(line);
+  if (automatic) {
+    app::makeOutputFolder("output", line.text("output"));
+  } else {
+    app::checkWritable(line.text("output"));
+  }
+
+  Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());
+  const PictureSource source(inputs);
+  const std::vector<bool> chosen = chosenStrips(line, source);
+  if (automatic) places = search(source, chosen, count, width);
+  const auto before = collect(source, places, source.strips(), chosen);
+  std::vector<SectionPoints> after;
+  if (line.has("after")) {
+    after = collect(PictureSource(filesAfter(line, inputs)), places, source.strips(), chosen);
+  }
+  step.done(grouped(source.pointCount()) + " points");
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (before[i].seen() == 0) {
+      throw InputError("no point lies in the section; the files cover " +
+                       app::extentText(source.minimum(), source.maximum()));
+    }
+    SectionPicture picture;
+    picture.setTitle(line.has("title") ? line.text("title") : app::namesOf(inputs));
+    picture.setStrips(source.strips());
+    picture.addPanel(after.empty() ? "" : "Before", before[i]);
+    if (!after.empty()) picture.addPanel("After", after[i]);
+    const fs::path output =
+        automatic ? fs::path(line.text("output")) / ("profile" + std::to_string(i + 1) + ".png")
+                  : fs::path(line.text("output"));
+    Step drawing("Drawing " + output.string(), line.quiet());
+    writePng(output, picture.draw(size).image());
+    drawing.done(automatic ? describe(places[i]) : grouped(before[i].seen()) + " points");
+  }
+  return app::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_profile", [argc, argv] { return profile(argc, argv); });
+}

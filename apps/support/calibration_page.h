@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/common/calibration_result.h>
+
+#include "command_line.h"
+#include "survey_reader.h"
+
+namespace pcl_als::app {
+
+/** \brief The report of a calibration: report.html with pictures, and report.md.
+ *
+ * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is report.md alone.
+ */
+class CalibrationPage {
+ public:
+  /// \param wanted false: add() and memory cost nothing
+  CalibrationPage(const SurveyReader& survey, bool wanted);
+  ~CalibrationPage();
+  CalibrationPage(const CalibrationPage&) = delete;
+  CalibrationPage& operator=(const CalibrationPage&) = delete;
+
+  static bool draws();
+
+  /// Points of one strip, for the map; from several threads for different strips.
+  void add(int strip, const CalibrationPoint* points, std::size_t count);
+  /// Writes into the folder of option -report.
+  void write(const CommandLine& line, const CalibrationResult& result,
+             const std::vector<CalibrationArea>& areas) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_als::app

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "calibration_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/visualization/calibration_plots.h>
+#include <pcl_als/visualization/ticks.h>
+
+namespace pcl_als::app {
+namespace {
+
+/// Limits of the difference between swaths, metres: USGS 3DEP Lidar Base Specification 2025 rev. A,
+/// Table 2 (swath overlap difference, RMSDz).
+struct SwathLimit {
+  double rmsdz;
+  const char* levels;
+};
+constexpr SwathLimit kSwathLimits[] = {
+    {0.04, "quality level 0"}, {0.08, "quality levels 1 and 2"}, {0.16, "quality level 3"}};
+
+std::string centimetres(double metres) {
+  return numberText(100.0 * metres, 1) + " cm";
+}
+
+/// RMS of all pairs together.
+double rmsOf(const std::vector<PairFit>& pairs, double PairFit::*rms) {
+  double squares = 0.0, count = 0.0;
+  for (const PairFit& pair : pairs) {
+    const auto weight = static_cast<double>(pair.correspondences);
+    squares += weight * pair.*rms * pair.*rms;
+    count += weight;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+std::string againstSpecification(double rms) {
+  const std::string caution =
+      " This is a distance along the surface normal where the calibration looked; pcl_als_check "
+      "measures what the specification asks for.";
+  for (const SwathLimit& limit : kSwathLimits) {
+    if (rms > limit.rmsdz) continue;
+    return "The fit after calibration is inside the " + centimetres(limit.rmsdz) +
+           " that the USGS Lidar Base Specification allows between swaths at " + limit.levels +
+           "." + caution;
+  }
+  return "The fit after calibration is outside what the USGS Lidar Base Specification allows "
+         "between swaths at any quality level." +
+         caution;
+}
+
+std::string plainName(SystemParameter parameter) {
+  std::string name(infoOf(parameter).name);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
+void addParameters(const CalibrationResult& result, std::vector<std::string>& sentences) {
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    if (estimate.status == ParameterStatus::estimated) {
+      sentences.push_back(plainName(info.parameter) + ": " +
+                          estimateText(info.parameter, estimate) + ".");
+    } else if (estimate.status == ParameterStatus::not_estimable) {
+      sentences.push_back(plainName(info.parameter) + ": not determined (" +
+                          (estimate.reason.empty() ? "the data do not show it" : estimate.reason) +
+                          ").");
+    }
+  }
+}
+
+void addControl(const CalibrationResult& result, std::vector<std::string>& sentences) {
+  double squares_before = 0.0, squares_after = 0.0, count = 0.0;
+  for (const ControlFit& fit : result.control) {
+    const auto weight = static_cast<double>(fit.points);
+    squares_before += weight * fit.rms_before * fit.rms_before;
+    squares_after += weight * fit.rms_after * fit.rms_after;
+    count += weight;
+  }
+  if (count == 0.0) return;
+  sentences.push_back("Heights fit control with an RMS of " +
+                      centimetres(std::sqrt(squares_after / count)) + " (" +
+                      centimetres(std::sqrt(squares_before / count)) + " as delivered; " +
+                      countText(static_cast<std::size_t>(count)) + " differences in " +
+                      std::to_string(result.control.size()) + " strips).");
+}
+
+}  // namespace
+
+CalibrationVerdict verdictOf(const CalibrationResult& result) {
+  CalibrationVerdict verdict;
+  const double before = rmsOf(result.pairs, &PairFit::rms_before);
+  const double after = rmsOf(result.pairs, &PairFit::rms_after);
+  const bool complete = std::none_of(
+      result.parameters.begin(), result.parameters.end(),
+      [](const ParameterEstimate& e) { return e.status == ParameterStatus::not_estimable; });
+  if (!result.converged) {
+    verdict.grade = VerdictGrade::bad;
+    verdict.headline = "No reliable answer: do not apply this result.";
+  } else {
+    verdict.grade = complete ? VerdictGrade::good : VerdictGrade::attention;
+    verdict.headline = "The strips agree to " + centimetres(after) + " after calibration (" +
+                       centimetres(before) + " as delivered).";
+    if (!complete) verdict.headline += " Not every parameter is determined.";
+  }
+  addParameters(result, verdict.sentences);
+  if (result.converged && !result.pairs.empty()) {
+    verdict.sentences.push_back(againstSpecification(after));
+  }
+  addControl(result, verdict.sentences);
+  const auto worst = std::max_element(
+      result.pairs.begin(), result.pairs.end(),
+      [](const PairFit& a, const PairFit& b) { return a.rms_after < b.rms_after; });
+  if (result.pairs.size() > 1) {
+    verdict.sentences.push_back("The pair that fits least is " + worst->a + " and " + worst->b +
+                                " with " + centimetres(worst->rms_after) + " (" +
+                                centimetres(worst->rms_before) + " as delivered).");
+  }
+  return verdict;
+}
+
+}  // namespace pcl_als::app

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace pcl_als::app {
+
+/// What can be known to fail should fail before the work: InputError unless the file's folder is
+/// there and can be written to.
+void checkWritable(const std::filesystem::path& file);
+
+/// Makes the folder that an option names; InputError naming the option where that cannot be.
+void makeOutputFolder(const std::string& option, const std::filesystem::path& folder);
+
+}  // namespace pcl_als::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "picture_options.h"
+
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::app {
+namespace {
+
+/// The numbers of a text, parted by one character each; empty where it is anything else.
+std::vector<double> parsed(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) {
+    std::size_t used = 0;
+    try {
+      numbers.push_back(std::stod(part, &used));
+    } catch (const std::exception&) {
+      return {};
+    }
+    if (used != part.size() || !std::isfinite(numbers.back())) return {};
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void addSizeOption(CommandLine& line) {
+  line.add<std::string>("size", "of the picture, pixels", "1600x1000");
+}
+
+PictureSize sizeOf(const CommandLine& line) {
+  const std::vector<double> size = parsed(line.text("size"), 'x');
+  if (size.size() == 2 && size[0] >= 200 && size[1] >= 150 && size[0] <= 16384 &&
+      size[1] <= 16384 && size[0] == std::floor(size[0]) && size[1] == std::floor(size[1])) {
+    return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  }
+  throw UsageError("option -size: '" + line.text("size") +
+                   "' is no WIDTHxHEIGHT from 200x150 to 16384x16384");
+}
+
+std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
+                              std::size_t count) {
+  std::vector<double> numbers = parsed(line.text(option), separator);
+  if (numbers.size() == count) return numbers;
+  throw UsageError(std::string("option -") + option + ": '" + line.text(option) + "' is not " +
+                   std::to_string(count) + " numbers parted by '" + separator + "'");
+}
+
+std::string namesOf(const std::vector<std::string>& paths) {
+  std::string names;
+  for (std::size_t i = 0; i < paths.size() && i < 3; ++i) {
+    names += (i > 0 ? ", " : "") + std::filesystem::path(paths[i]).filename().string();
+  }
+  if (paths.size() > 3) names += " and " + std::to_string(paths.size() - 3) + " more";
+  return names;
+}
+
+std::string extentText(const Eigen::Vector3d& minimum, const Eigen::Vector3d& maximum) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << "x " << minimum.x() << " to " << maximum.x()
+       << ", y " << minimum.y() << " to " << maximum.y();
+  return text.str();
+}
+
+}  // namespace pcl_als::app

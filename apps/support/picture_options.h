@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/visualization/result_plots.h>
+
+#include "command_line.h"
+
+namespace pcl_als::app {
+
+void addSizeOption(CommandLine& line);
+/// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384.
+PictureSize sizeOf(const CommandLine& line);
+
+/// So many numbers of an option, parted by a character; UsageError otherwise.
+std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
+                              std::size_t count);
+
+/// "strip1.las, strip2.las and 3 more"
+std::string namesOf(const std::vector<std::string>& paths);
+/// "x 84940.1 to 85203.9, y 447385.2 to 447614.0"
+std::string extentText(const Eigen::Vector3d& minimum, const Eigen::Vector3d& maximum);
+
+}  // namespace pcl_als::app

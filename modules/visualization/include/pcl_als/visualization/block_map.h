@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/visualization/result_plots.h>
+
+namespace pcl_als {
+
+/** \brief Where the points of each strip lie, as cells of a grid; filled point by point, strips
+ * from different threads at once.
+ *
+ * One byte per cell and strip; cells are so large that the whole takes at most some 16 MB.
+ */
+class StripCoverage {
+ public:
+  StripCoverage(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, std::size_t strips);
+
+  void add(const Eigen::Vector3d& ground, std::size_t strip);
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  double cell() const { return cell_; }
+  const Eigen::Vector2d& minimum() const { return minimum_; }
+  std::size_t strips() const { return cells_.size(); }
+  /// Whether the strip has a point in the cell; false outside the grid.
+  bool covers(std::size_t strip, int column, int row) const;
+
+ private:
+  Eigen::Vector2d minimum_;
+  double cell_;
+  int columns_, rows_;
+  std::vector<std::vector<char>> cells_;
+};
+
+/** \brief A map of a block: how many strips see each place, the strips' outlines with their names,
+ * chosen areas and control points.
+ */
+class BlockMap {
+ public:
+  /// A square or rectangle of the ground.
+  struct Area {
+    Eigen::Vector2d minimum, maximum;
+  };
+  void setTitle(std::string title) { title_ = std::move(title); }
+  void setAreas(std::vector<Area> areas) { areas_ = std::move(areas); }
+  void setControl(std::vector<Eigen::Vector2d> points) { control_ = std::move(points); }
+
+  /// \param names one for each strip of the coverage, else UsageError
+  Canvas draw(const StripCoverage& coverage, const std::vector<std::string>& names,
+              PictureSize size = {}) const;
+
+ private:
+  std::string title_;
+  std::vector<Area> areas_;
+  std::vector<Eigen::Vector2d> control_;
+};
+
+}  // namespace pcl_als

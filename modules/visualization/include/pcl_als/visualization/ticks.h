@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcl_als {
+
+/// Where an axis is marked: multiples of 1, 2 or 5 times a power of ten.
+struct Ticks {
+  double step = 1.0;
+  int decimals = 0;  ///< digits after the point that tell neighbouring ticks apart
+  std::vector<double> values;
+
+  std::string label(double value) const;
+};
+
+/// Ticks inside [low, high], at most \a most (at least two) of them; low < high, both finite.
+Ticks niceTicks(double low, double high, int most);
+
+/// The largest of 1, 2, 5 times a power of ten that is not above \a limit (> 0).
+double roundDown125(double limit);
+
+/// A number with so many decimals; minus is a true minus sign, and zero has no sign.
+std::string numberText(double value, int decimals);
+/// A number with so many significant digits, never as a power of ten.
+std::string significantText(double value, int digits);
+/// 12345 → "12 345".
+std::string countText(std::size_t count);
+/// "0.25 m", "50 m", "2 km"
+std::string lengthText(double metres);
+
+}  // namespace pcl_als

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/visualization/canvas.h>
+
+namespace pcl_als::detail {
+
+constexpr double kPlotMargin = 24.0;
+
+/// Title of a whole picture; returns the y below it.
+double drawTitle(Canvas& canvas, const std::string& title);
+
+/// The text with "…" for its end where it is wider than so many pixels.
+std::string shortened(const std::string& text, double width, const TextStyle& style);
+
+/// The text in lines of at most so many pixels, broken at blanks; the last of \a most is shortened.
+std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style,
+                                 std::size_t most);
+
+/// Names of what rows and columns of a matrix stand for, and the matrix as coloured cells with
+/// numbers. Text is white on dark cells.
+struct HeatMap {
+  std::vector<std::string> rows, columns;
+  std::vector<std::vector<double>> shade;       ///< 0 … 1 of the colour map; NaN: empty
+  std::vector<std::vector<std::string>> texts;  ///< one for each cell
+  std::string row_heading, column_heading;
+};
+/// Draws it into a box that includes its names; returns the box of the cells.
+PixelBox drawHeatMap(Canvas& canvas, const HeatMap& heat, const ColorMap& map, const PixelBox& box);
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/visualization/axes.h>
+#include <pcl_als/visualization/map_furniture.h>
+#include <pcl_als/visualization/section.h>
+
+#include "plot_parts.h"
+
+namespace pcl_als {
+namespace {
+
+using detail::kPlotMargin;
+
+/// "1.5", "20": without what is not there.
+std::string shortNumber(double value) {
+  const bool whole = std::abs(value - std::round(value)) < 1e-9;
+  return whole ? numberText(value, 0) : significantText(value, 2);
+}
+
+/// The largest simple factor that is not above a limit.
+double simpleFactor(double limit) {
+  const double power = std::pow(10.0, std::floor(std::log10(limit) + 1e-9));
+  double factor = power;
+  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (step * power <= limit * (1.0 + 1e-9)) factor = step * power;
+  }
+  return factor;
+}
+
+/// Largest marker at which the points of a panel stay apart.
+double markerSize(std::size_t points, double width) {
+  const double per_pixel = static_cast<double>(points) / std::max(1.0, width);
+  return std::clamp(5.0 / std::sqrt(std::max(per_pixel, 0.3)), 2.0, 6.0);
+}
+
+}  // namespace
+
+SectionPoints::SectionPoints(const SectionLine& line, std::size_t most)
+    : line_(line), most_(std::max<std::size_t>(2, most)) {
+  if (!(line.length() > 0.0) || !std::isfinite(line.length())) {
+    throw UsageError("a section needs two different points");
+  }
+  if (!(line.half_width > 0.0) || !std::isfinite(line.half_width)) {
+    throw UsageError("a section needs a width above 0");
+  }
+  along_ = (line.to - line.from) / line.length();
+}
+
+void SectionPoints::add(const Eigen::Vector3d& ground, int strip) {
+  const Eigen::Vector2d offset = ground.head<2>() - line_.from;
+  const double along = along_.dot(offset);
+  const double aside = along_.x() * offset.y() - along_.y() * offset.x();
+  if (!(along >= 0.0 && along <= line_.length() && std::abs(aside) <= line_.half_width)) return;
+  if (!std::isfinite(ground.z())) return;
+  if (seen_ == 0) base_ = ground.z();
+  if (seen_++ % stride_ != 0) return;
+  points_.push_back({static_cast<float>(along), static_cast<float>(ground.z() - base_), strip});
+  if (points_.size() < most_) return;
+  stride_ *= 2;
+  for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = points_[2 * i];
+  points_.resize((points_.size() + 1) / 2);
+}
+
+void SectionPicture::addPanel(std::string caption, const SectionPoints& points) {
+  if (!panels_.empty()) {
+    const SectionLine& first = panels_.front().points->line();
+    if (first.from != points.line().from || first.to != points.line().to) {
+      throw UsageError("panels of a section picture need the same line");
+    }
+  }
+  panels_.push_back({std::move(caption), &points});
+}
+
+SectionPicture::Layout SectionPicture::layoutFor(PictureSize size) const {
+  std::set<int> shown;
+  double low = INFINITY, high = -INFINITY;
+  for (const Panel& panel : panels_) {
+    for (const SectionPoints::Point& point : panel.points->points()) {
+      shown.insert(point.strip);
+      low = std::min(low, panel.points->baseHeight() + point.height);
+      high = std::max(high, panel.points->baseHeight() + point.height);
+    }
+  }
+  if (shown.empty()) throw UsageError("no point lies in the section");
+  Layout layout{};
+  layout.shown.assign(shown.begin(), shown.end());
+  layout.left = 100.0;
+  layout.top = kPlotMargin + 84.0;
+  layout.width = std::round(size.width - layout.left - 170.0);
+  layout.pitch = (size.height - layout.top - 24.0) / static_cast<double>(panels_.size());
+  layout.height = std::round(layout.pitch - 70.0);
+  if (layout.width < 100.0 || layout.height < 60.0) {
+    throw UsageError("a picture of " + std::to_string(size.width) + "x" +
+                     std::to_string(size.height) + " pixels is too small for this section");
+  }
+  const double length = panels_.front().points->line().length();
+  const double metres_across = length / layout.width;
+  const double span = std::max(1.08 * (high - low), 0.02);
+  layout.exaggeration = simpleFactor(metres_across / (span / layout.height));
+  const double half = 0.5 * layout.height * metres_across / layout.exaggeration;
+  layout.low = 0.5 * (low + high) - half;
+  layout.high = 0.5 * (low + high) + half;
+  return layout;
+}
+
+double SectionPicture::exaggeration(PictureSize size) const {
+  return layoutFor(size).exaggeration;
+}
+
+Canvas SectionPicture::draw(PictureSize size) const {
+  if (panels_.empty()) throw UsageError("a section picture needs a panel");
+  const Layout layout = layoutFor(size);
+  Canvas canvas(size.width, size.height);
+  const double below_title = detail::drawTitle(canvas, title_);
+  const SectionLine& line = panels_.front().points->line();
+  TextStyle note;
+  note.color = ink::gray;
+  const auto place = [](const Eigen::Vector2d& p) {
+    return numberText(p.x(), 1) + ", " + numberText(p.y(), 1);
+  };
+  const std::string facts = "from (" + place(line.from) + ") to (" + place(line.to) + "), width " +
+                            numberText(2.0 * line.half_width, 1) + " m, vertical exaggeration " +
+                            shortNumber(layout.exaggeration) + "×";
+  canvas.text(detail::shortened(facts, size.width - 2.0 * kPlotMargin, note),
+              {kPlotMargin, below_title + 4.0}, note);
+  Axis x, y;
+  x.high = line.length();
+  x.label = "distance along the section, m";
+  y.low = layout.low;
+  y.high = layout.high;
+  y.label = "height, m";
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    const SectionPoints& points = *panels_[i].points;
+    x.label = i + 1 == panels_.size() ? "distance along the section, m" : "";
+    const PixelBox box{layout.left, layout.top + static_cast<double>(i) * layout.pitch,
+                       layout.width, layout.height};
+    Axes axes(canvas, box, x, y);
+    const double diameter = markerSize(points.points().size(), box.width);
+    canvas.setClip(box);
+    for (const SectionPoints::Point& point : points.points()) {
+      canvas.marker(Marker::disk, axes.pixel(point.along, points.baseHeight() + point.height),
+                    diameter, categoryColor(static_cast<std::size_t>(point.strip)).withAlpha(210));
+    }
+    canvas.clearClip();
+    axes.drawFrame(panels_[i].caption);
+  }
+  std::vector<LegendEntry> entries;
+  for (const int strip : layout.shown) {
+    const auto index = static_cast<std::size_t>(strip);
+    const std::string name = index < strips_.size() ? strips_[index] : std::to_string(strip);
+    entries.push_back({detail::shortened(name, 100.0, {}), categoryColor(index)});
+  }
+  drawLegend(canvas, entries, "strip", {layout.left + layout.width + kPlotMargin, layout.top});
+  return canvas;
+}
+
+}  // namespace pcl_als
