@@ -92,7 +92,7 @@ void RasterWriter::State::create() {
   creation.add("BLOCKYSIZE=" + std::to_string(kTile));
   if (layout.bands.size() > 1) creation.add("INTERLEAVE=BAND");
   // The draft is deleted soon: compressing it costs more than writing it.
-  if (draft) {
+  if (draft || !options.compress) {
     creation.add("BIGTIFF=IF_SAFER");
   } else {
     addCompression(creation, bytes(), false, options.threads);

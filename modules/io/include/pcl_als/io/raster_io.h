@@ -33,6 +33,7 @@ struct RasterOptions {
   bool overviews = true;  ///< means of floats, commonest class of bytes, halving to 256 cells
   bool cloud_optimised =
       true;         ///< where the installed GDAL can (3.1); else plain tiles of 512 cells
+  bool compress = true;         ///< without loss; cloud-optimised files always are
   int threads = 0;  ///< that compress; 0: as many as there are. The file does not depend on it
 };
 
