@@ -45,10 +45,10 @@ AccuracyReport ofSites(const std::string& input, const std::string& other) {
     counted.classes = recounted.classes;
     second = recounted.points;
   }
-  const ConfusionMatrix matrix = countPoints(counted.classes, counted.points);
-  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}};
+  AccuracyReport report{
+      countPoints(counted.classes, counted.points), assessSites(counted), {}, {}, {}, {}, {}};
   if (other.empty()) return report;
-  report.other = assessAccuracy(countPoints(counted.classes, second));
+  report.other = assessSites({counted.classes, second});
   report.comparison = compareAccuracy(counted.classes, counted.points, second);
   return report;
 }

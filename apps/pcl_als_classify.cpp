@@ -201,8 +201,13 @@ class Classification {
     std::vector<std::string> names;
     for (const GaussianClass& c : classifier.model().classes) names.push_back(c.name);
     const CountedSites counted = countSites(checked.sites, names);
-    const ConfusionMatrix matrix = countPoints(counted.classes, counted.points);
-    AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, checked.remarks};
+    AccuracyReport report{countPoints(counted.classes, counted.points),
+                          assessSites(counted),
+                          {},
+                          {},
+                          {},
+                          {},
+                          checked.remarks};
     report.inputs = {line_.text("checkpoints"), line_.text("output")};
     say("\n" + accuracyText(report));
     if (line_.has("accuracy")) writeAccuracy(line_.text("accuracy"), report);

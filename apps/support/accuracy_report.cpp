@@ -188,6 +188,18 @@ CountedSites countSites(const std::vector<CheckedSite>& sites, std::vector<std::
   return counted;
 }
 
+AccuracyResult assessSites(const CountedSites& sites) {
+  AccuracyResult result = assessAccuracy(countPoints(sites.classes, sites.points));
+  const auto about_none = [](const std::string& remark) {
+    const std::string name = kUnclassified;
+    return remark.size() >= name.size() &&
+           remark.compare(remark.size() - name.size(), name.size(), name) == 0;
+  };
+  result.remarks.erase(std::remove_if(result.remarks.begin(), result.remarks.end(), about_none),
+                       result.remarks.end());
+  return result;
+}
+
 std::vector<CheckedSite> matchSites(const std::string& file, const std::vector<CheckedSite>& wanted,
                                     const std::vector<CheckedSite>& sites) {
   std::multimap<Key, const CheckedSite*> places;

@@ -35,6 +35,9 @@ struct CountedSites {
 inline constexpr const char* kUnclassified = "unclassified";
 CountedSites countSites(const std::vector<CheckedSite>& sites, std::vector<std::string> classes);
 
+/// assessAccuracy(), without remarks on the row of points without a class, which is no class.
+AccuracyResult assessSites(const CountedSites& sites);
+
 /// The outcome of the same check points in another classification, found again by their places.
 /// InputError when they are not the same points.
 std::vector<CheckedSite> matchSites(const std::string& file, const std::vector<CheckedSite>& wanted,

@@ -46,6 +46,10 @@ void CellCounts::merge(const CellCounts& other) {
   empty += other.empty;
 }
 
+std::vector<std::uint8_t> SurfaceOptions::groundAndRoads() {
+  return {2, 9, 11};
+}
+
 void SurfaceOptions::check() const {
   checkLength("the largest gap of the surface", surface_gap, 0.0, 1000.0);
   checkLength("the largest gap of the terrain", terrain_gap, 0.0, 1000.0);
