@@ -61,7 +61,7 @@ CommandLine declareClassify() {
   line.add<std::string>("bands",
                         "that classes are told by: of surface, terrain, height, intensity, slope, "
                         "roughness, multiple_returns, height_range, density",
-                        "height,intensity");
+                        "height,intensity,roughness,multiple_returns");
   line.addOptional(
       "priors", "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)");
   line.add<double>("reject",

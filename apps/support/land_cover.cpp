@@ -170,19 +170,20 @@ CheckReport collectChecks(const std::vector<ClassSite>& sites, const MaximumLike
   return report;
 }
 
-std::vector<LegendEntry> legendOf(const GaussianModel& model) {
+std::vector<CodeMeaning> legendOf(const GaussianModel& model) {
   using Colour = std::array<std::uint8_t, 3>;
   static const std::map<std::string, Colour> known{
-      {"tree", {0x1B, 0x7A, 0x3D}},     {"grass", {0xA6, 0xD8, 0x54}},
-      {"soil", {0xC8, 0x9B, 0x5A}},     {"built-up", {0xD0, 0x43, 0x3A}},
-      {"building", {0xD0, 0x43, 0x3A}}, {"road", {0x80, 0x80, 0x80}},
-      {"water", {0x3B, 0x7D, 0xC4}},    {"ground", {0xC8, 0x9B, 0x5A}}};
+      {"tree", {0x1B, 0x7A, 0x3D}},     {"vegetation", {0x1B, 0x7A, 0x3D}},
+      {"grass", {0xA6, 0xD8, 0x54}},    {"soil", {0xC8, 0x9B, 0x5A}},
+      {"built-up", {0xD0, 0x43, 0x3A}}, {"building", {0xD0, 0x43, 0x3A}},
+      {"road", {0x80, 0x80, 0x80}},     {"water", {0x3B, 0x7D, 0xC4}},
+      {"ground", {0xC8, 0x9B, 0x5A}}};
   // Okabe and Ito's, for classes of other names.
   static const Colour others[] = {{0xE6, 0x9F, 0x00}, {0x56, 0xB4, 0xE9}, {0x00, 0x9E, 0x73},
                                   {0xF0, 0xE4, 0x42}, {0x00, 0x72, 0xB2}, {0xD5, 0x5E, 0x00},
                                   {0xCC, 0x79, 0xA7}};
   if (model.classes.size() > 254) throw UsageError("a map has at most 254 classes");
-  std::vector<LegendEntry> legend;
+  std::vector<CodeMeaning> legend;
   std::size_t other = 0;
   for (const GaussianClass& c : model.classes) {
     const auto found = known.find(c.name);
@@ -261,9 +262,9 @@ CoverCounts classifyCells(const MaximumLikelihood& classifier, BandReader& bands
   return all;
 }
 
-void writeLegend(const std::filesystem::path& path, const std::vector<LegendEntry>& legend) {
+void writeLegend(const std::filesystem::path& path, const std::vector<CodeMeaning>& legend) {
   std::string text = "value,class,red,green,blue\n";
-  for (const LegendEntry& entry : legend) {
+  for (const CodeMeaning& entry : legend) {
     text += std::to_string(entry.value) + ',' + entry.name;
     for (const std::uint8_t part : entry.colour) text += ',' + std::to_string(part);
     text += '\n';

@@ -55,7 +55,7 @@ CheckReport collectChecks(const std::vector<ClassSite>& sites, const MaximumLike
                           BandReader& bands);
 
 /// Colour and code of each class, in the model's order; codes from 1.
-std::vector<LegendEntry> legendOf(const GaussianModel& model);
+std::vector<CodeMeaning> legendOf(const GaussianModel& model);
 
 struct CoverCounts {
   std::vector<std::uint64_t> cells;  ///< per class
@@ -69,7 +69,7 @@ CoverCounts classifyCells(const MaximumLikelihood& classifier, BandReader& bands
                           const std::function<void(double)>& progress);
 
 /// Legend as CSV: value,class,red,green,blue.
-void writeLegend(const std::filesystem::path& path, const std::vector<LegendEntry>& legend);
+void writeLegend(const std::filesystem::path& path, const std::vector<CodeMeaning>& legend);
 
 /// A map and what stands above it.
 struct TitledMap {

@@ -24,7 +24,7 @@ void drawMaps(const std::filesystem::path& path, const std::vector<TitledMap>& m
     const RasterGrid& grid = raster.grid;
     if (!legend) {
       std::vector<MapClass> classes;
-      for (const LegendEntry& entry : raster.legend)
+      for (const CodeMeaning& entry : raster.legend)
         classes.push_back(
             {entry.value, entry.name, {entry.colour[0], entry.colour[1], entry.colour[2]}});
       picture.setClasses(std::move(classes));

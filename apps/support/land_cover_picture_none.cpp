@@ -14,7 +14,7 @@ constexpr int kLargestSide = 2000, kGap = 10;
 void paint(const CodeRaster& map, int step, int left, PngImage& image) {
   std::array<std::array<std::uint8_t, 3>, 256> colours{};
   colours.fill({255, 255, 255});
-  for (const LegendEntry& entry : map.legend) colours[entry.value] = entry.colour;
+  for (const CodeMeaning& entry : map.legend) colours[entry.value] = entry.colour;
   for (int row = 0; row < map.grid.rows / step; ++row)
     for (int column = 0; column < map.grid.columns / step; ++column) {
       const auto& colour = colours[map.values[map.grid.index(column * step, row * step)]];

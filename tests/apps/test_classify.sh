@@ -42,7 +42,7 @@ check "tiles give the same check points" cmp first.csv tiles.csv
 
 # With texture it differs, and the two are compared on the same points.
 expect 0 'Overall accuracy' classify "${strips[@]}" -training "$training" -checkpoints "$checkpoints" \
-  -cell 2 -output texture.tif -checked texture.csv -bands height,intensity,roughness,height_range \
+  -cell 2 -output texture.tif -checked texture.csv -bands height,intensity,roughness,height_range,slope \
   -interpolation idw -ground filter -priors soil=0.4 -reject 0.001
 expect 0 'McNemar' accuracy texture.csv -compare first.csv -output comparison.json
 check "the comparison is kept" grep -q '"mcnemar"' comparison.json

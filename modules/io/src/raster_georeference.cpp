@@ -30,12 +30,12 @@ void setReference(GDALDatasetH dataset, const RasterGrid& grid, const GdalReport
   reports.check(GDALSetSpatialRef(dataset, reference.get()) == CE_None, "cannot keep its CRS");
 }
 
-void setLegend(GDALDatasetH dataset, GDALRasterBandH band, const std::vector<LegendEntry>& legend) {
+void setLegend(GDALDatasetH dataset, GDALRasterBandH band, const std::vector<CodeMeaning>& legend) {
   const std::unique_ptr<void, void (*)(void*)> table(GDALCreateColorTable(GPI_RGB),
                                                      GDALDestroyColorTable);
   const GDALColorEntry transparent{0, 0, 0, 0};
   GDALSetColorEntry(table.get(), 0, &transparent);
-  for (const LegendEntry& entry : legend) {
+  for (const CodeMeaning& entry : legend) {
     const GDALColorEntry colour{entry.colour[0], entry.colour[1], entry.colour[2], 255};
     GDALSetColorEntry(table.get(), entry.value, &colour);
     GDALSetMetadataItem(dataset, (kClassItem + std::to_string(entry.value)).c_str(),
@@ -44,14 +44,14 @@ void setLegend(GDALDatasetH dataset, GDALRasterBandH band, const std::vector<Leg
   GDALSetRasterColorTable(band, table.get());
 }
 
-std::vector<LegendEntry> legendOf(GDALDatasetH dataset) {
-  std::vector<LegendEntry> legend;
+std::vector<CodeMeaning> legendOf(GDALDatasetH dataset) {
+  std::vector<CodeMeaning> legend;
   const GDALColorTableH table = GDALGetRasterColorTable(GDALGetRasterBand(dataset, 1));
   for (int value = 0; value < 256; ++value) {
     const char* name =
         GDALGetMetadataItem(dataset, (kClassItem + std::to_string(value)).c_str(), nullptr);
     if (name == nullptr) continue;
-    LegendEntry entry{static_cast<std::uint8_t>(value), name, {}};
+    CodeMeaning entry{static_cast<std::uint8_t>(value), name, {}};
     const GDALColorEntry* colour = table == nullptr || value >= GDALGetColorEntryCount(table)
                                        ? nullptr
                                        : GDALGetColorEntry(table, value);

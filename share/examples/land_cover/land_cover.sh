@@ -11,7 +11,7 @@
 # BIN_DIR    where the tools are (default: they are found by PATH)
 # Environment: CELL side of the cells, m (default 1); EXTENT west,south,east,north (default: all);
 #   WEATHER options of pcl_als_intensity (default: those of the paper's flight);
-#   BANDS that classes are told by (default: height,intensity)
+#   BANDS that classes are told by (default: height,intensity, about those of the paper)
 set -euo pipefail
 export LC_ALL=C
 (($# >= 2)) || { sed -n '5,16s/^# \{0,1\}//p' "$0"; exit 1; }

@@ -73,7 +73,7 @@ struct Raster {
 };
 
 /// What a cell value of a map of classes means and how it is drawn.
-struct LegendEntry {
+struct CodeMeaning {
   std::uint8_t value = 0;
   std::string name;
   std::array<std::uint8_t, 3> colour{};  ///< red, green, blue
@@ -85,7 +85,7 @@ struct CodeRaster {
 
   RasterGrid grid;
   std::vector<std::uint8_t> values;
-  std::vector<LegendEntry> legend;
+  std::vector<CodeMeaning> legend;
 };
 
 }  // namespace pcl_als

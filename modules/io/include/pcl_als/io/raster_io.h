@@ -24,7 +24,7 @@ struct RasterLayout {
   RasterGrid grid;
   Type type = Type::float32;
   std::vector<std::string> bands;   ///< one name per band
-  std::vector<LegendEntry> legend;  ///< colours and names of the values of bytes; may be empty
+  std::vector<CodeMeaning> legend;  ///< colours and names of the values of bytes; may be empty
   double no_data = -9999.0;         ///< in the file; in memory floats without value are NaN
   std::map<std::string, std::string> metadata;  ///< further items, name and text
 };
@@ -32,9 +32,9 @@ struct RasterLayout {
 struct RasterOptions {
   bool overviews = true;  ///< means of floats, commonest class of bytes, halving to 256 cells
   bool cloud_optimised =
-      true;         ///< where the installed GDAL can (3.1); else plain tiles of 512 cells
-  bool compress = true;         ///< without loss; cloud-optimised files always are
-  int threads = 0;  ///< that compress; 0: as many as there are. The file does not depend on it
+      true;              ///< where the installed GDAL can (3.1); else plain tiles of 512 cells
+  bool compress = true;  ///< without loss; cloud-optimised files always are
+  int threads = 0;       ///< that compress; 0: as many as there are. The file does not depend on it
 };
 
 /** \brief Writes a GeoTIFF block by block, for rasters larger than memory.
