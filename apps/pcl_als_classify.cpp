@@ -53,18 +53,21 @@ class Classification {
 
   int run() {
     makeRasters();
-    if (!line_.has("output")) return kDone;
+    if (line_.has("output")) mapClasses();
+    for (const std::string& remark : remarks_) say("note: " + remark + "\n");
+    return rank_deficient_ ? kNoReliableAnswer : kDone;
+  }
+
+ private:
+  void mapClasses() {
     BandReader bands(raster_path_, bands_);
     const MaximumLikelihood classifier(model(bands), line_.number("reject", 0.0, 0.5, ""));
     classify(classifier, bands);
     if (!checks_.empty()) assess(classifier, bands);
     if (line_.has("map")) draw();
     if (line_.has("points")) classifyPoints(classifier);
-    for (const std::string& remark : remarks_) say("note: " + remark + "\n");
-    return rank_deficient_ ? kNoReliableAnswer : kDone;
   }
 
- private:
   void say(const std::string& text) const {
     if (!line_.quiet()) std::cout << text << std::flush;
   }
@@ -78,12 +81,25 @@ class Classification {
       if (line_.has(name) && !line_.has("checkpoints"))
         throw UsageError(std::string("option -") + name + " needs -checkpoints");
     if (line_.has("beside") && !line_.has("map")) throw UsageError("option -beside needs -map");
+    // Wrong values are told before the long work, not after it.
+    line_.number("reject", 0.0, 0.5, "(probability)");
+    line_.number("training_radius", 0.0, 1000.0, "m");
+    line_.number("tile", 64, 8192, "cells");
+    checkOutputs();
+  }
+
+  void checkOutputs() const {
     std::set<fs::path> outputs;
     for (const char* name :
-         {"output", "grids", "posterior", "accuracy", "checked", "save_model", "map"})
-      if (line_.has(name) && !outputs.insert(fs::weakly_canonical(line_.text(name))).second)
+         {"output", "grids", "posterior", "accuracy", "checked", "save_model", "map"}) {
+      if (!line_.has(name)) continue;
+      const fs::path path = fs::absolute(line_.text(name));
+      if (!fs::is_directory(path.parent_path()))
+        throw InputError(line_.text(name) + ": cannot be created: the folder does not exist");
+      if (!outputs.insert(fs::weakly_canonical(path)).second)
         throw UsageError("option -" + std::string(name) + ": " + line_.text(name) +
                          " is also another output");
+    }
   }
 
   void readSites() {
@@ -124,12 +140,21 @@ class Classification {
     if (counts.points == 0)
       throw InputError(files_.paths.front().string() +
                        ": no point lies in the rasters; see -extent");
+    if (counts.terrain.measured == 0) withoutTerrain();
     writer.commit();
     progress.done(grouped(counts.points) + " of " + grouped(files_.points) + " points");
     say(describe("surface", counts.surface) + describe("terrain", counts.terrain));
-    if (counts.terrain.measured == 0)
-      throw InputError(files_.paths.front().string() +
-                       ": no ground points; see -ground and -ground_classes");
+  }
+
+  /// Not fatal where nobody asks for heights above it.
+  void withoutTerrain() {
+    const auto wanted = [&](const char* band) {
+      return std::find(bands_.begin(), bands_.end(), band) != bands_.end();
+    };
+    const std::string what = "no ground points; see -ground and -ground_classes";
+    if (line_.has("points") || (line_.has("output") && (wanted("height") || wanted("terrain"))))
+      throw InputError(files_.paths.front().string() + ": " + what);
+    remarks_.push_back(what);
   }
 
   GaussianModel model(BandReader& bands) {

@@ -50,6 +50,21 @@ expect 0 'compared as independent' accuracy table6.csv -compare table6.csv -outp
 expect 0 'Rasters' classify "${strips[@]}" -cell 5 -grids only.tif
 check "only rasters" test -s only.tif
 
+# Without ground points: heights cannot be had, other bands can.
+expect 2 'no ground points' classify "${strips[@]}" -training "$training" -cell 5 -output bad.tif -ground_classes 40
+expect 0 'note: no ground points' classify "${strips[@]}" -training "$training" -cell 5 -output low.tif \
+  -ground_classes 40 -bands intensity,roughness
+
+# Training areas: squares of 6 m about the training points.
+awk -F, 'BEGIN { printf "{\"type\":\"FeatureCollection\",\"features\":[" }
+  NR > 1 { w = $1 - 3; e = $1 + 3; s = $2 - 3; n = $2 + 3
+    printf "%s{\"type\":\"Feature\",\"properties\":{\"class\":\"%s\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f]]]}}", NR > 2 ? "," : "", $3, w, s, e, s, e, n, w, n, w, s }
+  END { print "]}" }' "$training" >areas.geojson
+expect 0 'Overall accuracy' classify "${strips[@]}" -training areas.geojson -checkpoints "$checkpoints" \
+  -cell 2 -output areas.tif -accuracy areas.json -save_model areas_model.json
+expect_overall areas.json 0.4 0.95
+check "areas give more samples than points" awk '/"samples"/ { gsub(/[^0-9]/, ""); n += $0 } END { exit !(n > 1000) }' areas_model.json
+
 # Training that is thin, missing, elsewhere.
 awk -F, 'NR == 1 || $3 != "grass" || !seen++' "$training" >one_grass.csv
 run classify "${strips[@]}" -training one_grass.csv -checkpoints "$checkpoints" -cell 2 -output one.tif
@@ -76,6 +91,8 @@ expect 1 'is also another output' classify "${strips[@]}" -training "$training" 
 expect 2 'no such file' classify "${strips[@]}" -training none.csv -output bad.tif
 expect 2 'no file of class statistics' classify "${strips[@]}" -model first.json -output bad.tif
 expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output none/bad.tif -cell 5
+expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output bad.tif -map none/bad.png
+expect 1 'option -reject' classify "${strips[@]}" -training "$training" -output bad.tif -reject 0.9
 expect 2 'no point lies in the rasters' classify "${strips[@]}" -training "$training" -output bad.tif -extent 0,0,100,100
 expect 2 'CRS EPSG:1 is not known' classify "${strips[@]}" -training "$training" -output bad.tif -crs EPSG:1 -cell 5
 expect 1 'option -output is needed' accuracy table6.csv
