@@ -58,7 +58,7 @@ expect 0 'note: no ground points' classify "${strips[@]}" -training "$training" 
 # Training areas: squares of 6 m about the training points.
 awk -F, 'BEGIN { printf "{\"type\":\"FeatureCollection\",\"features\":[" }
   NR > 1 { w = $1 - 3; e = $1 + 3; s = $2 - 3; n = $2 + 3
-    printf "%s{\"type\":\"Feature\",\"properties\":{\"class\":\"%s\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f]]]}}", NR > 2 ? "," : "", $3, w, s, e, s, e, n, w, n, w, s }
+    printf "%s{\"type\":\"Feature\",\"properties\":{\"class\":\"%s\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f]]]}}", (NR > 2 ? "," : ""), $3, w, s, e, s, e, n, w, n, w, s }
   END { print "]}" }' "$training" >areas.geojson
 expect 0 'Overall accuracy' classify "${strips[@]}" -training areas.geojson -checkpoints "$checkpoints" \
   -cell 2 -output areas.tif -accuracy areas.json -save_model areas_model.json
