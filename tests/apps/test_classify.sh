@@ -10,7 +10,8 @@ training=$block/training.csv checkpoints=$block/checkpoints.csv
 expect_overall() {  # JSON LOW HIGH: overall accuracy within
   checks=$((checks + 1))
   awk -v low="$2" -v high="$3" '/"overall_accuracy"/ { at = 1 }
-    at && /"value"/ { gsub(/[^0-9.]/, ""); exit !($0 >= low && $0 <= high) }' "$1" ||
+    at && /"value"/ { gsub(/[^0-9.]/, ""); exit !($0 + 0 >= low + 0 && $0 + 0 <= high + 0) }
+    END { if (!at) exit 1 }' "$1" ||
     failed "$1: overall accuracy is not in $2 to $3"
 }
 
