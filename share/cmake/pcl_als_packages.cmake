@@ -13,4 +13,4 @@ endif()
 
 _pcl_als_need(Threads)
 _pcl_als_need(Eigen3 3.3 NO_MODULE)
-_pcl_als_need(PCL 1.12 COMPONENTS common io kdtree search filters features registration)
+_pcl_als_need(PCL 1.12 COMPONENTS common io kdtree search filters features registration segmentation)

@@ -89,6 +89,7 @@ CsvTable::CsvTable(const std::filesystem::path& path)
   if (!nextLine(header)) throw InputError(name_ + ": is empty; a header line is needed");
   separator_ = separatorOf(header);
   split(header);
+  header_ = fields_;
   for (const std::string_view field : fields_) columns_.push_back(lowered(field));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const auto first = std::find(columns_.begin(), columns_.end(), columns_[i]);

@@ -28,6 +28,8 @@ class CsvTable {
   std::size_t required(std::string_view name) const;
   /// Number of the column, or npos.
   std::size_t optional(std::string_view name) const;
+  /// Names of the columns as the header has them.
+  const std::vector<std::string_view>& header() const { return header_; }
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
   /// Reads the next record; false at the end. InputError when its fields are not as many as the
@@ -51,6 +53,7 @@ class CsvTable {
   std::size_t line_ = 0;
   char separator_ = ',';
   std::vector<std::string> columns_;
+  std::vector<std::string_view> header_;
   std::vector<std::string_view> fields_;
 };
 

@@ -9,6 +9,7 @@
 
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/filters/intensity_correction.h>
+#include <pcl_als/classification/accuracy_assessment.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
@@ -32,6 +33,9 @@ int main(int argc, char** argv) {
   air.visibility_km = 10.0;
   const double extinction = pcl_als::extinctionOf(air).total();
   const pcl_als::Tin tin({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+  pcl_als::ConfusionMatrix matrix({"tree", "grass"});
+  matrix.counts << 3, 1, 0, 4;
+  if (pcl_als::assessAccuracy(matrix).kappa != 0.75) return 1;
   std::cout << points << " points, " << covered << " covered, " << tin.triangles().size()
             << " triangles, extinction " << extinction << " per km\n";
   return points == reader->info().point_count && covered == points && tin.triangles().size() == 2 &&

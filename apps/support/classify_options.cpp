@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "classify_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::app {
+namespace {
+
+double numberOf(const char* option, const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw UsageError(std::string("option -") + option + ": '" + text + "' is not a number");
+  return value;
+}
+
+/// Whether an option has the second of two words.
+bool isSecond(const CommandLine& line, const char* name, const char* first, const char* second) {
+  const std::string value = line.text(name);
+  if (value != first && value != second)
+    throw UsageError(std::string("option -") + name + ": '" + value + "' is neither " + first +
+                     " nor " + second);
+  return value == second;
+}
+
+void addOutputs(CommandLine& line) {
+  line.addOptional("output", "the map of classes, GeoTIFF (needed, unless only -grids is wanted)");
+  line.addOptional("grids", "also keep the rasters of the strips, GeoTIFF of nine bands");
+  line.addOptional("posterior", "also the probability of each cell's class, GeoTIFF");
+  line.addOptional("accuracy", "accuracy at the check points, JSON");
+  line.addOptional("checked", "the check points with their classes, CSV for pcl_als_accuracy");
+  line.addOptional("save_model", "statistics of the classes, JSON for -model");
+  line.addOptional("map", "picture of the map with its legend, PNG");
+  line.addOptional("beside", "another map of classes (GeoTIFF) to draw at the left of -map");
+  line.addOptional("captions", "of -beside and the map, comma-separated (default: before,after)");
+  line.addOptional("points", "folder for copies of the point files with ASPRS classes");
+}
+
+}  // namespace
+
+CommandLine declareClassify() {
+  CommandLine line("pcl_als_classify",
+                   "makes rasters of strips, classifies land cover by Gaussian maximum likelihood "
+                   "and assesses its accuracy.",
+                   "STRIP… -training CSV|GEOJSON [-checkpoints CSV] -cell M -output landcover.tif",
+                   "pcl_als_classify strip*.las -training training.csv -checkpoints "
+                   "checkpoints.csv -cell 0.5 -output landcover.tif -accuracy accuracy.json -map "
+                   "landcover.png");
+  line.addOptional("training", "training sites: CSV x,y,class or GeoJSON with property class");
+  line.addOptional("model", "statistics of the classes from -save_model instead of training");
+  line.addOptional("checkpoints", "check sites, as training");
+  addOutputs(line);
+  line.add<double>("cell", "side of the cells, m", 1.0);
+  line.addOptional("extent", "WEST,SOUTH,EAST,NORTH: of the rasters, m (default: all points)");
+  line.addOptional("crs", "CRS of the rasters (default: that of the point files)");
+  line.add<std::string>("bands",
+                        "that classes are told by: of surface, terrain, height, intensity, slope, "
+                        "roughness, multiple_returns, height_range, density",
+                        "height,intensity,roughness,multiple_returns");
+  line.addOptional(
+      "priors", "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)");
+  line.add<double>("reject",
+                   "a cell is of no class when a member of its class is that far from the mean "
+                   "with less than this probability, 0 to 0.5",
+                   0.0);
+  line.add<double>("training_radius", "cells within that of a training point count, too, m", 0.0);
+  line.add<std::string>("interpolation", "of cells without points: tin or idw", "tin");
+  line.add<double>("surface_gap", "radius of the largest gap of the surface that is filled, m",
+                   6.0);
+  line.add<double>("terrain_gap", "the same for the terrain (houses, woods), m", 30.0);
+  line.add<std::string>("ground",
+                        "terrain from points of ground classes (class) or by a "
+                        "morphological filter (filter)",
+                        "class");
+  line.add<std::string>("ground_classes", "ASPRS classes that are ground", "2,9,11");
+  line.add<double>("largest_object", "width of the widest building, for -ground filter, m", 40.0);
+  line.add<double>("texture_window", "side of the square of slope, roughness and returns, m", 2.5);
+  line.add<double>("tile", "side of the tiles that are worked on, cells, 64 to 8192", 768.0);
+  return line;
+}
+
+SurfaceOptions surfaceOptionsOf(const CommandLine& line) {
+  SurfaceOptions options;
+  if (isSecond(line, "interpolation", "tin", "idw"))
+    options.interpolation = SurfaceOptions::Interpolation::inverse_distance;
+  if (isSecond(line, "ground", "class", "filter"))
+    options.ground = SurfaceOptions::Ground::filtered;
+  options.surface_gap = line.number("surface_gap", 0.0, 1000.0, "m");
+  options.terrain_gap = line.number("terrain_gap", 0.0, 1000.0, "m");
+  options.largest_object = line.number("largest_object", 1.0, 500.0, "m");
+  options.texture_window = line.number("texture_window", 0.0, 1000.0, "m");
+  options.ground_classes.clear();
+  for (const std::string& text : splitList(line.text("ground_classes"))) {
+    const double code = numberOf("ground_classes", text);
+    if (code < 0.0 || code > 255.0 || code != std::floor(code))
+      throw UsageError("option -ground_classes: '" + text + "' is no class code (0 to 255)");
+    options.ground_classes.push_back(static_cast<std::uint8_t>(code));
+  }
+  if (options.ground_classes.empty()) throw UsageError("option -ground_classes: names no class");
+  return options;
+}
+
+std::vector<std::string> bandsOf(const CommandLine& line) {
+  std::vector<std::string> bands = splitList(line.text("bands"));
+  const std::vector<std::string>& known = SurfaceAccumulator::bandNames();
+  for (auto band = bands.begin(); band != bands.end(); ++band) {
+    if (std::find(known.begin(), known.end(), *band) == known.end())
+      throw UsageError("option -bands: there is no band '" + *band + "' (see pcl_als_classify -h)");
+    if (std::find(bands.begin(), band, *band) != band)
+      throw UsageError("option -bands: '" + *band + "' appears twice");
+  }
+  if (bands.empty()) throw UsageError("option -bands: names no band");
+  return bands;
+}
+
+std::vector<std::pair<std::string, double>> priorsOf(const CommandLine& line) {
+  std::vector<std::pair<std::string, double>> priors;
+  if (!line.has("priors")) return priors;
+  for (const std::string& entry : splitList(line.text("priors"))) {
+    const std::size_t equals = entry.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("option -priors: '" + entry + "' is not CLASS=PROBABILITY");
+    priors.emplace_back(entry.substr(0, equals), numberOf("priors", entry.substr(equals + 1)));
+  }
+  return priors;
+}
+
+RasterGrid gridOf(const CommandLine& line, double min_x, double min_y, double max_x, double max_y,
+                  const std::string& crs) {
+  const double cell = line.number("cell", 0.01, 1000.0, "m");
+  if (!line.has("extent")) return RasterGrid::covering(min_x, min_y, max_x, max_y, cell, crs);
+  const std::vector<std::string> parts = splitList(line.text("extent"));
+  if (parts.size() != 4)
+    throw UsageError("option -extent: '" + line.text("extent") + "' is not WEST,SOUTH,EAST,NORTH");
+  double edges[4];
+  for (std::size_t i = 0; i < 4; ++i) edges[i] = numberOf("extent", parts[i]);
+  if (edges[0] >= edges[2] || edges[1] >= edges[3])
+    throw UsageError("option -extent: west must be less than east, south less than north");
+  // Edges that are multiples of the cell size give no further row or column.
+  const double inner = 1e-6 * cell;
+  return RasterGrid::covering(edges[0] + inner, edges[1] + inner, edges[2] - inner,
+                              edges[3] - inner, cell, crs);
+}
+
+}  // namespace pcl_als::app

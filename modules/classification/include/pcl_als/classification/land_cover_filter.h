@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pcl/filters/filter.h>
+
+#include <pcl_als/classification/gaussian_classifier.h>
+#include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/point_types.h>
+#include <pcl_als/common/raster.h>
+
+namespace pcl_als {
+
+/** \brief Band values and class of a single point: its own where it has them, else its cell's.
+ *
+ * height is the point's height above the cell's terrain, surface its height, intensity its own; all
+ * other bands are those of the raster. So a return from under a tree can be ground. Thread-safe.
+ */
+class PointClassifier {
+ public:
+  /// UsageError when the raster lacks a band that the model needs (for height: terrain).
+  PointClassifier(std::shared_ptr<const MaximumLikelihood> classifier,
+                  std::shared_ptr<const Raster> raster);
+
+  /// \param x, y, z metres, ground frame
+  MaximumLikelihood::Decision classify(double x, double y, double z, double intensity) const;
+  const GaussianModel& model() const { return classifier_->model(); }
+
+ private:
+  enum class Source { cell, above_terrain, elevation, intensity };
+
+  std::shared_ptr<const MaximumLikelihood> classifier_;
+  std::shared_ptr<const Raster> raster_;
+  std::vector<Source> sources_;
+  std::vector<const float*> bands_;
+};
+
+/// ASPRS class codes by the names that land cover goes by: tree 5, grass 3, soil 2, built-up and
+/// building 6, road 11, water 9, ground 2; 1 (unclassified) for others.
+std::uint8_t asprsCodeOf(const std::string& class_name);
+
+/** \brief Writes into each point's classification the ASPRS code of its land cover.
+ *
+ * A point that is not classified (beside the raster, rejected, not finite) keeps its code. Every
+ * other field and the order stay; the input is not changed. For a point type of one's own with
+ * x, y, z, intensity and classification include impl/land_cover_filter.hpp.
+ * \code
+ * pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
+ * filter.setClassifier(std::make_shared<pcl_als::PointClassifier>(likelihood, raster));
+ * filter.setLocalFrame(strip.frame);
+ * filter.setInputCloud(strip.cloud);
+ * filter.filter(classified);
+ * \endcode
+ */
+template <typename PointT>
+class LandCoverFilter : public pcl::Filter<PointT> {
+ public:
+  using Ptr = std::shared_ptr<LandCoverFilter<PointT>>;
+  using ConstPtr = std::shared_ptr<const LandCoverFilter<PointT>>;
+  using PointCloud = typename pcl::Filter<PointT>::PointCloud;
+
+  LandCoverFilter() { this->filter_name_ = "LandCoverFilter"; }
+
+  void setClassifier(std::shared_ptr<const PointClassifier> classifier) {
+    classifier_ = std::move(classifier);
+  }
+  std::shared_ptr<const PointClassifier> getClassifier() const { return classifier_; }
+
+  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
+  const LocalFrame& getLocalFrame() const { return frame_; }
+
+  /// Codes of classes by name; those not named have asprsCodeOf().
+  void setCodes(std::map<std::string, std::uint8_t> codes) { codes_ = std::move(codes); }
+  const std::map<std::string, std::uint8_t>& getCodes() const { return codes_; }
+
+  /// Points of the last filter() that kept their code.
+  std::size_t getUnclassified() const { return unclassified_; }
+
+ protected:
+  void applyFilter(PointCloud& output) override;
+
+ private:
+  std::shared_ptr<const PointClassifier> classifier_;
+  LocalFrame frame_;
+  std::map<std::string, std::uint8_t> codes_;
+  std::size_t unclassified_ = 0;
+};
+
+extern template class LandCoverFilter<PointLidar>;
+
+}  // namespace pcl_als

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/raster.h>
+
+namespace pcl_als {
+
+/// How rasters are made from the points of strips.
+struct SurfaceOptions {
+  enum class Interpolation { tin, inverse_distance };
+  enum class Ground { classified, filtered };
+
+  Interpolation interpolation = Interpolation::tin;
+  /// Empty cells of the surface are filled where the circle through the three points around them is
+  /// not larger (TIN), or from points no farther (inverse distance): radius, metres.
+  double surface_gap = 6.0;
+  double terrain_gap = 30.0;  ///< the same for the terrain, which has houses and woods to bridge
+  Ground ground = Ground::classified;
+  std::vector<std::uint8_t> ground_classes = groundAndRoads();  ///< ASPRS codes
+  double texture_window = 2.5;   ///< side of the square that slope and roughness look at, metres
+  double largest_object = 40.0;  ///< width of the widest building, for Ground::filtered, metres
+
+  static std::vector<std::uint8_t> groundAndRoads();  ///< 2 ground, 9 water, 11 road
+
+  /// UsageError for values that are impossible.
+  void check() const;
+  /// Cells beside a tile that its cells depend on.
+  int margin(double cell) const;
+};
+
+/// A return, as far as rasters need it; metres, ground frame.
+struct SurfaceReturn {
+  double x = 0.0, y = 0.0, z = 0.0;
+  float intensity = 0.0F;
+  std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
+};
+
+/// Where a cell's value comes from.
+enum class CellSource : std::uint8_t { empty, interpolated, measured };
+
+struct CellCounts {
+  std::uint64_t measured = 0, interpolated = 0, empty = 0;
+  std::uint64_t cells() const { return measured + interpolated + empty; }
+  void add(CellSource source);
+  void merge(const CellCounts& other);
+};
+
+/** \brief Rasters of the points over a grid: heights, intensity, texture, return statistics.
+ *
+ * | band | per cell |
+ * |---|---|
+ * | surface | height of the highest first return, m |
+ * | terrain | mean height of the ground returns, m |
+ * | height | surface - terrain, m |
+ * | intensity | mean of the first returns |
+ * | slope | of the plane through the surface within the texture window, degrees |
+ * | roughness | RMS distance in height of the surface from that plane, m |
+ * | multiple_returns | share of the pulses with more than one return, of the texture window |
+ * | height_range | highest first minus lowest last return in the texture window, m |
+ * | density | first returns per square metre |
+ *
+ * Cells without returns are interpolated (surface, intensity, terrain): linearly in the TIN of the
+ * cells that have some, or by inverse squared distances from the nearest of them; farther from any
+ * return they stay empty. Points of the classes 7 and 18 (noise) take no part.
+ *
+ * A tile with SurfaceOptions::margin() cells around it has the values that the whole block would
+ * give it, but for Ground::filtered, which looks farther. Memory: 76 bytes per cell, in compute()
+ * up to 300 more; none per point.
+ * \code
+ * SurfaceAccumulator tile(grid, options);
+ * for (…) tile.add({x, y, z, intensity, return_number, number_of_returns, classification});
+ * const SurfaceResult result = tile.compute();
+ * \endcode
+ */
+struct SurfaceResult {
+  Raster raster;
+  std::vector<CellSource> surface_source, terrain_source;
+};
+
+class SurfaceAccumulator {
+ public:
+  /// Names of the bands, in order.
+  static const std::vector<std::string>& bandNames();
+
+  SurfaceAccumulator(RasterGrid grid, SurfaceOptions options);
+  ~SurfaceAccumulator();
+
+  /// False for a point beside the grid or of noise, which is not used.
+  bool add(const SurfaceReturn& point);
+  SurfaceResult compute() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A tile of a raster and the grid of it with its margin.
+struct RasterTile {
+  RasterWindow window;  ///< within the raster
+  RasterGrid padded;
+  int margin = 0;  ///< cells around the window in padded
+};
+
+/// Cuts a raster into tiles of at most \a side cells.
+std::vector<RasterTile> tilesOf(const RasterGrid& grid, int side, int margin);
+
+}  // namespace pcl_als

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include <pcl_als/classification/gaussian_classifier.h>
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als {
+
+void GaussianModel::check() const {
+  const auto size = static_cast<Eigen::Index>(bands.size());
+  if (bands.empty() || classes.empty())
+    throw UsageError("a model of classes needs bands and classes");
+  for (const GaussianClass& c : classes) {
+    const bool fits = c.mean.size() == size && c.covariance.rows() == size &&
+                      c.covariance.cols() == size && c.mean.allFinite() && c.covariance.allFinite();
+    if (!fits) throw UsageError("class " + c.name + ": mean and covariance must fit the bands");
+    if (!c.covariance.isApprox(c.covariance.transpose(), 1e-9) ||
+        Eigen::LLT<Eigen::MatrixXd>(c.covariance).info() != Eigen::Success)
+      throw UsageError("class " + c.name + ": its covariance is not positive definite");
+    if (!(c.prior > 0.0 && c.prior <= 1.0))
+      throw UsageError("class " + c.name + ": its prior is no probability");
+  }
+}
+
+MaximumLikelihood::MaximumLikelihood(GaussianModel model, double rejection)
+    : model_(std::move(model)), largest_distance_sq_(std::numeric_limits<double>::infinity()) {
+  model_.check();
+  if (!(rejection >= 0.0 && rejection < 1.0))
+    throw UsageError("the probability of rejection must be at least 0 and less than 1");
+  const auto bands = static_cast<Eigen::Index>(model_.bands.size());
+  if (rejection > 0.0)
+    largest_distance_sq_ = boost::math::quantile(boost::math::complement(
+        boost::math::chi_squared_distribution<double>(static_cast<double>(bands)), rejection));
+  for (const GaussianClass& c : model_.classes) {
+    const Eigen::MatrixXd lower = c.covariance.llt().matrixL();
+    whitening_.emplace_back(
+        lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(bands, bands)));
+    constant_.push_back(std::log(c.prior) - lower.diagonal().array().log().sum());
+  }
+}
+
+MaximumLikelihood::Decision MaximumLikelihood::classify(const double* values) const {
+  const auto bands = static_cast<Eigen::Index>(model_.bands.size());
+  for (Eigen::Index k = 0; k < bands; ++k)
+    if (!std::isfinite(values[k])) return {};
+  Decision best;
+  double best_score = -std::numeric_limits<double>::infinity();
+  // Sum of exp(score - best score): no overflow however unlikely all classes are.
+  double sum = 0.0;
+  for (std::size_t i = 0; i < model_.classes.size(); ++i) {
+    const Eigen::VectorXd& mean = model_.classes[i].mean;
+    const Eigen::MatrixXd& whitening = whitening_[i];
+    double distance_sq = 0.0;
+    for (Eigen::Index row = 0; row < bands; ++row) {
+      double along = 0.0;
+      for (Eigen::Index k = 0; k <= row; ++k) along += whitening(row, k) * (values[k] - mean[k]);
+      distance_sq += along * along;
+    }
+    const double score = constant_[i] - 0.5 * distance_sq;
+    if (score > best_score) {
+      sum = sum * std::exp(best_score - score) + 1.0;
+      best_score = score;
+      best.index = static_cast<int>(i);
+      best.distance_sq = distance_sq;
+    } else {
+      sum += std::exp(score - best_score);
+    }
+  }
+  best.posterior = 1.0 / sum;
+  if (best.distance_sq > largest_distance_sq_) best.index = kNoClass;
+  return best;
+}
+
+}  // namespace pcl_als

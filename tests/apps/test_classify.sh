@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# test_classify.sh BIN_DIR SCRATCH_DIR: pcl_als_classify and pcl_als_accuracy as a user runs them, with
+# good and bad input.
+source "$(dirname -- "${BASH_SOURCE[0]}")/tool_test.sh"
+strips=("$block"/strip*.las)
+training=$block/training.csv checkpoints=$block/checkpoints.csv
+expect_overall() {  # JSON LOW HIGH: overall accuracy within
+  checks=$((checks + 1))
+  awk -v low="$2" -v high="$3" '/"overall_accuracy"/ { at = 1 }
+    at && /"value"/ { gsub(/[^0-9.]/, ""); exit !($0 + 0 >= low + 0 && $0 + 0 <= high + 0) }
+    END { if (!at) exit 1 }' "$1" ||
+    failed "$1: overall accuracy is not in $2 to $3"
+}
+
+# Table 6 of Habib et al. 2011.
+printf 'is,tree,built-up,grass,soil\ntree,130,40,20,18\nbuilt-up,119,386,12,16\ngrass,34,26,59,43\nsoil,20,16,10,61\n' >table6.csv
+expect 0 'Overall accuracy 63.0 %' accuracy table6.csv -output table6.json
+for kappa in 'tree * 0.464 ' 'built-up * 0.486 ' 'grass * 0.294 ' 'soil * 0.502 ' 'kappa 0.442 '; do
+  checks=$((checks + 1))
+  [[ $(<out.txt) == *$kappa* ]] || failed "Table 6: no '$kappa'"
+done
+
+# The block has intensities of two flying heights; its roads are hard to tell from soil.
+expect 0 'Overall accuracy' classify "${strips[@]}" -training "$training" -checkpoints "$checkpoints" \
+  -cell 2 -output map.tif -grids grids.tif -posterior posterior.tif -accuracy first.json \
+  -checked first.csv -save_model model.json -map map.png -points points
+for file in map.tif grids.tif posterior.tif first.json first.csv model.json map.png points/strip1.las; do
+  check "$file is there" test -s "$file"
+done
+expect_overall first.json 0.4 0.95
+expect 0 'points' info points/strip1.las
+check "points keep their size" test "$(stat -c %s points/strip1.las)" = "$(stat -c %s "$block/strip1.las")"
+
+# The saved statistics give the same map; so do other tiles and one thread.
+expect 0 'Overall accuracy' classify "${strips[@]}" -model model.json -checkpoints "$checkpoints" \
+  -cell 2 -output again.tif -checked again.csv -threads 1
+check "the model gives the same map" cmp map.tif again.tif
+expect 0 'tree' classify "${strips[@]}" -model model.json -cell 2 -output tiles.tif -tile 100 -checkpoints "$checkpoints" -checked tiles.csv
+check "tiles give the same check points" cmp first.csv tiles.csv
+
+# With texture it differs, and the two are compared on the same points.
+expect 0 'Overall accuracy' classify "${strips[@]}" -training "$training" -checkpoints "$checkpoints" \
+  -cell 2 -output texture.tif -checked texture.csv -bands height,intensity,roughness,height_range,slope \
+  -interpolation idw -ground filter -priors soil=0.4 -reject 0.001
+expect 0 'McNemar' accuracy texture.csv -compare first.csv -output comparison.json
+check "the comparison is kept" grep -q '"mcnemar"' comparison.json
+expect 0 'compared as independent' accuracy table6.csv -compare table6.csv -output same.json
+expect 0 'Rasters' classify "${strips[@]}" -cell 5 -grids only.tif
+check "only rasters" test -s only.tif
+
+# Without ground points: heights cannot be had, other bands can.
+expect 2 'no ground points' classify "${strips[@]}" -training "$training" -cell 5 -output bad.tif -ground_classes 40
+expect 0 'note: no ground points' classify "${strips[@]}" -training "$training" -cell 5 -output low.tif \
+  -ground_classes 40 -bands intensity,roughness
+
+# Training areas: squares of 6 m about the training points.
+awk -F, 'BEGIN { printf "{\"type\":\"FeatureCollection\",\"features\":[" }
+  NR > 1 { w = $1 - 3; e = $1 + 3; s = $2 - 3; n = $2 + 3
+    printf "%s{\"type\":\"Feature\",\"properties\":{\"class\":\"%s\"},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f],[%.3f,%.3f]]]}}", (NR > 2 ? "," : ""), $3, w, s, e, s, e, n, w, n, w, s }
+  END { print "]}" }' "$training" >areas.geojson
+expect 0 'Overall accuracy' classify "${strips[@]}" -training areas.geojson -checkpoints "$checkpoints" \
+  -cell 2 -output areas.tif -accuracy areas.json -save_model areas_model.json
+expect_overall areas.json 0.4 0.95
+check "areas give more samples than points" awk '/"samples"/ { gsub(/[^0-9]/, ""); n += $0 } END { exit !(n > 1000) }' areas_model.json
+
+# Training that is thin, missing, elsewhere.
+awk -F, 'NR == 1 || $3 != "grass" || !seen++' "$training" >one_grass.csv
+run classify "${strips[@]}" -training one_grass.csv -checkpoints "$checkpoints" -cell 2 -output one.tif
+checks=$((checks + 1))
+[[ $status == 3 && $(<out.txt) == *"class grass: 1 samples determine no covariance"* && -s one.tif ]] ||
+  failed "one training point: status 3, a note and the map"
+awk -F, '$3 != "grass"' "$training" >no_grass.csv
+expect 0 'class grass: ' classify "${strips[@]}" -training no_grass.csv -checkpoints "$checkpoints" -cell 2 -output no.tif
+printf 'x,y,class\n1,2,tree\n3,4,soil\n' >elsewhere.csv
+expect 2 'elsewhere.csv: *at least two classes*2 training sites outside' classify "${strips[@]}" -training elsewhere.csv -cell 2 -output bad.tif
+expect 2 'elsewhere.csv: no check site lies in the rasters' classify "${strips[@]}" -training "$training" -checkpoints elsewhere.csv -cell 2 -output outside.tif
+(cat "$checkpoints"; sed 1d elsewhere.csv) >some_outside.csv
+expect 0 '2 check sites outside of the rasters' classify "${strips[@]}" -training "$training" -checkpoints some_outside.csv -cell 2 -output some.tif
+
+# Wrong usage and unusable files.
+expect 1 'option -output is needed' classify "${strips[@]}" -training "$training"
+expect 1 '-training and -model' classify "${strips[@]}" -output bad.tif
+expect 1 "no band 'colour'" classify "${strips[@]}" -training "$training" -output bad.tif -bands colour
+expect 1 'option -cell' classify "${strips[@]}" -training "$training" -output bad.tif -cell 0
+expect 1 'option -extent' classify "${strips[@]}" -training "$training" -output bad.tif -extent 1,2,3
+expect 1 'no such class' classify "${strips[@]}" -training "$training" -output bad.tif -priors water=0.5 -cell 5
+expect 1 'neither tin nor idw' classify "${strips[@]}" -training "$training" -output bad.tif -interpolation spline
+expect 1 'is also another output' classify "${strips[@]}" -training "$training" -output bad.tif -grids bad.tif
+expect 2 'no such file' classify "${strips[@]}" -training none.csv -output bad.tif
+expect 2 'no file of class statistics' classify "${strips[@]}" -model first.json -output bad.tif
+expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output none/bad.tif -cell 5
+expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output bad.tif -map none/bad.png
+expect 1 'option -reject' classify "${strips[@]}" -training "$training" -output bad.tif -reject 0.9
+expect 2 'no point lies in the rasters' classify "${strips[@]}" -training "$training" -output bad.tif -extent 0,0,100,100
+expect 2 'CRS EPSG:1 is not known' classify "${strips[@]}" -training "$training" -output bad.tif -crs EPSG:1 -cell 5
+expect 1 'option -output is needed' accuracy table6.csv
+expect 2 'no such file' accuracy none.csv -output bad.json
+printf 'is,a,b\na,1,x\nb,3,4\n' >bad.csv
+expect 2 "line 2, column 'b': 'x' is not a count" accuracy bad.csv -output bad.json
+expect 2 'not of the same kind' accuracy table6.csv -compare first.csv -output bad.json
+head -n 20 first.csv >few.csv
+expect 2 'the same points' accuracy first.csv -compare few.csv -output bad.json
+absent bad.tif bad.json
+finish

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/class_io.h>
+
+#include "las_bytes.h"
+#include "test_files.h"
+
+namespace pcl_als {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+fs::path fileOf(const std::string& name, const std::string& text) {
+  const fs::path folder = fs::path(PCL_ALS_TEST_SCRATCH) / "class_io";
+  fs::create_directories(folder);
+  test::writeBytes(folder / name, text);
+  return folder / name;
+}
+
+TEST(ClassSites, OfCsv) {
+  const auto sites =
+      readClassSites(fileOf("a.csv", "class;x;y\ntree;512000.5;5403000\nsoil;1;2\n"));
+  ASSERT_EQ(sites.size(), 2U);
+  EXPECT_EQ(sites[0].name, "tree");
+  EXPECT_EQ(sites[0].place, Eigen::Vector2d(512000.5, 5403000));
+  EXPECT_FALSE(sites[0].isArea());
+  EXPECT_NE(messageOf([] { readClassSites(fileOf("b.csv", "x,y,class\n1,2,\n")); }).find("line 2"),
+            std::string::npos);
+  EXPECT_NE(messageOf([] { readClassSites(fileOf("c.csv", "x,y\n1,2\n")); }).find("column 'class'"),
+            std::string::npos);
+  EXPECT_NE(messageOf([] { readClassSites(fileOf("d.csv", "x,y,class\n")); }).find("no sites"),
+            std::string::npos);
+}
+
+std::string feature(const std::string& geometry, const std::string& label = R"("grass")") {
+  return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"class":)" +
+         label + R"(},"geometry":)" + geometry + "}]}";
+}
+
+TEST(ClassSites, OfGeoJson) {
+  const std::string ring = "[[500,0],[510,0],[510,10],[500,0]]";
+  const auto area = readClassSites(
+      fileOf("a.geojson", feature(R"({"type":"Polygon","coordinates":[)" + ring + "]}")));
+  ASSERT_EQ(area.size(), 1U);
+  EXPECT_TRUE(area[0].isArea());
+  EXPECT_EQ(area[0].rings[0].size(), 4U);
+  const auto areas = readClassSites(fileOf(
+      "b.geojson",
+      feature(R"({"type":"MultiPolygon","coordinates":[[)" + ring + "],[" + ring + "]]}", "7")));
+  ASSERT_EQ(areas.size(), 2U);
+  EXPECT_EQ(areas[1].name, "7");
+  EXPECT_EQ(readClassSites(fileOf("c.geojson", feature(R"({"type":"MultiPoint","coordinates":[[
+            500,1],[2,3]]})")))
+                .size(),
+            2U);
+}
+
+TEST(ClassSites, BadGeoJsonIsNamed) {
+  const auto refused = [](const std::string& text) {
+    return messageOf([&] { readClassSites(fileOf("bad.geojson", text)); });
+  };
+  EXPECT_NE(refused("{").find("no GeoJSON"), std::string::npos);
+  EXPECT_NE(refused(R"({"features":[{"geometry":null}]})").find("feature 1"), std::string::npos);
+  EXPECT_NE(refused(feature(R"({"type":"Point","coordinates":[8.5,48.1]})")).find("degrees"),
+            std::string::npos);
+  EXPECT_NE(refused(feature(R"({"type":"LineString","coordinates":[[500,1],[2,3]]})")).find("Line"),
+            std::string::npos);
+  EXPECT_NE(
+      refused(feature(R"({"type":"Polygon","coordinates":[[[500,1],[2,3]]]})")).find("closed"),
+      std::string::npos);
+  EXPECT_NE(refused(feature(R"({"type":"Point","coordinates":["a",3]})")).find("numbers"),
+            std::string::npos);
+}
+
+TEST(CountTable, ReadsRowsInAnyOrder) {
+  const CountTable table = readCountTable(fileOf("m.csv", "is,Tree,Soil\nSoil,3,4\nTree,1,2\n"));
+  EXPECT_EQ(table.classes, (std::vector<std::string>{"Tree", "Soil"}));
+  EXPECT_EQ(table.counts[0], (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(table.counts[1], (std::vector<std::int64_t>{3, 4}));
+  for (const char* bad : {"is,a,b\na,1,2\n", "is,a,b\na,1,2\na,3,4\n", "is,a,b\na,1,2\nc,3,4\n",
+                          "is,a,b\na,1,x\nb,3,4\n", "is,a,b\na,1,-2\nb,3,4\n", "is,a\na,1\n",
+                          "is,a,b\na,1,1.5\nb,3,4\n"})
+    EXPECT_NE(messageOf([&] { readCountTable(fileOf("bad.csv", bad)); }), "no error") << bad;
+}
+
+TEST(CheckedSites, ComeBackAsTheyWere) {
+  const fs::path path = fileOf("checked.csv", "");
+  writeCheckedSites(path, {{{512000.125, 5403000.5}, "tree", "soil"}, {{1, 2}, "soil", ""}});
+  EXPECT_TRUE(holdsCheckedSites(path));
+  EXPECT_FALSE(holdsCheckedSites(fileOf("m2.csv", "is,a,b\na,1,2\nb,3,4\n")));
+  const auto sites = readCheckedSites(path);
+  ASSERT_EQ(sites.size(), 2U);
+  EXPECT_EQ(sites[0].place, Eigen::Vector2d(512000.125, 5403000.5));
+  EXPECT_EQ(sites[0].classified, "soil");
+  EXPECT_EQ(sites[1].classified, "");
+}
+
+}  // namespace
+}  // namespace pcl_als
