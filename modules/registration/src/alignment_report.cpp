@@ -61,7 +61,7 @@ void AlignmentReport::fillParameters(PatchAlignmentResult& result) const {
 }
 
 void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& result) const {
-  const PatchAdjustment adjustment(pairs_, frame_, true, 1);
+  const PatchAdjustment adjustment(pairs_, frame_, Robustness(), 1);
   const auto parts = adjustment.accumulateGroups(scatter_, groups);
   result.jackknife_groups = parts.size();
   UnknownsMatrix weak = UnknownsMatrix::Zero();
@@ -76,8 +76,10 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
   if (scatter.trace() > 0.0) result.covariance_jackknife = ofParameters(scatter, result.motion);
   Matrix6d raise = Matrix6d::Identity();
   for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
-    const double ratio = result.covariance_jackknife(p, p) / result.covariance_formal(p, p);
-    raise(p, p) = !result.parameters[p].determined ? 0.0 : std::sqrt(std::max(1.0, ratio));
+    const double formal_variance = result.covariance_formal(p, p);
+    const double excess = result.surface_std[p] * result.surface_std[p];
+    const double variance = std::max(formal_variance, result.covariance_jackknife(p, p)) + excess;
+    raise(p, p) = !result.parameters[p].determined ? 0.0 : std::sqrt(variance / formal_variance);
   }
   result.covariance = raise * result.covariance_formal * raise;
   const auto keep = (raise.diagonal().array() > 0.0).cast<double>().matrix().asDiagonal();
@@ -88,7 +90,7 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
 }
 
 void AlignmentReport::fillFit(PatchAlignmentResult& result) const {
-  constexpr double cut = PatchAdjustment::kCut;
+  const double cut = Robustness().cut;
   RunningStatistics before, after, vertical_before, vertical_after;
   for (const PatchPair& pair : pairs_) {
     if (pair.source_point) ++result.source_points;

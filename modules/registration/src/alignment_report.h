@@ -36,7 +36,7 @@ class AlignmentReport {
   const PatchPairs& pairs_;
   AdjustmentFrame frame_;
   ScatterBySlope scatter_;
-  const Directions& directions_;
+  Directions directions_;
   const PatchAlignmentSettings& settings_;
 };
 

@@ -14,7 +14,6 @@
 namespace pcl_als::registration {
 namespace {
 
-constexpr double kHuber = 1.5;                                 // standard deviations
 constexpr std::array<double, 3> kTiltSteps{0.087, 0.26, 0.5};  // sines: 5, 15, 30 degrees
 constexpr std::size_t kFewestInStep = 30;
 constexpr double kLeastScatter = 1e-6;  // metres
@@ -93,8 +92,8 @@ double PatchAdjustment::weightOf(double rest, const PatchPair& pair,
                                  const ScatterBySlope& scatter) const {
   const double sigma = scatter.of(pair) * std::sqrt(pair.variance);
   const double deviations = std::abs(rest) / sigma;
-  if (cut_ && deviations > kCut) return 0.0;
-  return std::min(1.0, kHuber / std::max(deviations, 1e-9)) / (sigma * sigma);
+  if (deviations > robustness_.cut) return 0.0;
+  return std::min(1.0, robustness_.huber / std::max(deviations, 1e-9)) / (sigma * sigma);
 }
 
 NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,

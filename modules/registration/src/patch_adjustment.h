@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -67,16 +68,25 @@ struct ScatterBySlope {
   double all() const;  ///< of unit weight: the root of the mean square over all pairs, metres
 };
 
-/** \brief Robust least squares over pairs: Huber weights to 1.5 standard deviations and, unless
- * movement is still to come, none beyond 4.5; 1 / (variance scatter^2) below. All sums are over
- * fixed chunks: the same whatever the number of threads.
+/// How pairs that fit badly are weighed, in standard deviations: by Huber's weights from the first
+/// on, not at all beyond the second.
+struct Robustness {
+  double huber = 1.5, cut = 4.5;
+
+  /// Movement is still to come: nothing can be told from an outlier yet.
+  static Robustness whileMoving() { return {1.5, std::numeric_limits<double>::infinity()}; }
+  /// Hardly robust, for a second opinion.
+  static Robustness trusting() { return {10.0, 20.0}; }
+};
+
+/** \brief Robust least squares over pairs; a pair that fits weighs 1 / (variance scatter^2). All
+ * sums are over fixed chunks: the same whatever the number of threads.
  */
 class PatchAdjustment {
  public:
-  static constexpr double kCut = 4.5;  ///< standard deviations
-
-  PatchAdjustment(const PatchPairs& pairs, const AdjustmentFrame& frame, bool cut, int threads)
-      : pairs_(pairs), frame_(frame), cut_(cut), threads_(threads) {}
+  PatchAdjustment(const PatchPairs& pairs, const AdjustmentFrame& frame,
+                  const Robustness& robustness, int threads)
+      : pairs_(pairs), frame_(frame), robustness_(robustness), threads_(threads) {}
 
   ScatterBySlope scatter(const Unknowns& unknowns) const;
   NormalEquations accumulate(const Unknowns& unknowns, const ScatterBySlope& scatter) const;
@@ -89,7 +99,7 @@ class PatchAdjustment {
 
   const PatchPairs& pairs_;
   const AdjustmentFrame& frame_;
-  bool cut_;
+  Robustness robustness_;
   int threads_;
 };
 

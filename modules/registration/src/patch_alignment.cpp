@@ -31,6 +31,7 @@ constexpr std::size_t kFewestPairs = 50;
 constexpr double kGroups = 60.0;   // of the jackknife, about
 constexpr double kResting = 5e-3;  // metres
 constexpr double kSwing = 10.0;    // updates that may swing, of the convergence
+constexpr double kUnlikely = 2.0;             // standard deviations
 constexpr double kFrozen = 1e-3;   // metres: below, scatter and threshold stay
 
 struct Extent {
@@ -68,7 +69,11 @@ class Alignment {
   void alignCoarsely();
   void alignLevel(std::vector<AreaSurfaces>& level, double cell);
   std::vector<AreaSurfaces> prepareAreas(const WorkingPoints& source, const WorkingPoints& target);
+  void chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceLimits& limits,
+                        std::size_t count) const;
   bool alignFinely(std::vector<AreaSurfaces>& areas);
+  void compareWithAllSurfaces(std::vector<AreaSurfaces>& areas);
+  bool isSmall(const Unknowns& update) const;
   Unknowns adjust(const PatchPairs& pairs, double limit, double prior);
   AdjustmentFrame frame() const { return {motion_ * centroid_, radius_, settings_.estimate_scale}; }
   PatchAlignmentResult fail(Status status, const std::string& message);
@@ -84,7 +89,8 @@ class Alignment {
   Affine3d motion_ = Affine3d::Identity();
   ScatterBySlope scatter_;
   double threshold_ = 0.0;
-  bool resting_ = false;  ///< hardly anything moves: outliers are told from what has to move
+  Robustness robustness_ = Robustness::whileMoving();
+  SurfaceLimits limits_;
   Directions directions_;
   PatchPairs pairs_;
   PatchAlignmentResult result_;
@@ -189,7 +195,7 @@ void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
 Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) {
   constexpr int kPasses = 3;
   const AdjustmentFrame about = frame();
-  const PatchAdjustment adjustment(pairs, about, resting_, settings_.threads);
+  const PatchAdjustment adjustment(pairs, about, robustness_, settings_.threads);
   Unknowns update = Unknowns::Zero();
   for (int pass = 0; pass < kPasses; ++pass) {
     scatter_ = adjustment.scatter(update);
@@ -211,20 +217,59 @@ std::vector<AreaSurfaces> Alignment::prepareAreas(const WorkingPoints& source,
     const AreaSurfaces& area = areas[i / 2];
     (i % 2 == 0 ? area.source : area.target).sampleRoughness(samples, roughness[i]);
   });
-  SurfaceLimits limits;
   std::vector<double> of_cloud[2];
   for (std::size_t i = 0; i < roughness.size(); ++i)
     of_cloud[i % 2].insert(of_cloud[i % 2].end(), roughness[i].begin(), roughness[i].end());
   for (std::vector<double>& values : of_cloud)
     if (!values.empty())
-      limits.plain_roughness = std::max(limits.plain_roughness, medianInPlace(values));
-  limits.roughness = std::clamp(3.0 * limits.plain_roughness, 0.005, limits.roughness);
-  const std::size_t candidates = std::max<std::size_t>(1, settings_.pairs / areas.size());
-  parallelFor(roughness.size(), settings_.threads, [&](std::size_t i) {
-    AreaSurfaces& area = areas[i / 2];
-    (i % 2 == 0 ? area.source : area.target).chooseCandidates(candidates, limits);
-  });
+      limits_.plain_roughness = std::max(limits_.plain_roughness, medianInPlace(values));
+  limits_.roughness = std::clamp(3.0 * limits_.plain_roughness, 0.005, limits_.roughness);
+  chooseCandidates(areas, limits_, settings_.pairs);
   return areas;
+}
+
+void Alignment::chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceLimits& limits,
+                                 std::size_t count) const {
+  const std::size_t of_area = std::max<std::size_t>(1, count / areas.size());
+  parallelFor(2 * areas.size(), settings_.threads, [&](std::size_t i) {
+    AreaSurfaces& area = areas[i / 2];
+    (i % 2 == 0 ? area.source : area.target).chooseCandidates(of_area, limits);
+  });
+}
+
+/// A second opinion from all surfaces, hardly robust: what it differs by more than by chance.
+void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
+  constexpr int kIterations = 8;
+  const Affine3d motion = motion_;
+  SurfaceLimits all = limits_;
+  all.roughness = 20.0 * limits_.plain_roughness;
+  all.edges = 8.0;
+  all.slope = 1.45;
+  chooseCandidates(areas, all, settings_.pairs / 2);
+  robustness_ = Robustness::trusting();
+  PatchPairs pairs;
+  for (int i = 0; i < kIterations; ++i) {
+    pairs = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads);
+    const Unknowns update = adjust(pairs, settings_.determined_std / 3.0, 1e9);
+    motion_ = frame().motionOf(update) * motion_;
+    if (update.norm() < 1e-4) break;
+  }
+  const AdjustmentFrame about = frame();
+  const UnknownsMatrix chance =
+      jackknife(PatchAdjustment(pairs, about, robustness_, settings_.threads)
+                    .accumulateGroups(scatter_, groups_.size()),
+                directions_);
+  const RigidMotion there = RigidMotion::about(centroid_, motion_);
+  motion_ = motion;
+  const RigidMotion here = RigidMotion::about(centroid_, motion_);
+  for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
+    const double scale = p < 3 ? 1.0 : 1.0 / radius_;
+    const double difference = p < 3 ? (there.shift - here.shift)[p]
+                                    : (there.rotation - here.rotation)[p - 3];
+    const double variance = scale * scale * chance(p, p), square = difference * difference;
+    if (square > kUnlikely * kUnlikely * variance)
+      result_.surface_std[p] = std::sqrt(square - variance);
+  }
 }
 
 bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
@@ -241,13 +286,19 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
     if (moved < kFrozen && moved > 0.5 * previous) step *= 0.5;
     previous = moved;
     motion_ = frame().motionOf(step * update) * motion_;
-    if (step * moved < settings_.convergence && moved < kSwing * settings_.convergence) return true;
-    resting_ = moved < kResting;
+    if (step * moved < settings_.convergence && isSmall(update)) return true;
+    robustness_ = moved < kResting ? Robustness() : Robustness::whileMoving();
     if (moved > kFrozen)
       threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);
   }
   --result_.iterations;
   return false;
+}
+
+/// Whether an update is far below what the estimate is known to.
+bool Alignment::isSmall(const Unknowns& update) const {
+  const Unknowns parts = directions_.vectors.transpose() * update;
+  return parts.cwiseAbs2().dot(directions_.values) < kSwing * kSwing;
 }
 
 PatchAlignmentResult Alignment::run(const PointView& source, const PointView& target) {
@@ -267,7 +318,8 @@ PatchAlignmentResult Alignment::run(const PointView& source, const PointView& ta
   const Affine3d total = about_reference.inverse() * motion_ * about_reference * guess_;
   const Vector3d centroid = guess_.inverse() * (centroid_ + reference_);
   result_.motion = RigidMotion::about(centroid, total);
-  AlignmentReport report(pairs_, frame(), scatter_, directions_, settings_);
+  const AlignmentReport report(pairs_, frame(), scatter_, directions_, settings_);
+  if (converged) compareWithAllSurfaces(areas);
   report.fill(groups_.size(), result_);
   return result_;
 }

@@ -12,10 +12,8 @@ namespace pcl_als::registration {
 namespace {
 
 constexpr std::int32_t kUnknown = -1, kUnfit = -2;
-constexpr double kEdgeFactor = 3.0;        // longest edge against the median of the TIN
-constexpr double kCoarseEdgeFactor = 6.0;  // the same for the TIN of lowest points
-constexpr double kSteepest = 1.05;         // radians: a wall, or a triangle across an eave
-constexpr double kGentle = 0.26;           // radians
+constexpr double kCoarseEdges = 6.0;  // longest edge against the median, TIN of lowest points
+constexpr double kGentle = 0.26;      // radians
 constexpr int kFewestVertices = 7;         // in a neighbourhood
 constexpr std::size_t kEdgeSamples = 3000;
 
@@ -37,13 +35,13 @@ double medianEdge(const Tin& tin) {
 SurfaceSide::SurfaceSide(std::vector<Eigen::Vector3d> points, const Eigen::AlignedBox2d& box,
                          double resolution)
     : surface_(Tin(std::move(points), resolution)), box_(box) {
-  longest_edge_ = kEdgeFactor * medianEdge(surface_.tin());
+  median_edge_ = medianEdge(surface_.tin());
   verdicts_.assign(surface_.tin().triangles().size(), kUnknown);
 }
 
 bool SurfaceSide::acceptable(const PatchQuality& quality) const {
-  return !quality.on_hull && quality.slope <= kSteepest && quality.vertices >= kFewestVertices &&
-         quality.longest_edge <= longest_edge_ / std::cos(quality.slope) &&
+  return !quality.on_hull && quality.slope <= limits_.slope && quality.vertices >= kFewestVertices &&
+         quality.longest_edge <= limits_.edges * median_edge_ / std::cos(quality.slope) &&
          quality.roughness <= limits_.roughness;
 }
 
@@ -79,6 +77,9 @@ std::vector<std::vector<std::int32_t>> SurfaceSide::trianglesByClass() const {
 
 void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceLimits& limits) {
   limits_ = limits;
+  verdicts_.assign(verdicts_.size(), kUnknown);
+  planes_.clear();
+  candidates_.clear();
   // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
   // is there.
   constexpr std::size_t kLooks = 2;
@@ -106,7 +107,7 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceLimits& limit
 
 void SurfaceSide::makeCoarse(std::size_t count) {
   coarse_ = true;
-  longest_edge_ *= kCoarseEdgeFactor / kEdgeFactor;
+  limits_.edges = kCoarseEdges;
   const auto& points = surface_.tin().points();
   const std::size_t step = 1 + points.size() / count;
   for (std::size_t i = 0; i < points.size(); i += step) candidates_.push_back({points[i], {}});
@@ -132,13 +133,13 @@ bool SurfaceSide::judge(std::int32_t triangle, PatchPlane& plane) const {
 
 bool SurfaceSide::judgeCoarse(std::int32_t triangle, PatchPlane& plane) const {
   plane = {surface_.normal(triangle), 0.0};
-  if (plane.normal.z() < std::cos(kSteepest)) return false;
+  if (plane.normal.z() < std::cos(limits_.slope)) return false;
   const Tin::Triangle& t = surface_.tin().triangles()[triangle];
   for (int i = 0; i < 3; ++i) {
     if (t.neighbour[i] == Tin::kNone) return false;
     const Eigen::Vector3d& a = surface_.tin().points()[t.vertex[i]];
     const Eigen::Vector3d& b = surface_.tin().points()[t.vertex[(i + 1) % 3]];
-    if ((a - b).head<2>().norm() > longest_edge_) return false;
+    if ((a - b).head<2>().norm() > limits_.edges * median_edge_) return false;
   }
   return true;
 }

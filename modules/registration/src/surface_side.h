@@ -14,6 +14,8 @@ namespace pcl_als::registration {
 /// What makes a surface smooth enough to measure to; found from the data.
 struct SurfaceLimits {
   double roughness = 0.3;        ///< metres, RMS of a neighbourhood about its plane, at most
+  double edges = 3.0;            ///< longest edge against the median of the TIN
+  double slope = 1.05;           ///< radians: steeper is a wall, or a triangle across an eave
   double plain_roughness = 0.0;  ///< metres, what the noise alone makes of plain ground
 };
 
@@ -48,7 +50,8 @@ class SurfaceSide {
 
   /// Roughness on gentle slopes at about \a count places in the box.
   void sampleRoughness(std::size_t count, std::vector<double>& values) const;
-  /// At most \a count candidates on smooth surfaces, evenly over slopes and aspects.
+  /// At most \a count candidates on surfaces within the limits, evenly over slopes and aspects; in
+  /// place of those chosen before.
   void chooseCandidates(std::size_t count, const SurfaceLimits& limits);
   /// Every n-th point of all, \a count at most; from now on this side is coarse.
   void makeCoarse(std::size_t count);
@@ -68,7 +71,7 @@ class SurfaceSide {
   Eigen::AlignedBox2d box_;
   std::vector<Candidate> candidates_;
   SurfaceLimits limits_;
-  double longest_edge_ = 0.0;  ///< metres in plan, limit
+  double median_edge_ = 0.0;  ///< metres in plan
   bool coarse_ = false;
   std::vector<std::int32_t> verdicts_;  ///< by triangle: index into planes_, or kUnknown, kUnfit
   std::vector<PatchPlane> planes_;
