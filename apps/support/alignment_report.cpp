@@ -18,8 +18,12 @@ using Result = PatchAlignmentResult;
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
 /// Internal units (m, rad) per unit of the file (m, deg).
-double unitOf(int parameter) { return parameter < 3 ? 1.0 : kRadiansPerDegree; }
-const char* unitName(int parameter) { return parameter < 3 ? "m" : "deg"; }
+double unitOf(int parameter) {
+  return parameter < 3 ? 1.0 : kRadiansPerDegree;
+}
+const char* unitName(int parameter) {
+  return parameter < 3 ? "m" : "deg";
+}
 
 double valueOf(const Result& result, int parameter) {
   return (parameter < 3 ? result.motion.shift[parameter] : result.motion.rotation[parameter - 3]) /
@@ -28,10 +32,14 @@ double valueOf(const Result& result, int parameter) {
 
 const char* statusName(Result::Status status) {
   switch (status) {
-    case Result::Status::converged: return "converged";
-    case Result::Status::not_converged: return "not_converged";
-    case Result::Status::too_few_pairs: return "too_few_pairs";
-    case Result::Status::no_overlap: return "no_overlap";
+    case Result::Status::converged:
+      return "converged";
+    case Result::Status::not_converged:
+      return "not_converged";
+    case Result::Status::too_few_pairs:
+      return "too_few_pairs";
+    case Result::Status::no_overlap:
+      return "no_overlap";
   }
   return "";
 }

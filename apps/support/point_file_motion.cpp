@@ -63,7 +63,8 @@ std::uint64_t movePcd(const fs::path& input, const fs::path& output, const Rigid
 
 void checkMovable(const fs::path& input, const fs::path& output) {
   if ((extensionOf(input) == ".pcd") != (extensionOf(output) == ".pcd"))
-    throw UsageError(output.string() + ": source and output must be of one kind, .las/.laz or .pcd");
+    throw UsageError(output.string() +
+                     ": source and output must be of one kind, .las/.laz or .pcd");
   std::error_code absent;
   if (fs::equivalent(input, output, absent))
     throw UsageError(output.string() + ": source and output are the same file");

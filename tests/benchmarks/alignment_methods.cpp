@@ -2,10 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "alignment_methods.h"
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -16,8 +12,10 @@
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
-
-#include <pcl_als/registration/iterative_closest_patch.h>
+#include <pcl/search/kdtree.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #ifdef PCL_ALS_SMALL_GICP
 #include <small_gicp/registration/registration_helper.hpp>
@@ -32,29 +30,11 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Alignment patchAlignment(const Cloud::ConstPtr& source, const Cloud::ConstPtr& target,
-                         int threads) {
-  const auto start = Clock::now();
-  IterativeClosestPatch<PointLidar, PointLidar, double> icpatch;
-  icpatch.setNumberOfThreads(threads);
-  icpatch.setInputSource(source);
-  icpatch.setInputTarget(target);
-  Cloud aligned;
-  icpatch.align(aligned);
-  Alignment result;
-  result.seconds = secondsSince(start);
-  result.motion = icpatch.getTransformation().matrix();
-  result.converged = icpatch.hasConverged();
-  for (int p = 0; p < 6; ++p) result.std[p] = icpatch.getResult().standardDeviation(p);
-  return result;
-}
-
 template <typename PointT>
-typename pcl::PointCloud<PointT>::Ptr copyOf(const Cloud& cloud) {
+typename pcl::PointCloud<PointT>::Ptr copyOf(const Points& points) {
   typename pcl::PointCloud<PointT>::Ptr copy(new pcl::PointCloud<PointT>);
-  copy->resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    (*copy)[i].getVector3fMap() = cloud[i].getVector3fMap();
+  copy->resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) (*copy)[i].getVector3fMap() = points[i];
   return copy;
 }
 
@@ -82,38 +62,32 @@ Alignment finish(Icp& icp, const CloudPtr& source, const CloudPtr& target,
   return result;
 }
 
-Alignment icpWithNormals(const Cloud::ConstPtr& source, const Cloud::ConstPtr& target,
-                         int neighbours, int threads) {
-  const auto moving = copyOf<pcl::PointNormal>(*source);
-  const auto fixed = copyOf<pcl::PointNormal>(*target);
+Alignment icpWithNormals(const Points& source, const Points& target, int neighbours, int threads) {
+  const auto moving = copyOf<pcl::PointNormal>(source);
+  const auto fixed = copyOf<pcl::PointNormal>(target);
   const auto start = Clock::now();
   addNormals(moving, neighbours, threads);
   addNormals(fixed, neighbours, threads);
-  pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal, double> icp;
+  pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
   icp.setMaximumIterations(50);
   icp.setTransformationEpsilon(1e-10);
   return finish(icp, moving, fixed, start);
 }
 
-Alignment generalizedIcp(const Cloud::ConstPtr& source, const Cloud::ConstPtr& target) {
-  const auto moving = copyOf<pcl::PointXYZ>(*source), fixed = copyOf<pcl::PointXYZ>(*target);
+Alignment generalizedIcp(const Points& source, const Points& target) {
+  const auto moving = copyOf<pcl::PointXYZ>(source), fixed = copyOf<pcl::PointXYZ>(target);
   const auto start = Clock::now();
   pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> icp;
   return finish(icp, moving, fixed, start);
 }
 
 #ifdef PCL_ALS_SMALL_GICP
-Alignment smallGicp(const Cloud::ConstPtr& source, const Cloud::ConstPtr& target, double voxel,
-                    int threads) {
-  std::vector<Eigen::Vector3f> moving, fixed;
-  for (const PointLidar& p : *source) moving.emplace_back(p.getVector3fMap());
-  for (const PointLidar& p : *target) fixed.emplace_back(p.getVector3fMap());
+Alignment smallGicp(const Points& source, const Points& target, double voxel, int threads) {
   const auto start = Clock::now();
   small_gicp::RegistrationSetting setting;
   setting.num_threads = threads;
   setting.downsampling_resolution = voxel;
-  const auto found =
-      small_gicp::align(fixed, moving, Eigen::Isometry3d::Identity(), setting);
+  const auto found = small_gicp::align(target, source, Eigen::Isometry3d::Identity(), setting);
   Alignment result;
   result.seconds = secondsSince(start);
   result.motion = found.T_target_source.matrix();
@@ -122,11 +96,11 @@ Alignment smallGicp(const Cloud::ConstPtr& source, const Cloud::ConstPtr& target
 }
 #endif
 
-void writeText(const Cloud& cloud, const std::filesystem::path& path) {
+void writeText(const Points& points, const std::filesystem::path& path) {
   std::ofstream out(path);
   char line[100];
-  for (const PointLidar& p : cloud) {
-    std::snprintf(line, sizeof line, "%.4f %.4f %.4f\n", p.x, p.y, p.z);
+  for (const Eigen::Vector3f& p : points) {
+    std::snprintf(line, sizeof line, "%.4f %.4f %.4f\n", p.x(), p.y(), p.z());
     out << line;
   }
 }
@@ -138,9 +112,7 @@ Eigen::Matrix4d lastMatrix(const std::filesystem::path& log) {
   for (std::string line; std::getline(in, line);) {
     Eigen::RowVector4d row;
     const std::size_t bracket = line.find('[');
-    if (bracket == std::string::npos || line.find("H =") != std::string::npos) {
-      if (bracket == std::string::npos) continue;
-    }
+    if (bracket == std::string::npos) continue;
     if (std::sscanf(line.c_str() + bracket, "[%lf %lf %lf %lf]", &row[0], &row[1], &row[2],
                     &row[3]) == 4)
       rows.push_back(row);
@@ -152,13 +124,13 @@ Eigen::Matrix4d lastMatrix(const std::filesystem::path& log) {
 }
 
 /// A program that reads text: reading is in its time. It prints the iteration's own time, too.
-Alignment simpleIcp(const Cloud::ConstPtr& source, const Cloud::ConstPtr& target,
-                    const std::string& program, int correspondences) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("alignment_methods_" + std::to_string(getpid()));
+Alignment simpleIcp(const Points& source, const Points& target, const std::string& program,
+                    int correspondences) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("alignment_methods_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
-  writeText(*target, folder / "fixed.xyz");
-  writeText(*source, folder / "moving.xyz");
+  writeText(target, folder / "fixed.xyz");
+  writeText(source, folder / "moving.xyz");
   const std::string command = "\"" + program + "\" -f \"" + (folder / "fixed.xyz").string() +
                               "\" -m \"" + (folder / "moving.xyz").string() + "\" -c " +
                               std::to_string(correspondences) + " -o 1 > \"" +
@@ -179,6 +151,17 @@ double peakMegabytes(int who) {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+double cpuSeconds() {
+  double seconds = 0.0;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+      seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
+  return seconds;
+}
+
 double residentMegabytes() {
   std::ifstream statm("/proc/self/statm");
   long total = 0, resident = 0;
@@ -188,30 +171,24 @@ double residentMegabytes() {
 
 }  // namespace
 
-std::vector<AlignmentMethod> alignmentMethods(int threads, const std::string& simpleicp,
-                                              const std::string& filter) {
-  using Pair = const Cloud::ConstPtr&;
+std::vector<AlignmentMethod> otherMethods(int threads, const std::string& simpleicp) {
+  using P = const Points&;
   std::vector<AlignmentMethod> all;
-  all.push_back({"pcl_als ICPatch", [=](Pair a, Pair b) { return patchAlignment(a, b, threads); }});
 #ifdef PCL_ALS_SMALL_GICP
-  all.push_back({"small_gicp GICP", [=](Pair a, Pair b) { return smallGicp(a, b, 0.25, threads); }});
+  all.push_back({"small_gicp GICP", [=](P a, P b) { return smallGicp(a, b, 0.25, threads); }});
 #endif
   for (const int k : {15, 45})
     all.push_back({"PCL ICP with normals, k = " + std::to_string(k),
-                   [=](Pair a, Pair b) { return icpWithNormals(a, b, k, threads); }});
-  all.push_back({"PCL GICP", [](Pair a, Pair b) { return generalizedIcp(a, b); }});
+                   [=](P a, P b) { return icpWithNormals(a, b, k, threads); }});
+  all.push_back({"PCL GICP", [](P a, P b) { return generalizedIcp(a, b); }});
   if (!simpleicp.empty())
     for (const int count : {1000, 100000})
       all.push_back({"simpleICP -c " + std::to_string(count),
-                     [=](Pair a, Pair b) { return simpleIcp(a, b, simpleicp, count); }});
-  std::vector<AlignmentMethod> chosen;
-  for (AlignmentMethod& method : all)
-    if (method.name.find(filter) != std::string::npos) chosen.push_back(std::move(method));
-  return chosen;
+                     [=](P a, P b) { return simpleIcp(a, b, simpleicp, count); }});
+  return all;
 }
 
-Alignment runAlone(const AlignmentMethod& method, const Cloud::ConstPtr& source,
-                   const Cloud::ConstPtr& target) {
+Alignment runAlone(const AlignmentMethod& method, const Points& source, const Points& target) {
   int channel[2];
   if (pipe(channel) != 0) throw std::runtime_error("no pipe");
   std::fflush(stdout);
@@ -221,6 +198,7 @@ Alignment runAlone(const AlignmentMethod& method, const Cloud::ConstPtr& source,
     close(channel[0]);
     const double before = residentMegabytes();
     Alignment result = method.align(source, target);
+    result.cpu_seconds = cpuSeconds();
     result.megabytes =
         std::max(peakMegabytes(RUSAGE_SELF) - before, peakMegabytes(RUSAGE_CHILDREN));
     const bool written = write(channel[1], &result, sizeof result) == sizeof result;

@@ -9,6 +9,8 @@
 // process of its own: simulated pairs with a known motion (scene, flight and noise new for every
 // seed; 2 cm range noise), or two strips of files as they are. Prints time, memory and, where it is
 // known, the error, as Markdown; see alignment_peers.md.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -26,7 +28,8 @@ namespace {
 
 using namespace pcl_als;
 using bench::Alignment;
-using bench::Cloud;
+using bench::AlignmentMethod;
+using bench::Points;
 using Eigen::Vector3d;
 
 constexpr double kArcsecond = 4.84813681109536e-6;
@@ -41,7 +44,7 @@ struct Options {
 
 /// Both clouds relative to one origin, and the motion that brings source onto target if known.
 struct StripPair {
-  Cloud::Ptr source{new Cloud}, target{new Cloud};
+  Points source, target;
   Vector3d centroid = Vector3d::Zero();
   bool known = false;
   RigidMotion truth;
@@ -79,10 +82,10 @@ bool parse(int argc, char** argv, Options& options) {
   return options.files.empty() == options.source.empty();
 }
 
-Vector3d meanOf(const Cloud& cloud) {
+Vector3d meanOf(const Points& points) {
   Vector3d sum = Vector3d::Zero();
-  for (const PointLidar& p : cloud) sum += p.getVector3fMap().cast<double>();
-  return sum / static_cast<double>(cloud.size());
+  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
+  return sum / static_cast<double>(points.size());
 }
 
 /// 36 cm and up to 0.05 degrees: within reach of methods that pair points up to 1 m.
@@ -103,22 +106,48 @@ StripPair simulatedPair(int seed, double density) {
   const simulation::Simulator simulator(options);
   StripPair pair;
   for (const std::size_t strip : {0, 1}) {
-    Cloud& cloud = *(strip == 0 ? pair.source : pair.target);
+    Points& cloud = strip == 0 ? pair.source : pair.target;
     simulator.simulateStrip(strip, 0, [&](const std::vector<simulation::SimulatedPoint>& points) {
-      for (const auto& p : points) {
-        PointLidar point;
-        point.getVector3fMap() = (p.position - options.origin).cast<float>();
-        cloud.push_back(point);
-      }
+      for (const auto& p : points) cloud.emplace_back((p.position - options.origin).cast<float>());
     });
   }
   pair.known = true;
-  pair.truth = knownMotion(meanOf(*pair.target));
+  pair.truth = knownMotion(meanOf(pair.target));
   pair.centroid = pair.truth.centroid;
   const RigidMotion back = pair.truth.inverse();
-  for (PointLidar& p : *pair.source)
-    p.getVector3fMap() = back.apply(p.getVector3fMap().cast<double>()).cast<float>();
+  const Eigen::Affine3d moving = back.transformation();
+  for (Eigen::Vector3f& p : pair.source) p = (moving * p.cast<double>()).cast<float>();
   return pair;
+}
+
+Alignment alignOwn(const Points& source, const Points& target, int threads) {
+  pcl::PointCloud<pcl::PointXYZ>::Ptr clouds[2];
+  for (const bool moving : {true, false}) {
+    auto& cloud = clouds[moving ? 0 : 1];
+    cloud.reset(new pcl::PointCloud<pcl::PointXYZ>);
+    for (const Eigen::Vector3f& p : moving ? source : target)
+      cloud->push_back(pcl::PointXYZ(p.x(), p.y(), p.z()));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  IterativeClosestPatch<pcl::PointXYZ, pcl::PointXYZ, double> icpatch;
+  icpatch.setNumberOfThreads(threads);
+  icpatch.setInputSource(clouds[0]);
+  icpatch.setInputTarget(clouds[1]);
+  pcl::PointCloud<pcl::PointXYZ> aligned;
+  icpatch.align(aligned);
+  Alignment result;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.motion = icpatch.getTransformation().matrix();
+  result.converged = icpatch.hasConverged();
+  for (int p = 0; p < 6; ++p) result.std[p] = icpatch.getResult().standardDeviation(p);
+  for (int p = 0; p < 3; ++p) result.centroid[p] = icpatch.getResult().motion.centroid[p];
+  return result;
+}
+
+AlignmentMethod ownMethod(int threads) {
+  return {"pcl_als ICPatch", [threads](const Points& source, const Points& target) {
+            return alignOwn(source, target, threads);
+          }};
 }
 
 StripPair readPair(const Options& options) {
@@ -129,18 +158,12 @@ StripPair readPair(const Options& options) {
       if (strip.id != (source != options.swap ? options.source : options.target)) continue;
       if (origin.isZero()) origin = strip.frame.origin;
       const Vector3d shift = strip.frame.origin - origin;
-      for (PointLidar p : *strip.cloud) {
-        p.getVector3fMap() += shift.cast<float>();
-        (source ? pair.source : pair.target)->push_back(p);
-      }
+      for (const PointLidar& p : *strip.cloud)
+        (source ? pair.source : pair.target).emplace_back(p.getVector3fMap() + shift.cast<float>());
     }
   }
-  IterativeClosestPatch<PointLidar, PointLidar, double> icpatch;
-  icpatch.setInputSource(pair.source);
-  icpatch.setInputTarget(pair.target);
-  Cloud aligned;
-  icpatch.align(aligned);
-  pair.centroid = icpatch.getResult().motion.centroid;  // of the overlap
+  const Alignment own = bench::runAlone(ownMethod(options.threads), pair.source, pair.target);
+  pair.centroid = Vector3d(own.centroid[0], own.centroid[1], own.centroid[2]);
   return pair;
 }
 
@@ -154,20 +177,29 @@ void print(const std::string& pair, const std::string& method, const StripPair& 
     shift -= strips.truth.shift * 1e3;
     turn -= strips.truth.rotation / kArcsecond;
   }
-  std::printf("| %s | %s%s | %.2f | %.0f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f |\n",
-              pair.c_str(), method.c_str(), result.converged ? "" : " (not converged)",
-              result.seconds, result.megabytes, shift.x(), shift.y(), shift.z(), shift.norm(),
-              turn.x(), turn.y(), turn.z(), turn.norm());
+  std::printf(
+      "| %s | %s%s | %.2f | %.2f | %.0f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f "
+      "|\n",
+      pair.c_str(), method.c_str(), result.converged ? "" : " (not converged)", result.seconds,
+      result.megabytes, shift.x(), shift.y(), shift.z(), shift.norm(), turn.x(), turn.y(), turn.z(),
+      turn.norm());
   if (result.std[0] > 0.0)
-    std::printf("| | reported standard deviation | | | %.1f | %.1f | %.1f | | %.1f | %.1f | %.1f | |\n",
-                result.std[0] * 1e3, result.std[1] * 1e3, result.std[2] * 1e3,
-                result.std[3] / kArcsecond, result.std[4] / kArcsecond, result.std[5] / kArcsecond);
+    std::printf(
+        "| | reported standard deviation | | | | %.1f | %.1f | %.1f | | %.1f | %.1f | %.1f | |\n",
+        result.std[0] * 1e3, result.std[1] * 1e3, result.std[2] * 1e3, result.std[3] / kArcsecond,
+        result.std[4] / kArcsecond, result.std[5] / kArcsecond);
   std::fflush(stdout);
 }
 
 void compare(const std::string& name, const StripPair& pair, const Options& options) {
-  const auto methods =
-      bench::alignmentMethods(options.threads, options.simpleicp, options.method);
+  std::vector<AlignmentMethod> methods{ownMethod(options.threads)};
+  for (AlignmentMethod& method : bench::otherMethods(options.threads, options.simpleicp))
+    methods.push_back(std::move(method));
+  methods.erase(std::remove_if(methods.begin(), methods.end(),
+                               [&](const AlignmentMethod& method) {
+                                 return method.name.find(options.method) == std::string::npos;
+                               }),
+                methods.end());
   std::vector<Alignment> best(methods.size());
   for (int round = 0; round < options.repeat; ++round) {
     for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -184,8 +216,10 @@ int main(int argc, char** argv) {
   Options options;
   if (!parse(argc, argv, options)) return 1;
   std::printf(
-      "| pair | method | s | MB | XT mm | YT mm | ZT mm | shift mm | omega \" | phi \" | kappa \" | "
-      "turn \" |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| pair | method | s | CPU s | MB | XT mm | YT mm | ZT mm | shift mm | omega \" | phi \" | "
+      "kappa \" "
+      "| "
+      "turn \" |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   if (!options.files.empty()) {
     const StripPair pair = readPair(options);
     compare(options.source + (options.swap ? " from " : " onto ") + options.target, pair, options);
@@ -193,8 +227,8 @@ int main(int argc, char** argv) {
   }
   for (int seed = options.from; seed <= options.to; ++seed) {
     const StripPair pair = simulatedPair(seed, options.density);
-    compare("seed " + std::to_string(seed) + ", " + std::to_string(pair.source->size()) + " + " +
-                std::to_string(pair.target->size()),
+    compare("seed " + std::to_string(seed) + ", " + std::to_string(pair.source.size()) + " + " +
+                std::to_string(pair.target.size()),
             pair, options);
   }
 }

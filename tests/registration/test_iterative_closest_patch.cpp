@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 using Icpatch = IterativeClosestPatch<PointLidar, PointLidar, double>;
 using Points = std::vector<Vector3d>;
 
-constexpr int kPoints = 50'000;       // two for each square metre
+constexpr int kPoints = 50'000;  // two for each square metre
 constexpr double kMillimetre = 1e-3;
 
 PatchAlignmentResult align(const Points& source, const Points& target, Icpatch& icpatch) {
@@ -94,8 +94,8 @@ class AlignedPair : public testing::Test {
 TEST_F(AlignedPair, SwappingSourceAndTargetInvertsTheAnswer) {
   const RigidMotion there = align().motion;
   std::swap(source_, target_);
-  const RigidMotion back = RigidMotion::about(there.centroid + there.shift,
-                                              align().motion.transformation());
+  const RigidMotion back =
+      RigidMotion::about(there.centroid + there.shift, align().motion.transformation());
   EXPECT_GT(there.shift.norm(), 0.3);
   EXPECT_NEAR((there.shift + back.shift).norm(), 0.0, 0.3 * kMillimetre);
   EXPECT_NEAR((there.inverse().rotation - back.rotation).norm() * 80.0, 0.0, 0.3 * kMillimetre);
@@ -106,8 +106,9 @@ TEST_F(AlignedPair, SwappingSourceAndTargetInvertsTheAnswer) {
 /// 0.2 mm in height).
 TEST_F(AlignedPair, RotatingEverythingChangesNothing) {
   const PatchAlignmentResult plain = align();
-  const Eigen::Affine3d turn = Eigen::Translation3d(300.0, -200.0, 50.0) *
-                               Eigen::AngleAxisd(0.5 * 3.14159265358979323846 + 0.3, Vector3d::UnitZ());
+  const Eigen::Affine3d turn =
+      Eigen::Translation3d(300.0, -200.0, 50.0) *
+      Eigen::AngleAxisd(0.5 * 3.14159265358979323846 + 0.3, Vector3d::UnitZ());
   source_ = test::moved(source_, turn);
   target_ = test::moved(target_, turn);
   const PatchAlignmentResult turned = align();
@@ -128,14 +129,17 @@ TEST_F(AlignedPair, GroundCoordinatesAndTwoLocalFrames) {
   icpatch.setFrames(source_frame, target_frame);
   const PatchAlignmentResult result = pcl_als::align(source_, target_, icpatch);
   ASSERT_TRUE(result.hasConverged()) << result.message;
-  EXPECT_NEAR((result.motion.centroid - source_frame.origin - plain.motion.centroid).norm(), 0.0, 1.0);
-  const RigidMotion here = RigidMotion::about(
-      plain.motion.centroid,
-      result.motion.transformation(source_frame.origin, source_frame.origin));
+  EXPECT_NEAR((result.motion.centroid - source_frame.origin - plain.motion.centroid).norm(), 0.0,
+              1.0);
+  const RigidMotion here =
+      RigidMotion::about(plain.motion.centroid,
+                         result.motion.transformation(source_frame.origin, source_frame.origin));
   EXPECT_NEAR((here.shift - plain.motion.shift).norm(), 0.0, 1.0 * kMillimetre);
   const Vector3d local = icpatch.getTransformation() * source_.front();
-  EXPECT_NEAR((local + target_frame.origin -
-               result.motion.apply(source_.front() + source_frame.origin)).norm(), 0.0, 1e-8);
+  EXPECT_NEAR(
+      (local + target_frame.origin - result.motion.apply(source_.front() + source_frame.origin))
+          .norm(),
+      0.0, 1e-8);
 }
 
 TEST_F(AlignedPair, ThreadsChangeNothing) {
@@ -151,7 +155,8 @@ TEST_F(AlignedPair, ThreadsChangeNothing) {
 
 TEST_F(AlignedPair, GuessIsPartOfTheAnswer) {
   // 300 m away: out of reach without a guess.
-  const Eigen::Affine3d away = Eigen::Translation3d(300.0, 0.0, 100.0) * Eigen::Affine3d::Identity();
+  const Eigen::Affine3d away =
+      Eigen::Translation3d(300.0, 0.0, 100.0) * Eigen::Affine3d::Identity();
   const Points far = test::moved(source_, away);
   Icpatch icpatch;
   EXPECT_FALSE(pcl_als::align(far, target_, icpatch).hasConverged());
@@ -159,8 +164,10 @@ TEST_F(AlignedPair, GuessIsPartOfTheAnswer) {
   pcl::PointCloud<PointLidar> aligned;
   icpatch.align(aligned, away.inverse().matrix());
   ASSERT_TRUE(icpatch.hasConverged());
-  const RigidMotion found = RigidMotion::about(Vector3d(80, 80, 2), icpatch.getTransformation() * away);
-  const RigidMotion plain = RigidMotion::about(Vector3d(80, 80, 2), align().motion.transformation());
+  const RigidMotion found =
+      RigidMotion::about(Vector3d(80, 80, 2), icpatch.getTransformation() * away);
+  const RigidMotion plain =
+      RigidMotion::about(Vector3d(80, 80, 2), align().motion.transformation());
   EXPECT_NEAR((found.shift - plain.shift).norm(), 0.0, 1.0 * kMillimetre);
   EXPECT_NEAR((aligned[5].getVector3fMap().cast<double>() - truth_ * source_[5]).norm(), 0.0, 0.01);
 }

@@ -14,8 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kSignificant = 5.0;  // standard deviations of a tilt from which on it is one
-constexpr double kLeastAngle = 0.09;  // radians between normals that are always allowed
-constexpr double kMostAngle = 0.35;   // radians between normals beyond which nothing is conjugate
+constexpr double kLeastAngle = 0.09;  // sine between normals that is always allowed
+constexpr double kMostAngle = 0.35;   // sine between normals beyond which nothing is conjugate
 constexpr std::size_t kChunk = 4096;
 
 /// Candidates of one side against patches of the other.
@@ -61,8 +61,8 @@ class DirectedSearch {
     const Vector3d& in_target = source_point_ ? patch.normal : candidate.plane.normal;
     const Vector3d a = turn_ * in_source;
     const double sigma = std::hypot(candidate.plane.tilt_sigma, patch.tilt_sigma);
-    const double angle = std::atan2(a.cross(in_target).norm(), a.dot(in_target));
-    if (angle > std::clamp(kSignificant * sigma, kLeastAngle, kMostAngle)) return false;
+    const double most = std::clamp(kSignificant * sigma, kLeastAngle, kMostAngle);
+    if (a.dot(in_target) < 0.0 || a.cross(in_target).squaredNorm() > most * most) return false;
     normal = (a + in_target).normalized();
     const double tilt = normal.cross(up_).norm();
     if (tilt < kSignificant * 0.5 * sigma) normal = up_;

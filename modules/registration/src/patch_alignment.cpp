@@ -31,8 +31,8 @@ constexpr std::size_t kFewestPairs = 50;
 constexpr double kGroups = 60.0;   // of the jackknife, about
 constexpr double kResting = 5e-3;  // metres
 constexpr double kSwing = 10.0;    // updates that may swing, of the convergence
-constexpr double kUnlikely = 2.0;             // standard deviations
-constexpr double kFrozen = 1e-3;   // metres: below, scatter and threshold stay
+constexpr std::size_t kSecondOpinionPairs = 25'000;
+constexpr double kFrozen = 1e-3;  // metres: below, scatter and threshold stay
 
 struct Extent {
   Eigen::AlignedBox3d box;
@@ -245,7 +245,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   all.roughness = 20.0 * limits_.plain_roughness;
   all.edges = 8.0;
   all.slope = 1.45;
-  chooseCandidates(areas, all, settings_.pairs / 2);
+  chooseCandidates(areas, all, std::min(settings_.pairs, kSecondOpinionPairs));
   robustness_ = Robustness::trusting();
   PatchPairs pairs;
   for (int i = 0; i < kIterations; ++i) {
@@ -262,14 +262,17 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   const RigidMotion there = RigidMotion::about(centroid_, motion_);
   motion_ = motion;
   const RigidMotion here = RigidMotion::about(centroid_, motion_);
+  Eigen::Matrix<double, 6, 1> excess;
   for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
     const double scale = p < 3 ? 1.0 : 1.0 / radius_;
-    const double difference = p < 3 ? (there.shift - here.shift)[p]
-                                    : (there.rotation - here.rotation)[p - 3];
-    const double variance = scale * scale * chance(p, p), square = difference * difference;
-    if (square > kUnlikely * kUnlikely * variance)
-      result_.surface_std[p] = std::sqrt(square - variance);
+    const double difference =
+        p < 3 ? (there.shift - here.shift)[p] : (there.rotation - here.rotation)[p - 3];
+    excess[p] = std::max(0.0, difference * difference - scale * scale * chance(p, p));
   }
+  // Alike in all directions of the plan: what surfaces disagree by has no axes.
+  excess.segment<2>(0).setConstant(excess.segment<2>(0).mean());
+  excess.segment<2>(3).setConstant(excess.segment<2>(3).mean());
+  result_.surface_std = excess.cwiseSqrt();
 }
 
 bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {

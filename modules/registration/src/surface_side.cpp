@@ -14,7 +14,7 @@ namespace {
 constexpr std::int32_t kUnknown = -1, kUnfit = -2;
 constexpr double kCoarseEdges = 6.0;  // longest edge against the median, TIN of lowest points
 constexpr double kGentle = 0.26;      // radians
-constexpr int kFewestVertices = 7;         // in a neighbourhood
+constexpr int kFewestVertices = 7;    // in a neighbourhood
 constexpr std::size_t kEdgeSamples = 3000;
 
 double medianEdge(const Tin& tin) {
@@ -40,7 +40,8 @@ SurfaceSide::SurfaceSide(std::vector<Eigen::Vector3d> points, const Eigen::Align
 }
 
 bool SurfaceSide::acceptable(const PatchQuality& quality) const {
-  return !quality.on_hull && quality.slope <= limits_.slope && quality.vertices >= kFewestVertices &&
+  return !quality.on_hull && quality.slope <= limits_.slope &&
+         quality.vertices >= kFewestVertices &&
          quality.longest_edge <= limits_.edges * median_edge_ / std::cos(quality.slope) &&
          quality.roughness <= limits_.roughness;
 }
@@ -61,11 +62,11 @@ void SurfaceSide::sampleRoughness(std::size_t count, std::vector<double>& values
   }
 }
 
-std::vector<std::vector<std::int32_t>> SurfaceSide::trianglesByClass() const {
+std::vector<std::vector<std::int32_t>> SurfaceSide::trianglesByClass(std::size_t step) const {
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
   const Tin& tin = surface_.tin();
   std::vector<bool> seen(tin.points().size(), false);
-  for (std::size_t t = 0; t < tin.triangles().size(); ++t) {
+  for (std::size_t t = 0; t < tin.triangles().size(); t += step) {
     const std::int32_t point = tin.triangles()[t].vertex[0];
     if (seen[point] || !box_.contains(tin.points()[point].head<2>())) continue;
     seen[point] = true;
@@ -82,8 +83,9 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceLimits& limit
   candidates_.clear();
   // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
   // is there.
-  constexpr std::size_t kLooks = 2;
-  const auto rough = trianglesByClass();
+  constexpr std::size_t kLooks = 2, kEnough = 16;
+  const std::size_t step = surface_.tin().triangles().size() / (kEnough * count);
+  const auto rough = trianglesByClass(std::max<std::size_t>(1, step));
   std::vector<std::size_t> sizes;
   for (const auto& triangles : rough) sizes.push_back(triangles.size());
   const auto looks = OrientationClasses::evenShares(sizes, kLooks * count);

@@ -65,7 +65,8 @@ class SurfaceSide {
   bool judgeCoarse(std::int32_t triangle, PatchPlane& plane) const;
   bool acceptable(const PatchQuality& quality) const;
   PatchPlane planeOf(const PatchQuality& quality) const;
-  std::vector<std::vector<std::int32_t>> trianglesByClass() const;
+  /// One triangle for each vertex in the box, every step-th, by orientation.
+  std::vector<std::vector<std::int32_t>> trianglesByClass(std::size_t step) const;
 
   PatchSurface surface_;
   Eigen::AlignedBox2d box_;

@@ -10,9 +10,15 @@ namespace pcl_als {
 
 std::size_t OrientationClasses::of(const Eigen::Vector3d& normal) {
   constexpr double kPi = 3.14159265358979323846;
-  const double slope = std::atan2(std::hypot(normal.x(), normal.y()), normal.z());
-  if (slope < kSlopeSteps[0]) return 0;
-  const int step = slope < kSlopeSteps[1] ? 0 : slope < kSlopeSteps[2] ? 1 : 2;
+  // Tangents of the steps, squared: most of a strip is flat and needs no angle.
+  static const std::array<double, 3> kTangents{std::tan(kSlopeSteps[0]), std::tan(kSlopeSteps[1]),
+                                               std::tan(kSlopeSteps[2])};
+  const double rise = normal.x() * normal.x() + normal.y() * normal.y();
+  const auto steeper = [&](int step) {
+    return normal.z() <= 0.0 || rise >= kTangents[step] * kTangents[step] * normal.z() * normal.z();
+  };
+  if (!steeper(0)) return 0;
+  const int step = !steeper(1) ? 0 : !steeper(2) ? 1 : 2;
   // Coordinates are multiples of a step, so directions along the axes and diagonals are common:
   // borders between classes lie aside, or rounding would decide.
   constexpr double kAside = 0.1234;

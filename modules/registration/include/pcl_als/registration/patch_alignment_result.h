@@ -54,7 +54,8 @@ struct PatchAlignmentResult {
   std::size_t jackknife_groups = 0;
   /// Metres, radians: by how much more than by chance an estimate from all surfaces, rough ones and
   /// edges too, differs from that of the smooth ones. Part of covariance. Where ranging depends on
-  /// the surface, no rigid motion is the whole truth, and no scatter inside the smooth ones shows it.
+  /// the surface, no rigid motion is the whole truth, and no scatter inside the smooth ones shows
+  /// it.
   Eigen::Matrix<double, kParameters, 1> surface_std = Eigen::Matrix<double, kParameters, 1>::Zero();
   double scale_std = 0.0;  ///< of motion.scale; 0 where the scale is not estimated
 

@@ -12,7 +12,7 @@ namespace pcl_als {
 /// A point and the patch it is to be brought to.
 struct PointOnPatch {
   Eigen::Vector3d point;
-  Eigen::Vector3d normal;                ///< of the patch, unit
+  Eigen::Vector3d normal;               ///< of the patch, unit
   double signed_normal_distance = 0.0;  ///< normal . (point - patch), metres
 };
 

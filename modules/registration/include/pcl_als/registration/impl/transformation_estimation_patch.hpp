@@ -29,8 +29,8 @@ void TransformationEstimationPatch<PointSource, PointTarget, Scalar>::estimate(
     if (provider_) {
       if (const PatchMatch* match = provider_->findMatch(i))
         found.push_back({point, match->normal, match->signed_normal_distance});
-    } else if (const auto match = surface->surface.closest(
-                   point, std::numeric_limits<double>::infinity(), hint)) {
+    } else if (const auto match =
+                   surface->surface.closest(point, std::numeric_limits<double>::infinity(), hint)) {
       found.push_back({point, match->normal, match->signed_normal_distance});
     }
   }
