@@ -181,8 +181,8 @@ void print(const std::string& pair, const std::string& method, const StripPair& 
       "| %s | %s%s | %.2f | %.2f | %.0f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f | %.1f "
       "|\n",
       pair.c_str(), method.c_str(), result.converged ? "" : " (not converged)", result.seconds,
-      result.megabytes, shift.x(), shift.y(), shift.z(), shift.norm(), turn.x(), turn.y(), turn.z(),
-      turn.norm());
+      result.cpu_seconds, result.megabytes, shift.x(), shift.y(), shift.z(), shift.norm(), turn.x(),
+      turn.y(), turn.z(), turn.norm());
   if (result.std[0] > 0.0)
     std::printf(
         "| | reported standard deviation | | | | %.1f | %.1f | %.1f | | %.1f | %.1f | %.1f | |\n",

@@ -229,7 +229,9 @@ TEST(IterativeClosestPatchFlat, FlatPairsSayWhatTheyDoNotDetermine) {
   for (int p = 0; p < 6; ++p) {
     EXPECT_EQ(result.parameters[p].determined, expected[p]) << PatchAlignmentResult::name(p);
     EXPECT_EQ(result.parameters[p].reason.empty(), expected[p]);
-    if (!expected[p]) EXPECT_EQ(result.standardDeviation(p), 0.0);
+    if (!expected[p]) {
+      EXPECT_EQ(result.standardDeviation(p), 0.0);
+    }
   }
   EXPECT_NE(result.message.find("XT, YT, kappa"), std::string::npos) << result.message;
   EXPECT_NEAR(result.motion.shift.z(), -0.1, 4.0 * result.standardDeviation(2));

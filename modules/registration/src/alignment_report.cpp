@@ -70,7 +70,9 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
     const double variance = std::min(sigma, kGuessStd) * std::min(sigma, kGuessStd);
     weak += variance * directions_.vectors.col(i) * directions_.vectors.col(i).transpose();
   }
-  const UnknownsMatrix formal = cofactor(directions_) + weak;
+  NormalEquations all;
+  for (const NormalEquations& part : parts) all.merge(part);
+  const UnknownsMatrix formal = cofactor(all, directions_) + weak;
   const UnknownsMatrix scatter = jackknife(parts, directions_) + weak;
   result.covariance_formal = ofParameters(formal, result.motion);
   if (scatter.trace() > 0.0) result.covariance_jackknife = ofParameters(scatter, result.motion);

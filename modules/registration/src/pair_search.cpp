@@ -41,7 +41,7 @@ class DirectedSearch {
       PatchPlane plane;
       if (!match || !patches.planeOf(match->triangle, plane)) continue;
       PatchPair pair;
-      if (!direction(*first, plane, patches.isCoarse(), pair.normal)) continue;
+      if (!direction(*first, plane, patches.isCoarse(), pair)) continue;
       fill(*first, moved, *match, pair);
       pairs.push_back(pair);
     }
@@ -52,7 +52,9 @@ class DirectedSearch {
   /// the triangle's; vertical where its tilt is not significant: noise in place of a slope would
   /// look like information about plan positions. False where the surfaces are not the same one.
   bool direction(const Candidate& candidate, const PatchPlane& patch, bool coarse,
-                 Vector3d& normal) const {
+                 PatchPair& pair) const {
+    Vector3d& normal = pair.normal;
+    pair.tilt_variance = 0.0;
     if (coarse) {
       normal = source_point_ ? patch.normal : Vector3d(turn_ * patch.normal);
       return true;
@@ -64,8 +66,11 @@ class DirectedSearch {
     const double most = std::clamp(kSignificant * sigma, kLeastAngle, kMostAngle);
     if (a.dot(in_target) < 0.0 || a.cross(in_target).squaredNorm() > most * most) return false;
     normal = (a + in_target).normalized();
-    const double tilt = normal.cross(up_).norm();
-    if (tilt < kSignificant * 0.5 * sigma) normal = up_;
+    const double noise = 0.5 * sigma;  // of the mean
+    if (normal.cross(up_).norm() < kSignificant * noise)
+      normal = up_;
+    else
+      pair.tilt_variance = noise * noise;
     return true;
   }
 

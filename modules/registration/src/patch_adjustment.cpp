@@ -15,6 +15,7 @@ namespace pcl_als::registration {
 namespace {
 
 constexpr std::array<double, 3> kTiltSteps{0.087, 0.26, 0.5};  // sines: 5, 15, 30 degrees
+constexpr double kNoiseFactor = 3.0;  // roughness may understate the noise of normals
 constexpr std::size_t kFewestInStep = 30;
 constexpr double kLeastScatter = 1e-6;  // metres
 constexpr std::size_t kChunk = 8192;
@@ -33,6 +34,18 @@ Unknowns AdjustmentFrame::rowOf(const PatchPair& pair) const {
   return row;
 }
 
+UnknownsMatrix AdjustmentFrame::noiseOf(const PatchPair& pair) const {
+  const Eigen::Vector3d arm = (pair.position - centre) / radius;
+  const Eigen::Vector3d u = pair.normal.unitOrthogonal(), v = pair.normal.cross(u);
+  UnknownsMatrix sum = UnknownsMatrix::Zero();
+  for (const Eigen::Vector3d& tangent : {u, v}) {
+    Unknowns row;
+    row << tangent, arm.cross(tangent), with_scale ? tangent.dot(arm) : 0.0;
+    sum.noalias() += (pair.tilt_variance * row) * row.transpose();
+  }
+  return sum;
+}
+
 Eigen::Affine3d AdjustmentFrame::motionOf(const Unknowns& unknowns) const {
   const Eigen::Vector3d turn = unknowns.segment<3>(3) / radius;
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
@@ -45,6 +58,7 @@ Eigen::Affine3d AdjustmentFrame::motionOf(const Unknowns& unknowns) const {
 
 void NormalEquations::merge(const NormalEquations& other) {
   matrix += other.matrix;
+  noise += other.noise;
   right += other.right;
   weights += other.weights;
 }
@@ -108,6 +122,7 @@ NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
       const double weight = weightOf(rest, pairs_[i], scatter);
       if (weight == 0.0) continue;
       sum.matrix.noalias() += (weight * row) * row.transpose();
+      if (pairs_[i].tilt_variance > 0.0) sum.noise += weight * frame_.noiseOf(pairs_[i]);
       sum.right -= weight * rest * row;
       sum.weights += weight;
     }
@@ -140,7 +155,8 @@ Directions analyse(const NormalEquations& equations, int unknowns, double limit)
   Directions directions;
   directions.unknowns = unknowns;
   directions.weights = equations.weights;
-  const Eigen::MatrixXd part = equations.matrix.topLeftCorner(unknowns, unknowns);
+  const UnknownsMatrix sure = equations.matrix - kNoiseFactor * equations.noise;
+  const Eigen::MatrixXd part = sure.topLeftCorner(unknowns, unknowns);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
   directions.vectors.topLeftCorner(unknowns, unknowns) = solver.eigenvectors();
   directions.values.head(unknowns) = solver.eigenvalues().cwiseMax(0.0);
@@ -152,21 +168,20 @@ Directions analyse(const NormalEquations& equations, int unknowns, double limit)
 
 Unknowns solveDetermined(const NormalEquations& equations, const Directions& directions,
                          double prior_information) {
-  Unknowns solution = Unknowns::Zero();
-  for (int i = directions.weak; i < directions.unknowns; ++i) {
-    const auto direction = directions.vectors.col(i);
-    solution +=
-        direction * (direction.dot(equations.right) / (directions.values[i] + prior_information));
-  }
-  return solution;
+  const int strong = directions.unknowns - directions.weak;
+  if (strong == 0) return Unknowns::Zero();
+  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  Eigen::MatrixXd normal = basis.transpose() * equations.matrix * basis;
+  normal.diagonal().array() += prior_information;
+  return basis * normal.ldlt().solve(basis.transpose() * equations.right);
 }
 
-UnknownsMatrix cofactor(const Directions& directions) {
-  UnknownsMatrix result = UnknownsMatrix::Zero();
-  for (int i = directions.weak; i < directions.unknowns; ++i)
-    result +=
-        directions.vectors.col(i) * directions.vectors.col(i).transpose() / directions.values[i];
-  return result;
+UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& directions) {
+  const int strong = directions.unknowns - directions.weak;
+  if (strong == 0) return UnknownsMatrix::Zero();
+  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  const Eigen::MatrixXd normal = basis.transpose() * equations.matrix * basis;
+  return basis * normal.inverse() * basis.transpose();
 }
 
 UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions) {

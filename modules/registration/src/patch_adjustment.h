@@ -30,6 +30,8 @@ struct AdjustmentFrame {
   int unknowns() const { return with_scale ? kUnknowns : kUnknowns - 1; }
   /// d distance / d unknowns of a pair.
   Unknowns rowOf(const PatchPair& pair) const;
+  /// Expected part of row row' that the noise of the normal makes.
+  UnknownsMatrix noiseOf(const PatchPair& pair) const;
   /// The motion that unknowns stand for: follows the one the pairs were found with.
   Eigen::Affine3d motionOf(const Unknowns& unknowns) const;
 };
@@ -37,6 +39,7 @@ struct AdjustmentFrame {
 /// Least squares sums: normal matrix, right hand side, weights.
 struct NormalEquations {
   UnknownsMatrix matrix = UnknownsMatrix::Zero();
+  UnknownsMatrix noise = UnknownsMatrix::Zero();  ///< of that, what the normals' noise alone makes
   Unknowns right = Unknowns::Zero();
   double weights = 0.0;
 
@@ -103,14 +106,15 @@ class PatchAdjustment {
   int threads_;
 };
 
-/// Eigen-analysis: directions whose standard deviation exceeds \a limit (metres) are weak.
+/// Eigen-analysis of what the normals say beyond their noise: directions whose standard deviation
+/// exceeds \a limit (metres) are weak.
 Directions analyse(const NormalEquations& equations, int unknowns, double limit);
 
 /// The least squares solution in the determined directions; \a prior_information is added to each.
 Unknowns solveDetermined(const NormalEquations& equations, const Directions& directions,
                          double prior_information = 0.0);
 /// N^-1 in the determined directions, zero in the others.
-UnknownsMatrix cofactor(const Directions& directions);
+UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& directions);
 /// Covariance of the solution from leaving out one group at a time, metres squared; zero with too
 /// few groups.
 UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions);

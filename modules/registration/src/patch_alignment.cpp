@@ -73,6 +73,7 @@ class Alignment {
                         std::size_t count) const;
   bool alignFinely(std::vector<AreaSurfaces>& areas);
   void compareWithAllSurfaces(std::vector<AreaSurfaces>& areas);
+  Unknowns returnToGuess() const;
   bool isSmall(const Unknowns& update) const;
   Unknowns adjust(const PatchPairs& pairs, double limit, double prior);
   AdjustmentFrame frame() const { return {motion_ * centroid_, radius_, settings_.estimate_scale}; }
@@ -282,7 +283,7 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
        ++result_.iterations) {
     pairs_ = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads);
     if (pairs_.size() < kFewestPairs) return false;
-    const Unknowns update = adjust(pairs_, settings_.determined_std / 3.0, 1e9);
+    const Unknowns update = adjust(pairs_, settings_.determined_std / 3.0, 1e9) + returnToGuess();
     const double moved = update.norm();
     // Pairs that flip to and fro between two patches would keep it swinging by some hundredths of
     // a millimetre.
@@ -296,6 +297,16 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
   }
   --result_.iterations;
   return false;
+}
+
+/// Takes back what the coarse stage moved in directions that nothing determines.
+Unknowns Alignment::returnToGuess() const {
+  const Eigen::AngleAxisd turn(motion_.rotation());
+  Unknowns total = Unknowns::Zero();
+  total.head<3>() = motion_ * centroid_ - centroid_;
+  total.segment<3>(3) = turn.angle() * radius_ * turn.axis();
+  const auto weak = directions_.vectors.leftCols(directions_.weak);
+  return -(weak * (weak.transpose() * total));
 }
 
 /// Whether an update is far below what the estimate is known to.

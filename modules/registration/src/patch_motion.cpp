@@ -24,7 +24,7 @@ Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points) {
   PatchPairs pairs;
   pairs.reserve(points.size());
   for (const PointOnPatch& p : points)
-    pairs.push_back({p.normal, p.point, p.signed_normal_distance, 0.0, 1.0, 0, true});
+    pairs.push_back({p.normal, p.point, p.signed_normal_distance, 0.0, 1.0, 0.0, 0, true});
   const PatchAdjustment adjustment(pairs, frame, Robustness::whileMoving(), 1);
   Unknowns motion = Unknowns::Zero();
   for (int pass = 0; pass < kPasses; ++pass) {

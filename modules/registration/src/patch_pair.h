@@ -16,6 +16,7 @@ struct PatchPair {
   double distance;           ///< normal . (source's side - target's side), metres
   double start_distance;     ///< the same before the source was moved
   double variance;           ///< of the distance, in units of sigma0^2
+  double tilt_variance;      ///< of the normal's noise about each axis in the plane, rad^2
   std::uint32_t group;       ///< of the jackknife
   bool source_point;         ///< a point of the source in a patch of the target, or the reverse
 };
