@@ -26,8 +26,7 @@ CommandLine commandLine() {
   CommandLine line("pcl_als_icpatch",
                    "finds the rigid motion that brings one strip onto another: points against TIN "
                    "patches (Habib et al. 2011, section 2.3).",
-                   "SOURCE TARGET -output result.json [options]\n"
-                   "       pcl_als_icpatch FILE… -pair SOURCE:TARGET -output result.json [options]",
+                   "SOURCE TARGET -output result.json [options], or FILE… -pair SOURCE:TARGET …",
                    "pcl_als_icpatch strip1.las strip2.las -output result.json -transformed "
                    "moved1.las");
   const PatchAlignmentSettings defaults;
