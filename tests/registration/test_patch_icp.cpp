@@ -10,6 +10,7 @@
 
 #include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
 #include <pcl_als/registration/correspondence_rejection_patch.h>
+#include <pcl_als/registration/transformation_estimation_patch.h>
 
 #include "cloud_support.h"
 #include "surface_sets.h"
@@ -131,6 +132,25 @@ TEST_F(PatchIcp, RejectorServesNearestNeighbourCorrespondences) {
   icp_.addCorrespondenceRejector(rejector_);
   const Remainder left = align();
   EXPECT_LT(left.shift, 2.0 * kShift);  // the nearest point need not be a corner of the patch
+}
+
+TEST_F(PatchIcp, TransformationEstimationTakesThePatchesNormals) {
+  using Transformation = TransformationEstimationPatch<PointT, PointT, double>;
+  const pcl::shared_ptr<Transformation> transformation(new Transformation);
+  transformation->setMatchProvider(estimation_);
+  rejector_->setMatchProvider(estimation_);
+  icp_.addCorrespondenceRejector(rejector_);
+  icp_.setTransformationEstimation(transformation);
+  const Remainder left = align();
+  EXPECT_LT(left.shift, kShift);
+  EXPECT_LT(left.rotation, kRotation);
+}
+
+TEST_F(PatchIcp, TransformationEstimationFindsPatchesItself) {
+  using Transformation = TransformationEstimationPatch<PointT, PointT, double>;
+  icp_.addCorrespondenceRejector(rejector_);
+  icp_.setTransformationEstimation(pcl::shared_ptr<Transformation>(new Transformation));
+  EXPECT_LT(align().shift, kShift);
 }
 
 TEST_F(PatchIcp, WithoutTheRejectorTheAnswerIsWorse) {

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/registration/patch_alignment.h>
+
+#include "alignment_report.h"
+#include "command_line.h"
+#include "point_file_motion.h"
+#include "strip_points.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+using app::grouped;
+using app::Step;
+using app::StripFiles;
+using Eigen::AlignedBox2d;
+
+CommandLine commandLine() {
+  CommandLine line("pcl_als_icpatch",
+                   "finds the rigid motion that brings one strip onto another: points against TIN "
+                   "patches (Habib et al. 2011, section 2.3).",
+                   "SOURCE TARGET -output result.json [options], or FILE… -pair SOURCE:TARGET …",
+                   "pcl_als_icpatch strip1.las strip2.las -output result.json -transformed "
+                   "moved1.las");
+  const PatchAlignmentSettings defaults;
+  line.addOptional("output", "result as JSON (needed)");
+  line.addOptional("transformed", "the source moved onto the target: .las, .laz or .pcd as SOURCE");
+  line.addOptional("pair", "A:B, point source ids: strip A of the files onto strip B of the files");
+  line.addFlag("scale", "estimate a scale, too");
+  line.add("search_distance", "how far surfaces may be apart, m, 0.1 to 200",
+           defaults.search_distance);
+  line.add("determined_std",
+           "what is known less well is reported as not determined, m at the overlap's radius",
+           defaults.determined_std);
+  line.add("points", "of each strip that are triangulated, about; at least 1000",
+           static_cast<double>(defaults.points));
+  line.add("pairs", "points that look for a patch in each direction, about; at least 1000",
+           static_cast<double>(defaults.pairs));
+  line.add("iterations", "at most, of the last stage", defaults.maximum_iterations);
+  return line;
+}
+
+std::uint16_t stripId(const std::string& text) {
+  std::size_t used = 0;
+  unsigned long id = 0;
+  try {
+    id = std::stoul(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || id > 65535)
+    throw UsageError("option -pair: '" + text + "' is no point source id (0 to 65535)");
+  return static_cast<std::uint16_t>(id);
+}
+
+struct Request {
+  StripFiles source, target;
+};
+
+Request requestOf(const CommandLine& line) {
+  Request request;
+  if (!line.has("pair")) {
+    const auto& files = line.inputs(2, 2);
+    request.source.files = {files[0]};
+    request.target.files = {files[1]};
+    return request;
+  }
+  if (line.has("transformed"))
+    throw UsageError("option -transformed: needs SOURCE and TARGET as files, not -pair");
+  const std::string pair = line.text("pair");
+  const std::size_t colon = pair.find(':');
+  if (colon == std::string::npos) throw UsageError("option -pair: '" + pair + "' is not A:B");
+  request.source.id = stripId(pair.substr(0, colon));
+  request.target.id = stripId(pair.substr(colon + 1));
+  for (const std::string& file : line.inputs(1, 100000)) {
+    request.source.files.emplace_back(file);
+    request.target.files.emplace_back(file);
+  }
+  return request;
+}
+
+PatchAlignmentSettings settingsOf(const CommandLine& line) {
+  PatchAlignmentSettings settings;
+  settings.search_distance = line.number("search_distance", 0.1, 200.0, "m");
+  settings.determined_std = line.number("determined_std", 1e-4, 100.0, "m");
+  settings.points = static_cast<std::size_t>(line.number("points", 1e3, 1e8, "points"));
+  settings.pairs = static_cast<std::size_t>(line.number("pairs", 1e3, 1e8, "pairs"));
+  settings.maximum_iterations = line.get<int>("iterations");
+  if (settings.maximum_iterations < 1 || settings.maximum_iterations > 1000)
+    throw UsageError("option -iterations: must be 1 to 1000");
+  settings.estimate_scale = line.has("scale");
+  settings.threads = line.threads();
+  return settings;
+}
+
+std::string boxText(const Eigen::AlignedBox3d& box) {
+  char text[120];
+  std::snprintf(text, sizeof text, "x %.1f to %.1f, y %.1f to %.1f", box.min().x(), box.max().x(),
+                box.min().y(), box.max().y());
+  return text;
+}
+
+/// The box in plan that both strips have points in, with what they may be apart.
+AlignedBox2d commonBox(const Request& request, const app::StripFileInfo& source,
+                       const app::StripFileInfo& target, double reach) {
+  if (source.crs.rfind("EPSG:", 0) == 0 && target.crs.rfind("EPSG:", 0) == 0 &&
+      source.crs != target.crs)
+    throw InputError(request.target.name() + ": is in " + target.crs + ", " +
+                     request.source.name() + " in " + source.crs + "; reproject one of them");
+  const auto wide = [reach](const Eigen::AlignedBox3d& box) {
+    return AlignedBox2d(box.min().head<2>().array() - reach, box.max().head<2>().array() + reach);
+  };
+  AlignedBox2d common;
+  if (!source.box.isEmpty() && !target.box.isEmpty())
+    common = wide(source.box).intersection(wide(target.box));
+  if (common.isEmpty())
+    throw InputError(request.source.name() + " and " + request.target.name() +
+                     " do not overlap: " + boxText(source.box) + " and " + boxText(target.box));
+  return common;
+}
+
+/// Why a result is not to be trusted, in one line.
+std::string whyNot(const PatchAlignmentResult& result) {
+  if (!result.hasConverged()) return result.message;
+  std::string why;
+  for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
+    if (result.parameters[p].determined) continue;
+    why += (why.empty() ? "" : "; ") + std::string(PatchAlignmentResult::name(p)) +
+           " is not determined (" + result.parameters[p].reason + ")";
+  }
+  return why;
+}
+
+int icpatch(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const Request request = requestOf(line);
+  PatchAlignmentSettings settings = settingsOf(line);
+  if (!line.has("output")) throw UsageError("option -output is needed");
+  if (line.has("transformed"))
+    app::checkMovable(request.source.files.front(), line.text("transformed"));
+
+  Step reading("Reading " + request.source.name() + " and " + request.target.name(), line.quiet());
+  const app::StripFileInfo source_info = stripFileInfo(request.source);
+  const app::StripFileInfo target_info = stripFileInfo(request.target);
+  const AlignedBox2d box =
+      commonBox(request, source_info, target_info, settings.search_distance + 10.0);
+  settings.resolution = std::min(source_info.resolution, target_info.resolution);
+  Eigen::Vector3d origin;
+  origin << box.center(), target_info.box.center().z();
+  origin = origin.array().round();
+  const app::StripPoints source = readStripPoints(request.source, box, origin);
+  const app::StripPoints target = readStripPoints(request.target, box, origin);
+  reading.done(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
+               " points in common reach");
+
+  Step aligning("Aligning", line.quiet());
+  const PatchAlignmentResult result = alignPatches(source.view(), target.view(), settings);
+  aligning.done(grouped(result.pairs) + " pairs, " + std::to_string(result.iterations) +
+                " iterations");
+  if (result.status == PatchAlignmentResult::Status::no_overlap)
+    throw InputError(request.source.name() + " and " + request.target.name() + ": " +
+                     result.message);
+  app::writeAlignment(line.text("output"), result,
+                      {request.source.name(), request.target.name(), source.positions.size(),
+                       target.positions.size()});
+  if (!line.quiet()) std::cout << '\n' << app::alignmentTable(result) << std::endl;
+  if (result.hasConverged() && line.has("transformed")) {
+    Step writing("Writing " + line.text("transformed"), line.quiet());
+    const auto moved = app::movePointFile(request.source.files.front(), line.text("transformed"),
+                                          result.motion, line.threads());
+    writing.done(grouped(moved) + " points");
+  }
+  if (result.hasConverged() && result.allDetermined()) return app::kDone;
+  std::cerr << "pcl_als_icpatch: no reliable answer: " << whyNot(result) << std::endl;
+  return app::kNoReliableAnswer;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_icpatch", [argc, argv] { return icpatch(argc, argv); });
+}

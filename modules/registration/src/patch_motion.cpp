@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/registration/patch_motion.h>
+
+#include "patch_adjustment.h"
+
+namespace pcl_als {
+
+Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points) {
+  using namespace registration;
+  constexpr std::size_t kFewest = 6;
+  constexpr double kUnfixed = 10.0;  // metres
+  constexpr int kPasses = 3;
+  if (points.size() < kFewest) return Eigen::Affine3d::Identity();
+  AdjustmentFrame frame;
+  for (const PointOnPatch& p : points) frame.centre += p.point;
+  frame.centre /= static_cast<double>(points.size());
+  double squares = 0.0;
+  for (const PointOnPatch& p : points) squares += (p.point - frame.centre).squaredNorm();
+  frame.radius = std::max(std::sqrt(squares / static_cast<double>(points.size())), 1e-6);
+  PatchPairs pairs;
+  pairs.reserve(points.size());
+  for (const PointOnPatch& p : points)
+    pairs.push_back({p.normal, p.point, p.signed_normal_distance, 0.0, 1.0, 0.0, 0, true});
+  const PatchAdjustment adjustment(pairs, frame, Robustness::whileMoving(), 1);
+  Unknowns motion = Unknowns::Zero();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const NormalEquations equations = adjustment.accumulate(motion, adjustment.scatter(motion));
+    motion += solveDetermined(equations, analyse(equations, frame.unknowns(), kUnfixed));
+  }
+  return frame.motionOf(motion);
+}
+
+}  // namespace pcl_als
