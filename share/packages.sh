@@ -12,7 +12,7 @@ pcl_als_build=${PCL_ALS_BUILD_DIR:-$pcl_als_root/build}
 # One entry per Debian package; after the colon the program or file that makes it unnecessary.
 pcl_als_packages_build=(
   g++:c++ cmake:cmake ninja-build:ninja ccache:ccache mawk:awk
-  libpcl-dev libeigen3-dev libboost-program-options-dev libproj-dev
+  libpcl-dev libeigen3-dev libboost-program-options-dev libproj-dev libgdal-dev
   nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
 )
 pcl_als_packages_test=(libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz)

@@ -3,6 +3,7 @@ option(BUILD_SHARED_LIBS "Build shared libraries" ON)
 option(PCL_ALS_BUILD_BENCHMARKS "Build tests/benchmarks (needs google-benchmark)" OFF)
 option(PCL_ALS_BUILD_FUZZERS "Build tests/fuzz with libFuzzer (needs clang)" OFF)
 option(PCL_ALS_WITH_PROJ "Read SBET trajectories and reproject with PROJ" ON)
+option(PCL_ALS_WITH_GDAL "Write GeoTIFF and PNG with GDAL" ON)
 option(PCL_ALS_WITH_LASZIP "Read and write .laz where LASzip is found" ON)
 set(PCL_ALS_SANITIZE "" CACHE STRING "Sanitizers for every target, e.g. address,undefined")
 

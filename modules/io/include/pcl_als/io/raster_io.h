@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/raster.h>
+
+namespace pcl_als {
+
+// Target pcl_als::io_raster, a library of its own: GDAL costs a program 35 MB and 70 ms at its
+// start, which tools that write no raster need not pay.
+
+/// What a GeoTIFF holds beside its cells.
+struct RasterLayout {
+  enum class Type { float32, byte };
+
+  RasterGrid grid;
+  Type type = Type::float32;
+  std::vector<std::string> bands;   ///< one name per band
+  std::vector<LegendEntry> legend;  ///< colours and names of the values of bytes; may be empty
+  double no_data = -9999.0;         ///< in the file; in memory floats without value are NaN
+  std::map<std::string, std::string> metadata;  ///< further items, name and text
+};
+
+struct RasterOptions {
+  bool overviews = true;  ///< means of floats, commonest class of bytes, halving to 256 cells
+  bool cloud_optimised =
+      true;         ///< where the installed GDAL can (3.1); else plain tiles of 512 cells
+  int threads = 0;  ///< that compress; 0: as many as there are. The file does not depend on it
+};
+
+/** \brief Writes a GeoTIFF block by block, for rasters larger than memory.
+ *
+ * The file has the CRS, the no-data value (bytes: 0), names of bands, a colour table, overviews, is
+ * compressed without loss and appears under its name at commit() only; see AtomicFile. Blocks come
+ * in any order, those of 512 rows in order are fastest; cells never written have no value. Until
+ * commit() an uncompressed copy of the raster lies beside the file.
+ *
+ * Memory: GDAL's cache of blocks (5 % of the machine's memory at most). Everything that fails is an
+ * InputError that names the file; a CRS that PROJ does not know, too.
+ */
+class RasterWriter {
+ public:
+  RasterWriter(const std::filesystem::path& path, RasterLayout layout, RasterOptions options = {});
+  ~RasterWriter();
+  RasterWriter(const RasterWriter&) = delete;
+  RasterWriter& operator=(const RasterWriter&) = delete;
+
+  const RasterLayout& layout() const;
+  /// Values of a window, row by row; UsageError for the other type of values or a window outside.
+  void write(std::size_t band, const RasterWindow& window, const float* values);
+  void write(std::size_t band, const RasterWindow& window, const std::uint8_t* values);
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/** \brief Reads a GeoTIFF window by window.
+ *
+ * Bands of any number type are read as float (no-data as NaN) or, those of bytes, as bytes.
+ * InputError for a file that is no GeoTIFF, not north up, without georeference or whose cells are
+ * not square. A CRS that is an EPSG code is given as "EPSG:…", another as WKT.
+ */
+class RasterReader {
+ public:
+  explicit RasterReader(const std::filesystem::path& path);
+  ~RasterReader();
+  RasterReader(const RasterReader&) = delete;
+  RasterReader& operator=(const RasterReader&) = delete;
+
+  const RasterLayout& layout() const;
+  int overviews() const;  ///< number of smaller copies of the first band
+  void read(std::size_t band, const RasterWindow& window, float* values);
+  void read(std::size_t band, const RasterWindow& window, std::uint8_t* values);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Whole rasters that are in memory.
+void writeRaster(const std::filesystem::path& path, const Raster& raster,
+                 const RasterOptions& options = {});
+Raster readRaster(const std::filesystem::path& path);
+void writeClassRaster(const std::filesystem::path& path, const ClassRaster& raster,
+                      const RasterOptions& options = {});
+ClassRaster readClassRaster(const std::filesystem::path& path);
+
+/// Pixels row by row from the top left, 3 (RGB) or 4 (RGBA) bytes each.
+struct Image {
+  int width = 0, height = 0, channels = 3;
+  std::vector<std::uint8_t> pixels;
+};
+
+/// A PNG that appears when it is complete; UsageError for an image whose pixels do not fit its
+/// size.
+void writePng(const std::filesystem::path& path, const Image& image);
+Image readPng(const std::filesystem::path& path);
+
+}  // namespace pcl_als

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "gdal_handle.h"
+
+#include <mutex>
+#include <utility>
+
+#include <gdal_frmts.h>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::detail {
+
+GDALDriverH gdalDriver(const char* name) {
+  // Not GDALAllRegister: it loads plugins, and a file should not be taken for one of 200 formats.
+  static std::once_flag once;
+  std::call_once(once, [] {
+    GDALRegister_GTiff();
+    GDALRegister_MEM();
+    GDALRegister_PNG();
+#if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 1, 0)
+    GDALRegister_COG();
+#endif
+  });
+  return GDALGetDriverByName(name);
+}
+
+GdalReports::GdalReports(std::filesystem::path path) : path_(std::move(path)) {
+  CPLErrorReset();
+  CPLPushErrorHandlerEx(&GdalReports::report, this);
+}
+
+GdalReports::~GdalReports() {
+  CPLPopErrorHandler();
+}
+
+void GdalReports::report(CPLErr level, CPLErrorNum, const char* text) {
+  auto* self = static_cast<GdalReports*>(CPLGetErrorHandlerUserData());
+  if (level < CE_Failure || self == nullptr || !self->failure_.empty()) return;
+  self->failure_ = text;
+  for (char& letter : self->failure_)
+    if (letter == '\n' || letter == '\r') letter = ' ';
+}
+
+void GdalReports::check(bool good, const std::string& what) const {
+  if (good && failure_.empty()) return;
+  throw InputError(path_.string() + ": " + what + (failure_.empty() ? "" : ": " + failure_));
+}
+
+}  // namespace pcl_als::detail
