@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <pcl/registration/registration.h>
+
+#include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/point_types.h>
+#include <pcl_als/registration/deferred_kd_tree.h>
+#include <pcl_als/registration/patch_alignment.h>
+
+namespace pcl_als {
+
+/** \brief Registers one airborne strip to another: ICPatch (Habib et al. 2011, section 2.3).
+ *
+ * Points of the source against TIN patches of the target and the reverse, modified weights, a rigid
+ * body and optionally a scale, robust, from coarse to fine; see alignPatches(). For surfaces with
+ * one height at a plan position, z up, metres.
+ *
+ * Of pcl::Registration's settings these hold:
+ *   setMaxCorrespondenceDistance  how far surfaces may be apart at the guess, metres; default 15
+ *   setMaximumIterations          of the fine stage; default 50
+ *   setTransformationEpsilon      squared metres that a point moves in the last iteration; default
+ *                                 4e-10
+ *   setIndices                    points of the source to use
+ * Correspondence estimation, rejectors, RANSAC settings and search trees are not used.
+ * hasConverged() is false where the clouds hardly overlap, have no smooth surface in common or come
+ * to no rest. getResult() says why, and what of the motion is determined, with covariance.
+ *
+ * getFinalTransformation() maps local source to local target coordinates. For strips whose
+ * LocalFrames differ give both frames: the result's motion is then in ground coordinates.
+ *
+ * \code
+ * pcl_als::IterativeClosestPatch<pcl_als::PointLidar, pcl_als::PointLidar> icpatch;
+ * icpatch.setInputSource(strip1.cloud);
+ * icpatch.setInputTarget(strip2.cloud);
+ * icpatch.setFrames(strip1.frame, strip2.frame);
+ * pcl::PointCloud<pcl_als::PointLidar> aligned;
+ * icpatch.align(aligned);
+ * if (icpatch.hasConverged()) print(icpatch.getResult().motion.shift);
+ * \endcode
+ */
+template <typename PointSource, typename PointTarget, typename Scalar = float>
+class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget, Scalar> {
+ public:
+  using Base = pcl::Registration<PointSource, PointTarget, Scalar>;
+  using typename Base::Matrix4;
+  using typename Base::PointCloudSource;
+  using Ptr = pcl::shared_ptr<IterativeClosestPatch>;
+  using ConstPtr = pcl::shared_ptr<const IterativeClosestPatch>;
+
+  IterativeClosestPatch();
+
+  /// Origins of the clouds; default: both zero. The aligned cloud is in the target's frame.
+  void setFrames(const LocalFrame& source, const LocalFrame& target);
+  /// Estimates a scale about the centroid, too. Default false.
+  void setEstimateScale(bool estimate) { settings_.estimate_scale = estimate; }
+  bool getEstimateScale() const { return settings_.estimate_scale; }
+  /// Points of each cloud that are triangulated, about; >= 100. Default 400 000.
+  void setMaximumPoints(std::size_t points) { settings_.points = points; }
+  std::size_t getMaximumPoints() const { return settings_.points; }
+  /// Points that look for a patch in each direction, about; >= 100. Default 60 000.
+  void setMaximumPairs(std::size_t pairs) { settings_.pairs = pairs; }
+  std::size_t getMaximumPairs() const { return settings_.pairs; }
+  /// Metres at the overlap's radius: what is known less well is reported as not determined. Default
+  /// 0.1.
+  void setDeterminedStandardDeviation(double metres) { settings_.determined_std = metres; }
+  double getDeterminedStandardDeviation() const { return settings_.determined_std; }
+  /// Step of plan coordinates, metres. Default 0.001.
+  void setResolution(double metres) { settings_.resolution = metres; }
+  double getResolution() const { return settings_.resolution; }
+  /// Covariance of one point's coordinates in each cloud up to a common factor (3 x 3). Default
+  /// identity.
+  void setPointNoise(const Eigen::Matrix3d& source, const Eigen::Matrix3d& target);
+  /// 0: all; the result does not depend on it. Default 0.
+  void setNumberOfThreads(int threads) { settings_.threads = threads; }
+  int getNumberOfThreads() const { return settings_.threads; }
+
+  /// Of the last align().
+  const PatchAlignmentResult& getResult() const { return result_; }
+  /// Local source to local target coordinates, unrounded.
+  Eigen::Affine3d getTransformation() const;
+
+ protected:
+  void computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
+
+ private:
+  PatchAlignmentSettings settings_;
+  Eigen::Vector3d source_origin_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d target_origin_ = Eigen::Vector3d::Zero();
+  PatchAlignmentResult result_;
+};
+
+}  // namespace pcl_als
+
+#include <pcl_als/registration/impl/iterative_closest_patch.hpp>
+
+namespace pcl_als {
+
+// In the library; any other registered point type with x, y, z is instantiated where it is used.
+extern template class IterativeClosestPatch<PointLidar, PointLidar, float>;
+extern template class IterativeClosestPatch<PointLidar, PointLidar, double>;
+extern template class IterativeClosestPatch<pcl::PointXYZ, pcl::PointXYZ, float>;
+extern template class IterativeClosestPatch<pcl::PointXYZ, pcl::PointXYZ, double>;
+extern template class IterativeClosestPatch<pcl::PointXYZI, pcl::PointXYZI, float>;
+extern template class IterativeClosestPatch<pcl::PointXYZI, pcl::PointXYZI, double>;
+
+}  // namespace pcl_als

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "pair_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/common/parallel.h>
+
+namespace pcl_als::registration {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kSignificant = 5.0;  // standard deviations of a tilt from which on it is one
+constexpr double kLeastAngle = 0.09;  // radians between normals that are always allowed
+constexpr double kMostAngle = 0.35;   // radians between normals beyond which nothing is conjugate
+constexpr std::size_t kChunk = 4096;
+
+/// Candidates of one side against patches of the other.
+class DirectedSearch {
+ public:
+  DirectedSearch(const Eigen::Affine3d& motion, bool source_point, double threshold,
+                 const PlanGrid& groups, const PointNoise& noise)
+      : motion_(motion),
+        there_(source_point ? motion : motion.inverse()),
+        turn_(motion.linear() / std::cbrt(motion.linear().determinant())),
+        up_((Vector3d::UnitZ() + turn_.col(2)).normalized()),
+        source_point_(source_point),
+        threshold_(threshold),
+        groups_(groups),
+        noise_(noise) {}
+
+  void run(const Candidate* first, const Candidate* last, SurfaceSide& patches,
+           PatchPairs& pairs) const {
+    std::int32_t hint = Tin::kNone;
+    for (; first != last; ++first) {
+      const Vector3d moved = there_ * first->position;
+      const auto match = patches.surface().closest(moved, threshold_, hint);
+      PatchPlane plane;
+      if (!match || !patches.planeOf(match->triangle, plane)) continue;
+      PatchPair pair;
+      if (!direction(*first, plane, patches.isCoarse(), pair.normal)) continue;
+      fill(*first, moved, *match, pair);
+      pairs.push_back(pair);
+    }
+  }
+
+ private:
+  /// Mean normal of the neighbourhoods of point and patch in the target's frame, less noisy than
+  /// the triangle's; vertical where its tilt is not significant: noise in place of a slope would
+  /// look like information about plan positions. False where the surfaces are not the same one.
+  bool direction(const Candidate& candidate, const PatchPlane& patch, bool coarse,
+                 Vector3d& normal) const {
+    if (coarse) {
+      normal = source_point_ ? patch.normal : Vector3d(turn_ * patch.normal);
+      return true;
+    }
+    const Vector3d& in_source = source_point_ ? candidate.plane.normal : patch.normal;
+    const Vector3d& in_target = source_point_ ? patch.normal : candidate.plane.normal;
+    const Vector3d a = turn_ * in_source;
+    const double sigma = std::hypot(candidate.plane.tilt_sigma, patch.tilt_sigma);
+    const double angle = std::atan2(a.cross(in_target).norm(), a.dot(in_target));
+    if (angle > std::clamp(kSignificant * sigma, kLeastAngle, kMostAngle)) return false;
+    normal = (a + in_target).normalized();
+    const double tilt = normal.cross(up_).norm();
+    if (tilt < kSignificant * 0.5 * sigma) normal = up_;
+    return true;
+  }
+
+  void fill(const Candidate& candidate, const Vector3d& moved, const PatchMatch& match,
+            PatchPair& pair) const {
+    const Vector3d& source = source_point_ ? candidate.position : match.foot;
+    const Vector3d& target = source_point_ ? match.foot : candidate.position;
+    pair.position = source_point_ ? moved : Vector3d(motion_ * match.foot);
+    pair.distance = pair.normal.dot(pair.position - target);
+    pair.start_distance = pair.normal.dot(source - target);
+    // A foot is the mean of three vertices, weighted.
+    const double spread = match.weights.squaredNorm();
+    pair.variance = pair.normal.dot(((source_point_ ? 1.0 : spread) * noise_.source +
+                                     (source_point_ ? spread : 1.0) * noise_.target) *
+                                    pair.normal);
+    const std::int64_t group = groups_.cellOf(candidate.position.x(), candidate.position.y());
+    pair.group = static_cast<std::uint32_t>(std::max<std::int64_t>(0, group));
+    pair.source_point = source_point_;
+  }
+
+  Eigen::Affine3d motion_, there_;
+  Matrix3d turn_;
+  Vector3d up_;
+  bool source_point_;
+  double threshold_;
+  const PlanGrid& groups_;
+  const PointNoise& noise_;
+};
+
+/// A part of the search that one thread does.
+struct Task {
+  const Candidate *first, *last;
+  SurfaceSide* patches;
+  bool source_point;
+  PatchPairs pairs;
+};
+
+void addTasks(SurfaceSide& points, SurfaceSide& patches, bool source_point,
+              std::vector<Task>& tasks) {
+  if (points.empty() || patches.empty()) return;
+  const auto& candidates = points.candidates();
+  // Verdicts on patches are kept without locks, so a fine area is one task; a coarse one has none.
+  const std::size_t step =
+      patches.isCoarse() ? kChunk : std::max<std::size_t>(1, candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); i += step) {
+    const Candidate* first = candidates.data() + i;
+    tasks.push_back(
+        {first, first + std::min(step, candidates.size() - i), &patches, source_point, {}});
+  }
+}
+
+}  // namespace
+
+PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& motion,
+                     double threshold, const PlanGrid& groups, const PointNoise& noise,
+                     int threads) {
+  const DirectedSearch forward(motion, true, threshold, groups, noise);
+  const DirectedSearch backward(motion, false, threshold, groups, noise);
+  std::vector<Task> tasks;
+  for (AreaSurfaces& area : areas) {
+    addTasks(area.source, area.target, true, tasks);
+    addTasks(area.target, area.source, false, tasks);
+  }
+  parallelFor(tasks.size(), threads, [&](std::size_t i) {
+    Task& task = tasks[i];
+    task.pairs.reserve(static_cast<std::size_t>(task.last - task.first));
+    (task.source_point ? forward : backward).run(task.first, task.last, *task.patches, task.pairs);
+  });
+  PatchPairs pairs;
+  std::size_t count = 0;
+  for (const Task& task : tasks) count += task.pairs.size();
+  pairs.reserve(count);
+  for (const Task& task : tasks) pairs.insert(pairs.end(), task.pairs.begin(), task.pairs.end());
+  return pairs;
+}
+
+}  // namespace pcl_als::registration

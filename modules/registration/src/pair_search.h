@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "patch_pair.h"
+#include "plan_cells.h"
+#include "surface_side.h"
+
+namespace pcl_als::registration {
+
+/// Both clouds' surfaces in one area, each in its own coordinates.
+struct AreaSurfaces {
+  SurfaceSide source, target;
+};
+
+/// How point covariances enter the pairs' variances, in units of sigma0^2.
+struct PointNoise {
+  Eigen::Matrix3d source = Eigen::Matrix3d::Identity(), target = Eigen::Matrix3d::Identity();
+};
+
+/** \brief Finds the pairs of both directions in all areas, with the source moved.
+ *
+ * \param groups cells whose pairs the jackknife leaves out together. The order of the pairs and
+ * all their values do not depend on the number of threads.
+ */
+PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& motion,
+                     double threshold, const PlanGrid& groups, const PointNoise& noise,
+                     int threads);
+
+}  // namespace pcl_als::registration

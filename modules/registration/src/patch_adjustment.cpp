@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "patch_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als::registration {
+namespace {
+
+constexpr double kHuber = 1.5;                                 // standard deviations
+constexpr std::array<double, 3> kTiltSteps{0.087, 0.26, 0.5};  // sines: 5, 15, 30 degrees
+constexpr std::size_t kFewestInStep = 30;
+constexpr double kLeastScatter = 1e-6;  // metres
+constexpr std::size_t kChunk = 8192;
+constexpr std::size_t kFewestGroups = 10;
+
+std::size_t chunks(std::size_t count) {
+  return (count + kChunk - 1) / kChunk;
+}
+
+}  // namespace
+
+Unknowns AdjustmentFrame::rowOf(const PatchPair& pair) const {
+  const Eigen::Vector3d arm = (pair.position - centre) / radius;
+  Unknowns row;
+  row << pair.normal, arm.cross(pair.normal), with_scale ? pair.normal.dot(arm) : 0.0;
+  return row;
+}
+
+Eigen::Affine3d AdjustmentFrame::motionOf(const Unknowns& unknowns) const {
+  const Eigen::Vector3d turn = unknowns.segment<3>(3) / radius;
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.translate(centre + unknowns.head<3>());
+  if (turn.norm() > 0.0) motion.rotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  motion.scale(1.0 + unknowns[6] / radius);
+  motion.translate(-centre);
+  return motion;
+}
+
+void NormalEquations::merge(const NormalEquations& other) {
+  matrix += other.matrix;
+  right += other.right;
+  weights += other.weights;
+}
+
+int ScatterBySlope::stepOf(const PatchPair& pair) {
+  const double tilt = pair.normal.head<2>().squaredNorm();
+  int step = 0;
+  while (step + 1 < kSteps && tilt > kTiltSteps[step] * kTiltSteps[step]) ++step;
+  return step;
+}
+
+double ScatterBySlope::all() const {
+  double squares = 0.0, count = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    squares += static_cast<double>(pairs[i]) * sigma[i] * sigma[i];
+    count += static_cast<double>(pairs[i]);
+  }
+  return std::sqrt(squares / std::max(count, 1.0));
+}
+
+ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
+  std::vector<double> rests(pairs_.size());
+  parallelFor(chunks(pairs_.size()), threads_, [&](std::size_t chunk) {
+    const std::size_t end = std::min(pairs_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i)
+      rests[i] = (pairs_[i].distance + frame_.rowOf(pairs_[i]).dot(unknowns)) /
+                 std::sqrt(pairs_[i].variance);
+  });
+  std::array<std::vector<double>, ScatterBySlope::kSteps> steps;
+  for (std::size_t i = 0; i < rests.size(); ++i)
+    steps[ScatterBySlope::stepOf(pairs_[i])].push_back(rests[i]);
+  ScatterBySlope result;
+  const double all = std::max(robustSigma(std::move(rests)), kLeastScatter);
+  for (int i = 0; i < ScatterBySlope::kSteps; ++i) {
+    result.pairs[i] = steps[i].size();
+    // About zero, not about the median: a class that is off as a whole is off.
+    for (double& rest : steps[i]) rest = std::abs(rest);
+    const bool enough = steps[i].size() >= kFewestInStep;
+    result.sigma[i] = enough ? std::max(1.4826 * medianInPlace(steps[i]), kLeastScatter) : all;
+  }
+  return result;
+}
+
+double PatchAdjustment::weightOf(double rest, const PatchPair& pair,
+                                 const ScatterBySlope& scatter) const {
+  const double sigma = scatter.of(pair) * std::sqrt(pair.variance);
+  const double deviations = std::abs(rest) / sigma;
+  if (cut_ && deviations > kCut) return 0.0;
+  return std::min(1.0, kHuber / std::max(deviations, 1e-9)) / (sigma * sigma);
+}
+
+NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
+                                            const ScatterBySlope& scatter) const {
+  std::vector<NormalEquations> parts(chunks(pairs_.size()));
+  parallelFor(parts.size(), threads_, [&](std::size_t chunk) {
+    NormalEquations sum;
+    const std::size_t end = std::min(pairs_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      const Unknowns row = frame_.rowOf(pairs_[i]);
+      const double rest = pairs_[i].distance + row.dot(unknowns);
+      const double weight = weightOf(rest, pairs_[i], scatter);
+      if (weight == 0.0) continue;
+      sum.matrix.noalias() += (weight * row) * row.transpose();
+      sum.right -= weight * rest * row;
+      sum.weights += weight;
+    }
+    parts[chunk] = sum;
+  });
+  NormalEquations all;
+  for (const NormalEquations& part : parts) all.merge(part);
+  return all;
+}
+
+std::vector<NormalEquations> PatchAdjustment::accumulateGroups(const ScatterBySlope& scatter,
+                                                               std::size_t groups) const {
+  std::vector<NormalEquations> all(groups);
+  for (const PatchPair& pair : pairs_) {
+    const double weight = weightOf(pair.distance, pair, scatter);
+    if (weight == 0.0) continue;
+    const Unknowns row = frame_.rowOf(pair);
+    NormalEquations& sum = all[pair.group];
+    sum.matrix.noalias() += (weight * row) * row.transpose();
+    sum.right -= weight * pair.distance * row;
+    sum.weights += weight;
+  }
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const NormalEquations& sum) { return sum.weights == 0.0; }),
+            all.end());
+  return all;
+}
+
+Directions analyse(const NormalEquations& equations, int unknowns, double limit) {
+  Directions directions;
+  directions.unknowns = unknowns;
+  directions.weights = equations.weights;
+  const Eigen::MatrixXd part = equations.matrix.topLeftCorner(unknowns, unknowns);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
+  directions.vectors.topLeftCorner(unknowns, unknowns) = solver.eigenvectors();
+  directions.values.head(unknowns) = solver.eigenvalues().cwiseMax(0.0);
+  const double least = 1.0 / (limit * limit);
+  while (directions.weak < unknowns && !(directions.values[directions.weak] > least))
+    ++directions.weak;
+  return directions;
+}
+
+Unknowns solveDetermined(const NormalEquations& equations, const Directions& directions,
+                         double prior_information) {
+  Unknowns solution = Unknowns::Zero();
+  for (int i = directions.weak; i < directions.unknowns; ++i) {
+    const auto direction = directions.vectors.col(i);
+    solution +=
+        direction * (direction.dot(equations.right) / (directions.values[i] + prior_information));
+  }
+  return solution;
+}
+
+UnknownsMatrix cofactor(const Directions& directions) {
+  UnknownsMatrix result = UnknownsMatrix::Zero();
+  for (int i = directions.weak; i < directions.unknowns; ++i)
+    result +=
+        directions.vectors.col(i) * directions.vectors.col(i).transpose() / directions.values[i];
+  return result;
+}
+
+UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions) {
+  const int strong = directions.unknowns - directions.weak;
+  if (groups.size() < kFewestGroups || strong == 0) return UnknownsMatrix::Zero();
+  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  NormalEquations all;
+  for (const NormalEquations& group : groups) all.merge(group);
+  std::vector<Eigen::VectorXd> solutions;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(strong);
+  for (const NormalEquations& group : groups) {
+    const Eigen::MatrixXd rest = basis.transpose() * (all.matrix - group.matrix) * basis;
+    solutions.push_back(rest.ldlt().solve(basis.transpose() * (all.right - group.right)));
+    mean += solutions.back();
+  }
+  mean /= static_cast<double>(groups.size());
+  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(strong, strong);
+  for (const Eigen::VectorXd& solution : solutions)
+    scatter += (solution - mean) * (solution - mean).transpose();
+  const auto count = static_cast<double>(groups.size());
+  return basis * (scatter * ((count - 1.0) / count)) * basis.transpose();
+}
+
+}  // namespace pcl_als::registration

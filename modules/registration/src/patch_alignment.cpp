@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/registration/patch_alignment.h>
+
+#include "alignment_areas.h"
+#include "alignment_report.h"
+#include "patch_adjustment.h"
+
+namespace pcl_als {
+namespace {
+
+using namespace registration;
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+using Status = PatchAlignmentResult::Status;
+
+constexpr double kCellSpacings = 2.5;  // of the sparser cloud in a cell
+constexpr std::size_t kCoarsePoints = 20'000;
+constexpr int kCoarseLevels = 3, kCoarseIterations = 15;
+constexpr double kFirstFineThreshold = 3.0;  // metres, at most
+constexpr double kLeastThreshold = 0.25;     // metres
+constexpr double kThresholdSigmas = 8.0;
+constexpr std::size_t kFewestPairs = 50;
+constexpr double kGroups = 60.0;   // of the jackknife, about
+constexpr double kResting = 5e-3;  // metres
+constexpr double kSwing = 10.0;    // updates that may swing, of the convergence
+constexpr double kFrozen = 1e-3;   // metres: below, scatter and threshold stay
+
+struct Extent {
+  Eigen::AlignedBox3d box;
+  std::size_t finite = 0;
+};
+
+Extent extentOf(const PointView& view) {
+  Extent extent;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const Vector3d p = view.position(i);
+    if (!p.allFinite()) continue;
+    extent.box.extend(p);
+    ++extent.finite;
+  }
+  return extent;
+}
+
+double spacingOf(const Extent& extent) {
+  const double area = extent.box.sizes().head<2>().prod();
+  return std::sqrt(area / static_cast<double>(std::max<std::size_t>(extent.finite, 1)));
+}
+
+/// One alignment, step by step; the working coordinates are the target's about a reference point.
+class Alignment {
+ public:
+  Alignment(const PatchAlignmentSettings& settings, const Affine3d& guess)
+      : settings_(settings), guess_(guess), noise_{settings.source_noise, settings.target_noise} {}
+
+  PatchAlignmentResult run(const PointView& source, const PointView& target);
+
+ private:
+  bool look(const PointView& source, const PointView& target);
+  bool findOverlap();
+  void alignCoarsely();
+  void alignLevel(std::vector<AreaSurfaces>& level, double cell);
+  std::vector<AreaSurfaces> prepareAreas(const WorkingPoints& source, const WorkingPoints& target);
+  bool alignFinely(std::vector<AreaSurfaces>& areas);
+  Unknowns adjust(const PatchPairs& pairs, double limit, double prior);
+  AdjustmentFrame frame() const { return {motion_ * centroid_, radius_, settings_.estimate_scale}; }
+  PatchAlignmentResult fail(Status status, const std::string& message);
+
+  const PatchAlignmentSettings& settings_;
+  Affine3d guess_;
+  PointNoise noise_;
+  Vector3d reference_ = Vector3d::Zero();
+  CommonCells cells_;
+  PlanGrid groups_;
+  Vector3d centroid_ = Vector3d::Zero();  ///< working coordinates of the source
+  double radius_ = 1.0, overlap_area_ = 0.0;
+  Affine3d motion_ = Affine3d::Identity();
+  ScatterBySlope scatter_;
+  double threshold_ = 0.0;
+  bool resting_ = false;  ///< hardly anything moves: outliers are told from what has to move
+  Directions directions_;
+  PatchPairs pairs_;
+  PatchAlignmentResult result_;
+};
+
+PatchAlignmentResult Alignment::fail(Status status, const std::string& message) {
+  result_.status = status;
+  result_.message = message;
+  for (auto& parameter : result_.parameters) parameter.reason = message;
+  return result_;
+}
+
+/// First look at all points: extents, reference, lowest points of cells.
+bool Alignment::look(const PointView& source, const PointView& target) {
+  Extent extents[2];
+  parallelFor(2, settings_.threads,
+              [&](std::size_t i) { extents[i] = extentOf(i == 0 ? source : target); });
+  if (std::min(extents[0].finite, extents[1].finite) < 3) return false;
+  const double reach = settings_.search_distance;
+  Eigen::AlignedBox3d moved = extents[0].box.transformed(guess_);
+  const Eigen::AlignedBox2d a(moved.min().head<2>().array() - reach,
+                              moved.max().head<2>().array() + reach);
+  const Eigen::AlignedBox2d b(extents[1].box.min().head<2>().array() - reach,
+                              extents[1].box.max().head<2>().array() + reach);
+  const Eigen::AlignedBox2d common = a.intersection(b);
+  if (common.isEmpty()) return false;
+  reference_ << common.center(), extents[1].box.center().z();
+  reference_ = reference_.array().round();
+  const double spacing = std::max(spacingOf(extents[0]), spacingOf(extents[1]));
+  const double cell = std::max(kCellSpacings * spacing, 0.05);
+  const Eigen::AlignedBox2d box(common.min() - reference_.head<2>(),
+                                common.max() - reference_.head<2>());
+  const PlanGrid grid(box, cell);
+  const Affine3d to_working = Eigen::Translation3d(-reference_) * guess_;
+  const Affine3d target_to_working(Eigen::Translation3d(-reference_));
+  parallelFor(2, settings_.threads, [&](std::size_t i) {
+    if (i == 0)
+      cells_.source = LowestPoints(WorkingPoints(source, to_working), grid);
+    else
+      cells_.target = LowestPoints(WorkingPoints(target, target_to_working), grid);
+  });
+  return true;
+}
+
+/// Centroid, radius and area of the cells that both clouds have points in.
+bool Alignment::findOverlap() {
+  const PlanGrid& grid = cells_.target.grid();
+  double count = 0.0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (!cells_.both(i)) continue;
+    centroid_.head<2>() += grid.centreOf(i);
+    centroid_.z() += 0.5 * (cells_.source.at(i).z() + cells_.target.at(i).z());
+    count += 1.0;
+  }
+  if (count < 3.0) return false;
+  centroid_ /= count;
+  double squares = 0.0;
+  Eigen::AlignedBox2d box;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (!cells_.both(i)) continue;
+    squares += (grid.centreOf(i) - centroid_.head<2>()).squaredNorm();
+    box.extend(grid.centreOf(i));
+  }
+  overlap_area_ = count * grid.cell * grid.cell;
+  radius_ = std::max(std::sqrt(squares / count), grid.cell);
+  groups_ = PlanGrid(box, std::sqrt(overlap_area_ / kGroups));
+  return true;
+}
+
+void Alignment::alignCoarsely() {
+  threshold_ = settings_.search_distance;
+  std::vector<CommonCells> levels{cells_.pooled()};
+  while (levels.size() < kCoarseLevels) levels.push_back(levels.back().pooled());
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    std::vector<AreaSurfaces> areas(1);
+    parallelFor(2, settings_.threads, [&](std::size_t i) {
+      SurfaceSide& side = i == 0 ? areas[0].source : areas[0].target;
+      side =
+          SurfaceSide((i == 0 ? level->source : level->target).points(), {}, settings_.resolution);
+      side.makeCoarse(kCoarsePoints);
+    });
+    alignLevel(areas, level->source.grid().cell);
+  }
+}
+
+void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
+  for (int i = 0; i < kCoarseIterations; ++i) {
+    const PatchPairs pairs =
+        findPairs(level, motion_, threshold_, groups_, noise_, settings_.threads);
+    if (pairs.size() < kFewestPairs) return;
+    // Believed to be within a few metres of where it is: flat ground must not send it away.
+    const Unknowns update = adjust(pairs, 1e3, threshold_);
+    motion_ = frame().motionOf(update) * motion_;
+    threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), cell, threshold_);
+    ++result_.coarse_iterations;
+    if (update.norm() < 0.01 * cell) break;
+  }
+}
+
+/// The update that pairs ask for, after a few passes of reweighting; sets scatter_ and
+/// directions_.
+Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) {
+  constexpr int kPasses = 3;
+  const AdjustmentFrame about = frame();
+  const PatchAdjustment adjustment(pairs, about, resting_, settings_.threads);
+  Unknowns update = Unknowns::Zero();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    scatter_ = adjustment.scatter(update);
+    const NormalEquations equations = adjustment.accumulate(update, scatter_);
+    directions_ = analyse(equations, about.unknowns(), limit);
+    update += solveDetermined(equations, directions_, 1.0 / (prior * prior));
+  }
+  return update;
+}
+
+std::vector<AreaSurfaces> Alignment::prepareAreas(const WorkingPoints& source,
+                                                  const WorkingPoints& target) {
+  const AlignmentAreas choice(cells_, settings_.points);
+  std::vector<AreaSurfaces> areas = choice.triangulate(source, target, motion_, settings_);
+  if (areas.empty()) return areas;
+  const std::size_t samples = std::max<std::size_t>(30, 20'000 / areas.size());
+  std::vector<std::vector<double>> roughness(2 * areas.size());
+  parallelFor(roughness.size(), settings_.threads, [&](std::size_t i) {
+    const AreaSurfaces& area = areas[i / 2];
+    (i % 2 == 0 ? area.source : area.target).sampleRoughness(samples, roughness[i]);
+  });
+  SurfaceLimits limits;
+  std::vector<double> of_cloud[2];
+  for (std::size_t i = 0; i < roughness.size(); ++i)
+    of_cloud[i % 2].insert(of_cloud[i % 2].end(), roughness[i].begin(), roughness[i].end());
+  for (std::vector<double>& values : of_cloud)
+    if (!values.empty())
+      limits.plain_roughness = std::max(limits.plain_roughness, medianInPlace(values));
+  limits.roughness = std::clamp(3.0 * limits.plain_roughness, 0.005, limits.roughness);
+  const std::size_t candidates = std::max<std::size_t>(1, settings_.pairs / areas.size());
+  parallelFor(roughness.size(), settings_.threads, [&](std::size_t i) {
+    AreaSurfaces& area = areas[i / 2];
+    (i % 2 == 0 ? area.source : area.target).chooseCandidates(candidates, limits);
+  });
+  return areas;
+}
+
+bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
+  threshold_ = std::clamp(threshold_, kLeastThreshold, kFirstFineThreshold);
+  double step = 1.0, previous = threshold_;
+  for (result_.iterations = 1; result_.iterations <= settings_.maximum_iterations;
+       ++result_.iterations) {
+    pairs_ = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads);
+    if (pairs_.size() < kFewestPairs) return false;
+    const Unknowns update = adjust(pairs_, settings_.determined_std / 3.0, 1e9);
+    const double moved = update.norm();
+    // Pairs that flip to and fro between two patches would keep it swinging by some hundredths of
+    // a millimetre.
+    if (moved < kFrozen && moved > 0.5 * previous) step *= 0.5;
+    previous = moved;
+    motion_ = frame().motionOf(step * update) * motion_;
+    if (step * moved < settings_.convergence && moved < kSwing * settings_.convergence) return true;
+    resting_ = moved < kResting;
+    if (moved > kFrozen)
+      threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);
+  }
+  --result_.iterations;
+  return false;
+}
+
+PatchAlignmentResult Alignment::run(const PointView& source, const PointView& target) {
+  if (!look(source, target) || !findOverlap())
+    return fail(Status::no_overlap, "the clouds do not overlap in plan");
+  alignCoarsely();
+  const WorkingPoints moved(source, Eigen::Translation3d(-reference_) * guess_);
+  const WorkingPoints fixed(target, Affine3d(Eigen::Translation3d(-reference_)));
+  std::vector<AreaSurfaces> areas = prepareAreas(moved, fixed);
+  const bool converged = alignFinely(areas);
+  if (pairs_.size() < kFewestPairs)
+    return fail(Status::too_few_pairs, "only " + std::to_string(pairs_.size()) +
+                                           " points lie on a smooth surface of the other cloud");
+  result_.status = converged ? Status::converged : Status::not_converged;
+  result_.overlap_area = overlap_area_;
+  const Affine3d about_reference(Eigen::Translation3d(-reference_));
+  const Affine3d total = about_reference.inverse() * motion_ * about_reference * guess_;
+  const Vector3d centroid = guess_.inverse() * (centroid_ + reference_);
+  result_.motion = RigidMotion::about(centroid, total);
+  AlignmentReport report(pairs_, frame(), scatter_, directions_, settings_);
+  report.fill(groups_.size(), result_);
+  return result_;
+}
+
+void check(const PatchAlignmentSettings& settings) {
+  const auto positive = [](double value, const char* name) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      throw UsageError(std::string("patch alignment: ") + name + " must be more than 0 m, not " +
+                       std::to_string(value));
+  };
+  positive(settings.search_distance, "search distance");
+  positive(settings.convergence, "convergence");
+  positive(settings.determined_std, "largest determined standard deviation");
+  positive(settings.resolution, "resolution");
+  if (settings.maximum_iterations < 1 || settings.points < 100 || settings.pairs < 100)
+    throw UsageError("patch alignment: iterations must be at least 1, points and pairs 100");
+}
+
+}  // namespace
+
+PatchAlignmentResult alignPatches(const PointView& source, const PointView& target,
+                                  const PatchAlignmentSettings& settings, const Affine3d& guess) {
+  check(settings);
+  return Alignment(settings, guess).run(source, target);
+}
+
+}  // namespace pcl_als
