@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <set>
 
 #include <sys/resource.h>
@@ -46,6 +47,7 @@ CommandLine commandLine() {
            defaults.control_sigma);
   line.add("max_distance", "offsets beyond are another object, m",
            defaults.limits.maximum_distance);
+  line.add("cell", "cells of the swath separation image, m; 0: as the quality level asks", 0.0);
   line.add("points", "points looked at closely, at most, millions", 12.0);
   return line;
 }
@@ -117,9 +119,32 @@ void checkOutputs(const CommandLine& line) {
   }
 }
 
-/// Checks one set; \a areas: those to use, filled when empty.
+/// The grid for a swath separation image; null where none is wanted, or none can be written.
+std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
+                                              const app::SurveyReader& survey,
+                                              const app::BlockCheck& check) {
+  if (!line.has("report") || check.overlaps().empty()) return nullptr;
+  if (!PCL_ALS_WITH_GDAL) {
+    app::remark(line, "built without GDAL: no swath separation image");
+    return nullptr;
+  }
+  const double wanted = line.number("cell", 0.0, 100.0, "m");
+  const double cell =
+      wanted > 0.0
+          ? wanted
+          : qualityLevels()[static_cast<std::size_t>(qualityLevel(line))].separation_image_cell;
+  RasterGrid grid =
+      app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.crs());
+  if (grid.cell > cell)
+    app::remark(line, "so large a block gets a swath separation image of " +
+                          std::to_string(static_cast<int>(grid.cell)) + " m cells");
+  return std::make_unique<SwathSeparation>(std::move(grid), survey.strips().size());
+}
+
+/// Checks one set; \a image: name of its swath separation image, without extension; \a areas: those
+/// to use, filled when empty.
 app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
-                             const app::CheckSettings& settings,
+                             const app::CheckSettings& settings, const std::string& image,
                              std::vector<CalibrationArea>& areas) {
   Step reading("Reading " + std::to_string(files.size()) + " point files", line.quiet());
   app::SurveyReader survey(files, line.threads());
@@ -145,16 +170,37 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
     step.done(std::to_string(check.overlaps().size()) + " overlapping pairs, " +
               std::to_string(areas.size()) + " areas");
   }
+  std::unique_ptr<SwathSeparation> separation = separationOf(line, survey, check);
   {
     Step step("Reading the areas", line.quiet());
-    check.load({});
+    if (separation) {
+      check.load([&](int strip, const SwathPoint& point) { separation->add(strip, point); });
+    } else {
+      check.load({});
+    }
     step.done(grouped(check.loadedPoints()) + " points");
   }
   Step step("Measuring", line.quiet());
   app::CheckedBlock block = check.assess([&](double fraction) { step.progress(fraction); });
   block.files = files;
   step.done(std::to_string(block.pairs.size()) + " pairs");
+  if (separation) {
+    Step writing("Writing " + image, line.quiet());
+    block.separation = app::writeSeparation(line.text("report"), image, *separation,
+                                            qualityLevel(line), line.threads());
+    writing.done(std::to_string(separation->grid().columns) + " x " +
+                 std::to_string(separation->grid().rows) + " cells");
+  }
   return block;
+}
+
+/// Why there is nothing to rely on, in one line.
+std::string whyNot(const app::CheckedBlock& block) {
+  for (const app::CheckedPair& pair : block.pairs) {
+    if (!pair.assessment.reason.empty())
+      return "strips " + pair.a + " and " + pair.b + ": " + pair.assessment.reason;
+  }
+  return "no strip covers a control point";
 }
 
 double peakMemory() {
@@ -178,10 +224,19 @@ int check(int argc, char** argv) {
     refuseRepeated(before);
   }
   std::vector<CalibrationArea> areas;
-  report.block = checkBlock(line, files, settings, areas);
-  if (!before.empty()) report.before = checkBlock(line, before, settings, areas);
+  report.block = checkBlock(line, files, settings, "swath_separation", areas);
+  if (!before.empty())
+    report.before = checkBlock(line, before, settings, "swath_separation_before", areas);
   report.peak_memory_mb = peakMemory();
+  AtomicFile file(line.text("output"));
+  file.write(app::qualityJson(report));
+  file.commit();
   if (!line.quiet()) std::cout << app::qualityText(report) << std::endl;
+  if (line.has("report")) app::writeQualityTables(line.text("report"), report);
+  if (!app::hasAnswer(report.block)) {
+    std::cerr << "pcl_als_check: no reliable answer: " << whyNot(report.block) << std::endl;
+    return app::kNoReliableAnswer;
+  }
   return app::kDone;
 }
 

@@ -17,6 +17,7 @@
 #include <pcl_als/quality/strip_course.h>
 #include <pcl_als/trajectory/trajectory.h>
 
+#include "separation_image.h"
 #include "survey_reader.h"
 
 namespace pcl_als::app {
@@ -61,6 +62,7 @@ struct CheckedBlock {
   std::vector<CheckedPair> pairs;
   std::vector<TriangleClosure> triangles;
   std::optional<ControlAssessment> control;
+  std::optional<SeparationSummary> separation;  ///< of the images that were written
   double roughness_limit = 0.0;  ///< metres: smooth
   std::vector<std::string> warnings;
 };

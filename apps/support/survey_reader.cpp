@@ -31,14 +31,20 @@ std::string SurveyReader::crs() const {
   return {};
 }
 
-Eigen::Vector2d SurveyReader::corner() const {
-  Eigen::Vector2d corner = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+Eigen::AlignedBox2d SurveyReader::extent() const {
+  Eigen::AlignedBox2d box;
   for (const PointFileSources& file : files_) {
     for (const PointSource& source : file.sources) {
-      corner = corner.cwiseMin(source.minimum.head<2>());
+      box.extend(Eigen::Vector2d(source.minimum.head<2>()));
+      box.extend(Eigen::Vector2d(source.maximum.head<2>()));
     }
   }
-  return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  return box;
+}
+
+Eigen::Vector2d SurveyReader::corner() const {
+  const Eigen::Vector2d corner = extent().min();
+  return corner.allFinite() && !extent().isEmpty() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
 
 double SurveyReader::resolution() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/io/strip_naming.h>
@@ -42,6 +43,8 @@ class SurveyReader {
   std::uint64_t pointCount() const;
   /// CRS of the first file that has one; empty when none has.
   std::string crs() const;
+  /// Box of all points in plan, metres; empty when there are none.
+  Eigen::AlignedBox2d extent() const;
   /// South-west corner of all points, metres.
   Eigen::Vector2d corner() const;
   /// Finest coordinate step of the files, metres.
