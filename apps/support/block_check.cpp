@@ -232,7 +232,7 @@ void BlockCheck::measureControl(CheckedBlock& block) {
       assessControl(std::move(all), settings_.control, survey_.strips(), settings_.control_sigma);
 }
 
-CheckedPair BlockCheck::assessOverlap(std::size_t k) {
+CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   const Clock::time_point start = Clock::now();
   const auto& [a, b] = overlaps_[k].strips;
   CheckedPair pair;
@@ -252,6 +252,14 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k) {
   }
   pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
                                courses_[static_cast<std::size_t>(b)].direction());
+  cells = cellMeans(samples);
+  if (pair.overlap_area >= settings_.minimum_overlap &&
+      pair.assessment.status != PairAssessment::Status::copy) {
+    PatchAlignmentSettings alignment;
+    alignment.resolution = survey_.resolution();
+    alignment.threads = settings_.threads;
+    pair.alignment = alignStrips(offsets_, a, b, alignment);
+  }
   pair.samples = thinned(std::move(samples), CheckedPair::kScatter);
   pair.memory_mb = 1e-6 * kBytesPerPoint * static_cast<double>(pair.points_a + pair.points_b);
   pair.milliseconds += millisecondsSince(start);
@@ -264,18 +272,19 @@ CheckedBlock BlockCheck::assess(const std::function<void(double)>& progress) {
   block.roughness_limit = settings_.limits.roughness;
   measureAreas();
   measureControl(block);
+  std::vector<PairOffset> means;
+  std::vector<PairMotion> motions;
   for (std::size_t k = 0; k < overlaps_.size(); ++k) {
-    block.pairs.push_back(assessOverlap(k));
+    CellMeans cells;
+    block.pairs.push_back(assessOverlap(k, cells));
+    const CheckedPair& pair = block.pairs.back();
+    if (pair.assessment.status == PairAssessment::Status::judged)
+      means.push_back({pair.a, pair.b, std::move(cells)});
+    if (pair.alignment) motions.push_back({pair.a, pair.b, *pair.alignment});
     if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(overlaps_.size()));
   }
-  std::vector<PairOffset> means;
-  for (const CheckedPair& pair : block.pairs) {
-    const OffsetSummary& vertical = pair.assessment.vertical;
-    if (pair.assessment.status == PairAssessment::Status::judged &&
-        std::isfinite(vertical.std_of_mean))
-      means.push_back({pair.a, pair.b, vertical.mean, vertical.std_of_mean});
-  }
   block.triangles = closeTriangles(means);
+  block.motions = closeMotions(motions);
   for (std::size_t strip = 0; strip < courses_.size(); ++strip) {
     const std::string& id = survey_.strips()[strip];
     block.strips.push_back({id, map_.pointCount(static_cast<int>(strip)),

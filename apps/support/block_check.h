@@ -14,6 +14,7 @@
 #include <pcl_als/quality/area_offsets.h>
 #include <pcl_als/quality/control_check.h>
 #include <pcl_als/quality/pair_assessment.h>
+#include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/quality/strip_course.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -30,7 +31,7 @@ struct CheckSettings {
   double control_sigma = 0.02;          ///< metres, where the file gives none
   std::size_t minimum_points = 1000;    ///< strips with fewer are left out
   double minimum_overlap = 500.0;       ///< m^2: pairs with less are listed, not measured
-  std::size_t candidates = 400'000;     ///< places looked at, all areas, level and steep each
+  std::size_t candidates = 100'000;     ///< places looked at, all areas, level and steep each
   int threads = 0;
 };
 
@@ -40,6 +41,7 @@ struct CheckedPair {
   double overlap_area = 0.0;  ///< m^2
   std::size_t areas = 0;      ///< that were looked at
   PairAssessment assessment;
+  std::optional<PatchAlignmentResult> alignment;  ///< where it was tried
   std::vector<OffsetSample> samples;  ///< at most kScatter, evenly, for scatter plots
   std::size_t points_a = 0, points_b = 0;
   double milliseconds = 0.0;  ///< spent on this pair, all threads
@@ -60,7 +62,8 @@ struct CheckedBlock {
   std::vector<std::string> files;
   std::vector<CheckedStrip> strips;
   std::vector<CheckedPair> pairs;
-  std::vector<TriangleClosure> triangles;
+  std::vector<TriangleClosure> triangles;  ///< of vertical offsets
+  std::vector<MotionClosure> motions;      ///< of alignments
   std::optional<ControlAssessment> control;
   std::optional<SeparationSummary> separation;  ///< of the images that were written
   double roughness_limit = 0.0;  ///< metres: smooth
@@ -96,7 +99,7 @@ class BlockCheck {
   void findRoughness();
   void measureAreas();
   void measureControl(CheckedBlock& block);
-  CheckedPair assessOverlap(std::size_t overlap);
+  CheckedPair assessOverlap(std::size_t overlap, CellMeans& cells);
 
   SurveyReader& survey_;
   CheckSettings settings_;

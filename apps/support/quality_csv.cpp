@@ -59,6 +59,24 @@ std::string summaryNames(const std::string& what) {
   return names;
 }
 
+void alignmentCells(const std::optional<PatchAlignmentResult>& found, std::ostream& out) {
+  out << ',' << (found ? toString(found->status) : "not_tried");
+  if (!found || !found->hasConverged()) {
+    out << ",,,,,,,,,,,,,,,,";
+    return;
+  }
+  for (int i = 0; i < PatchAlignmentResult::kParameters; ++i) {
+    const bool angle = i >= 3;
+    const double unit = angle ? kRadiansPerDegree : 1.0;
+    const double value = angle ? found->motion.rotation[i - 3] : found->motion.shift[i];
+    const bool known = found->parameters[static_cast<std::size_t>(i)].determined;
+    out << ',' << (known ? number(value / unit, 6) : "") << ','
+        << (known ? number(found->standardDeviation(i) / unit, 6) : "");
+  }
+  for (int i = 0; i < 3; ++i) out << ',' << number(found->motion.centroid[i], 3);
+  out << ',' << number(found->sigma0, 5);
+}
+
 std::string pairsCsv(const QualityReport& report) {
   std::ostringstream out;
   out << "set,a,b,status,overlap_m2" << summaryNames("vertical") << ",cells_rms_m,level"
@@ -66,6 +84,8 @@ std::string pairsCsv(const QualityReport& report) {
       << ",shift_east_m,shift_north_m,shift_up_m,shift_east_std_m,shift_north_std_m,shift_up_std_m,"
          "flown,across_mm_per_100m,across_std,along_mm_per_100m,along_std,time_mm_per_s,time_std,"
          "scan_angle_mm_per_deg,scan_angle_std,roll_arcsec,roll_std,roll_b_arcsec,roll_b_std,"
+         "icpatch,XT_m,XT_std,YT_m,YT_std,ZT_m,ZT_std,omega_deg,omega_std,phi_deg,phi_std,"
+         "kappa_deg,kappa_std,centroid_x,centroid_y,centroid_z,sigma0_m,"
          "milliseconds,memory_mb\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const PairAssessment& p = pair.assessment;
@@ -89,6 +109,7 @@ std::string pairsCsv(const QualityReport& report) {
     for (const OverlapTrends::Roll& roll : {p.trends.roll, p.trends.roll_b})
       out << ',' << (roll.determined ? number(roll.value / kRadiansPerArcsec, 2) : "") << ','
           << (roll.determined ? number(roll.std / kRadiansPerArcsec, 2) : "");
+    alignmentCells(pair.alignment, out);
     out << ',' << number(pair.milliseconds, 1) << ',' << number(pair.memory_mb, 1) << '\n';
   });
   return out.str();

@@ -107,11 +107,38 @@ Json classesJson(const std::vector<SlopeAspectClass>& classes) {
   return list;
 }
 
+Json alignmentJson(const PatchAlignmentResult& r) {
+  Json json = {{"status", toString(r.status)}};
+  if (!r.message.empty()) json["message"] = r.message;
+  if (!r.hasConverged()) return json;
+  for (int i = 0; i < PatchAlignmentResult::kParameters; ++i) {
+    const bool angle = i >= 3;
+    const double unit = angle ? kRadiansPerDegree : 1.0;
+    const double value = angle ? r.motion.rotation[i - 3] : r.motion.shift[i];
+    const auto& parameter = r.parameters[static_cast<std::size_t>(i)];
+    Json entry = {{"value", number(value / unit, parameter.determined)},
+                  {"std", number(r.standardDeviation(i) / unit, parameter.determined)},
+                  {"unit", angle ? "deg" : "m"}};
+    if (!parameter.determined) entry["reason"] = parameter.reason;
+    json[PatchAlignmentResult::name(i)] = entry;
+  }
+  const Eigen::Vector3d& c = r.motion.centroid;
+  json["centroid_m"] = {c.x(), c.y(), c.z()};
+  json["sigma0_m"] = r.sigma0;
+  json["pairs"] = r.pairs;
+  json["redundancy"] = r.redundancy;
+  json["iterations"] = r.coarse_iterations + r.iterations;
+  json["normal_before_m"] = {{"mean", r.normal_before.mean}, {"rms", r.normal_before.rms}};
+  json["normal_after_m"] = {{"mean", r.normal_after.mean}, {"rms", r.normal_after.rms}};
+  return json;
+}
+
 Json pairJson(const CheckedPair& pair) {
   const PairAssessment& p = pair.assessment;
   Json json = {{"a", pair.a}, {"b", pair.b}, {"status", toString(p.status)}};
   if (!p.reason.empty()) json["reason"] = p.reason;
   json["overlap_m2"] = pair.overlap_area;
+  if (pair.alignment) json["icpatch"] = alignmentJson(*pair.alignment);
   json["vertical"] = summaryJson(p.vertical);
   json["vertical_cells"] = summaryJson(p.vertical_cells);
   json["quality_level"] = levelJson(p.quality_level);
@@ -172,7 +199,16 @@ Json blockJson(const CheckedBlock& block) {
   json["triangles"] = Json::array();
   for (const TriangleClosure& t : block.triangles)
     json["triangles"].push_back(
-        {{"strips", {t.a, t.b, t.c}}, {"closure_m", t.closure}, {"std_m", t.std}});
+        {{"strips", {t.a, t.b, t.c}},
+         {"cells", t.cells},
+         {"closure_m", t.closure},
+         {"std_m", t.std}});
+  json["icpatch_triangles"] = Json::array();
+  for (const MotionClosure& m : block.motions)
+    json["icpatch_triangles"].push_back(
+        {{"strips", {m.a, m.b, m.c}},
+         {"closure_m", {m.closure.x(), m.closure.y(), m.closure.z()}},
+         {"std_m", {m.std.x(), m.std.y(), m.std.z()}}});
   if (block.control) json["control"] = controlJson(*block.control);
   if (block.separation) {
     const SeparationSummary& s = *block.separation;

@@ -75,6 +75,40 @@ std::string verticalTable(const QualityReport& report) {
   return text;
 }
 
+/// The paper's Table 3.
+std::string alignmentTable(const QualityReport& report) {
+  std::string text = format(
+      "\nRigid movement of a onto b about the centroid of their overlap (ICPatch), m and 0.001 deg, "
+      "with standard deviations\n\n"
+      "| %-19s | %-6s | XT              | YT              | ZT              | omega        | phi  "
+      "        | kappa        |\n"
+      "|---------------------|--------|-----------------|-----------------|-----------------|-------"
+      "-------|--------------|--------------|\n",
+      "pair", "");
+  forEachPair(report, [&](const char* label, const CheckedPair& pair) {
+    if (!pair.alignment) return;
+    const PatchAlignmentResult& r = *pair.alignment;
+    text += format("| %-19s | %-6s | ", nameOf(pair).c_str(), label);
+    if (!r.hasConverged()) {
+      text += std::string(toString(r.status)) + ": " + r.message + " |\n";
+      return;
+    }
+    for (int i = 0; i < PatchAlignmentResult::kParameters; ++i) {
+      const int width = i < 3 ? 15 : 12;
+      std::string cell = "not determined";
+      if (r.parameters[static_cast<std::size_t>(i)].determined) {
+        const double thousandth = 1e-3 * kRadiansPerDegree;
+        cell = i < 3 ? format("%+.4f (%.4f)", r.motion.shift[i], r.standardDeviation(i))
+                     : format("%+.2f (%.2f)", r.motion.rotation[i - 3] / thousandth,
+                              r.standardDeviation(i) / thousandth);
+      }
+      text += format("%*s | ", width, cell.c_str());
+    }
+    text.back() = '\n';
+  });
+  return text;
+}
+
 std::string shiftTable(const QualityReport& report) {
   std::string text = format(
       "\nNormal distances a - b of all smooth surfaces; movement of a onto b that slopes over 10 "
@@ -133,12 +167,13 @@ std::string trendTable(const QualityReport& report) {
 
 std::string triangleTable(const QualityReport& report) {
   if (report.block.triangles.empty()) return {};
-  std::string text = "\nClosure of mean height differences around three strips, m\n\n";
+  std::string text = "\nClosure of height differences around three strips, on the ground that all three see, m\n\n";
   constexpr std::size_t kMost = 20;
   const auto& all = report.block.triangles;
   for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
-    text += format("  %s, %s, %s: %s (std %s)\n", all[i].a.c_str(), all[i].b.c_str(),
-                   all[i].c.c_str(), metres(all[i].closure).c_str(), size(all[i].std).c_str());
+    text += format("  %s, %s, %s: %s (std %s), %zu cells\n", all[i].a.c_str(), all[i].b.c_str(),
+                   all[i].c.c_str(), metres(all[i].closure).c_str(), size(all[i].std).c_str(),
+                   all[i].cells);
   if (all.size() > kMost) text += format("  … and %zu more\n", all.size() - kMost);
   return text;
 }
@@ -203,7 +238,7 @@ bool hasAnswer(const CheckedBlock& block) {
 }
 
 std::string qualityText(const QualityReport& report) {
-  std::string text = verticalTable(report) + shiftTable(report) + trendTable(report) +
+  std::string text = verticalTable(report) + alignmentTable(report) + shiftTable(report) + trendTable(report) +
                      triangleTable(report) + controlTable(report);
   const QualityLevelLimits& limits = qualityLevels()[static_cast<std::size_t>(report.quality_level)];
   std::size_t kept = 0, all = 0;

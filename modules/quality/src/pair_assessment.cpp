@@ -10,6 +10,8 @@
 #include <pcl_als/quality/clustered_regression.h>
 #include <pcl_als/quality/pair_assessment.h>
 
+#include "strip_triples.h"
+
 namespace pcl_als {
 namespace {
 
@@ -33,15 +35,10 @@ OffsetSummary summaryOf(const std::vector<OffsetSample>& samples, bool level) {
 }
 
 OffsetSummary cellSummary(const std::vector<OffsetSample>& samples) {
-  std::map<std::int64_t, RunningStatistics> cells;
-  for (const OffsetSample& s : samples) {
-    if (s.level) cells[s.cluster()].add(s.vertical);
-  }
   std::vector<double> means;
   std::vector<std::int64_t> clusters;
-  for (const auto& [cluster, cell] : cells) {
-    if (cell.count() < kFewestInCell) continue;
-    means.push_back(cell.mean());
+  for (const auto& [cluster, mean] : cellMeans(samples)) {
+    means.push_back(mean);
     clusters.push_back(cluster);
   }
   return summarize(std::move(means), clusters);
@@ -143,34 +140,35 @@ PairAssessment assessPair(const std::vector<OffsetSample>& samples,
   return pair;
 }
 
-std::vector<TriangleClosure> closeTriangles(const std::vector<PairOffset>& pairs) {
-  std::map<std::string, std::size_t> number;  // by order of appearance
-  std::vector<std::string> names;
-  const auto numberOf = [&](const std::string& name) {
-    const auto [place, added] = number.try_emplace(name, names.size());
-    if (added) names.push_back(name);
-    return place->second;
-  };
-  struct Side {
-    double mean, variance;
-  };
-  std::vector<std::map<std::size_t, Side>> sides;  // by the lower number, then the higher one
-  for (const PairOffset& pair : pairs) {
-    const std::size_t a = numberOf(pair.a), b = numberOf(pair.b);
-    sides.resize(names.size());
-    const double sign = a < b ? 1.0 : -1.0;
-    sides[std::min(a, b)][std::max(a, b)] = {sign * pair.mean, pair.std * pair.std};
+CellMeans cellMeans(const std::vector<OffsetSample>& samples) {
+  std::map<std::int64_t, RunningStatistics> cells;
+  for (const OffsetSample& s : samples) {
+    if (s.level) cells[s.cluster()].add(s.vertical);
   }
+  CellMeans means;
+  for (const auto& [cluster, cell] : cells) {
+    if (cell.count() >= kFewestInCell) means[cluster] = cell.mean();
+  }
+  return means;
+}
+
+std::vector<TriangleClosure> closeTriangles(const std::vector<PairOffset>& pairs) {
   std::vector<TriangleClosure> triangles;
-  for (std::size_t i = 0; i < sides.size(); ++i)
-    for (const auto& [j, first] : sides[i])
-      for (const auto& [k, second] : sides[j]) {
-        const auto third = sides[i].find(k);
-        if (third == sides[i].end()) continue;
-        triangles.push_back({names[i], names[j], names[k],
-                             first.mean + second.mean - third->second.mean,
-                             std::sqrt(first.variance + second.variance + third->second.variance)});
-      }
+  for (const detail::StripTriple& triple : detail::stripTriples(pairs)) {
+    const CellMeans &ab = pairs[triple.ab.pair].cells, &bc = pairs[triple.bc.pair].cells,
+                    &ac = pairs[triple.ac.pair].cells;
+    RunningStatistics closures;
+    for (const auto& [cell, first] : ab) {
+      const auto second = bc.find(cell), third = ac.find(cell);
+      if (second == bc.end() || third == ac.end()) continue;
+      closures.add(triple.ab.sign * first + triple.bc.sign * second->second -
+                   triple.ac.sign * third->second);
+    }
+    if (closures.count() < ClusteredRegression::kFewestClusters) continue;
+    triangles.push_back({triple.a, triple.b, triple.c, closures.count(), closures.mean(),
+                         closures.standardDeviation() /
+                             std::sqrt(static_cast<double>(closures.count()))});
+  }
   return triangles;
 }
 

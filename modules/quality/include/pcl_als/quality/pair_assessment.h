@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -61,16 +63,23 @@ PairAssessment assessPair(const std::vector<OffsetSample>& samples,
                           const std::optional<Eigen::Vector2d>& course_a,
                           const std::optional<Eigen::Vector2d>& course_b);
 
-/// Three strips that overlap in pairs: what is left of the offsets going round, a-b + b-c - (a-c).
-struct TriangleClosure {
-  std::string a, b, c;
-  double closure = 0.0, std = 0.0;  ///< metres; of the mean vertical offsets
-};
+/// Mean height differences of cells of OffsetSample::kCluster metres, by OffsetSample::cluster().
+using CellMeans = std::map<std::int64_t, double>;
+CellMeans cellMeans(const std::vector<OffsetSample>& samples);
 
-/// A pair's mean offset, for closing triangles.
+/// A pair's offsets, for closing triangles.
 struct PairOffset {
   std::string a, b;
-  double mean = 0.0, std = 0.0;  ///< metres
+  CellMeans cells;
+};
+
+/// Three strips that see the same ground: what is left of the offsets going round, a-b + b-c - (a-c),
+/// as the mean over the cells that all three pairs have. On other ground the strips' trajectories
+/// err differently, and nothing has to close.
+struct TriangleClosure {
+  std::string a, b, c;
+  std::size_t cells = 0;
+  double closure = 0.0, std = 0.0;  ///< metres; of the mean, as the cells scatter
 };
 std::vector<TriangleClosure> closeTriangles(const std::vector<PairOffset>& pairs);
 
