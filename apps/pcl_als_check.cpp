@@ -36,9 +36,10 @@ CommandLine commandLine() {
                    "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
                    "quality.json -report report");
   app::addFlightOptions(line);
-  line.addOptional("before",
-                   "the same strips before a calibration: a folder, or files parted by commas; both "
-                   "are reported side by side");
+  line.addOptional(
+      "before",
+      "the same strips before a calibration: a folder, or files parted by commas; both "
+      "are reported side by side");
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   line.addOptional("output", "quality.json to write (needed)");
   line.addOptional("report", "folder for tables as CSV, quality.md and swath separation images");
@@ -133,8 +134,7 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
       wanted > 0.0
           ? wanted
           : qualityLevels()[static_cast<std::size_t>(qualityLevel(line))].separation_image_cell;
-  RasterGrid grid =
-      app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.crs());
+  RasterGrid grid = app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.crs());
   if (grid.cell > cell)
     app::remark(line, "so large a block gets a swath separation image of " +
                           std::to_string(static_cast<int>(grid.cell)) + " m cells");
@@ -148,12 +148,11 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
                              std::vector<CalibrationArea>& areas) {
   Step reading("Reading " + std::to_string(files.size()) + " point files", line.quiet());
   app::SurveyReader survey(files, line.threads());
-  reading.done(grouped(survey.pointCount()) + " points, " +
-               std::to_string(survey.strips().size()) + " strips");
+  reading.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
+               " strips");
   std::shared_ptr<const Trajectory> trajectory;
   if (line.has("trajectory")) {
-    trajectory =
-        app::readFlight(line, survey.crs(), 0.0, app::AttitudeUse::where_given);
+    trajectory = app::readFlight(line, survey.crs(), 0.0, app::AttitudeUse::where_given);
     for (const std::string& text : survey.alignTimes(*trajectory, app::gpsWeek(line)))
       app::remark(line, text);
   }

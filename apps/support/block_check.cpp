@@ -16,12 +16,12 @@
 namespace pcl_als::app {
 namespace {
 
-constexpr std::size_t kCourseEvery = 64;      // of the points show the course
-constexpr std::size_t kRoughnessAreas = 24;   // that show what smooth is
-constexpr double kRoughnessFactor = 2.0;      // of the median on gentle slopes is still smooth
-constexpr double kLeastRoughness = 0.02;      // metres
-constexpr double kControlArea = 4.0;          // metres: the patch around a point is enough
-constexpr double kRepeated = 0.2;             // share of repeated points worth a warning
+constexpr std::size_t kCourseEvery = 64;     // of the points show the course
+constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
+constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
+constexpr double kLeastRoughness = 0.02;     // metres
+constexpr double kControlArea = 4.0;         // metres: the patch around a point is enough
+constexpr double kRepeated = 0.2;            // share of repeated points worth a warning
 constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // and its part of the TIN
 
 using Clock = std::chrono::steady_clock;
@@ -198,9 +198,8 @@ void BlockCheck::measureAreas() {
       if (area.points(a).empty() || area.points(b).empty()) continue;
       const Clock::time_point begin = Clock::now();
       samples_[i][k] = area.offsets(a, b);
-      const double share =
-          static_cast<double>(area.points(a).size() + area.points(b).size()) /
-          static_cast<double>(area.pointCount());
+      const double share = static_cast<double>(area.points(a).size() + area.points(b).size()) /
+                           static_cast<double>(area.pointCount());
       milliseconds_[i][k] = millisecondsSince(begin) + building * share;
     }
     area.release();

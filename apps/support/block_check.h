@@ -28,10 +28,10 @@ struct CheckSettings {
   SurfaceLimits limits;
   SurveyMap::Selection selection;
   std::vector<ControlPoint> control;
-  double control_sigma = 0.02;          ///< metres, where the file gives none
-  std::size_t minimum_points = 1000;    ///< strips with fewer are left out
-  double minimum_overlap = 500.0;       ///< m^2: pairs with less are listed, not measured
-  std::size_t candidates = 100'000;     ///< places looked at, all areas, level and steep each
+  double control_sigma = 0.02;        ///< metres, where the file gives none
+  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
+  double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed, not measured
+  std::size_t candidates = 100'000;   ///< places looked at, all areas, level and steep each
   int threads = 0;
 };
 
@@ -42,7 +42,7 @@ struct CheckedPair {
   std::size_t areas = 0;      ///< that were looked at
   PairAssessment assessment;
   std::optional<PatchAlignmentResult> alignment;  ///< where it was tried
-  std::vector<OffsetSample> samples;  ///< at most kScatter, evenly, for scatter plots
+  std::vector<OffsetSample> samples;              ///< at most kScatter, evenly, for scatter plots
   std::size_t points_a = 0, points_b = 0;
   double milliseconds = 0.0;  ///< spent on this pair, all threads
   double memory_mb = 0.0;     ///< of its points and surfaces
@@ -66,7 +66,7 @@ struct CheckedBlock {
   std::vector<MotionClosure> motions;      ///< of alignments
   std::optional<ControlAssessment> control;
   std::optional<SeparationSummary> separation;  ///< of the images that were written
-  double roughness_limit = 0.0;  ///< metres: smooth
+  double roughness_limit = 0.0;                 ///< metres: smooth
   std::vector<std::string> warnings;
 };
 

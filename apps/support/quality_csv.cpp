@@ -47,7 +47,8 @@ void summaryCells(const OffsetSummary& s, std::ostream& out) {
     out << ",,,,,,,";
     return;
   }
-  for (const double value : {s.mean, s.std_of_mean, s.median, s.std, s.rms, s.percentile_95, s.largest})
+  for (const double value :
+       {s.mean, s.std_of_mean, s.median, s.std, s.rms, s.percentile_95, s.largest})
     out << ',' << number(value, 5);
 }
 
@@ -122,8 +123,8 @@ std::string slopeAspectCsv(const QualityReport& report) {
     for (const SlopeAspectClass& c : pair.assessment.classes) {
       out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << c.slope_from << ','
           << c.slope_to << ',' << aspectName(c.aspect) << ',' << c.count << ','
-          << (c.count == 0 ? "" : number(c.mean, 5)) << ',' << (c.count == 0 ? "" : number(c.rms, 5))
-          << '\n';
+          << (c.count == 0 ? "" : number(c.mean, 5)) << ','
+          << (c.count == 0 ? "" : number(c.rms, 5)) << '\n';
     }
   });
   return out.str();

@@ -198,11 +198,10 @@ Json blockJson(const CheckedBlock& block) {
   for (const CheckedPair& pair : block.pairs) json["pairs"].push_back(pairJson(pair));
   json["triangles"] = Json::array();
   for (const TriangleClosure& t : block.triangles)
-    json["triangles"].push_back(
-        {{"strips", {t.a, t.b, t.c}},
-         {"cells", t.cells},
-         {"closure_m", t.closure},
-         {"std_m", t.std}});
+    json["triangles"].push_back({{"strips", {t.a, t.b, t.c}},
+                                 {"cells", t.cells},
+                                 {"closure_m", t.closure},
+                                 {"std_m", t.std}});
   json["icpatch_triangles"] = Json::array();
   for (const MotionClosure& m : block.motions)
     json["icpatch_triangles"].push_back(
@@ -212,13 +211,10 @@ Json blockJson(const CheckedBlock& block) {
   if (block.control) json["control"] = controlJson(*block.control);
   if (block.separation) {
     const SeparationSummary& s = *block.separation;
-    json["swath_separation"] = {{"cell_m", s.cell},
-                                {"green_up_to_m", s.limit},
-                                {"yellow_up_to_m", 2.0 * s.limit},
-                                {"green_cells", s.green},
-                                {"yellow_cells", s.yellow},
-                                {"red_cells", s.red},
-                                {"files", s.files}};
+    json["swath_separation"] = {
+        {"cell_m", s.cell},       {"green_up_to_m", s.limit}, {"yellow_up_to_m", 2.0 * s.limit},
+        {"green_cells", s.green}, {"yellow_cells", s.yellow}, {"red_cells", s.red},
+        {"files", s.files}};
   }
   json["smooth_roughness_m"] = block.roughness_limit;
   json["warnings"] = block.warnings;

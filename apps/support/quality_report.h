@@ -14,7 +14,7 @@ namespace pcl_als::app {
 struct QualityReport {
   CheckedBlock block;
   std::optional<CheckedBlock> before;
-  int quality_level = 2;     ///< that the strips are to keep
+  int quality_level = 2;  ///< that the strips are to keep
   double peak_memory_mb = 0.0;
 };
 

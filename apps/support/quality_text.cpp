@@ -36,7 +36,9 @@ const CheckedPair* pairIn(const CheckedBlock& block, const CheckedPair& like) {
   return nullptr;
 }
 
-std::string nameOf(const CheckedPair& pair) { return pair.a + " & " + pair.b; }
+std::string nameOf(const CheckedPair& pair) {
+  return pair.a + " & " + pair.b;
+}
 
 bool judged(const CheckedPair& pair) {
   return pair.assessment.status == PairAssessment::Status::judged;
@@ -55,9 +57,11 @@ void forEachPair(const QualityReport& report, Row row) {
 std::string verticalTable(const QualityReport& report) {
   std::string text = format(
       "\nHeight differences a - b on smooth level single-return ground, m\n\n"
-      "| %-19s | %-6s | overlap m2 | places |    mean (std) | median |  RMSDz | cells RMS |   95 %% | "
+      "| %-19s | %-6s | overlap m2 | places |    mean (std) | median |  RMSDz | cells RMS |   95 "
+      "%% | "
       "level |\n"
-      "|---------------------|--------|------------|--------|------------------|--------|--------|-----------|--------|-------|\n",
+      "|---------------------|--------|------------|--------|------------------|--------|--------|-"
+      "----------|--------|-------|\n",
       "pair", "");
   forEachPair(report, [&](const char* label, const CheckedPair& pair) {
     const OffsetSummary& v = pair.assessment.vertical;
@@ -69,8 +73,8 @@ std::string verticalTable(const QualityReport& report) {
     }
     text += format("%7s (%s) | %6s | %6s | %9s | %6s | %-5s |\n", metres(v.mean).c_str(),
                    size(v.std_of_mean).c_str(), metres(v.median).c_str(), size(v.rms).c_str(),
-                   size(pair.assessment.vertical_cells.rms).c_str(),
-                   size(v.percentile_95).c_str(), levelName(pair.assessment.quality_level).c_str());
+                   size(pair.assessment.vertical_cells.rms).c_str(), size(v.percentile_95).c_str(),
+                   levelName(pair.assessment.quality_level).c_str());
   });
   return text;
 }
@@ -78,11 +82,13 @@ std::string verticalTable(const QualityReport& report) {
 /// The paper's Table 3.
 std::string alignmentTable(const QualityReport& report) {
   std::string text = format(
-      "\nRigid movement of a onto b about the centroid of their overlap (ICPatch), m and 0.001 deg, "
+      "\nRigid movement of a onto b about the centroid of their overlap (ICPatch), m and 0.001 "
+      "deg, "
       "with standard deviations\n\n"
       "| %-19s | %-6s | XT              | YT              | ZT              | omega        | phi  "
       "        | kappa        |\n"
-      "|---------------------|--------|-----------------|-----------------|-----------------|-------"
+      "|---------------------|--------|-----------------|-----------------|-----------------|------"
+      "-"
       "-------|--------------|--------------|\n",
       "pair", "");
   forEachPair(report, [&](const char* label, const CheckedPair& pair) {
@@ -113,9 +119,11 @@ std::string shiftTable(const QualityReport& report) {
   std::string text = format(
       "\nNormal distances a - b of all smooth surfaces; movement of a onto b that slopes over 10 "
       "degrees show, m\n\n"
-      "| %-19s | %-6s | places |    mean |    RMS | slopes |  east (std)     |  north (std)    |  up "
+      "| %-19s | %-6s | places |    mean |    RMS | slopes |  east (std)     |  north (std)    |  "
+      "up "
       "(std)       |\n"
-      "|---------------------|--------|--------|---------|--------|--------|------------------|------------------|------------------|\n",
+      "|---------------------|--------|--------|---------|--------|--------|------------------|----"
+      "--------------|------------------|\n",
       "pair", "");
   forEachPair(report, [&](const char* label, const CheckedPair& pair) {
     if (!judged(pair)) return;
@@ -143,9 +151,11 @@ std::string trendTable(const QualityReport& report) {
   std::string text = format(
       "\nHow height differences change: across the overlap (right of a's flight), along it, with "
       "time, with scan angle\n\n"
-      "| %-19s | %-6s | flown    | across mm/100 m | along mm/100 m | time mm/s     | angle mm/deg  | "
+      "| %-19s | %-6s | flown    | across mm/100 m | along mm/100 m | time mm/s     | angle mm/deg "
+      " | "
       "roll error arcsec |\n"
-      "|---------------------|--------|----------|-----------------|----------------|---------------|---------------|-------------------|\n",
+      "|---------------------|--------|----------|-----------------|----------------|--------------"
+      "-|---------------|-------------------|\n",
       "pair", "");
   const auto trend = [](const Trend& t, double factor) {
     return t.determined ? format("%+.2f (%.2f)", factor * t.slope, factor * t.std)
@@ -167,7 +177,9 @@ std::string trendTable(const QualityReport& report) {
 
 std::string triangleTable(const QualityReport& report) {
   if (report.block.triangles.empty()) return {};
-  std::string text = "\nClosure of height differences around three strips, on the ground that all three see, m\n\n";
+  std::string text =
+      "\nClosure of height differences around three strips, on the ground that all three see, "
+      "m\n\n";
   constexpr std::size_t kMost = 20;
   const auto& all = report.block.triangles;
   for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
@@ -238,9 +250,10 @@ bool hasAnswer(const CheckedBlock& block) {
 }
 
 std::string qualityText(const QualityReport& report) {
-  std::string text = verticalTable(report) + alignmentTable(report) + shiftTable(report) + trendTable(report) +
-                     triangleTable(report) + controlTable(report);
-  const QualityLevelLimits& limits = qualityLevels()[static_cast<std::size_t>(report.quality_level)];
+  std::string text = verticalTable(report) + alignmentTable(report) + shiftTable(report) +
+                     trendTable(report) + triangleTable(report) + controlTable(report);
+  const QualityLevelLimits& limits =
+      qualityLevels()[static_cast<std::size_t>(report.quality_level)];
   std::size_t kept = 0, all = 0;
   for (const CheckedPair& pair : report.block.pairs) {
     if (!judged(pair)) continue;

@@ -13,7 +13,7 @@
 namespace pcl_als::app {
 namespace {
 
-constexpr double kMostCells = 24e6;   // of all strips, 24 bytes each
+constexpr double kMostCells = 16e6;    // of all strips, 40 bytes each
 constexpr double kMostPixels = 400e6;  // of the image, which is written in strips of rows
 constexpr double kMostInPng = 64e6;
 constexpr int kRows = 512;
@@ -58,9 +58,14 @@ void writeRows(const std::vector<SwathSeparation::Cell>& cells, const RasterWind
     if (cells[i].strips < 2) continue;
     metres[i] = cells[i].separation;
     switch (separationColour(cells[i].separation, summary.limit)) {
-      case SeparationColour::green: ++summary.green; break;
-      case SeparationColour::yellow: ++summary.yellow; break;
-      default: ++summary.red;
+      case SeparationColour::green:
+        ++summary.green;
+        break;
+      case SeparationColour::yellow:
+        ++summary.yellow;
+        break;
+      default:
+        ++summary.red;
     }
   }
   for (std::size_t k = 0; k < 3; ++k) outputs.colours.write(k, window, bands[k].data());
@@ -114,7 +119,8 @@ SeparationSummary writeSeparation(const std::filesystem::path& folder, const std
   outputs.colours.commit();
   outputs.metres.commit();
   writePng(png, outputs.png);
-  summary.files = {colours.filename().string(), metres.filename().string(), png.filename().string()};
+  summary.files = {colours.filename().string(), metres.filename().string(),
+                   png.filename().string()};
   return summary;
 }
 

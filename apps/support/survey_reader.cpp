@@ -44,7 +44,8 @@ Eigen::AlignedBox2d SurveyReader::extent() const {
 
 Eigen::Vector2d SurveyReader::corner() const {
   const Eigen::Vector2d corner = extent().min();
-  return corner.allFinite() && !extent().isEmpty() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  return corner.allFinite() && !extent().isEmpty() ? corner
+                                                   : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
 
 double SurveyReader::resolution() const {

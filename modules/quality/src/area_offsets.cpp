@@ -9,20 +9,20 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kTooFew = 12;   // points that are not worth a TIN
-constexpr std::size_t kLooks = 300;   // for the roughness of plain ground
-constexpr double kGentle = 0.26;      // radians (15 degrees): where it is measured
-constexpr std::uint8_t kGround = 2;   // ASPRS class
-constexpr double kSteepest = 0.8;     // radians: a height beside a wall says nothing
+constexpr std::size_t kTooFew = 12;  // points that are not worth a TIN
+constexpr std::size_t kLooks = 300;  // for the roughness of plain ground
+constexpr double kGentle = 0.26;     // radians (15 degrees): where it is measured
+constexpr std::uint8_t kGround = 2;  // ASPRS class
+constexpr double kSteepest = 0.8;    // radians: a height beside a wall says nothing
 
 double medianEdge(const std::vector<SwathPoint>& points, const Tin& tin) {
   std::vector<double> lengths;
   for (const Tin::Triangle& triangle : tin.triangles()) {
     for (int i = 0; i < 3; ++i) {
-      lengths.push_back((points[triangle.vertex[i]].position -
-                         points[triangle.vertex[(i + 1) % 3]].position)
-                            .head<2>()
-                            .norm());
+      lengths.push_back(
+          (points[triangle.vertex[i]].position - points[triangle.vertex[(i + 1) % 3]].position)
+              .head<2>()
+              .norm());
     }
   }
   return lengths.empty() ? 0.0 : medianInPlace(lengths);

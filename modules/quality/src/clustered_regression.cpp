@@ -92,7 +92,8 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
   }
   result.clusters = scores.size();
   result.rms = std::sqrt(left.squaredNorm() / static_cast<double>(n));
-  const auto fewest = std::max<std::size_t>(kFewestClusters, static_cast<std::size_t>(unknowns_) + 1);
+  const auto fewest =
+      std::max<std::size_t>(kFewestClusters, static_cast<std::size_t>(unknowns_) + 1);
   if (result.clusters < fewest) return result;
   Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
   for (const auto& [cluster, score] : scores) middle += score * score.transpose();

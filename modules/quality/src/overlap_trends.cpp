@@ -89,8 +89,8 @@ std::vector<ProfileBin> profileOver(const Samples& samples, Place place) {
   const double width = (high - low) / kBins;
   for (int i = 0; i < kBins; ++i) {
     const RunningStatistics& sum = sums[static_cast<std::size_t>(i)];
-    bins.push_back({low + i * width, low + (i + 1) * width, sum.count(), sum.mean(),
-                    sum.standardDeviation()});
+    bins.push_back(
+        {low + i * width, low + (i + 1) * width, sum.count(), sum.mean(), sum.standardDeviation()});
   }
   return bins;
 }

@@ -15,11 +15,11 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kFewest = 50;          // level places a judgement needs
-constexpr std::size_t kFewestInCell = 5;     // for the mean of a cell
+constexpr std::size_t kFewest = 50;       // level places a judgement needs
+constexpr std::size_t kFewestInCell = 5;  // for the mean of a cell
 constexpr double kSteep = 10.0 * kRadiansPerDegree;
-constexpr double kWeakest = 0.5;             // metres: a shift worse known than that is not known
-constexpr double kCopied = 0.5;              // share of identical points
+constexpr double kWeakest = 0.5;  // metres: a shift worse known than that is not known
+constexpr double kCopied = 0.5;   // share of identical points
 constexpr double kSlopeSteps[] = {0.0, 5.0, 10.0, 20.0, 30.0, 60.0};  // degrees
 constexpr int kAspects = 8;
 
@@ -48,8 +48,7 @@ HorizontalShift horizontalShift(const std::vector<OffsetSample>& samples) {
   HorizontalShift found;
   ClusteredRegression equations(3);
   for (const OffsetSample& s : samples) {
-    if (s.conjugate && s.slope > kSteep)
-      equations.add(s.cluster(), s.normal, s.normal_distance);
+    if (s.conjugate && s.slope > kSteep) equations.add(s.cluster(), s.normal, s.normal_distance);
   }
   found.count = equations.count();
   const ClusteredRegression::Result result = equations.solve(true);
@@ -130,7 +129,8 @@ PairAssessment assessPair(const std::vector<OffsetSample>& samples,
   pair.classes = slopeAspectClasses(samples);
   pair.horizontal = horizontalShift(samples);
   pair.trends = overlapTrends(samples, course_a, course_b);
-  if (pair.vertical.count < kFewest || pair.vertical_cells.count < ClusteredRegression::kFewestClusters) {
+  if (pair.vertical.count < kFewest ||
+      pair.vertical_cells.count < ClusteredRegression::kFewestClusters) {
     pair.reason = "only " + std::to_string(pair.vertical.count) +
                   " places on smooth level single-return ground in common";
     return pair;
@@ -165,9 +165,9 @@ std::vector<TriangleClosure> closeTriangles(const std::vector<PairOffset>& pairs
                    triple.ac.sign * third->second);
     }
     if (closures.count() < ClusteredRegression::kFewestClusters) continue;
-    triangles.push_back({triple.a, triple.b, triple.c, closures.count(), closures.mean(),
-                         closures.standardDeviation() /
-                             std::sqrt(static_cast<double>(closures.count()))});
+    triangles.push_back(
+        {triple.a, triple.b, triple.c, closures.count(), closures.mean(),
+         closures.standardDeviation() / std::sqrt(static_cast<double>(closures.count()))});
   }
   return triangles;
 }

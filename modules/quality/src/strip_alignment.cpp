@@ -46,8 +46,7 @@ Displacement displacementAt(const PatchAlignmentResult& result, const Eigen::Vec
   Eigen::Matrix3d cross;
   cross << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
   effect << Eigen::Matrix3d::Identity(), -cross;
-  return {result.motion.apply(point) - point,
-          effect * result.covariance * effect.transpose()};
+  return {result.motion.apply(point) - point, effect * result.covariance * effect.transpose()};
 }
 
 }  // namespace
@@ -68,10 +67,14 @@ PatchAlignmentResult alignStrips(const std::vector<AreaOffsets>& areas, int a, i
 
 const char* toString(PatchAlignmentResult::Status status) {
   switch (status) {
-    case PatchAlignmentResult::Status::converged: return "converged";
-    case PatchAlignmentResult::Status::not_converged: return "not_converged";
-    case PatchAlignmentResult::Status::too_few_pairs: return "too_few_pairs";
-    default: return "no_overlap";
+    case PatchAlignmentResult::Status::converged:
+      return "converged";
+    case PatchAlignmentResult::Status::not_converged:
+      return "not_converged";
+    case PatchAlignmentResult::Status::too_few_pairs:
+      return "too_few_pairs";
+    default:
+      return "no_overlap";
   }
 }
 

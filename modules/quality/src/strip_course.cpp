@@ -9,10 +9,10 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kLeastTimeSpread = 1e-3;    // seconds, standard deviation
-constexpr double kLeastAngleSpread = 0.1;    // degrees
-constexpr double kMostCorrelated = 0.999;    // of time and angle: then they cannot be parted
-constexpr double kLeastSpeed = 1.0;          // metres per second
+constexpr double kLeastTimeSpread = 1e-3;  // seconds, standard deviation
+constexpr double kLeastAngleSpread = 0.1;  // degrees
+constexpr double kMostCorrelated = 0.999;  // of time and angle: then they cannot be parted
+constexpr double kLeastSpeed = 1.0;        // metres per second
 
 }  // namespace
 
@@ -35,8 +35,7 @@ std::optional<Eigen::Vector2d> StripCourse::direction() const {
   const Eigen::Matrix2d with =
       right_.bottomRows<2>() / n - mean * (right_.row(0) / n);  // rows: time, angle; columns: x, y
   if (!(spread(0, 0) > kLeastTimeSpread * kLeastTimeSpread)) return std::nullopt;
-  const double correlation =
-      spread(0, 1) / std::sqrt(spread(0, 0) * std::max(spread(1, 1), 1e-12));
+  const double correlation = spread(0, 1) / std::sqrt(spread(0, 0) * std::max(spread(1, 1), 1e-12));
   const bool angles = spread(1, 1) > kLeastAngleSpread * kLeastAngleSpread &&
                       std::abs(correlation) < kMostCorrelated;
   const Eigen::Vector2d velocity =

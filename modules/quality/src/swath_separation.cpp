@@ -11,7 +11,8 @@
 namespace pcl_als {
 namespace {
 
-constexpr float kUneven = 0.3F;      // metres, RMS of neighbours about their plane: no slope there
+constexpr float kStep = 0.5F;         // metres: more in a cell is another surface
+constexpr float kUneven = 0.3F;       // metres, RMS of neighbours about their plane: no slope there
 constexpr int kFewestNeighbours = 5;  // of nine, for a slope
 constexpr float kShare = 0.5F;        // of the colour over the grey
 
@@ -43,14 +44,20 @@ void SwathSeparation::add(int index, const SwathPoint& point) {
     strip.last_key = key;
   }
   Sum& sum = (*strip.last)[static_cast<std::size_t>(r % kBlock) * kBlock + c % kBlock];
+  const Place place =
+      (point.position - Eigen::Vector3d(grid_.centreX(c), grid_.centreY(r), strip.height))
+          .cast<float>();
+  if (sum.count == 0 || place.head<2>().squaredNorm() < sum.nearest.head<2>().squaredNorm())
+    sum.nearest = place;
+  sum.low = sum.count == 0 ? place.z() : std::min(sum.low, place.z());
+  sum.high = sum.count == 0 ? place.z() : std::max(sum.high, place.z());
   const float share = 1.0F / static_cast<float>(++sum.count);
-  const auto mix = [share](float& mean, double value) {
-    mean += (static_cast<float>(value) - mean) * share;
-  };
-  mix(sum.x, point.position.x() - grid_.centreX(c));
-  mix(sum.y, point.position.y() - grid_.centreY(r));
-  mix(sum.z, point.position.z() - strip.height);
-  mix(sum.intensity, point.intensity);
+  sum.mean += (place - sum.mean) * share;
+  sum.intensity += (point.intensity - sum.intensity) * share;
+}
+
+const SwathSeparation::Place& SwathSeparation::Sum::place() const {
+  return high - low < kStep ? mean : nearest;
 }
 
 const SwathSeparation::Sum* SwathSeparation::at(const StripBlocks& strip, int column,
@@ -58,8 +65,7 @@ const SwathSeparation::Sum* SwathSeparation::at(const StripBlocks& strip, int co
   if (!grid_.holds(column, row)) return nullptr;
   const auto block = strip.blocks.find(keyOf(column / kBlock, row / kBlock));
   if (block == strip.blocks.end()) return nullptr;
-  const Sum& sum =
-      block->second[static_cast<std::size_t>(row % kBlock) * kBlock + column % kBlock];
+  const Sum& sum = block->second[static_cast<std::size_t>(row % kBlock) * kBlock + column % kBlock];
   return sum.count == 0 ? nullptr : &sum;
 }
 
@@ -70,31 +76,34 @@ float SwathSeparation::heightAtCentre(const StripBlocks& strip, int column, int 
   std::array<Eigen::Vector3f, 9> places;
   std::array<float, 9> heights{};
   std::size_t count = 0;
+  const Place& own = sum.place();
   const auto cell = static_cast<float>(grid_.cell);
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       const Sum* near = dx == 0 && dy == 0 ? &sum : at(strip, column + dx, row + dy);
       if (near == nullptr) continue;
-      const Eigen::Vector3f place(1.0F, (near->x + dx * cell) / cell, (near->y - dy * cell) / cell);
+      const Place& there = near->place();
+      const Eigen::Vector3f place(1.0F, there.x() / cell + static_cast<float>(dx),
+                                  there.y() / cell - static_cast<float>(dy));
       places[count] = place;
-      heights[count] = near->z - sum.z;
+      heights[count] = there.z() - own.z();
       normal += place * place.transpose();
       right += heights[count++] * place;
     }
   }
-  if (count < kFewestNeighbours) return sum.z;
+  if (count < kFewestNeighbours) return own.z();
   bool invertible = false;
   Eigen::Matrix3f inverse;
   normal.computeInverseWithCheck(inverse, invertible, 1e-3F);
-  if (!invertible) return sum.z;
+  if (!invertible) return own.z();
   const Eigen::Vector3f plane = inverse * right;
   float squares = 0.0F;
   for (std::size_t i = 0; i < count; ++i) {
     const float rest = heights[i] - plane.dot(places[i]);
     squares += rest * rest;
   }
-  if (squares > kUneven * kUneven * static_cast<float>(count)) return sum.z;
-  return sum.z - (plane[1] * sum.x + plane[2] * sum.y) / cell;
+  if (squares > kUneven * kUneven * static_cast<float>(count)) return own.z();
+  return own.z() - (plane[1] * own.x() + plane[2] * own.y()) / cell;
 }
 
 SwathSeparation::Cell SwathSeparation::cellAt(int column, int row) const {

@@ -16,12 +16,12 @@ namespace pcl_als {
  * red of the swath separation images.
  */
 struct QualityLevelLimits {
-  int level;                         ///< QL
-  double swath_overlap_rmsdz;        ///< metres, RMS of height differences between swaths
-  double swath_overlap_maximum;      ///< metres, largest difference
-  double smooth_surface_repeat;      ///< metres, RMS within one swath
-  double absolute_rmsez;             ///< metres, non-vegetated ground against check points
-  double separation_image_cell;      ///< metres: twice the elevation model's cell (Table 6)
+  int level;                     ///< QL
+  double swath_overlap_rmsdz;    ///< metres, RMS of height differences between swaths
+  double swath_overlap_maximum;  ///< metres, largest difference
+  double smooth_surface_repeat;  ///< metres, RMS within one swath
+  double absolute_rmsez;         ///< metres, non-vegetated ground against check points
+  double separation_image_cell;  ///< metres: twice the elevation model's cell (Table 6)
 };
 
 inline constexpr int kQualityLevels = 4;
@@ -50,8 +50,8 @@ struct VerticalAccuracy {
   /// Edition 2: sqrt(fit^2 + survey^2), fit: RMSE against the points, survey: RMSE of their heights
   double rmse_v = 0.0;
   double fit = 0.0, survey = 0.0;
-  double class_cm = 0.0;      ///< the accuracy class that rmse_v falls into: the next whole centimetre
-  double nva_95 = 0.0;        ///< Edition 1: 1.96 fit, at 95 % if errors are normal
+  double class_cm = 0.0;  ///< the accuracy class that rmse_v falls into: the next whole centimetre
+  double nva_95 = 0.0;    ///< Edition 1: 1.96 fit, at 95 % if errors are normal
   bool enough_points = false;  ///< Edition 2 asks for kFewestCheckPoints
 };
 inline constexpr std::size_t kFewestCheckPoints = 30;

@@ -58,9 +58,9 @@ class AreaOffsets {
 
   /// A strip against a point of known height.
   struct Height {
-    double above = 0.0;  ///< strip - point, metres, vertical
+    double above = 0.0;                    ///< strip - point, metres, vertical
     float slope = 0.0F, roughness = 0.0F;  ///< of the surface around, radians, metres
-    std::string unfit;   ///< why this is not to be used; empty: it is
+    std::string unfit;                     ///< why this is not to be used; empty: it is
   };
   /// Empty where the strip has no surface above or below the point.
   std::optional<Height> heightAt(int strip, const Eigen::Vector3d& point) const;

@@ -18,10 +18,10 @@ namespace pcl_als {
 struct ControlDifference {
   std::string point, strip;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the point, metres, ground frame
-  double above = 0.0;      ///< strip - control, metres
-  double slope = 0.0;      ///< of the surface, radians
-  double roughness = 0.0;  ///< metres
-  std::string unfit;       ///< why it is left out of the statistics; empty: it counts
+  double above = 0.0;                                  ///< strip - control, metres
+  double slope = 0.0;                                  ///< of the surface, radians
+  double roughness = 0.0;                              ///< metres
+  std::string unfit;  ///< why it is left out of the statistics; empty: it counts
 };
 
 /// The strips against control.
@@ -33,11 +33,11 @@ struct ControlAssessment {
 
   std::vector<ControlDifference> differences;  ///< by point, then by strip
   std::vector<OfStrip> strips;                 ///< those that see a point, in order
-  OffsetSummary all;          ///< every strip at every point it sees
-  std::size_t points = 0;     ///< that count, of at least one strip
-  std::vector<std::string> unseen;  ///< points that no strip covers
-  VerticalAccuracy accuracy;        ///< of all
-  bool survey_known = false;        ///< the file gives the standard deviations of the heights
+  OffsetSummary all;                           ///< every strip at every point it sees
+  std::size_t points = 0;                      ///< that count, of at least one strip
+  std::vector<std::string> unseen;             ///< points that no strip covers
+  VerticalAccuracy accuracy;                   ///< of all
+  bool survey_known = false;         ///< the file gives the standard deviations of the heights
   std::optional<int> quality_level;  ///< by the fit alone; empty: none
 };
 

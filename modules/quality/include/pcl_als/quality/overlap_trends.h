@@ -41,10 +41,10 @@ struct OverlapTrends {
   FlightRelation relation = FlightRelation::unknown;
   Eigen::Vector2d course = Eigen::Vector2d::UnitY();  ///< of a, plan unit vector; where known
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();   ///< the centre line goes through it, metres
-  Trend across;      ///< per metre to the right of a's flight
-  Trend along;       ///< per metre along it
-  Trend time;        ///< per second of a
-  Trend scan_angle;  ///< per degree of a
+  Trend across;                                       ///< per metre to the right of a's flight
+  Trend along;                                        ///< per metre along it
+  Trend time;                                         ///< per second of a
+  Trend scan_angle;                                   ///< per degree of a
 
   /// Roll errors in radians, as far as the offsets tell: opposite: mean of both, a common error
   /// such as the boresight's; parallel: a - b; crossing: first a's, then b's.

@@ -22,7 +22,7 @@ namespace pcl_als {
  */
 struct HorizontalShift {
   bool determined = false;
-  std::string reason;  ///< why not
+  std::string reason;                                                              ///< why not
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), std = Eigen::Vector3d::Zero();  ///< metres
   std::size_t count = 0;
   double rms = 0.0;  ///< of what is left, metres
@@ -37,7 +37,8 @@ struct SlopeAspectClass {
 };
 const char* aspectName(int aspect);
 
-/// What two overlapping strips say of each other. Signs are those of a - b, movements take a onto b.
+/// What two overlapping strips say of each other. Signs are those of a - b, movements take a onto
+/// b.
 struct PairAssessment {
   enum class Status {
     judged,
@@ -47,9 +48,9 @@ struct PairAssessment {
   Status status = Status::too_little;
   std::string reason;  ///< why it is not judged
 
-  OffsetSummary vertical;        ///< smooth single-return ground under 10 degrees
-  OffsetSummary vertical_cells;  ///< of the means of cells of OffsetSample::kCluster metres
-  OffsetSummary normal;          ///< all smooth surfaces, along the normal
+  OffsetSummary vertical;            ///< smooth single-return ground under 10 degrees
+  OffsetSummary vertical_cells;      ///< of the means of cells of OffsetSample::kCluster metres
+  OffsetSummary normal;              ///< all smooth surfaces, along the normal
   std::optional<int> quality_level;  ///< by vertical.rms; empty: none
   HorizontalShift horizontal;
   std::vector<SlopeAspectClass> classes;
@@ -73,9 +74,9 @@ struct PairOffset {
   CellMeans cells;
 };
 
-/// Three strips that see the same ground: what is left of the offsets going round, a-b + b-c - (a-c),
-/// as the mean over the cells that all three pairs have. On other ground the strips' trajectories
-/// err differently, and nothing has to close.
+/// Three strips that see the same ground: what is left of the offsets going round, a-b + b-c -
+/// (a-c), as the mean over the cells that all three pairs have. On other ground the strips'
+/// trajectories err differently, and nothing has to close.
 struct TriangleClosure {
   std::string a, b, c;
   std::size_t cells = 0;

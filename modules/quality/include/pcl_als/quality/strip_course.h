@@ -28,7 +28,7 @@ class StripCourse {
   std::size_t count_ = 0;
   Eigen::Vector2d reference_ = Eigen::Vector2d::Zero();
   double time_reference_ = 0.0;
-  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();                      ///< 1, time, scan angle
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();  ///< 1, time, scan angle
   Eigen::Matrix<double, 3, 2> right_ = Eigen::Matrix<double, 3, 2>::Zero();  ///< with x, y
 };
 

@@ -20,12 +20,14 @@ namespace pcl_als {
  * Lidar Base Specification: that separation as green, yellow or red over the intensity.
  *
  * Of every cell and strip the mean position, height and intensity of the last returns are kept
- * (withheld points and noise left out, as the specification asks; no threshold). Where strips share
- * a cell, each one's height is carried to the cell's centre along the local slope, found from the
- * means of its neighbours, unless these lie on no plane (eaves, trees); the separation is the
- * largest height minus the smallest. So a slope by itself separates nothing.
+ * (withheld points and noise left out, as the specification asks; no threshold), and the return
+ * nearest to the cell's centre, which stands for the mean where the cell holds several surfaces (a
+ * step of half a metre). Where strips share a cell, each one's height is carried to the cell's
+ * centre along the local slope, found from its neighbours, unless these lie on no plane (eaves,
+ * trees); the separation is the largest height minus the smallest. So a slope by itself separates
+ * nothing.
  *
- * Different strips may be added from different threads. Memory: 24 bytes per cell and strip, in
+ * Different strips may be added from different threads. Memory: 40 bytes per cell and strip, in
  * blocks of 32 x 32 cells where a strip has points.
  */
 class SwathSeparation {
@@ -37,9 +39,9 @@ class SwathSeparation {
   const RasterGrid& grid() const { return grid_; }
 
   struct Cell {
-    std::uint8_t strips = 0;   ///< that see it
-    float separation = 0.0F;   ///< metres; where two or more do
-    float intensity = 0.0F;    ///< mean of all
+    std::uint8_t strips = 0;  ///< that see it
+    float separation = 0.0F;  ///< metres; where two or more do
+    float intensity = 0.0F;   ///< mean of all
   };
   /// The cells of \a rows rows from \a first_row on, row by row.
   std::vector<Cell> rows(int first_row, int rows) const;
@@ -52,10 +54,14 @@ class SwathSeparation {
 
  private:
   static constexpr int kBlock = 32;  // cells per side
+  using Place = Eigen::Vector3f;     ///< metres: east and north of the cell's centre, and height
   struct Sum {
-    float x = 0.0F, y = 0.0F, z = 0.0F;  ///< means: metres from the centre of the cell, and height
-    float intensity = 0.0F;
+    Place mean = Place::Zero(), nearest = Place::Zero();
+    float low = 0.0F, high = 0.0F, intensity = 0.0F;
     std::uint32_t count = 0;
+
+    /// Where the strip's surface is taken to be.
+    const Place& place() const;
   };
   using Block = std::vector<Sum>;
   struct StripBlocks {
