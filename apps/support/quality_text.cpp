@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <vector>
 
 #include <pcl_als/common/system_parameters.h>
 
@@ -36,10 +37,6 @@ const CheckedPair* pairIn(const CheckedBlock& block, const CheckedPair& like) {
   return nullptr;
 }
 
-std::string nameOf(const CheckedPair& pair) {
-  return pair.a + " & " + pair.b;
-}
-
 bool judged(const CheckedPair& pair) {
   return pair.assessment.status == PairAssessment::Status::judged;
 }
@@ -54,125 +51,134 @@ void forEachPair(const QualityReport& report, Row row) {
   }
 }
 
-std::string verticalTable(const QualityReport& report) {
-  std::string text = format(
-      "\nHeight differences a - b on smooth level single-return ground, m\n\n"
-      "| %-19s | %-6s | overlap m2 | places |    mean (std) | median |  RMSDz | cells RMS |   95 "
-      "%% | "
-      "level |\n"
-      "|---------------------|--------|------------|--------|------------------|--------|--------|-"
-      "----------|--------|-------|\n",
-      "pair", "");
-  forEachPair(report, [&](const char* label, const CheckedPair& pair) {
-    const OffsetSummary& v = pair.assessment.vertical;
-    text += format("| %-19s | %-6s | %10.0f | %6zu | ", nameOf(pair).c_str(), label,
-                   pair.overlap_area, v.count);
-    if (!judged(pair)) {
-      text += pair.assessment.reason + "\n";
-      return;
+/// Rows of cells, as wide as need be. A row may end early with a remark instead of cells.
+class TextTable {
+ public:
+  explicit TextTable(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  std::string text() const {
+    std::vector<std::size_t> widths;
+    for (const std::string& cell : rows_[0]) widths.push_back(cell.size());
+    for (const auto& row : rows_) {
+      const std::size_t cells = row.size() < widths.size() ? row.size() - 1 : row.size();
+      for (std::size_t i = 0; i < cells; ++i) widths[i] = std::max(widths[i], row[i].size());
     }
-    text += format("%7s (%s) | %6s | %6s | %9s | %6s | %-5s |\n", metres(v.mean).c_str(),
-                   size(v.std_of_mean).c_str(), metres(v.median).c_str(), size(v.rms).c_str(),
-                   size(pair.assessment.vertical_cells.rms).c_str(), size(v.percentile_95).c_str(),
-                   levelName(pair.assessment.quality_level).c_str());
+    std::string out, rule = "|";
+    for (const std::size_t width : widths) rule += std::string(width + 2, '-') + '|';
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      out += '|';
+      for (std::size_t i = 0; i < rows_[r].size(); ++i) {
+        const std::string& cell = rows_[r][i];
+        const std::string padding(widths[i] - std::min(widths[i], cell.size()), ' ');
+        out += ' ' + (i == 0 ? cell + padding : padding + cell) + " |";
+      }
+      out += '\n';
+      if (r == 0) out += rule + '\n';
+    }
+    return out;
+  }
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// "a & b", and which set where there are two.
+std::string labelOf(const char* set, const CheckedPair& pair) {
+  return pair.a + " & " + pair.b + (*set == 0 ? "" : std::string(" ") + set);
+}
+
+std::string withStd(double value, double std, int digits = 4) {
+  return metres(value, digits) + " (" + size(std, digits) + ")";
+}
+
+std::string verticalTable(const QualityReport& report) {
+  TextTable table({"pair", "overlap m2", "places", "mean (std)", "median", "RMSDz", "RMS of cells",
+                   "95 %", "level"});
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    const OffsetSummary& v = pair.assessment.vertical;
+    std::vector<std::string> row{labelOf(set, pair), format("%.0f", pair.overlap_area),
+                                 std::to_string(v.count)};
+    if (!judged(pair)) {
+      row.push_back(pair.assessment.reason);
+    } else {
+      for (const std::string& cell :
+           {withStd(v.mean, v.std_of_mean), metres(v.median), size(v.rms),
+            size(pair.assessment.vertical_cells.rms), size(v.percentile_95),
+            levelName(pair.assessment.quality_level)})
+        row.push_back(cell);
+    }
+    table.add(row);
   });
-  return text;
+  return "\nHeight differences a - b on smooth level single-return ground, m\n\n" + table.text();
 }
 
 /// The paper's Table 3.
 std::string alignmentTable(const QualityReport& report) {
-  std::string text = format(
-      "\nRigid movement of a onto b about the centroid of their overlap (ICPatch), m and 0.001 "
-      "deg, "
-      "with standard deviations\n\n"
-      "| %-19s | %-6s | XT              | YT              | ZT              | omega        | phi  "
-      "        | kappa        |\n"
-      "|---------------------|--------|-----------------|-----------------|-----------------|------"
-      "-"
-      "-------|--------------|--------------|\n",
-      "pair", "");
-  forEachPair(report, [&](const char* label, const CheckedPair& pair) {
+  TextTable table({"pair", "XT m", "YT m", "ZT m", "omega mdeg", "phi mdeg", "kappa mdeg"});
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     if (!pair.alignment) return;
     const PatchAlignmentResult& r = *pair.alignment;
-    text += format("| %-19s | %-6s | ", nameOf(pair).c_str(), label);
-    if (!r.hasConverged()) {
-      text += std::string(toString(r.status)) + ": " + r.message + " |\n";
-      return;
+    std::vector<std::string> row{labelOf(set, pair)};
+    if (!r.hasConverged()) row.push_back(std::string(toString(r.status)) + ": " + r.message);
+    for (int i = 0; r.hasConverged() && i < PatchAlignmentResult::kParameters; ++i) {
+      const double unit = i < 3 ? 1.0 : 1e-3 * kRadiansPerDegree;
+      const double value = i < 3 ? r.motion.shift[i] : r.motion.rotation[i - 3];
+      row.push_back(r.parameters[static_cast<std::size_t>(i)].determined
+                        ? withStd(value / unit, r.standardDeviation(i) / unit, i < 3 ? 4 : 2)
+                        : "not determined");
     }
-    for (int i = 0; i < PatchAlignmentResult::kParameters; ++i) {
-      const int width = i < 3 ? 15 : 12;
-      std::string cell = "not determined";
-      if (r.parameters[static_cast<std::size_t>(i)].determined) {
-        const double thousandth = 1e-3 * kRadiansPerDegree;
-        cell = i < 3 ? format("%+.4f (%.4f)", r.motion.shift[i], r.standardDeviation(i))
-                     : format("%+.2f (%.2f)", r.motion.rotation[i - 3] / thousandth,
-                              r.standardDeviation(i) / thousandth);
-      }
-      text += format("%*s | ", width, cell.c_str());
-    }
-    text.back() = '\n';
+    table.add(row);
   });
-  return text;
+  return "\nRigid movement of a onto b about the centroid of their overlap (ICPatch), with "
+         "standard "
+         "deviations\n\n" +
+         table.text();
 }
 
 std::string shiftTable(const QualityReport& report) {
-  std::string text = format(
-      "\nNormal distances a - b of all smooth surfaces; movement of a onto b that slopes over 10 "
-      "degrees show, m\n\n"
-      "| %-19s | %-6s | places |    mean |    RMS | slopes |  east (std)     |  north (std)    |  "
-      "up "
-      "(std)       |\n"
-      "|---------------------|--------|--------|---------|--------|--------|------------------|----"
-      "--------------|------------------|\n",
-      "pair", "");
-  forEachPair(report, [&](const char* label, const CheckedPair& pair) {
+  TextTable table(
+      {"pair", "places", "mean", "RMS", "slopes", "east (std)", "north (std)", "up (std)"});
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     if (!judged(pair)) return;
     const OffsetSummary& n = pair.assessment.normal;
     const HorizontalShift& h = pair.assessment.horizontal;
-    text += format("| %-19s | %-6s | %6zu | %7s | %6s | %6zu | ", nameOf(pair).c_str(), label,
-                   n.count, metres(n.mean).c_str(), size(n.rms).c_str(), h.count);
-    if (!h.determined) {
-      text += "not determined: " + h.reason + " |\n";
-      return;
-    }
-    for (int i = 0; i < 3; ++i)
-      text += format("%7s (%s) | ", metres(h.shift[i]).c_str(), size(h.std[i]).c_str());
-    text += '\n';
+    std::vector<std::string> row{labelOf(set, pair), std::to_string(n.count), metres(n.mean),
+                                 size(n.rms), std::to_string(h.count)};
+    if (!h.determined) row.push_back("not determined: " + h.reason);
+    for (int i = 0; h.determined && i < 3; ++i) row.push_back(withStd(h.shift[i], h.std[i]));
+    table.add(row);
   });
-  return text;
+  return "\nNormal distances a - b of all smooth surfaces; movement of a onto b that slopes over "
+         "10 "
+         "degrees show, m\n\n" +
+         table.text();
 }
 
 std::string arcsec(const OverlapTrends::Roll& roll) {
-  if (!roll.determined) return "-";
-  return format("%+.1f (%.1f)", roll.value / kRadiansPerArcsec, roll.std / kRadiansPerArcsec);
+  return roll.determined ? withStd(roll.value / kRadiansPerArcsec, roll.std / kRadiansPerArcsec, 1)
+                         : "-";
 }
 
 std::string trendTable(const QualityReport& report) {
-  std::string text = format(
-      "\nHow height differences change: across the overlap (right of a's flight), along it, with "
-      "time, with scan angle\n\n"
-      "| %-19s | %-6s | flown    | across mm/100 m | along mm/100 m | time mm/s     | angle mm/deg "
-      " | "
-      "roll error arcsec |\n"
-      "|---------------------|--------|----------|-----------------|----------------|--------------"
-      "-|---------------|-------------------|\n",
-      "pair", "");
+  TextTable table({"pair", "flown", "across mm/100 m", "along mm/100 m", "time mm/s",
+                   "angle mm/deg", "as roll error, arcsec"});
   const auto trend = [](const Trend& t, double factor) {
-    return t.determined ? format("%+.2f (%.2f)", factor * t.slope, factor * t.std)
-                        : std::string("-");
+    return t.determined ? withStd(factor * t.slope, factor * t.std, 2) : std::string("-");
   };
-  forEachPair(report, [&](const char* label, const CheckedPair& pair) {
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     if (!judged(pair)) return;
     const OverlapTrends& t = pair.assessment.trends;
     std::string roll = arcsec(t.roll);
-    if (t.relation == FlightRelation::parallel) roll = "a - b: " + roll;
+    if (t.relation == FlightRelation::parallel) roll = "a - b " + roll;
     if (t.roll_b.determined) roll = "a " + roll + ", b " + arcsec(t.roll_b);
-    text += format("| %-19s | %-6s | %-8s | %15s | %14s | %13s | %13s | %s |\n",
-                   nameOf(pair).c_str(), label, toString(t.relation), trend(t.across, 1e5).c_str(),
-                   trend(t.along, 1e5).c_str(), trend(t.time, 1e3).c_str(),
-                   trend(t.scan_angle, 1e3).c_str(), roll.c_str());
+    table.add({labelOf(set, pair), toString(t.relation), trend(t.across, 1e5), trend(t.along, 1e5),
+               trend(t.time, 1e3), trend(t.scan_angle, 1e3), roll});
   });
-  return text;
+  return "\nHow height differences change: across the overlap (right of a's flight), along it, "
+         "with "
+         "time and scan angle of a\n\n" +
+         table.text();
 }
 
 std::string triangleTable(const QualityReport& report) {
@@ -190,35 +196,28 @@ std::string triangleTable(const QualityReport& report) {
   return text;
 }
 
-void controlRow(const char* label, const char* strip, const OffsetSummary& s, std::string& text) {
-  text += format("| %-15s | %-6s | %6zu | %7s | %6s | %6s | %7s |\n", strip, label, s.count,
-                 metres(s.mean).c_str(), size(s.std).c_str(), size(s.rms).c_str(),
-                 size(s.largest).c_str());
-}
-
 std::string controlTable(const QualityReport& report) {
   if (!report.block.control) return {};
-  std::string text = format(
-      "\nHeights of strips above control, m\n\n"
-      "| %-15s | %-6s | points |    mean |     sd |   RMSE | largest |\n"
-      "|-----------------|--------|--------|---------|--------|--------|---------|\n",
-      "strip", "");
-  const auto both = [&](const char* strip, auto find) {
-    if (report.before && report.before->control) {
-      const OffsetSummary* before = find(*report.before->control);
-      if (before != nullptr) controlRow("before", strip, *before, text);
-    }
-    const OffsetSummary* after = find(*report.block.control);
-    if (after != nullptr) controlRow(report.before ? "after" : "", strip, *after, text);
+  TextTable table({"strip", "points", "mean", "sd", "RMSE", "largest"});
+  const auto row = [&](const std::string& strip, const char* set, const OffsetSummary* s) {
+    if (s == nullptr) return;
+    table.add({strip + (*set == 0 ? "" : std::string(" ") + set), std::to_string(s->count),
+               metres(s->mean), size(s->std), size(s->rms), size(s->largest)});
+  };
+  const auto both = [&](const std::string& strip, auto find) {
+    if (report.before && report.before->control)
+      row(strip, "before", find(*report.before->control));
+    row(strip, report.before ? "after" : "", find(*report.block.control));
   };
   for (const auto& of_strip : report.block.control->strips) {
-    both(of_strip.strip.c_str(), [&](const ControlAssessment& control) -> const OffsetSummary* {
+    both(of_strip.strip, [&](const ControlAssessment& control) -> const OffsetSummary* {
       for (const auto& other : control.strips)
         if (other.strip == of_strip.strip) return &other.offsets;
       return nullptr;
     });
   }
   both("all", [](const ControlAssessment& control) { return &control.all; });
+  std::string text = "\nHeights of strips above control, m\n\n" + table.text();
   const auto figures = [&](const char* label, const ControlAssessment& control) {
     const VerticalAccuracy& accuracy = control.accuracy;
     text += format(
