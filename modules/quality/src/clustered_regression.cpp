@@ -31,6 +31,21 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& normal) {
          scale.asDiagonal();
 }
 
+/// Raises variances to these at least, correlations kept.
+void raiseTo(const Eigen::VectorXd& variances, Eigen::MatrixXd& covariance) {
+  for (Eigen::Index i = 0; i < variances.size(); ++i) {
+    const double found = covariance(i, i);
+    if (!(found < variances[i])) continue;
+    if (found > 0.0) {
+      const double factor = std::sqrt(variances[i] / found);
+      covariance.row(i) *= factor;
+      covariance.col(i) *= factor;
+    } else {
+      covariance(i, i) = variances[i];
+    }
+  }
+}
+
 }  // namespace
 
 double ClusteredRegression::Result::std(int unknown) const {
@@ -97,9 +112,10 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
   if (result.clusters < fewest) return result;
   Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
   for (const auto& [cluster, score] : scores) middle += score * score.transpose();
-  const double groups = static_cast<double>(result.clusters), all = static_cast<double>(n);
-  const double small = groups / (groups - 1.0) * (all - 1.0) / (all - unknowns_);
-  result.covariance = small * inverse * middle * inverse;
+  const double groups = static_cast<double>(result.clusters);
+  result.covariance = groups / (groups - unknowns_) * inverse * middle * inverse;
+  const double variance = left.cwiseProduct(weights).dot(left) / static_cast<double>(n - unknowns_);
+  raiseTo(variance * inverse.diagonal(), result.covariance);
   result.determined = true;
   return result;
 }

@@ -15,9 +15,10 @@ namespace pcl_als {
  * value = row . x + error. Errors of observations of one cluster (a patch of ground: one terrain,
  * one stretch of both trajectories) may be correlated in any way, those of different clusters are
  * independent. With N = sum a'a and the score s_g = sum over cluster g of a' v,
- *   Cov = c N^-1 (sum_g s_g s_g') N^-1,   c = G/(G-1) (n-1)/(n-m)
- * (Liang and Zeger 1986; c as Cameron and Miller 2015, section VI). What all clusters share (a
- * constant error of a whole strip) is not in it, because no observation shows it.
+ *   Cov = G/(G-m) N^-1 (sum_g s_g s_g') N^-1
+ * (Liang and Zeger 1986) for G clusters and m unknowns; no variance less than that of independent
+ * errors, sigma^2 N^-1, for few clusters may happen to agree. What all clusters share (a constant
+ * error of a whole strip) is not in it, because no observation shows it.
  *
  * Centre the columns: rows of size about 1 keep N well-conditioned. Deterministic: sums in the
  * order of add().
