@@ -11,6 +11,7 @@
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/tin/tin.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -28,7 +29,8 @@ int main(int argc, char** argv) {
   const pcl_als::Tin tin({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
   std::cout << points << " points, " << covered << " covered, " << tin.triangles().size()
             << " triangles\n";
-  return points == reader->info().point_count && covered == points && tin.triangles().size() == 2
+  return points == reader->info().point_count && covered == points && tin.triangles().size() == 2 &&
+                 pcl_als::swathQualityLevel(0.05) == 1
              ? 0
              : 1;
 }
