@@ -76,8 +76,10 @@ bool isPointFile(const fs::path& path) {
   return extension == ".las" || extension == ".laz" || extension == ".pcd";
 }
 
-/// The files of -before: a list, or those of a folder by name.
-std::vector<std::string> filesBefore(const CommandLine& line) {
+/// The files of -before: a list, or those of a folder; in the order of the files of that name in
+/// \a others, for strips are named, and pairs turned, by it.
+std::vector<std::string> filesBefore(const CommandLine& line,
+                                     const std::vector<std::string>& others) {
   std::vector<std::string> files;
   const std::string text = line.text("before");
   if (!fs::is_directory(text)) {
@@ -89,6 +91,13 @@ std::vector<std::string> filesBefore(const CommandLine& line) {
     std::sort(files.begin(), files.end());
   }
   if (files.empty()) throw InputError("option -before: " + text + " holds no point files");
+  const auto place = [&](const std::string& file) {
+    return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
+      return fs::path(other).filename() == fs::path(file).filename();
+    });
+  };
+  std::stable_sort(files.begin(), files.end(),
+                   [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
   return files;
 }
 
@@ -219,7 +228,7 @@ int check(int argc, char** argv) {
   refuseRepeated(files);
   std::vector<std::string> before;
   if (line.has("before")) {
-    before = filesBefore(line);
+    before = filesBefore(line, files);
     refuseRepeated(before);
   }
   std::vector<CalibrationArea> areas;

@@ -3,7 +3,6 @@
 #include "block_check.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 
@@ -69,8 +68,12 @@ SwathPoint BlockCheck::swathPoint(const SurveyReader::Run& run, std::size_t row,
   point.classification = chunk.classification[row];
   point.flags = chunk.flags[row];
   SensorPose pose;
-  if (trajectory_ && trajectory_->poseAt(point.time, pose, cursor))
+  if (!trajectory_) return point;
+  if (trajectory_->poseAt(point.time, pose, cursor)) {
     point.scan_angle = lookAngle(scanGeometry(pose, point.position));
+  } else {
+    ++uncovered_;
+  }
   return point;
 }
 
@@ -125,11 +128,12 @@ void BlockCheck::chooseAreas() {
 void BlockCheck::setAreas(std::vector<CalibrationArea> areas) {
   areas_ = std::move(areas);
   offsets_.clear();
+  control_offsets_.clear();
   for (const CalibrationArea& area : areas_)
     offsets_.emplace_back(SwathArea{area.minimum, area.size, area.margin}, courses_.size());
   for (const ControlPoint& point : settings_.control) {
     const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlArea);
-    offsets_.emplace_back(
+    control_offsets_.emplace_back(
         SwathArea{point.position.head<2>() - half, kControlArea, settings_.selection.margin},
         courses_.size());
   }
@@ -138,12 +142,17 @@ void BlockCheck::setAreas(std::vector<CalibrationArea> areas) {
 }
 
 void BlockCheck::load(const PointSink& also) {
-  std::vector<CalibrationArea> all;
-  for (const AreaOffsets& offsets : offsets_) {
-    const SwathArea& area = offsets.area();
-    all.push_back({area.minimum, area.size, area.margin});
+  std::vector<AreaOffsets*> targets;
+  std::vector<CalibrationArea> squares;
+  for (std::vector<AreaOffsets>* some : {&offsets_, &control_offsets_}) {
+    for (AreaOffsets& offsets : *some) {
+      const SwathArea& area = offsets.area();
+      targets.push_back(&offsets);
+      squares.push_back({area.minimum, area.size, area.margin});
+    }
   }
-  const AreaIndex index(all);
+  const AreaIndex index(squares);
+  uncovered_ = 0;
   survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
     if (!used_[static_cast<std::size_t>(strip)]) return;
     std::size_t cursor = 0;
@@ -153,15 +162,19 @@ void BlockCheck::load(const PointSink& also) {
       const std::vector<int>& holding = index.candidates(position);
       if (holding.empty() && !also) continue;
       const SwathPoint point = swathPoint(run, row, cursor);
-      for (const int area : holding) offsets_[static_cast<std::size_t>(area)].add(strip, point);
+      for (const int area : holding) targets[static_cast<std::size_t>(area)]->add(strip, point);
       if (also) also(strip, point);
     }
   });
+  if (uncovered_ > 0)
+    warnings_.push_back("the trajectory does not cover " + std::to_string(uncovered_) +
+                        " of the points looked at: their scan angles are the file's");
 }
 
 std::size_t BlockCheck::loadedPoints() const {
   std::size_t count = 0;
   for (const AreaOffsets& area : offsets_) count += area.pointCount();
+  for (const AreaOffsets& area : control_offsets_) count += area.pointCount();
   return count;
 }
 
@@ -220,7 +233,7 @@ void BlockCheck::measureControl(CheckedBlock& block) {
   if (count == 0) return;
   std::vector<std::vector<ControlDifference>> found(count);
   parallelFor(count, settings_.threads, [&](std::size_t i) {
-    AreaOffsets& area = offsets_[areas_.size() + i];
+    AreaOffsets& area = control_offsets_[i];
     area.build(settings_.limits, survey_.resolution());
     found[i] = controlDifferences(area, settings_.control[i], survey_.strips());
     area.release();

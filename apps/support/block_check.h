@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -109,11 +110,13 @@ class BlockCheck {
   std::vector<bool> used_;
   std::vector<SurveyMap::Overlap> overlaps_;
   std::vector<CalibrationArea> areas_;
-  std::vector<AreaOffsets> offsets_;  ///< of the areas, then of the control points
+  std::vector<AreaOffsets> offsets_;                             ///< of the areas
+  std::vector<AreaOffsets> control_offsets_;                     ///< around the control points
   std::vector<std::vector<std::vector<OffsetSample>>> samples_;  ///< by area, then by overlap
   std::vector<std::vector<double>> milliseconds_;                ///< the same
   std::vector<double> repeated_;                                 ///< by strip
   std::vector<std::string> warnings_;
+  mutable std::atomic<std::uint64_t> uncovered_{0};  ///< points without a place of the trajectory
 };
 
 }  // namespace pcl_als::app

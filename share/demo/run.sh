@@ -84,8 +84,8 @@ cmake -DCALIBRATION="$result" -DTRUTH="$block/truth.json" -DOUTPUT="$out/summary
 {
   awk -f "$demo/tables.awk" "$out/summary.tsv"
   # Of the check, the tables of heights, movements and control.
-  awk 'BEGIN { RS = ""; ORS = "\n\n" }
-    /^(Height differences|Rigid movement|Heights of strips)/ { print ""; print; getline; print }' \
+  awk 'BEGIN { RS = "" }
+    /^(Height differences|Rigid movement|Heights of strips)/ { print "\n" $0 "\n"; getline; print }' \
     "$out/quality/quality.md"
 } | tee "$out/summary.txt"
 cat <<END
