@@ -35,7 +35,7 @@ CommandLine commandLine() {
                    "quality.json [-report DIR]",
                    "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
                    "quality.json -report report");
-  app::addFlightOptions(line);
+  app::addFlightOptions(line, "for scan angles finer than the files' own");
   line.addOptional(
       "before",
       "the same strips before a calibration: a folder, or files parted by commas; both "

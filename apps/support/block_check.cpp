@@ -20,7 +20,9 @@ constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
 constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
 constexpr double kLeastRoughness = 0.02;     // metres
 constexpr double kControlArea = 4.0;         // metres: the patch around a point is enough
-constexpr double kRepeated = 0.2;            // share of repeated points worth a warning
+// What ICPatch looks at of each strip of a pair: enough for its deviations, seconds for a pair.
+constexpr std::size_t kAlignmentPoints = 400'000, kAlignmentPairs = 60'000;
+constexpr double kRepeated = 0.2;  // share of repeated points worth a warning
 constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // and its part of the TIN
 
 using Clock = std::chrono::steady_clock;
@@ -268,6 +270,8 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   if (pair.overlap_area >= settings_.minimum_overlap &&
       pair.assessment.status != PairAssessment::Status::copy) {
     PatchAlignmentSettings alignment;
+    alignment.points = kAlignmentPoints;
+    alignment.pairs = kAlignmentPairs;
     alignment.resolution = survey_.resolution();
     alignment.threads = settings_.threads;
     pair.alignment = alignStrips(offsets_, a, b, alignment);
