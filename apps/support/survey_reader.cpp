@@ -114,6 +114,7 @@ void SurveyReader::read(const Sink& sink) const {
   readRuns([&](int strip, const Run& run) {
     thread_local std::vector<CalibrationPoint> points;
     points.clear();
+    points.reserve(run.to - run.from);
     for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
     sink(strip, points.data(), points.size());
   });
