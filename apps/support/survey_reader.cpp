@@ -95,6 +95,7 @@ std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t file = 0; file < files_.size(); ++file) members[group[file]].push_back(file);
   std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(members.size());
   for (auto& entry : members) groups.push_back(std::move(entry.second));
   return groups;
 }
