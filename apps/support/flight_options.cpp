@@ -12,8 +12,9 @@
 
 namespace pcl_als::app {
 
-void addFlightOptions(CommandLine& line) {
-  line.addOptional("trajectory", "trajectory: .csv, or SBET .out/.sbet (needed)");
+void addFlightOptions(CommandLine& line, const char* use) {
+  const std::string help = std::string("trajectory: .csv, or SBET .out/.sbet (") + use + ")";
+  line.addOptional("trajectory", help.c_str());
   line.addOptional("crs",
                    "CRS of the points for an SBET, e.g. EPSG:32611 (default: the point file's)");
   line.addOptional("gps_week", "GPS week of times that are seconds of the week (default: found)");

@@ -13,8 +13,8 @@
 
 namespace pcl_als::app {
 
-/// Declares -trajectory, -crs, -gps_week and -line_fit.
-void addFlightOptions(CommandLine& line);
+/// Declares -trajectory, -crs, -gps_week and -line_fit; \a use: what the trajectory is for.
+void addFlightOptions(CommandLine& line, const char* use = "needed");
 
 /// -gps_week; empty when it is to be found from the data.
 std::optional<int> gpsWeek(const CommandLine& line);

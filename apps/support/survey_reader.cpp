@@ -31,14 +31,21 @@ std::string SurveyReader::crs() const {
   return {};
 }
 
-Eigen::Vector2d SurveyReader::corner() const {
-  Eigen::Vector2d corner = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+Eigen::AlignedBox2d SurveyReader::extent() const {
+  Eigen::AlignedBox2d box;
   for (const PointFileSources& file : files_) {
     for (const PointSource& source : file.sources) {
-      corner = corner.cwiseMin(source.minimum.head<2>());
+      box.extend(Eigen::Vector2d(source.minimum.head<2>()));
+      box.extend(Eigen::Vector2d(source.maximum.head<2>()));
     }
   }
-  return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  return box;
+}
+
+Eigen::Vector2d SurveyReader::corner() const {
+  const Eigen::Vector2d corner = extent().min();
+  return corner.allFinite() && !extent().isEmpty() ? corner
+                                                   : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
 
 Eigen::Vector2d SurveyReader::farCorner() const {
@@ -98,18 +105,40 @@ std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t file = 0; file < files_.size(); ++file) members[group[file]].push_back(file);
   std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(members.size());
   for (auto& entry : members) groups.push_back(std::move(entry.second));
   return groups;
 }
 
+CalibrationPoint SurveyReader::Run::point(std::size_t row) const {
+  CalibrationPoint point;
+  point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
+  point.time = time(chunk.gps_time[row]);
+  point.return_number = chunk.return_number[row];
+  point.number_of_returns = chunk.number_of_returns[row];
+  point.classification = chunk.classification[row];
+  point.flags = chunk.flags[row];
+  return point;
+}
+
 void SurveyReader::read(const Sink& sink) const {
+  readRuns([&](int strip, const Run& run) {
+    thread_local std::vector<CalibrationPoint> points;
+    points.clear();
+    points.reserve(run.to - run.from);
+    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
+    sink(strip, points.data(), points.size());
+  });
+}
+
+void SurveyReader::readRuns(const RunSink& sink) const {
   const auto groups = groupsOfFiles();
   parallelFor(groups.size(), threads_, [&](std::size_t group) {
     for (const std::size_t file : groups[group]) readFile(file, sink);
   });
 }
 
-void SurveyReader::readFile(std::size_t file, const Sink& sink) const {
+void SurveyReader::readFile(std::size_t file, const RunSink& sink) const {
   std::map<std::uint16_t, int> strip_of;
   for (const PointSource& source : files_[file].sources) {
     const auto& names = naming_->names();
@@ -118,21 +147,12 @@ void SurveyReader::readFile(std::size_t file, const Sink& sink) const {
   }
   const auto reader = PointReader::open(files_[file].info.path);
   PointChunk chunk;
-  std::vector<CalibrationPoint> points;
   while (reader->read(chunk)) {
     for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
-      points.clear();
-      for (to = from; to < chunk.size() && chunk.point_source_id[to] == chunk.point_source_id[from];
-           ++to) {
-        CalibrationPoint& point = points.emplace_back();
-        point.position = Eigen::Vector3d(chunk.x[to], chunk.y[to], chunk.z[to]);
-        point.time = times_[file](chunk.gps_time[to]);
-        point.return_number = chunk.return_number[to];
-        point.number_of_returns = chunk.number_of_returns[to];
-        point.classification = chunk.classification[to];
-        point.flags = chunk.flags[to];
+      for (to = from + 1;
+           to < chunk.size() && chunk.point_source_id[to] == chunk.point_source_id[from]; ++to) {
       }
-      sink(strip_of.at(chunk.point_source_id[from]), points.data(), points.size());
+      sink(strip_of.at(chunk.point_source_id[from]), Run{chunk, from, to, times_[file]});
     }
   }
 }

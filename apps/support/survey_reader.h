@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/io/strip_naming.h>
@@ -25,6 +26,15 @@ namespace pcl_als::app {
 class SurveyReader {
  public:
   using Sink = std::function<void(int strip, const CalibrationPoint* points, std::size_t count)>;
+  /// Points [from, to) of a chunk, all of one strip, with every field.
+  struct Run {
+    const PointChunk& chunk;
+    std::size_t from, to;
+    const TimeAlignment& time;  ///< to the trajectory's clock
+
+    CalibrationPoint point(std::size_t row) const;
+  };
+  using RunSink = std::function<void(int strip, const Run& run)>;
 
   /// Looks at all files once (ids, times, extents). InputError for a file that cannot be read.
   SurveyReader(const std::vector<std::string>& paths, int threads);
@@ -33,6 +43,8 @@ class SurveyReader {
   std::uint64_t pointCount() const;
   /// CRS of the first file that has one; empty when none has.
   std::string crs() const;
+  /// Box of all points in plan, metres; empty when there are none.
+  Eigen::AlignedBox2d extent() const;
   /// South-west corner of all points, metres.
   Eigen::Vector2d corner() const;
   /// North-east corner of all points, metres.
@@ -46,9 +58,11 @@ class SurveyReader {
   /// Calls \a sink with all points, in runs of one strip; from several threads for different
   /// strips.
   void read(const Sink& sink) const;
+  /// The same with all that the files know of the points.
+  void readRuns(const RunSink& sink) const;
 
  private:
-  void readFile(std::size_t file, const Sink& sink) const;
+  void readFile(std::size_t file, const RunSink& sink) const;
   std::vector<std::vector<std::size_t>> groupsOfFiles() const;
 
   int threads_;

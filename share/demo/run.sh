@@ -3,8 +3,8 @@
 # Copyright (c) 2026, the pcl_als authors
 #
 # share/demo/run.sh [OUT_DIR]: from a fresh Debian 12 to a calibrated block. Installs what is
-# missing, builds, simulates six strips over 1 km x 2 km, calibrates them, corrects every strip, and
-# shows what was found beside the truth. Steps whose results are there are not repeated.
+# missing, builds, simulates six strips over 1 km x 2 km, calibrates them, corrects every strip, checks
+# strips and control before and after, and shows all beside the truth. What is there is not repeated.
 #   OUT_DIR            where the block and the results go (default: ./pcl_als_demo; about 1.2 GB)
 #   PCL_ALS_BUILD_DIR  build folder (default: build/ in the sources)
 if [[ ${1:-} == -h || ${1:-} == --help || $# -gt 1 ]]; then
@@ -81,12 +81,25 @@ if outdated "$pictures/profile1.png" "$bin/pcl_als_profile" "$corrected/strip1.l
   "$bin/pcl_als_profile" "${strips[@]}" -after "$corrected" -auto 3 -output "$pictures" | grep '^Drawing'
 else
   echo "$pictures is up to date"
+pcl_als_step "Checking strips and control before and after"
+if outdated "$out/quality.json" "$bin/pcl_als_check" "$corrected"/strip*.las; then
+  "$bin/pcl_als_check" "$corrected"/strip*.las -before "$block" -control "$block/control.csv" \
+    -output "$out/quality.json" -report "$out/quality" | sed '/^$/,$d' ||
+    echo "The check gave no reliable answer."
+else
+  echo "$out/quality.json is up to date"
 fi
 
 pcl_als_step "Results"
 cmake -DCALIBRATION="$result" -DTRUTH="$block/truth.json" -DOUTPUT="$out/summary.tsv" \
   -P "$demo/summary.cmake"
-awk -f "$demo/tables.awk" "$out/summary.tsv" | tee "$out/summary.txt"
+{
+  awk -f "$demo/tables.awk" "$out/summary.tsv"
+  # Of the check, the tables of heights, movements and control.
+  awk 'BEGIN { RS = "" }
+    /^(Height differences|Rigid movement|Heights of strips)/ { print "\n" $0 "\n"; getline; print }' \
+    "$out/quality/quality.md"
+} | tee "$out/summary.txt"
 cat <<END
 
 Look at:
@@ -94,6 +107,7 @@ Look at:
   $pictures/  the block, two strips' differences and three roofs before and after
   $result  biases, uncertainty, correlations, fits; in words: calibration.txt
   $corrected/  the corrected strips (any LAS viewer)
+  $out/quality.json  the check before and after; tables and swath separation images: quality/
   $block/  the simulated strips, trajectory, control and truth
   $out/summary.txt  these tables
 Tools are in $bin; each explains itself with -h.

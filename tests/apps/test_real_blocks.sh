@@ -40,6 +40,21 @@ for name in lever_arm_y range_bias; do
   checks=$((checks + 1))
   [[ $(value base.json $name status) == not_estimable ]] || failed "Delft: $name is $(value base.json $name status)"
 done
+# Vertical offsets of its strips as measured otherwise (the data's README), metres; what they leave around a triangle.
+expect 0 '57138 & 57139' check ahn3_cropped_?.las -output quality.json -report quality
+while read -r a b offset; do
+  checks=$((checks + 1))
+  found=$(awk -F, -v a="$a" -v b="$b" 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i }
+    $2 == a && $3 == b { print $at["vertical_median_m"] }' quality/pairs.csv)
+  within "${found:-9}" "$offset" 0.003 || failed "Delft: $a is $found above $b, measured $offset"
+done <<'OFFSETS'
+44266 57138 -0.009
+44266 57139 0.021
+57138 57139 0.029
+OFFSETS
+closure=$(awk '/"closure_m"/ && !found { gsub(/[^-0-9.e]/, "", $2); print $2; found = 1 }' quality.json)
+checks=$((checks + 1))
+within "${closure:-9}" 0 0.002 || failed "Delft: the triangle of strips closes to $closure m"
 while read -r biases; do
   for tile in 1 2; do
     expect 0 'putting in' apply ahn3_cropped_$tile.las moved_$tile.las -trajectory "$flight" -biases "$biases" \

@@ -14,6 +14,7 @@
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/radiometry/atmosphere.h>
+#include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/tin/tin.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -39,7 +40,7 @@ int main(int argc, char** argv) {
   std::cout << points << " points, " << covered << " covered, " << tin.triangles().size()
             << " triangles, extinction " << extinction << " per km\n";
   return points == reader->info().point_count && covered == points && tin.triangles().size() == 2 &&
-                 std::abs(extinction - 0.167) < 0.001
+                 std::abs(extinction - 0.167) < 0.001 && pcl_als::swathQualityLevel(0.05) == 1
              ? 0
              : 1;
 }

@@ -40,6 +40,10 @@ class SurveyMap {
   std::size_t invalidCount(int strip) const { return strips_[strip].invalid; }
   double startTime(int strip) const { return strips_[strip].start; }
   double endTime(int strip) const { return strips_[strip].end; }
+  /// m^2 of the cells that a strip touches.
+  double coveredArea(int strip) const {
+    return static_cast<double>(strips_[strip].cells.size()) * kCell * kCell;
+  }
 
   struct Overlap {
     StripPair strips;

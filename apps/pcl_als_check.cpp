@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <set>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/survey_io.h>
+
+#include "block_check.h"
+#include "command_line.h"
+#include "flight_options.h"
+#include "quality_report.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+using app::grouped;
+using app::Step;
+namespace fs = std::filesystem;
+
+CommandLine commandLine() {
+  const app::CheckSettings defaults;
+  CommandLine line("pcl_als_check",
+                   "measures how well overlapping strips fit each other and control, and judges it "
+                   "by the USGS Lidar Base Specification and the ASPRS standards.",
+                   "STRIP... [-before DIR|FILE,FILE] [-control C] [-trajectory T] -output "
+                   "quality.json [-report DIR]",
+                   "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
+                   "quality.json -report report");
+  app::addFlightOptions(line, "for scan angles finer than the files' own");
+  line.addOptional(
+      "before",
+      "the same strips before a calibration: a folder, or files parted by commas; both "
+      "are reported side by side");
+  line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
+  line.addOptional("output", "quality.json to write (needed)");
+  line.addOptional("report", "folder for tables as CSV, quality.md and swath separation images");
+  line.add("quality_level", "level (QL0 to QL3) that the strips are to keep", 2);
+  line.add("control_sigma", "heights of control points whose file gives no sigma, m",
+           defaults.control_sigma);
+  line.add("max_distance", "offsets beyond are another object, m",
+           defaults.limits.maximum_distance);
+  line.add("cell", "cells of the swath separation image, m; 0: as the quality level asks", 0.0);
+  line.add("points", "points looked at closely, at most, millions", 12.0);
+  return line;
+}
+
+app::CheckSettings settingsOf(const CommandLine& line) {
+  app::CheckSettings settings;
+  settings.limits.maximum_distance = line.number("max_distance", 0.05, 50.0, "m");
+  settings.selection.point_budget =
+      static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
+  settings.control_sigma = line.number("control_sigma", 0.0, 10.0, "m");
+  settings.threads = line.threads();
+  if (line.has("control")) settings.control = readControl(line.text("control"));
+  return settings;
+}
+
+int qualityLevel(const CommandLine& line) {
+  const int level = line.get<int>("quality_level");
+  if (level < 0 || level >= kQualityLevels)
+    throw UsageError("option -quality_level: must be 0, 1, 2 or 3");
+  return level;
+}
+
+bool isPointFile(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".las" || extension == ".laz" || extension == ".pcd";
+}
+
+/// The files of -before: a list, or those of a folder; in the order of the files of that name in
+/// \a others, for strips are named, and pairs turned, by it.
+std::vector<std::string> filesBefore(const CommandLine& line,
+                                     const std::vector<std::string>& others) {
+  std::vector<std::string> files;
+  const std::string text = line.text("before");
+  if (!fs::is_directory(text)) {
+    files = app::splitList(text);
+  } else {
+    for (const auto& entry : fs::directory_iterator(text))
+      if (entry.is_regular_file() && isPointFile(entry.path()))
+        files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+  }
+  if (files.empty()) throw InputError("option -before: " + text + " holds no point files");
+  const auto place = [&](const std::string& file) {
+    return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
+      return fs::path(other).filename() == fs::path(file).filename();
+    });
+  };
+  std::stable_sort(files.begin(), files.end(),
+                   [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+  return files;
+}
+
+/// A file that is given twice would be a strip that fits itself.
+void refuseRepeated(const std::vector<std::string>& files) {
+  std::set<fs::path> seen;
+  for (const std::string& file : files) {
+    std::error_code error;
+    fs::path path = fs::canonical(file, error);
+    if (error) path = file;
+    if (!seen.insert(path).second) throw UsageError(file + " is given twice");
+  }
+}
+
+/// What can be known to fail should fail before the work, not after it.
+void checkOutputs(const CommandLine& line) {
+  if (!line.has("output")) throw UsageError("option -output is needed");
+  const fs::path folder = fs::absolute(line.text("output")).parent_path();
+  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK) != 0) {
+    throw InputError("cannot write " + line.text("output") + ": " + folder.string() +
+                     " is no folder that can be written to");
+  }
+  if (!line.has("report")) return;
+  std::error_code error;
+  fs::create_directories(line.text("report"), error);
+  if (!fs::is_directory(line.text("report")) || access(line.text("report").c_str(), W_OK) != 0) {
+    throw InputError("option -report: " + line.text("report") +
+                     " is no folder that can be written to");
+  }
+}
+
+/// The grid for a swath separation image; null where none is wanted, or none can be written.
+std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
+                                              const app::SurveyReader& survey,
+                                              const app::BlockCheck& check) {
+  if (!line.has("report") || check.overlaps().empty()) return nullptr;
+  if (!PCL_ALS_WITH_GDAL) {
+    app::remark(line, "built without GDAL: no swath separation image");
+    return nullptr;
+  }
+  const double wanted = line.number("cell", 0.0, 100.0, "m");
+  const double cell =
+      wanted > 0.0
+          ? wanted
+          : qualityLevels()[static_cast<std::size_t>(qualityLevel(line))].separation_image_cell;
+  RasterGrid grid = app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.crs());
+  if (grid.cell > cell)
+    app::remark(line, "so large a block gets a swath separation image of " +
+                          std::to_string(static_cast<int>(grid.cell)) + " m cells");
+  return std::make_unique<SwathSeparation>(std::move(grid), survey.strips().size());
+}
+
+/// Checks one set; \a image: name of its swath separation image, without extension; \a areas: those
+/// to use, filled when empty.
+app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
+                             const app::CheckSettings& settings, const std::string& image,
+                             std::vector<CalibrationArea>& areas) {
+  Step reading("Reading " + std::to_string(files.size()) + " point files", line.quiet());
+  app::SurveyReader survey(files, line.threads());
+  reading.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
+               " strips");
+  std::shared_ptr<const Trajectory> trajectory;
+  if (line.has("trajectory")) {
+    trajectory = app::readFlight(line, survey.crs(), 0.0, app::AttitudeUse::where_given);
+    for (const std::string& text : survey.alignTimes(*trajectory, app::gpsWeek(line)))
+      app::remark(line, text);
+  }
+  app::BlockCheck check(survey, settings, trajectory);
+  {
+    Step step("Surveying the block", line.quiet());
+    check.surveyBlock();
+    if (areas.empty()) {
+      check.chooseAreas();
+      areas = check.areas();
+    } else {
+      check.setAreas(areas);
+    }
+    step.done(std::to_string(check.overlaps().size()) + " overlapping pairs, " +
+              std::to_string(areas.size()) + " areas");
+  }
+  std::unique_ptr<SwathSeparation> separation = separationOf(line, survey, check);
+  {
+    Step step("Reading the areas", line.quiet());
+    if (separation) {
+      check.load([&](int strip, const SwathPoint& point) { separation->add(strip, point); });
+    } else {
+      check.load({});
+    }
+    step.done(grouped(check.loadedPoints()) + " points");
+  }
+  Step step("Measuring", line.quiet());
+  app::CheckedBlock block = check.assess([&](double fraction) { step.progress(fraction); });
+  block.files = files;
+  step.done(std::to_string(block.pairs.size()) + " pairs");
+  if (separation) {
+    Step writing("Writing " + image, line.quiet());
+    block.separation = app::writeSeparation(line.text("report"), image, *separation,
+                                            qualityLevel(line), line.threads());
+    writing.done(std::to_string(separation->grid().columns) + " x " +
+                 std::to_string(separation->grid().rows) + " cells");
+  }
+  return block;
+}
+
+/// Why there is nothing to rely on, in one line.
+std::string whyNot(const app::CheckedBlock& block) {
+  for (const app::CheckedPair& pair : block.pairs) {
+    if (!pair.assessment.reason.empty())
+      return "strips " + pair.a + " and " + pair.b + ": " + pair.assessment.reason;
+  }
+  return "no strip covers a control point";
+}
+
+double peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1e-3 * static_cast<double>(usage.ru_maxrss);
+}
+
+int check(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const std::vector<std::string>& files = line.inputs(1, 100000);
+  const app::CheckSettings settings = settingsOf(line);
+  app::QualityReport report;
+  report.quality_level = qualityLevel(line);
+  checkOutputs(line);
+  refuseRepeated(files);
+  std::vector<std::string> before;
+  if (line.has("before")) {
+    before = filesBefore(line, files);
+    refuseRepeated(before);
+  }
+  std::vector<CalibrationArea> areas;
+  report.block = checkBlock(line, files, settings, "swath_separation", areas);
+  if (!before.empty())
+    report.before = checkBlock(line, before, settings, "swath_separation_before", areas);
+  report.peak_memory_mb = peakMemory();
+  AtomicFile file(line.text("output"));
+  file.write(app::qualityJson(report));
+  file.commit();
+  if (!line.quiet()) std::cout << app::qualityText(report) << std::endl;
+  if (line.has("report")) app::writeQualityTables(line.text("report"), report);
+  if (!app::hasAnswer(report.block)) {
+    std::cerr << "pcl_als_check: no reliable answer: " << whyNot(report.block) << std::endl;
+    return app::kNoReliableAnswer;
+  }
+  return app::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_check", [argc, argv] { return check(argc, argv); });
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "block_check.h"
+
+namespace pcl_als::app {
+
+/// The two sets of a check; before: empty when there is one set only.
+struct QualityReport {
+  CheckedBlock block;
+  std::optional<CheckedBlock> before;
+  int quality_level = 2;  ///< that the strips are to keep
+  double peak_memory_mb = 0.0;
+};
+
+/// Tables for people.
+std::string qualityText(const QualityReport& report);
+
+/// quality.json; its keys are in the README of module quality.
+std::string qualityJson(const QualityReport& report);
+
+/// Writes quality.md, pairs.csv, control.csv, slope_aspect.csv, profiles.csv, offsets.csv, each
+/// complete or not at all.
+void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report);
+
+/// Whether there is any number to rely on: a judged pair, or a control point.
+bool hasAnswer(const CheckedBlock& block);
+
+/// "QL1", or "none" where no level is kept.
+std::string levelName(const std::optional<int>& level);
+
+}  // namespace pcl_als::app

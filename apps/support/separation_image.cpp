@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "separation_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/io/raster_io.h>
+#include <pcl_als/quality/accuracy_standards.h>
+
+namespace pcl_als::app {
+namespace {
+
+constexpr double kMostCells = 16e6;    // of all strips, 40 bytes each
+constexpr double kMostPixels = 400e6;  // of the image, which is written in strips of rows
+constexpr double kMostInPng = 64e6;
+constexpr int kRows = 512;
+
+struct Outputs {
+  RasterWriter colours, metres;
+  Image png;
+  int step = 1;  ///< of the cells that the PNG shows
+};
+
+RasterLayout layoutOf(const RasterGrid& grid, bool colours, double limit) {
+  RasterLayout layout;
+  layout.grid = grid;
+  layout.type = colours ? RasterLayout::Type::byte : RasterLayout::Type::float32;
+  layout.bands = colours ? std::vector<std::string>{"red", "green", "blue"}
+                         : std::vector<std::string>{"separation_m"};
+  layout.metadata["SPECIFICATION"] = kSwathSpecification;
+  layout.metadata["GREEN_UP_TO_M"] = std::to_string(limit);
+  layout.metadata["YELLOW_UP_TO_M"] = std::to_string(2.0 * limit);
+  return layout;
+}
+
+/// One band of rows: pixels, separations, and the PNG's share of them.
+void writeRows(const std::vector<SwathSeparation::Cell>& cells, const RasterWindow& window,
+               const SwathSeparation::Stretch& stretch, SeparationSummary& summary,
+               Outputs& outputs) {
+  std::array<std::vector<std::uint8_t>, 3> bands;
+  for (auto& band : bands) band.resize(cells.size());
+  std::vector<float> metres(cells.size(), RasterBand::kNoValue);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const SeparationPixel pixel = separationPixel(cells[i], stretch, summary.limit);
+    const std::array<std::uint8_t, 3> rgb{pixel.red, pixel.green, pixel.blue};
+    // 0 stands for no data in each band of the GeoTIFF.
+    for (std::size_t k = 0; k < 3; ++k)
+      bands[k][i] = pixel.alpha == 0 ? std::uint8_t{0} : std::max<std::uint8_t>(1, rgb[k]);
+    const int row = window.row + static_cast<int>(i) / window.columns;
+    const int column = static_cast<int>(i) % window.columns;
+    if (row % outputs.step == 0 && column % outputs.step == 0) {
+      const std::uint8_t rgba[] = {pixel.red, pixel.green, pixel.blue, pixel.alpha};
+      outputs.png.pixels.insert(outputs.png.pixels.end(), rgba, rgba + 4);
+    }
+    if (cells[i].strips < 2) continue;
+    metres[i] = cells[i].separation;
+    switch (separationColour(cells[i].separation, summary.limit)) {
+      case SeparationColour::green:
+        ++summary.green;
+        break;
+      case SeparationColour::yellow:
+        ++summary.yellow;
+        break;
+      default:
+        ++summary.red;
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) outputs.colours.write(k, window, bands[k].data());
+  outputs.metres.write(0, window, metres.data());
+}
+
+}  // namespace
+
+RasterGrid separationGrid(const Eigen::AlignedBox2d& extent, double covered_area, double cell,
+                          const std::string& crs) {
+  const double box = extent.sizes().x() * extent.sizes().y();
+  while (covered_area > kMostCells * cell * cell || box > kMostPixels * cell * cell) cell *= 2.0;
+  return RasterGrid::covering(extent.min().x(), extent.min().y(), extent.max().x(),
+                              extent.max().y(), cell, crs);
+}
+
+SeparationSummary writeSeparation(const std::filesystem::path& folder, const std::string& stem,
+                                  const SwathSeparation& separation, int quality_level,
+                                  int threads) {
+  const RasterGrid& grid = separation.grid();
+  SeparationSummary summary;
+  summary.cell = grid.cell;
+  summary.limit = qualityLevels()[static_cast<std::size_t>(quality_level)].swath_overlap_rmsdz;
+  const std::filesystem::path colours = folder / (stem + ".tif"),
+                              metres = folder / (stem + "_metres.tif"),
+                              png = folder / (stem + ".png");
+  RasterOptions options;
+  options.threads = threads;
+  Outputs outputs{{colours, layoutOf(grid, true, summary.limit), options},
+                  {metres, layoutOf(grid, false, summary.limit), options},
+                  {},
+                  1};
+  while (static_cast<double>(grid.cells()) > kMostInPng * outputs.step * outputs.step)
+    ++outputs.step;
+  outputs.png.width = (grid.columns + outputs.step - 1) / outputs.step;
+  outputs.png.height = (grid.rows + outputs.step - 1) / outputs.step;
+  outputs.png.channels = 4;
+  const SwathSeparation::Stretch stretch = separation.intensityStretch();
+  for (int row = 0; row < grid.rows; row += kRows) {
+    const int rows = std::min(kRows, grid.rows - row);
+    constexpr int kPart = 16;  // rows that one thread takes at a time
+    std::vector<std::vector<SwathSeparation::Cell>> parts((rows + kPart - 1) / kPart);
+    parallelFor(parts.size(), threads, [&](std::size_t i) {
+      const int from = static_cast<int>(i) * kPart;
+      parts[i] = separation.rows(row + from, std::min(kPart, rows - from));
+    });
+    std::vector<SwathSeparation::Cell> cells;
+    for (const auto& part : parts) cells.insert(cells.end(), part.begin(), part.end());
+    writeRows(cells, {0, row, grid.columns, rows}, stretch, summary, outputs);
+  }
+  outputs.colours.commit();
+  outputs.metres.commit();
+  writePng(png, outputs.png);
+  summary.files = {colours.filename().string(), metres.filename().string(),
+                   png.filename().string()};
+  return summary;
+}
+
+}  // namespace pcl_als::app

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/quality/offset_sample.h>
+#include <pcl_als/quality/swath_point.h>
+#include <pcl_als/tin/patch_surface.h>
+
+namespace pcl_als {
+
+/// What counts as a surface to measure on.
+struct SurfaceLimits {
+  double level_slope = 0.17453292519943295;  ///< radians (10 degrees): steeper is not for RMSDz
+  double slope = 1.05;                       ///< radians: steeper is a wall
+  double roughness = 0.08;        ///< metres, RMS of a neighbourhood about its plane: smooth
+  double edge_factor = 3.0;       ///< longest edge against the median edge of the strip's TIN here
+  int minimum_vertices = 7;       ///< in the neighbourhood
+  double maximum_distance = 1.0;  ///< metres: more is another object, not an offset
+  std::size_t candidates = 400;   ///< points of a strip and area: so many level, so many steep
+};
+
+/** \brief The points of one area by strip, and the offsets between the strips there.
+ *
+ * Fill with add() (different strips may be added from different threads); then build(), offsets()
+ * and release(), from one thread. Memory: 48 bytes per point, 73 to 173 more between build() and
+ * release().
+ */
+class AreaOffsets {
+ public:
+  AreaOffsets(const SwathArea& area, std::size_t strips) : area_(area), strips_(strips) {}
+
+  /// Keeps solid points (isSolid) inside the area or its margin.
+  void add(int strip, const SwathPoint& point);
+  const SwathArea& area() const { return area_; }
+  const std::vector<SwathPoint>& points(int strip) const { return part(strip).points; }
+  std::size_t pointCount() const;
+
+  /// Builds the TIN of every strip with enough points. \a resolution: metres, coordinate step.
+  void build(const SurfaceLimits& limits, double resolution);
+  void release();  ///< forgets the TINs, keeps the points
+
+  /// Roughness of the surface of all strips where it slopes gently, metres, at up to some hundred
+  /// places; for finding what smooth means in these data.
+  std::vector<double> roughness() const;
+  /// Share of a strip's points that lie on another of its own, to the last digit.
+  double repeatedShare(int strip) const;
+
+  /// Offsets a - b at points of a against b and of b against a.
+  std::vector<OffsetSample> offsets(int a, int b) const;
+
+  /// A strip against a point of known height.
+  struct Height {
+    double above = 0.0;                    ///< strip - point, metres, vertical
+    float slope = 0.0F, roughness = 0.0F;  ///< of the surface around, radians, metres
+    std::string unfit;                     ///< why this is not to be used; empty: it is
+  };
+  /// Empty where the strip has no surface above or below the point.
+  std::optional<Height> heightAt(int strip, const Eigen::Vector3d& point) const;
+
+ private:
+  struct StripPart {
+    std::vector<SwathPoint> points;
+    PatchSurface surface;
+    double longest_edge = 0.0;  ///< metres, limit
+    bool classified = false;    ///< ground points are marked
+    std::vector<std::int32_t> candidates;
+  };
+  const StripPart& part(int strip) const { return strips_[static_cast<std::size_t>(strip)]; }
+  bool sound(const StripPart& part, const PatchQuality& quality) const;
+  bool smooth(const StripPart& part, const PatchQuality& quality) const;
+  /// One triangle for each single-return vertex inside the area, every so manyth.
+  std::vector<std::int32_t> looks(const StripPart& part, std::size_t count) const;
+  void chooseCandidates(StripPart& part) const;
+  void measure(const StripPart& from, const StripPart& to, double sign,
+               std::vector<OffsetSample>& found) const;
+  bool measureAt(const StripPart& from, std::int32_t point, const StripPart& to, double sign,
+                 OffsetSample& sample) const;
+
+  SwathArea area_;
+  std::vector<StripPart> strips_;
+  SurfaceLimits limits_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace pcl_als {
+
+/** \brief How far one strip lies above another at a place, measured at one point.
+ *
+ * A point of either strip against a TIN patch of the other; all signs are those of a - b, whichever
+ * of the two the point belongs to.
+ */
+struct OffsetSample {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the point, metres, ground frame
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< of the surface around, unit, upward
+  double vertical = 0.0;                               ///< height of a over b, metres; where level
+  double normal_distance = 0.0;       ///< the same along the normal, metres; where conjugate
+  double time_a = 0.0, time_b = 0.0;  ///< seconds
+  float scan_angle_a = 0.0F, scan_angle_b = 0.0F;  ///< degrees
+  float slope = 0.0F;                              ///< radians from horizontal
+  bool level = false;      ///< smooth single-return ground under 10 degrees: counts for RMSDz
+  bool conjugate = false;  ///< has a conjugate patch: counts for normal distances and shifts
+  bool identical = false;  ///< the other strip has this very point: a copy
+
+  /// Ground cells of kCluster metres, within which errors are taken as one.
+  static constexpr double kCluster = 25.0;
+  std::int64_t cluster() const;
+};
+
+/// Statistics of signed offsets, metres.
+struct OffsetSummary {
+  std::size_t count = 0;
+  double mean = 0.0, std = 0.0, rms = 0.0;
+  double median = 0.0;
+  double nmad = 0.0;           ///< 1.4826 times the median absolute deviation
+  double percentile_95 = 0.0;  ///< of the absolute values
+  double largest = 0.0;        ///< absolute value
+  double std_of_mean = 0.0;    ///< neighbours err together (ClusteredRegression); NaN: unknown
+};
+
+/// \param clusters of each value, as many as values
+OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64_t>& clusters);
+
+}  // namespace pcl_als

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <pcl_als/quality/swath_point.h>
+
+namespace pcl_als {
+
+/** \brief The direction a strip was flown in, from its points alone.
+ *
+ * Least squares of plan position = p0 + velocity time + across scan_angle: the second term keeps a
+ * strip that is cut obliquely from looking turned. Where the file has no scan angles only time
+ * counts. A strip that turns gives the mean direction. Constant memory.
+ */
+class StripCourse {
+ public:
+  void add(const SwathPoint& point);
+  std::size_t count() const { return count_; }
+  /// Plan unit vector; empty where times do not tell (none, or a strip of a moment).
+  std::optional<Eigen::Vector2d> direction() const;
+
+ private:
+  std::size_t count_ = 0;
+  Eigen::Vector2d reference_ = Eigen::Vector2d::Zero();
+  double time_reference_ = 0.0;
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();  ///< 1, time, scan angle
+  Eigen::Matrix<double, 3, 2> right_ = Eigen::Matrix<double, 3, 2>::Zero();  ///< with x, y
+};
+
+}  // namespace pcl_als

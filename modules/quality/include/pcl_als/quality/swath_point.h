@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace pcl_als {
+
+/// What a check reads of a point. Position in the ground frame, double. 48 bytes.
+struct SwathPoint {
+  Eigen::Vector3d position;  ///< metres
+  double time = 0.0;         ///< seconds; 0 when the file has none
+  float intensity = 0.0F;    ///< digital number
+  float scan_angle = 0.0F;   ///< degrees, the file's sign
+  std::uint8_t return_number = 1;
+  std::uint8_t number_of_returns = 1;
+  std::uint8_t classification = 0;  ///< ASPRS code
+  std::uint8_t flags = 0;           ///< PointFlag
+
+  bool isSingle() const { return number_of_returns <= 1; }
+  bool isLast() const { return return_number >= number_of_returns; }
+};
+
+/// False for points that no check looks at: withheld, noise (7, 18), not finite.
+bool isCheckable(const SwathPoint& point);
+
+/// True for a checkable point that may be part of a solid surface: a last return, no vegetation
+/// (3-5).
+bool isSolid(const SwathPoint& point);
+
+/// A square that is checked; points up to \a margin outside are held too, so that its TINs are
+/// those of the whole.
+struct SwathArea {
+  Eigen::Vector2d minimum;  ///< metres, ground frame
+  double size = 0.0;        ///< metres, side
+  double margin = 0.0;      ///< metres
+
+  bool contains(const Eigen::Vector3d& p) const {
+    return p.x() >= minimum.x() && p.y() >= minimum.y() && p.x() < minimum.x() + size &&
+           p.y() < minimum.y() + size;
+  }
+  bool covers(const Eigen::Vector3d& p) const {
+    return p.x() >= minimum.x() - margin && p.y() >= minimum.y() - margin &&
+           p.x() < minimum.x() + size + margin && p.y() < minimum.y() + size + margin;
+  }
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/quality/area_offsets.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kTooFew = 12;  // points that are not worth a TIN
+constexpr std::size_t kLooks = 300;  // for the roughness of plain ground
+constexpr double kGentle = 0.26;     // radians (15 degrees): where it is measured
+constexpr std::uint8_t kGround = 2;  // ASPRS class
+constexpr double kSteepest = 0.8;    // radians: a height beside a wall says nothing
+
+double medianEdge(const std::vector<SwathPoint>& points, const Tin& tin) {
+  std::vector<double> lengths;
+  for (const Tin::Triangle& triangle : tin.triangles()) {
+    for (int i = 0; i < 3; ++i) {
+      lengths.push_back(
+          (points[triangle.vertex[i]].position - points[triangle.vertex[(i + 1) % 3]].position)
+              .head<2>()
+              .norm());
+    }
+  }
+  return lengths.empty() ? 0.0 : medianInPlace(lengths);
+}
+
+/// Every so manyth, so that at most \a count are left.
+std::vector<std::int32_t> thinned(const std::vector<std::int32_t>& all, std::size_t count) {
+  if (all.size() <= count) return all;
+  std::vector<std::int32_t> some;
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+std::int32_t nearestVertex(const Tin::Triangle& triangle, const Eigen::Vector3d& weights) {
+  Eigen::Index largest = 0;
+  weights.maxCoeff(&largest);
+  return triangle.vertex[static_cast<std::size_t>(largest)];
+}
+
+}  // namespace
+
+void AreaOffsets::add(int strip, const SwathPoint& point) {
+  if (!area_.covers(point.position) || !isSolid(point)) return;
+  strips_[static_cast<std::size_t>(strip)].points.push_back(point);
+}
+
+std::size_t AreaOffsets::pointCount() const {
+  std::size_t count = 0;
+  for (const StripPart& part : strips_) count += part.points.size();
+  return count;
+}
+
+void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
+  limits_ = limits;
+  for (StripPart& part : strips_) {
+    part.candidates.clear();
+    if (part.points.size() < kTooFew) continue;
+    std::vector<Eigen::Vector3d> positions;
+    positions.reserve(part.points.size());
+    for (const SwathPoint& point : part.points) {
+      positions.push_back(point.position);
+      part.classified = part.classified || point.classification == kGround;
+    }
+    part.surface = PatchSurface(Tin(std::move(positions), resolution));
+    part.longest_edge = limits.edge_factor * medianEdge(part.points, part.surface.tin());
+    chooseCandidates(part);
+  }
+}
+
+void AreaOffsets::release() {
+  for (StripPart& part : strips_) {
+    part.surface = PatchSurface();
+    part.candidates = {};
+  }
+}
+
+bool AreaOffsets::sound(const StripPart& part, const PatchQuality& quality) const {
+  return !quality.on_hull &&
+         quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
+         quality.vertices >= limits_.minimum_vertices;
+}
+
+bool AreaOffsets::smooth(const StripPart& part, const PatchQuality& quality) const {
+  return sound(part, quality) && quality.slope <= limits_.slope &&
+         quality.roughness <= limits_.roughness;
+}
+
+std::vector<std::int32_t> AreaOffsets::looks(const StripPart& part, std::size_t count) const {
+  std::vector<bool> seen(part.points.size(), false);
+  std::vector<std::int32_t> triangles;
+  const auto& all = part.surface.tin().triangles();
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    const std::int32_t point = all[t].vertex[0];
+    const SwathPoint& p = part.points[point];
+    if (seen[point] || !p.isSingle() || !area_.contains(p.position)) continue;
+    seen[point] = true;
+    triangles.push_back(static_cast<std::int32_t>(t));
+  }
+  return thinned(triangles, count);
+}
+
+void AreaOffsets::chooseCandidates(StripPart& part) const {
+  constexpr std::size_t kLooksPerCandidate = 4;
+  std::vector<std::int32_t> level, steep;
+  for (const std::int32_t triangle : looks(part, kLooksPerCandidate * limits_.candidates)) {
+    const PatchQuality quality = part.surface.quality(triangle);
+    if (!smooth(part, quality)) continue;
+    const std::int32_t point = part.surface.tin().triangles()[triangle].vertex[0];
+    const double slope = std::acos(std::min(1.0, quality.plane_normal.z()));
+    (slope < limits_.level_slope ? level : steep).push_back(point);
+  }
+  part.candidates = thinned(level, limits_.candidates);
+  const std::vector<std::int32_t> more = thinned(steep, limits_.candidates);
+  part.candidates.insert(part.candidates.end(), more.begin(), more.end());
+}
+
+std::vector<double> AreaOffsets::roughness() const {
+  std::vector<double> values;
+  for (const StripPart& part : strips_) {
+    if (part.surface.tin().triangles().empty()) continue;
+    for (const std::int32_t triangle : looks(part, kLooks)) {
+      const PatchQuality quality = part.surface.quality(triangle);
+      if (sound(part, quality) && quality.slope < kGentle) values.push_back(quality.roughness);
+    }
+  }
+  return values;
+}
+
+double AreaOffsets::repeatedShare(int strip) const {
+  const StripPart& one = part(strip);
+  if (one.points.empty()) return 0.0;
+  return static_cast<double>(one.surface.tin().mergedPoints()) /
+         static_cast<double>(one.points.size());
+}
+
+std::vector<OffsetSample> AreaOffsets::offsets(int a, int b) const {
+  std::vector<OffsetSample> found;
+  measure(part(a), part(b), 1.0, found);
+  measure(part(b), part(a), -1.0, found);
+  return found;
+}
+
+void AreaOffsets::measure(const StripPart& from, const StripPart& to, double sign,
+                          std::vector<OffsetSample>& found) const {
+  if (from.surface.tin().triangles().empty() || to.surface.tin().triangles().empty()) return;
+  for (const std::int32_t point : from.candidates) {
+    OffsetSample sample;
+    if (measureAt(from, point, to, sign, sample)) found.push_back(sample);
+  }
+}
+
+bool AreaOffsets::measureAt(const StripPart& from, std::int32_t index, const StripPart& to,
+                            double sign, OffsetSample& sample) const {
+  const SwathPoint& point = from.points[index];
+  sample.position = point.position;
+  const auto describe = [&](const PatchMatch& match, const PatchQuality& quality) {
+    const Tin::Triangle& triangle = to.surface.tin().triangles()[match.triangle];
+    const SwathPoint& other = to.points[nearestVertex(triangle, match.weights)];
+    const bool forward = sign > 0.0;
+    sample.normal = quality.plane_normal;
+    sample.slope = static_cast<float>(std::acos(std::min(1.0, quality.plane_normal.z())));
+    sample.time_a = forward ? point.time : other.time;
+    sample.time_b = forward ? other.time : point.time;
+    sample.scan_angle_a = forward ? point.scan_angle : other.scan_angle;
+    sample.scan_angle_b = forward ? other.scan_angle : point.scan_angle;
+    sample.identical = other.position == point.position && other.time == point.time;
+  };
+  const auto closest = to.surface.closest(point.position, limits_.maximum_distance);
+  if (closest) {
+    const PatchQuality quality = to.surface.quality(closest->triangle);
+    if (smooth(to, quality)) {
+      describe(*closest, quality);
+      sample.conjugate = true;
+      sample.normal_distance = sign * sample.normal.dot(point.position - closest->foot);
+    }
+  }
+  const auto below = to.surface.vertical(point.position);
+  if (below && (!from.classified || point.classification == kGround)) {
+    const PatchQuality quality = to.surface.quality(below->triangle);
+    const double above =
+        below->normal.z() > 0.0 ? below->signed_normal_distance / below->normal.z() : 0.0;
+    if (smooth(to, quality) && quality.plane_normal.z() > std::cos(limits_.level_slope) &&
+        std::abs(above) <= limits_.maximum_distance) {
+      describe(*below, quality);
+      sample.level = true;
+      sample.vertical = sign * above;
+    }
+  }
+  return sample.level || sample.conjugate;
+}
+
+std::optional<AreaOffsets::Height> AreaOffsets::heightAt(int strip,
+                                                         const Eigen::Vector3d& point) const {
+  const StripPart& one = part(strip);
+  const auto match = one.surface.vertical(point);
+  if (!match || !(match->normal.z() > 0.0)) return std::nullopt;
+  const PatchQuality quality = one.surface.quality(match->triangle);
+  Height height;
+  height.above = -match->signed_normal_distance / match->normal.z();
+  height.slope = static_cast<float>(std::acos(std::min(1.0, quality.plane_normal.z())));
+  height.roughness = quality.roughness;
+  if (quality.on_hull || quality.longest_edge > one.longest_edge) {
+    height.unfit = "at the edge of the strip or of a void";
+  } else if (height.slope > kSteepest) {
+    height.unfit = "on a wall";
+  } else if (std::abs(height.above) > limits_.maximum_distance) {
+    height.unfit = "too far off: another surface, or a blunder";
+  }
+  return height;
+}
+
+}  // namespace pcl_als

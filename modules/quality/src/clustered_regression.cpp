@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <Eigen/Eigenvalues>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/quality/clustered_regression.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr double kSingular = 1e-10;  // smallest eigenvalue of the scaled normal matrix
+constexpr double kHuber = 1.5;
+constexpr int kPasses = 10;  // of the reweighting; it settles to a hundredth of its std in five
+
+/// Inverse of a symmetric matrix, scaled to a unit diagonal first; empty when it is singular.
+Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& normal) {
+  const Eigen::VectorXd diagonal = normal.diagonal();
+  if (!(diagonal.minCoeff() > 0.0)) return {};
+  const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * normal *
+                                                              scale.asDiagonal());
+  if (solver.eigenvalues().minCoeff() < kSingular) return {};
+  const Eigen::MatrixXd& v = solver.eigenvectors();
+  return scale.asDiagonal() * v * solver.eigenvalues().cwiseInverse().asDiagonal() * v.transpose() *
+         scale.asDiagonal();
+}
+
+/// Raises variances to these at least, correlations kept.
+void raiseTo(const Eigen::VectorXd& variances, Eigen::MatrixXd& covariance) {
+  for (Eigen::Index i = 0; i < variances.size(); ++i) {
+    const double found = covariance(i, i);
+    if (!(found < variances[i])) continue;
+    if (found > 0.0) {
+      const double factor = std::sqrt(variances[i] / found);
+      covariance.row(i) *= factor;
+      covariance.col(i) *= factor;
+    } else {
+      covariance(i, i) = variances[i];
+    }
+  }
+}
+
+}  // namespace
+
+double ClusteredRegression::Result::std(int unknown) const {
+  return determined ? std::sqrt(std::max(0.0, covariance(unknown, unknown)))
+                    : std::numeric_limits<double>::quiet_NaN();
+}
+
+ClusteredRegression::ClusteredRegression(int unknowns) : unknowns_(unknowns) {
+  if (unknowns < 1 || unknowns > 6) throw UsageError("a regression has 1 to 6 unknowns");
+}
+
+void ClusteredRegression::add(std::int64_t cluster, const Eigen::VectorXd& row, double value) {
+  if (row.size() != unknowns_) throw UsageError("a row has one entry for each unknown");
+  rows_.insert(rows_.end(), row.data(), row.data() + unknowns_);
+  values_.push_back(value);
+  clusters_.push_back(cluster);
+}
+
+Eigen::VectorXd ClusteredRegression::residuals(const Eigen::VectorXd& estimate) const {
+  Eigen::VectorXd left(values_.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
+    left[i] = values_[i] - row.dot(estimate);
+  }
+  return left;
+}
+
+ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
+  Result result;
+  const std::size_t n = values_.size();
+  result.count = n;
+  result.estimate = Eigen::VectorXd::Zero(unknowns_);
+  if (n <= static_cast<std::size_t>(unknowns_)) return result;
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n), left = residuals(result.estimate);
+  Eigen::MatrixXd inverse;
+  for (int pass = 0; pass < (robust ? kPasses : 1); ++pass) {
+    if (pass > 0) {
+      const double sigma =
+          std::max(robustSigma({left.data(), left.data() + n}), 1e-9);  // all equal: no outliers
+      weights = (kHuber * sigma * left.cwiseAbs().cwiseMax(1e-12).cwiseInverse()).cwiseMin(1.0);
+    }
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
+      normal += weights[i] * row * row.transpose();
+      right += weights[i] * left[i] * row;
+    }
+    inverse = inverseOf(normal);
+    if (inverse.size() == 0) return result;
+    result.estimate += inverse * right;
+    left = residuals(result.estimate);
+  }
+  std::map<std::int64_t, Eigen::VectorXd> scores;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
+    const auto place = scores.try_emplace(clusters_[i], Eigen::VectorXd::Zero(unknowns_)).first;
+    place->second += weights[i] * left[i] * row;
+  }
+  result.clusters = scores.size();
+  result.rms = std::sqrt(left.squaredNorm() / static_cast<double>(n));
+  const auto fewest =
+      std::max<std::size_t>(kFewestClusters, static_cast<std::size_t>(unknowns_) + 1);
+  if (result.clusters < fewest) return result;
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
+  for (const auto& [cluster, score] : scores) middle += score * score.transpose();
+  const double groups = static_cast<double>(result.clusters);
+  result.covariance = groups / (groups - unknowns_) * inverse * middle * inverse;
+  const double variance = left.cwiseProduct(weights).dot(left) / static_cast<double>(n - unknowns_);
+  raiseTo(variance * inverse.diagonal(), result.covariance);
+  result.determined = true;
+  return result;
+}
+
+}  // namespace pcl_als

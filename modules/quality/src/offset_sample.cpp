@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/quality/clustered_regression.h>
+#include <pcl_als/quality/offset_sample.h>
+
+namespace pcl_als {
+
+std::int64_t OffsetSample::cluster() const {
+  const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kCluster)); };
+  constexpr std::int64_t kColumns = std::int64_t{1} << 31U;
+  return cell(position.y()) * kColumns + cell(position.x());
+}
+
+OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64_t>& clusters) {
+  OffsetSummary summary;
+  summary.count = values.size();
+  summary.std_of_mean = std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return summary;
+  RunningStatistics statistics;
+  ClusteredRegression mean(1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    statistics.add(values[i]);
+    mean.add(clusters[i], Eigen::VectorXd::Ones(1), values[i]);
+  }
+  summary.mean = statistics.mean();
+  summary.std = statistics.standardDeviation();
+  summary.rms = statistics.rms();
+  summary.std_of_mean = mean.solve().std(0);
+  summary.nmad = robustSigma(values);
+  summary.median = medianInPlace(values);
+  for (double& value : values) value = std::abs(value);
+  std::sort(values.begin(), values.end());
+  // Nearest rank: the smallest value that 95 % do not exceed.
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
+  summary.percentile_95 = values[rank - 1];
+  summary.largest = values.back();
+  return summary;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# pcl_als_check: wrong usage, strips that cannot be compared, what it writes, and the simulated block
+# before and after its calibration.
+source "$(dirname -- "$0")/tool_test.sh"
+strips=("$block"/strip?.las)
+one=${strips[0]} two=${strips[1]}
+
+expect 1 "usage" check -output x.json
+expect 1 "output" check "$one" "$two"
+expect 1 "quality_level" check "$one" "$two" -output x.json -quality_level 4
+expect 1 "max_distance" check "$one" "$two" -output x.json -max_distance 0
+expect 1 "unrecognised" check "$one" "$two" -output x.json -sigma 1
+expect 1 "given twice" check "$one" "$two" "$block/./strip1.las" -output x.json
+expect 2 "no folder" check "$one" "$two" -output nowhere/x.json
+expect 2 "no folder" check "$one" "$two" -output x.json -report "$one/report"
+expect 2 "missing.las" check "$one" missing.las -output x.json
+expect 2 "missing.csv" check "$one" "$two" -control missing.csv -output x.json
+mkdir empty
+expect 2 "empty holds no point files" check "$one" "$two" -before empty -output x.json
+awk -F, -v OFS=, 'NR > 1 { $1 += 50000 } { print }' "$block/trajectory.csv" >other_time.csv
+expect 2 "time" check "$one" "$two" -trajectory other_time.csv -output x.json
+expect 2 "fewer than two strips" check "$one" -output x.json
+absent x.json
+
+# pcd ID EAST POINTS_PER_ROW ROWS: an ascii cloud on a rolling plane, 1 m apart.
+pcd() {
+  awk -v id="$1" -v east="$2" -v columns="$3" -v rows="$4" 'BEGIN {
+    n = columns * rows
+    print "VERSION .7\nFIELDS x y z intensity gps_time point_source_id"
+    print "SIZE 4 4 4 4 8 2\nTYPE F F F F F U\nCOUNT 1 1 1 1 1 1"
+    print "WIDTH " n "\nHEIGHT 1\nVIEWPOINT 690000 5330000 0 1 0 0 0\nPOINTS " n "\nDATA ascii"
+    for (r = 0; r < rows; r++) for (c = 0; c < columns; c++) {
+      x = east + c + 0.3 * sin(7 * r + 3 * c + id); y = r + 0.3 * cos(5 * r + 11 * c + id)
+      printf "%.3f %.3f %.3f 100 %.4f %d\n", x, y, 0.2 * sin(x / 9) + 0.01 * id, 1000 * id + r / 60, id } }'
+}
+pcd 1 0 60 60 >a.pcd; pcd 2 0 60 60 >b.pcd; pcd 3 59 60 60 >edge.pcd; pcd 4 500 60 60 >far.pcd
+pcd 5 20 1 1 >point.pcd
+sed '/^DATA/,$s/ 1$/ 9/' a.pcd >copy.pcd
+
+expect 2 "no two strips overlap" check a.pcd far.pcd -output x.json
+absent x.json
+expect 2 "fewer than two strips" check a.pcd point.pcd -output x.json
+absent x.json
+# Hardly in common: an answer that cannot be relied on is written and says why.
+expect 3 "1 and 3: only" check a.pcd edge.pcd -output edge.json
+check "edge.json is written" grep -q '"status": "too_little"' edge.json
+expect 3 "copy" check a.pcd copy.pcd -output copy.json
+check "a copy is called one" grep -q '"status": "copy"' copy.json
+# Strips that cannot be compared do not keep the others from it.
+expect 0 "1 & 2" check a.pcd b.pcd edge.pcd point.pcd -output some.json
+check "a strip of one point is named" grep -q 'strip 5 has only 1 points' some.json
+check "a pair at the edge is listed" grep -q '"too_little"' some.json
+check "the offset of 1 cm is found" awk '/"mean_m"/ { gsub(/[^-0-9.e]/, "", $2)
+  exit !($2 + 0 < -0.008 && $2 + 0 > -0.012) }' some.json
+# Points that are there twice, as a file under two names makes them.
+cp "$one" again.las
+expect 0 "is a file given twice" check "$one" again.las "$two" -output x.json
+
+# One strip and control; a report; nothing printed when quiet.
+expect 0 "RMSE_V" check "$one" -control "$block/control.csv" -output control.json
+expect 0 "" check "${strips[@]}" -control "$block/control.csv" -trajectory "$block/trajectory.csv" \
+  -output quality.json -report report -quiet
+[[ ! -s out.txt ]] || failed "-quiet prints"
+for file in quality.md pairs.csv slope_aspect.csv profiles.csv offsets.csv control.csv; do
+  check "report/$file is there" test -s "report/$file"
+done
+if compgen -G "report/*.tif" >/dev/null; then  # built with GDAL
+  check "the image is there" test -s report/swath_separation.tif -a -s report/swath_separation.png
+fi
+columns() { awk -F, 'NR == 1 { n = NF } NF != n { exit 1 } END { exit NR < 2 }' "$1"; }
+for file in pairs slope_aspect profiles offsets control; do
+  check "report/$file.csv has equal rows" columns "report/$file.csv"
+done
+cat >parse.cmake <<'END'
+file(READ ${JSON} text)
+string(JSON format GET "${text}" format)
+string(JSON pairs LENGTH "${text}" pairs)
+string(JSON level GET "${text}" limits levels 2 rmsdz_m)
+if(NOT format STREQUAL "pcl_als quality" OR pairs LESS 3 OR NOT level EQUAL 0.08)
+  message(FATAL_ERROR "${format} ${pairs} ${level}")
+endif()
+END
+check "quality.json is as documented" cmake -DJSON=quality.json -P parse.cmake
+# The result does not depend on the number of threads.
+lasting() { grep -vE '"(milliseconds|peak_memory_mb)"' "$1"; }
+for threads in 1 3; do
+  expect 0 "" check "${strips[@]}" -output "threads$threads.json" -threads $threads
+  lasting threads$threads.json >threads$threads.txt
+done
+check "one thread gives what three give" cmp threads1.txt threads3.txt
+
+# Before and after: every pair that slopes or overlaps enough gets better, control does.
+expect 0 "converged" calibrate "${strips[@]}" -trajectory "$block/trajectory.csv" \
+  -control "$block/control.csv" -output calibration.json -corrected after
+expect 0 "before" check after/strip{3,1,2,4,5}.las -before "$block" -control "$block/control.csv" \
+  -output both.json -report both
+check "both sets are in the JSON" grep -q '"before"' both.json
+better=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+  $at["status"] == "judged" { rms[$1, $2, $3] = $at["vertical_rms_m"] }
+  $1 == "after" && $at["status"] == "judged" { pairs++; a += $at["vertical_rms_m"]; b += rms["before", $2, $3] }
+  END { print (pairs >= 3 && a < 0.5 * b) }' both/pairs.csv)
+check "height differences are halved at least" test "$better" = 1
+check "control is met to 5 cm after" awk -F, '$1 == "after" && $10 == "" { n++; s += $7 * $7 }
+  END { exit !(n > 0 && sqrt(s / n) < 0.05) }' both/control.csv
+finish

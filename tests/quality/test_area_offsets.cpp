@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/point_flag.h>
+#include <pcl_als/quality/area_offsets.h>
+
+#include "swath_scenes.h"
+
+namespace pcl_als {
+namespace {
+
+using test::areaOf;
+using test::Flight;
+using test::fly;
+using test::kOrigin;
+
+double plane(double x, double y) {
+  return 0.05 * x - 0.03 * y;  // 3.3 degrees
+}
+
+TEST(AreaOffsets, HeightOfAPlaneOverAnother) {
+  Flight other;
+  other.shift = {0.0, 0.0, -0.25};
+  other.seed = 2;
+  const AreaOffsets area = areaOf(fly(plane, {}, kOrigin), fly(plane, other, kOrigin));
+  const auto samples = area.offsets(0, 1);
+  ASSERT_GT(samples.size(), 500U);
+  std::size_t beside = 0;
+  for (const OffsetSample& s : samples) {
+    EXPECT_TRUE(s.level);
+    EXPECT_FALSE(s.identical);
+    if (!s.conjugate) {  // the nearest triangle's plane is met beside the triangle
+      ++beside;
+      continue;
+    }
+    // a over b, whichever strip the point is of; coordinates are rounded to 1 mm, which is all.
+    EXPECT_NEAR(s.vertical, 0.25, 0.003);
+    EXPECT_NEAR(s.normal_distance, 0.25 / std::sqrt(1.0 + 0.0025 + 0.0009), 0.003);
+    EXPECT_NEAR(s.slope, std::atan(std::hypot(0.05, 0.03)), 0.01);
+  }
+  EXPECT_LT(beside, samples.size() / 50);
+  for (const OffsetSample& s : area.offsets(1, 0)) EXPECT_NEAR(s.vertical, -0.25, 0.003);
+}
+
+TEST(AreaOffsets, TimesAndAnglesAreThoseOfEachStrip) {
+  Flight other;
+  other.time = 5000.0;
+  other.speed = -50.0;
+  other.seed = 2;
+  const AreaOffsets area = areaOf(fly(plane, {}, kOrigin), fly(plane, other, kOrigin));
+  for (const OffsetSample& s : area.offsets(0, 1)) {
+    const Eigen::Vector3d p = s.position - kOrigin;
+    // The other strip's are those of the patch's nearest vertex, at most a spacing away.
+    EXPECT_NEAR(s.time_a, 1000.0 + p.y() / 60.0, 0.6 / 60.0);
+    EXPECT_NEAR(s.time_b, 5000.0 - p.y() / 50.0, 0.6 / 50.0);
+    EXPECT_NEAR(s.scan_angle_a, p.x() - 30.0, 0.7);
+    EXPECT_NEAR(s.scan_angle_b, 30.0 - p.x(), 0.7);
+  }
+}
+
+TEST(AreaOffsets, SteepGroundIsNotLevelButHasNormalDistances) {
+  const auto steep = [](double x, double) { return 0.2 * x; };  // 11.3 degrees
+  Flight other;
+  other.shift = {0.10, 0.0, 0.0};  // along the slope: 0.02 m of height
+  other.seed = 2;
+  const AreaOffsets area = areaOf(fly(steep, {}, kOrigin), fly(steep, other, kOrigin));
+  const auto samples = area.offsets(0, 1);
+  ASSERT_GT(samples.size(), 300U);
+  for (const OffsetSample& s : samples) {
+    EXPECT_FALSE(s.level);
+    EXPECT_NEAR(s.normal_distance, 0.02 * std::cos(std::atan(0.2)), 0.003);
+  }
+}
+
+TEST(AreaOffsets, TreesAndEavesAreNoSurface) {
+  // A forest: heights jump from point to point, and a house beside it.
+  const auto forest = [](double x, double y) {
+    if (x > 40.0) return 6.0;  // flat roof, eaves at x = 40
+    return 5.0 * std::abs(std::sin(37.0 * x + 91.0 * y));
+  };
+  Flight other;
+  other.seed = 2;
+  const AreaOffsets area = areaOf(fly(forest, {}, kOrigin), fly(forest, other, kOrigin));
+  for (const OffsetSample& s : area.offsets(0, 1)) {
+    EXPECT_GT(s.position.x() - kOrigin.x(), 40.0) << "measured in a tree";
+    EXPECT_NEAR(s.vertical, 0.0, 0.002);
+  }
+}
+
+TEST(AreaOffsets, OnlySinglesStartAndClassesCount) {
+  Flight other;
+  other.seed = 2;
+  auto a = fly(plane, {}, kOrigin), b = fly(plane, other, kOrigin);
+  for (SwathPoint& point : a) point.number_of_returns = 2, point.return_number = 2;
+  for (SwathPoint& point : b) point.number_of_returns = 2, point.return_number = 2;
+  EXPECT_TRUE(areaOf(a, b).offsets(0, 1).empty());
+  for (SwathPoint& point : a) point.number_of_returns = 1, point.return_number = 1;
+  EXPECT_FALSE(areaOf(a, b).offsets(0, 1).empty());
+  // Where ground is marked, only ground counts for heights.
+  for (SwathPoint& point : a) point.classification = point.position.x() < kOrigin.x() + 30 ? 2 : 6;
+  std::size_t level = 0;
+  for (const OffsetSample& s : areaOf(a, b).offsets(0, 1)) {
+    if (!s.level) continue;
+    ++level;
+    EXPECT_LT(s.position.x(), kOrigin.x() + 30.0);
+  }
+  EXPECT_GT(level, 100U);
+}
+
+TEST(AreaOffsets, WithheldNoiseAndVegetationAreLeftOut) {
+  AreaOffsets area({kOrigin.head<2>(), 50.0, 5.0}, 1);
+  SwathPoint point;
+  point.position = kOrigin + Eigen::Vector3d(1.0, 1.0, 0.0);
+  area.add(0, point);
+  for (const int code : {3, 4, 5, 7, 18}) {
+    point.classification = static_cast<std::uint8_t>(code);
+    area.add(0, point);
+  }
+  point.classification = 0;
+  point.flags = kWithheld;
+  area.add(0, point);
+  point.flags = 0;
+  point.position.x() = std::nan("");
+  area.add(0, point);
+  point.position = kOrigin + Eigen::Vector3d(80.0, 1.0, 0.0);  // beside the margin
+  area.add(0, point);
+  EXPECT_EQ(area.pointCount(), 1U);
+}
+
+TEST(AreaOffsets, RepeatedAndCopiedPointsAreSeen) {
+  const auto a = fly(plane, {}, kOrigin);
+  auto twice = a;
+  twice.insert(twice.end(), a.begin(), a.end());
+  EXPECT_NEAR(areaOf(twice, a).repeatedShare(0), 0.5, 1e-9);
+  EXPECT_EQ(areaOf(a, a).repeatedShare(0), 0.0);
+  for (const OffsetSample& s : areaOf(a, a).offsets(0, 1)) EXPECT_TRUE(s.identical);
+}
+
+TEST(AreaOffsets, HandfulsOfPointsGiveNothing) {
+  const auto a = fly(plane, {}, kOrigin);
+  for (const std::size_t count : {0, 1, 2, 3, 5, 11}) {
+    const std::vector<SwathPoint> few(a.begin() + 3000, a.begin() + 3000 + count);
+    EXPECT_TRUE(areaOf(few, a).offsets(0, 1).empty()) << count;
+    EXPECT_TRUE(areaOf(few, few).offsets(0, 1).empty()) << count;
+  }
+}
+
+TEST(AreaOffsets, HeightAboveAPoint) {
+  Flight flight;
+  flight.shift.z() = -0.125;
+  const auto a = fly(plane, flight, kOrigin);
+  AreaOffsets area = areaOf(a, {});
+  const Eigen::Vector3d place = kOrigin + Eigen::Vector3d(20.0, 30.0, plane(20.0, 30.0));
+  const auto height = area.heightAt(0, place);
+  ASSERT_TRUE(height);
+  EXPECT_NEAR(height->above, -0.125, 0.002);
+  EXPECT_EQ(height->unfit, "");
+  EXPECT_FALSE(area.heightAt(1, place)) << "a strip that is not there";
+  EXPECT_FALSE(area.heightAt(0, kOrigin + Eigen::Vector3d(100.0, 0.0, 0.0)));
+  EXPECT_NE(area.heightAt(0, place + Eigen::Vector3d(0.0, 0.0, 5.0))->unfit, "") << "a blunder";
+  area.release();
+  EXPECT_FALSE(area.heightAt(0, place));
+}
+
+TEST(AreaOffsets, RoughnessIsThatOfTheNoise) {
+  Flight flight;
+  flight.noise = 0.02;
+  const AreaOffsets area = areaOf(fly(plane, flight, kOrigin), {});
+  const std::vector<double> values = area.roughness();
+  ASSERT_GT(values.size(), 100U);
+  double mean = 0.0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  // A plane through about twelve vertices takes three of their degrees of freedom: 0.87 of 2 cm.
+  EXPECT_NEAR(mean, 0.0172, 0.002);
+}
+
+}  // namespace
+}  // namespace pcl_als
