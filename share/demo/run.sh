@@ -81,6 +81,8 @@ if outdated "$pictures/profile1.png" "$bin/pcl_als_profile" "$corrected/strip1.l
   "$bin/pcl_als_profile" "${strips[@]}" -after "$corrected" -auto 3 -output "$pictures" | grep '^Drawing'
 else
   echo "$pictures is up to date"
+fi
+
 pcl_als_step "Checking strips and control before and after"
 if outdated "$out/quality.json" "$bin/pcl_als_check" "$corrected"/strip*.las; then
   "$bin/pcl_als_check" "$corrected"/strip*.las -before "$block" -control "$block/control.csv" \
