@@ -189,7 +189,7 @@ TEST_F(AlignedPair, MeetsPclsExpectations) {
   EXPECT_THROW(icpatch.align(aligned), UsageError);
 }
 
-/// The target as the source moved by 30 ppm about the middle: 2.4 mm at 80 m.
+/// The target as the source moved by 300 ppm about the middle: 24 mm at 80 m.
 TEST_F(AlignedPair, ScaleIsFoundWhenAsked) {
   constexpr double kScale = 300e-6;
   const Vector3d middle(80, 80, 2);
