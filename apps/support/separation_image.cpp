@@ -20,7 +20,7 @@ constexpr int kRows = 512;
 
 struct Outputs {
   RasterWriter colours, metres;
-  Image png;
+  PngImage png;
   int step = 1;  ///< of the cells that the PNG shows
 };
 
@@ -118,7 +118,7 @@ SeparationSummary writeSeparation(const std::filesystem::path& folder, const std
   }
   outputs.colours.commit();
   outputs.metres.commit();
-  writePng(png, outputs.png);
+  writePngImage(png, outputs.png);
   summary.files = {colours.filename().string(), metres.filename().string(),
                    png.filename().string()};
   return summary;
