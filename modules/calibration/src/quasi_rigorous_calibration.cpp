@@ -108,6 +108,16 @@ void QuasiRigorousCalibration::pairUp(State& state) const {
   });
 }
 
+void QuasiRigorousCalibration::lookAtControl(const State& state) {
+  const auto seen = [](const AreaObservations& area) { return !area.empty(); };
+  const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
+  control_seen_ = std::any_of(first, state.observations.end(), seen);
+  if (control_.empty() || control_seen_) return;
+  warnings_.push_back("none of the " + std::to_string(control_.size()) +
+                      " control points lies on a smooth surface of a strip: calibrated without "
+                      "control");
+}
+
 void QuasiRigorousCalibration::selectPairs(State& state) {
   PairSelectionSettings settings;
   settings.budget = settings_.pair_budget;
@@ -133,7 +143,7 @@ void QuasiRigorousCalibration::weigh(State& state) const {
 
 void QuasiRigorousCalibration::choose(State& state) const {
   const std::vector<SystemParameter> wanted =
-      settings_.estimate.empty() ? automaticParameters(!control_.empty()) : settings_.estimate;
+      settings_.estimate.empty() ? automaticParameters(control_seen_) : settings_.estimate;
   if (state.coarse) {
     state.choice.estimate = wanted;
     state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
@@ -141,7 +151,7 @@ void QuasiRigorousCalibration::choose(State& state) const {
     // What was asked for by name is dropped only when it is hopeless.
     const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
     std::vector<SystemParameter> unknown;
-    if (settings_.estimate.empty() && control_.empty()) {
+    if (settings_.estimate.empty() && !control_seen_) {
       unknown.push_back(SystemParameter::range_bias);
     }
     state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
@@ -294,9 +304,10 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   State state(errors, settings_.threads);
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
-  CalibrationReport report(ids_, control_.empty());
   CalibrationResult result;
   pairUp(state);
+  lookAtControl(state);
+  const CalibrationReport report(ids_, !control_seen_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
   for (int i = 0; i < settings_.max_iterations && !result.converged && state.observationCount() > 0;
        ++i) {

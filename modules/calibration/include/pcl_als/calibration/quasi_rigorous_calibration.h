@@ -30,7 +30,7 @@ struct CalibrationSettings {
   PatchLimits patches;
   SurveyMap::Selection selection;
   std::size_t candidates = 100'000;   ///< points that look for patches, all areas
-  std::size_t pair_budget = 60'000;   ///< pairs that are adjusted, chosen by information
+  std::size_t pair_budget = 100'000;   ///< pairs that are adjusted, chosen by information
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
@@ -106,6 +106,8 @@ class QuasiRigorousCalibration {
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
   void pairUp(State& state) const;
+  /// Finds whether any control point is seen, and warns where none is.
+  void lookAtControl(const State& state);
   /// Keeps the pairs that determine the parameters, of all that are in the state.
   void selectPairs(State& state);
   void weigh(State& state) const;
@@ -128,6 +130,7 @@ class QuasiRigorousCalibration {
   std::vector<std::string> ids_;
   std::vector<bool> used_;
   std::vector<ControlPoint> control_;
+  bool control_seen_ = false;  ///< whether a strip has a patch under any of it
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;
   std::vector<StripPair> pairs_;
   std::vector<CalibrationArea> areas_;
