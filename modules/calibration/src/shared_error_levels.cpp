@@ -11,7 +11,7 @@ namespace {
 constexpr int kKinds = 4;
 constexpr int kSteps = 4;  // of the search to a factor of two
 constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
-constexpr double kBelief = 2.0;          // standard deviation of ln(level) by the model's own word
+constexpr double kBelief = 1.0;          // standard deviation of ln(level) by the model's own word
 using Powers = std::array<int, kKinds>;  // of 2^(1/kSteps); local last: it costs most to change
 
 double levelOf(int power) {

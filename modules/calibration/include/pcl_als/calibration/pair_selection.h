@@ -11,7 +11,7 @@ namespace pcl_als {
 
 /// How many pairs a calibration keeps, and what it takes for granted when it chooses them.
 struct PairSelectionSettings {
-  std::size_t budget = 100'000;    ///< pairs of strips; control is always kept
+  std::size_t budget = 100'000;   ///< pairs of strips; control is always kept
   double spread = 0.25;           ///< share of the budget that goes evenly to where strips meet
   double shared_variance = 2e-4;  ///< m^2, of what pairs of two strips in one area share
 };
