@@ -137,6 +137,15 @@ void AreaMatcher::collectRoughness(std::vector<double>& values) const {
   }
 }
 
+void AreaMatcher::keep(const AreaObservations& observations,
+                       const std::vector<std::size_t>& chosen) {
+  kept_.clear();
+  for (const std::size_t i : chosen) {
+    const PairObservation& o = observations[i];
+    if (o.a != PairObservation::kControl) kept_[{o.a, o.b}].push_back(o.point);
+  }
+}
+
 void AreaMatcher::correct(const BiasEvaluator& biases) {
   corrected_for_ = biases.biases();
   for (StripPart& part : strips_) {
@@ -172,6 +181,7 @@ class AreaMatcher::PointGeometry {
     const ScanGeometry geometry = scanGeometry(pose_, position);
     design = designBlock(geometry);
     covariance = noise_.pointCovariance(geometry);
+    pointing = noise_.pointingCovariance(geometry);
     beam = geometry.beam();
     range = geometry.range();
     lateral = std::abs(geometry.x);
@@ -184,6 +194,7 @@ class AreaMatcher::PointGeometry {
     position.setZero();
     design.setZero();
     covariance.setZero();
+    pointing.setZero();
     for (int i = 0; i < 3; ++i) {
       if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i]))
         return false;
@@ -192,6 +203,7 @@ class AreaMatcher::PointGeometry {
       position += weight * vertex.position;
       design += weight * vertex.design;
       covariance += weight * weight * vertex.covariance;
+      pointing += weight * weight * vertex.pointing;
     }
     beam = vertex.beam;
     range = vertex.range;
@@ -203,7 +215,7 @@ class AreaMatcher::PointGeometry {
   double time = 0.0;
   Eigen::Vector3d position;  ///< corrected
   DesignBlock design;
-  Eigen::Matrix3d covariance;
+  Eigen::Matrix3d covariance, pointing;             ///< pointing: its part of the covariance
   Eigen::Vector3d beam;                             ///< unit, downward
   double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
 
@@ -219,7 +231,8 @@ class AreaMatcher::PointGeometry {
 };
 
 AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
-                                    const Trajectory& trajectory, const NoiseModel& noise) const {
+                                    const Trajectory& trajectory, const NoiseModel& noise,
+                                    Seekers seekers) const {
   AreaObservations found;
   PointGeometry point(trajectory, noise), foot(trajectory, noise), vertex(trajectory, noise);
   for (std::size_t k = 0; k < 2 * pairs.size(); ++k) {
@@ -230,12 +243,15 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     const StripPart& a = strips_[observation.a];
     const StripPart& b = strips_[observation.b];
     if (b.biased.empty()) continue;
-    for (const std::int32_t i : a.candidates) {
+    const auto kept = kept_.find({observation.a, observation.b});
+    if (seekers == Seekers::kept && kept == kept_.end()) continue;
+    for (const std::int32_t i : seekers == Seekers::kept ? kept->second : a.candidates) {
       const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
       if (!match) continue;
       const PatchQuality quality = b.surface.quality(match->triangle);
       if (!acceptable(b, quality) || !point.atPoint(a, i) || !foot.atFoot(b, *match, vertex))
         continue;
+      observation.point = i;
       observation.time_a = point.time;
       observation.time_b = foot.time;
       observation.lateral = foot.lateral;
@@ -246,6 +262,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       observation.misclosure = observation.normal.dot(point.position - foot.position) +
                                observation.row() * corrected_for_;
       observation.variance = normalVariance(point.covariance + foot.covariance, observation.normal);
+      observation.pointing = normalVariance(point.pointing + foot.pointing, observation.normal);
       observation.stretch = point.stretch(observation.normal) - foot.stretch(observation.normal);
       observation.ranges = point.range * observation.normal.dot(point.beam) -
                            foot.range * observation.normal.dot(foot.beam);
@@ -283,6 +300,7 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       const double up = observation.normal.z();
       observation.variance =
           normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;
+      observation.pointing = normalVariance(foot.pointing, observation.normal);
       found.push_back(observation);
     }
   }

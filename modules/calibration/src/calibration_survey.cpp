@@ -26,6 +26,7 @@ std::string seconds(double from, double to) {
 int QuasiRigorousCalibration::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
+  looks_.emplace_back(trajectory_);
   if (settings_.recover_attitude && attitude_ == AttitudeSource::none) {
     recoveries_.emplace_back(trajectory_);
   }
@@ -35,6 +36,10 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
 void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
                                       std::size_t count) {
   map_.add(strip, points, count);
+  constexpr std::size_t kEveryLook = 128;
+  for (std::size_t i = 0; i < count; i += kEveryLook) {
+    if (points[i].position.allFinite()) looks_[static_cast<std::size_t>(strip)].add(points[i]);
+  }
   if (recoveries_.empty()) return;
   constexpr std::size_t kEvery = 16;  // of the points show the attitude
   AttitudeRecovery& recovery = recoveries_[static_cast<std::size_t>(strip)];
@@ -81,6 +86,12 @@ void QuasiRigorousCalibration::checkTrajectory() const {
                        ", the trajectory covers " +
                        seconds(trajectory_->startTime(), trajectory_->endTime()) +
                        ": give the trajectory of this flight");
+    }
+    const std::string objection = looks_[strip].objection();
+    if (!objection.empty()) {
+      throw InputError("strip " + ids_[strip] + ": " + objection +
+                       ": give the trajectory of this flight, on the clock and in the coordinates "
+                       "of the points");
     }
     for (const Trajectory::Gap& gap : trajectory_->gaps()) {
       if (gap.from >= end || gap.to <= start) continue;

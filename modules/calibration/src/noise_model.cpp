@@ -25,17 +25,20 @@ void NoiseModel::validate() const {
     throw UsageError("range noise and position noise cannot both be zero");
 }
 
-Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
+Eigen::Matrix3d NoiseModel::pointingCovariance(const ScanGeometry& g) const {
   const Eigen::Vector3d beam = g.beam();
   const double distance = g.range();
-  const double along_sq = range * range;
   // A quarter of the 1/e^2 diameter is the standard deviation of where in the footprint the return
   // comes from.
   const double footprint = 0.25 * beam_divergence;
   const double across_sq = (angle * angle + footprint * footprint) * distance * distance;
-  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  return (across_sq + position * position) * identity +
-         (along_sq - across_sq) * (beam * beam.transpose());
+  return across_sq * (Eigen::Matrix3d::Identity() - beam * beam.transpose());
+}
+
+Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
+  const Eigen::Vector3d beam = g.beam();
+  return pointingCovariance(g) + range * range * beam * beam.transpose() +
+         position * position * Eigen::Matrix3d::Identity();
 }
 
 }  // namespace pcl_als

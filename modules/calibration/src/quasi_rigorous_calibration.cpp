@@ -6,6 +6,8 @@
 
 #include <pcl_als/calibration/block_advice.h>
 #include <pcl_als/calibration/calibration_report.h>
+#include <pcl_als/calibration/pair_selection.h>
+#include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
@@ -16,21 +18,11 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kHuber = 1.5;   // standard deviations up to which an observation has full weight
-constexpr double kReject = 4.5;  // and from which it has none
 // Weightings of the first set of pairs, which begin with nothing known; later sets begin with the
 // weights of the last.
 constexpr int kFirstWeightings = 3;
 constexpr std::size_t kEnoughForScale = 30;
-// A TIN between points is never better than some millimetres: pairs that fit better are no better.
-constexpr double kLeastScale = 0.25;
 constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
-
-/// Robust standard deviation of values that should have zero mean: a shift counts as scatter.
-double scatterAboutZero(std::vector<double>& values) {
-  for (double& value : values) value = std::abs(value);
-  return 1.4826 * medianInPlace(values);
-}
 
 /// Biases of a system nobody has calibrated (standard deviations): half a degree, metres.
 SystemVector largestBelievable() {
@@ -40,30 +32,19 @@ SystemVector largestBelievable() {
   return sigma;
 }
 
-double robustWeight(double standardised, bool reject) {
-  const double size = std::abs(standardised);
-  if (reject && size > kReject) return 0.0;
-  return size <= kHuber ? 1.0 : kHuber / size;
-}
-
 }  // namespace
 
 /// What changes from iteration to iteration.
 struct QuasiRigorousCalibration::State {
-  using Group =
-      std::pair<int, int>;  // strips of an observation, smaller first; kControl first for control
-
   explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
 
-  /// Pairs of two strips; all control together, for a strip alone sees few points.
-  static Group groupOf(const PairObservation& o) {
-    if (o.a == PairObservation::kControl) return {o.a, o.a};
-    return {std::min(o.a, o.b), std::max(o.a, o.b)};
-  }
   std::size_t observationCount() const {
     std::size_t count = 0;
     for (const AreaObservations& area : observations) count += area.size();
     return count;
+  }
+  long redundancy() const {
+    return static_cast<long>(weights.kept()) - static_cast<long>(choice.estimate.size());
   }
 
   Adjustment adjustment;
@@ -76,12 +57,10 @@ struct QuasiRigorousCalibration::State {
   bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
   int looks = 0;             ///< how often it was looked for
   bool levels_rest = false;  ///< whether the last look left them as they were
+  AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
-  std::vector<std::vector<double>> weights;  ///< robust weight / noise scale^2
-  std::map<Group, double> noise_scale;       ///< scatter of a group against its noise model
-  double sigma0 = 0.0;
-  long redundancy = 0;
+  PairWeights weights;
 };
 
 QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
@@ -123,51 +102,48 @@ void QuasiRigorousCalibration::pairUp(State& state) const {
     const AreaMatcher& matcher = matchers_[i];
     state.observations[i] =
         i < pair_areas_
-            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise)
+            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise, state.seekers)
             : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
                                    settings_.noise, settings_.control_sigma);
   });
 }
 
+void QuasiRigorousCalibration::lookAtControl(const State& state) {
+  const auto seen = [](const AreaObservations& area) { return !area.empty(); };
+  const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
+  control_seen_ = std::any_of(first, state.observations.end(), seen);
+  if (control_.empty() || control_seen_) return;
+  warnings_.push_back("none of the " + std::to_string(control_.size()) +
+                      " control points lies on a smooth surface of a strip: calibrated without "
+                      "control");
+}
+
+void QuasiRigorousCalibration::selectPairs(State& state) {
+  PairSelectionSettings settings;
+  settings.budget = settings_.pair_budget;
+  const double local = settings_.shared_errors.local;
+  settings.shared_variance = 2.0 * local * local;  // of either strip
+  const PairSelection selection(state.observations, state.weights.weights(), settings);
+  parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
+    matchers_[i].keep(state.observations[i], selection.chosen()[i]);
+  });
+  information_ = selection.informationShares();
+  state.seekers = AreaMatcher::Seekers::kept;
+}
+
 void QuasiRigorousCalibration::weigh(State& state) const {
-  std::vector<std::vector<double>> standardised(state.observations.size());
-  parallelFor(standardised.size(), settings_.threads, [&](std::size_t area) {
+  std::vector<std::vector<double>> residuals(state.observations.size());
+  parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
     for (const PairObservation& o : state.observations[area]) {
-      standardised[area].push_back(state.adjustment.residual(o, state.choice.solution) /
-                                   std::sqrt(o.variance));
+      residuals[area].push_back(state.adjustment.residual(o, state.choice.solution));
     }
   });
-  std::map<State::Group, std::vector<double>> by_group;
-  for (std::size_t area = 0; area < standardised.size(); ++area) {
-    for (std::size_t i = 0; i < standardised[area].size(); ++i) {
-      by_group[State::groupOf(state.observations[area][i])].push_back(standardised[area][i]);
-    }
-  }
-  for (auto& [group, values] : by_group) {
-    const double scale = values.size() >= kEnoughForScale ? scatterAboutZero(values) : 1.0;
-    state.noise_scale[group] = std::max(scale, kLeastScale);
-  }
-  double squares = 0.0;
-  std::size_t kept = 0;
-  state.weights.assign(state.observations.size(), {});
-  for (std::size_t area = 0; area < standardised.size(); ++area) {
-    for (std::size_t i = 0; i < standardised[area].size(); ++i) {
-      const double scale = state.noise_scale[State::groupOf(state.observations[area][i])];
-      const double robust = robustWeight(standardised[area][i] / scale, state.solved);
-      state.weights[area].push_back(robust / (scale * scale));
-      if (robust == 0.0) continue;
-      squares += standardised[area][i] * standardised[area][i];
-      ++kept;
-    }
-  }
-  state.redundancy = static_cast<long>(kept) - static_cast<long>(state.choice.estimate.size());
-  state.sigma0 =
-      state.redundancy > 0 ? std::sqrt(squares / static_cast<double>(state.redundancy)) : 0.0;
+  state.weights.update(state.observations, residuals, state.solved);
 }
 
 void QuasiRigorousCalibration::choose(State& state) const {
   const std::vector<SystemParameter> wanted =
-      settings_.estimate.empty() ? automaticParameters(!control_.empty()) : settings_.estimate;
+      settings_.estimate.empty() ? automaticParameters(control_seen_) : settings_.estimate;
   if (state.coarse) {
     state.choice.estimate = wanted;
     state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
@@ -175,7 +151,7 @@ void QuasiRigorousCalibration::choose(State& state) const {
     // What was asked for by name is dropped only when it is hopeless.
     const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
     std::vector<SystemParameter> unknown;
-    if (settings_.estimate.empty() && control_.empty()) {
+    if (settings_.estimate.empty() && !control_seen_) {
       unknown.push_back(SystemParameter::range_bias);
     }
     state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
@@ -188,12 +164,12 @@ void QuasiRigorousCalibration::adjust(State& state) const {
   const int weightings = state.solved ? 1 : kFirstWeightings;
   for (int i = 0; i < weightings; ++i) {
     weigh(state);
-    state.adjustment.accumulate(state.observations, state.weights);
+    state.adjustment.accumulate(state.observations, state.weights.weights());
     choose(state);
   }
   if (state.levels_open && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
-    state.levels_rest = mostLikelyLevels(state.adjustment, state.choice.estimate) == levels;
+    state.levels_rest = mostLikelyLevels(state.adjustment, state.choice.estimate).near(levels);
     choose(state);
   }
   weigh(state);
@@ -225,10 +201,10 @@ void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
   constexpr double kSmallest = 0.25;  // metres
   constexpr double kFactor = 6.0;
   double widest = 0.0;
-  std::map<State::Group, std::vector<double>> distances;
+  std::map<PairWeights::Group, std::vector<double>> distances;
   for (const AreaObservations& area : state.observations) {
     for (const PairObservation& o : area) {
-      distances[State::groupOf(o)].push_back(o.distance(state.choice.solution.biases));
+      distances[PairWeights::groupOf(o)].push_back(o.distance(state.choice.solution.biases));
     }
   }
   for (const auto& [group, values] : distances) {
@@ -257,13 +233,18 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   constexpr std::size_t kCoarseAtMost = 12;
   const std::size_t done = result.iterations.size();
   const bool rests = done > 0 && result.iterations.back().largest_update < kNearlyAtRest;
-  if (rests || done >= kCoarseAtMost) state.coarse = false;
+  if (state.coarse && (rests || done >= kCoarseAtMost)) {
+    state.coarse = false;
+    state.seekers = AreaMatcher::Seekers::candidates;  // now that they are seen at their places
+    pairUp(state);
+  }
   state.levels_open = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
   if (state.levels_open) ++state.looks;
   adjust(state);
+  if (state.seekers == AreaMatcher::Seekers::candidates) selectPairs(state);
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
-  result.iterations.push_back({state.observationCount(), state.sigma0, effect});
+  result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
   result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
                      (effect < settings_.convergence || restsWithin(state, before));
@@ -295,7 +276,8 @@ std::vector<std::string> QuasiRigorousCalibration::observability(
     settings.reported[indexOf(info.parameter)] = result[info.parameter].std;
   }
   return describeObservability(
-             observedBlock(flown, *trajectory_, state.observations, state.weights), settings)
+             observedBlock(flown, *trajectory_, state.observations, state.weights.weights()),
+             settings)
       .text();
 }
 
@@ -322,17 +304,18 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   State state(errors, settings_.threads);
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
-  CalibrationReport report(ids_, control_.empty());
   CalibrationResult result;
   pairUp(state);
+  lookAtControl(state);
+  const CalibrationReport report(ids_, !control_seen_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
   for (int i = 0; i < settings_.max_iterations && !result.converged && state.observationCount() > 0;
        ++i) {
     iterate(state, result);
     if (!result.converged) pairUp(state);
   }
-  result.sigma0 = state.sigma0;
-  result.redundancy = state.redundancy;
+  result.sigma0 = state.weights.sigma0();
+  result.redundancy = state.redundancy();
   result.warnings = warnings_;
   result.attitude = attitude_;
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
@@ -341,6 +324,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
   result.observability = observability(state, spans, result);
   state.threshold = settings_.max_normal_distance;
+  state.seekers = AreaMatcher::Seekers::candidates;
   pairUp(state);
   report.addFit(state.observations, result.biases(), true, result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);

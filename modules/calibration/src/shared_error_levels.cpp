@@ -9,18 +9,27 @@ namespace pcl_als {
 namespace {
 
 constexpr int kKinds = 4;
-constexpr int kLowest = -12, kHighest = 4;  // powers of two
+constexpr int kSteps = 4;  // of the search to a factor of two
+constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
 constexpr double kBelief = 1.0;          // standard deviation of ln(level) by the model's own word
-using Powers = std::array<int, kKinds>;  // local last: it costs most to change
+using Powers = std::array<int, kKinds>;  // of 2^(1/kSteps); local last: it costs most to change
+
+double levelOf(int power) {
+  return std::exp2(static_cast<double>(power) / kSteps);
+}
+
+int powerOf(double level) {
+  return static_cast<int>(std::lround(kSteps * std::log2(level)));
+}
 
 SharedErrorLevels levelsOf(const Powers& power) {
-  return {std::exp2(power[0]), std::exp2(power[1]), std::exp2(power[2]), std::exp2(power[3])};
+  return {levelOf(power[0]), levelOf(power[1]), levelOf(power[2]), levelOf(power[3])};
 }
 
 double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
             const Powers& power) {
   double belief = 0.0;
-  for (const int p : power) belief += std::pow(p * std::log(2.0) / kBelief, 2);
+  for (const int p : power) belief += std::pow(std::log(levelOf(p)) / kBelief, 2);
   return adjustment.deviance(levelsOf(power), estimate) + belief;
 }
 
@@ -28,26 +37,30 @@ double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& es
 
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate) {
-  Powers best{};
   const SharedErrorLevels now = adjustment.levels();
-  best = {std::ilogb(now.position), std::ilogb(now.roll_pitch), std::ilogb(now.heading),
-          std::ilogb(now.local)};
+  Powers best{powerOf(now.position), powerOf(now.roll_pitch), powerOf(now.heading),
+              powerOf(now.local)};
   double lowest = cost(adjustment, estimate, best);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int kind = kKinds - 1; kind >= 0; --kind) {
-      for (const int step : {-1, 1}) {
-        for (Powers next = best;;) {
-          next[kind] += step;
-          if (next[kind] < kLowest || next[kind] > kHighest) break;
-          const double value = cost(adjustment, estimate, next);
-          if (!(value < lowest)) break;
-          lowest = value;
-          best = next;
-          changed = true;
-        }
+  const auto follow = [&](int kind, int step) {
+    bool changed = false;
+    for (Powers next = best;; changed = true) {
+      next[kind] += step;
+      if (next[kind] < kLowest || next[kind] > kHighest) return changed;
+      const double value = cost(adjustment, estimate, next);
+      if (!(value < lowest)) return changed;
+      lowest = value;
+      best = next;
+    }
+  };
+  // First where the minimum is, by factors of two; then where in it: estimates follow the levels,
+  // and would jump with them.
+  for (const int step : {kSteps, 1}) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int kind = kKinds - 1; kind >= 0; --kind) {
+        if (follow(kind, -step) || follow(kind, step)) changed = true;
+        adjustment.setLevels(levelsOf(best));
       }
-      adjustment.setLevels(levelsOf(best));
     }
   }
   return levelsOf(best);

@@ -28,6 +28,12 @@ void SharedErrorModel::validate() const {
   }
 }
 
+bool SharedErrorLevels::near(const SharedErrorLevels& other) const {
+  const auto alike = [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); };
+  return alike(position, other.position) && alike(roll_pitch, other.roll_pitch) &&
+         alike(heading, other.heading) && alike(local, other.local);
+}
+
 std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
                                                  std::size_t strips) {
   std::vector<std::vector<TimeSpan>> times(strips);

@@ -103,9 +103,9 @@ class Adjustment {
 /** \brief Sets an adjustment to the levels of shared errors that its observations show best
  * (restricted maximum likelihood), and returns them.
  *
- * Searched by powers of two between 1/4096 and 16 times the model's variances, one kind after the
- * other until none changes. The model counts as one observation of each level, right within a
- * factor of e^2: where the observations say nothing, it stays.
+ * Searched by factors of two between 1/4096 and 16 times the model's variances, then of 2^(1/4),
+ * one kind after the other until none changes. The model counts as one observation of each level,
+ * right within a factor of e^2: where the observations say nothing, it stays.
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);

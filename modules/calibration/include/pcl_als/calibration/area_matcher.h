@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,6 +61,11 @@ class AreaMatcher {
     limits_.plain_roughness = plain;
   }
 
+  /// Which points look for patches: all candidates, or those of the observations last kept.
+  enum class Seekers { candidates, kept };
+  /// Keeps the points of these observations (of match()) as seekers of the same patches.
+  void keep(const AreaObservations& observations, const std::vector<std::size_t>& chosen);
+
   /// The TIN of a strip, as corrected last; empty where the strip has hardly a point here.
   const PatchSurface& surfaceOf(int strip) const {
     return strips_[static_cast<std::size_t>(strip)].surface;
@@ -70,7 +77,8 @@ class AreaMatcher {
   /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
   /// threshold.
   AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
-                         const Trajectory& trajectory, const NoiseModel& noise) const;
+                         const Trajectory& trajectory, const NoiseModel& noise,
+                         Seekers seekers = Seekers::candidates) const;
   /// The pairs of control points inside the area with the patches above or below them.
   AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
                                 const Trajectory& trajectory, const NoiseModel& noise,
@@ -99,6 +107,7 @@ class AreaMatcher {
 
   CalibrationArea area_;
   std::vector<StripPart> strips_;
+  std::map<std::pair<int, int>, std::vector<std::int32_t>> kept_;  ///< points of the first strip
   PatchLimits limits_;
   SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
 };

@@ -28,6 +28,8 @@ struct NoiseModel {
 
   /// Covariance of a point (m^2, ground frame: east, north, up).
   Eigen::Matrix3d pointCovariance(const ScanGeometry& geometry) const;
+  /// The part of it that is across the beam: pointing and footprint.
+  Eigen::Matrix3d pointingCovariance(const ScanGeometry& geometry) const;
 };
 
 }  // namespace pcl_als

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct PairObservation {
   static constexpr int kControl = -1;
 
   int a = kControl, b = 0;
+  std::int32_t point = -1;              ///< of strip a, in the area's TIN; -1 for control
   double time_a = 0.0, time_b = 0.0;    ///< firing times of the point and of the patch, seconds
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
@@ -33,6 +35,7 @@ struct PairObservation {
   /// itself and not of its linearisation at the biased points.
   double misclosure = 0.0;
   double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
+  double pointing = 0.0;  ///< part of it that comes from pointing and footprint, m^2
   double stretch = 0.0;   ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
   double ranges = 0.0;    ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
   double lateral = 0.0,

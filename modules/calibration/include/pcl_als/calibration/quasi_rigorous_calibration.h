@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/look_check.h>
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/calibration/survey_map.h>
@@ -29,6 +30,7 @@ struct CalibrationSettings {
   PatchLimits patches;
   SurveyMap::Selection selection;
   std::size_t candidates = 100'000;   ///< points that look for patches, all areas
+  std::size_t pair_budget = 100'000;  ///< pairs that are adjusted, chosen by information
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
@@ -86,6 +88,8 @@ class QuasiRigorousCalibration {
   CalibrationResult calibrate();
 
   const std::vector<CalibrationArea>& areas() const { return areas_; }
+  /// What each area contributed to the determination, in [0, 1]; after calibrate().
+  const std::vector<double>& informationShares() const { return information_; }
   std::size_t loadedPoints() const;
   std::vector<StripPair> const& pairs() const { return pairs_; }
   /// The trajectory that is used: after chooseAreas() with recovered attitude.
@@ -102,6 +106,10 @@ class QuasiRigorousCalibration {
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
   void pairUp(State& state) const;
+  /// Finds whether any control point is seen, and warns where none is.
+  void lookAtControl(const State& state);
+  /// Keeps the pairs that determine the parameters, of all that are in the state.
+  void selectPairs(State& state);
   void weigh(State& state) const;
   void choose(State& state) const;
   void adjust(State& state) const;
@@ -117,16 +125,19 @@ class QuasiRigorousCalibration {
   CalibrationSettings settings_;
   AttitudeSource attitude_ = AttitudeSource::none;
   SurveyMap map_;
+  std::deque<LookCheck> looks_;              ///< by strip
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is wanted
   std::vector<std::string> ids_;
   std::vector<bool> used_;
   std::vector<ControlPoint> control_;
+  bool control_seen_ = false;  ///< whether a strip has a patch under any of it
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;
   std::vector<StripPair> pairs_;
   std::vector<CalibrationArea> areas_;
   std::size_t pair_areas_ = 0;  ///< the first ones of areas_; the others surround control points
   std::unique_ptr<AreaIndex> index_;
   std::vector<AreaMatcher> matchers_;
+  std::vector<double> information_;  ///< by area
   std::vector<std::string> warnings_;
   std::function<void(const CalibrationIteration&)> progress_;
 };

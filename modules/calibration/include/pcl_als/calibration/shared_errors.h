@@ -48,10 +48,8 @@ struct SharedErrorModel {
 struct SharedErrorLevels {
   double position = 1.0, roll_pitch = 1.0, heading = 1.0, local = 1.0;
 
-  bool operator==(const SharedErrorLevels& other) const {
-    return position == other.position && roll_pitch == other.roll_pitch &&
-           heading == other.heading && local == other.local;
-  }
+  /// Whether none differs by more than a factor of 1.5: closer than observations tell them.
+  bool near(const SharedErrorLevels& other) const;
 };
 
 /** \brief The unknowns of the model: six at every knot of every strip (linear in time between

@@ -40,10 +40,10 @@ struct SurfaceModel {
 
 /// The strips of a block and the pairs between them: what another adjustment of it needs.
 struct ObservedBlock {
-  std::vector<StripGeometry> strips;             ///< by the index that observations use
+  std::vector<StripGeometry> strips;           ///< by the index that observations use
   std::vector<TimeSpan> spans;                 ///< firing times
-  std::vector<AreaObservations> observations;    ///< by area; misclosures are not used
-  std::vector<std::vector<double>> weights;      ///< as for Adjustment::accumulate
+  std::vector<AreaObservations> observations;  ///< by area; misclosures are not used
+  std::vector<std::vector<double>> weights;    ///< as for Adjustment::accumulate
   std::size_t control_points = 0;
 
   std::size_t observationCount() const;

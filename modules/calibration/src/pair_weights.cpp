@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <pcl_als/calibration/pair_weights.h>
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als {
+
+struct PairWeights::Values {
+  std::vector<double> residual, variance, pointing;
+};
+
+namespace {
+
+constexpr double kHuber = 1.5;   // standard deviations up to which an observation has full weight
+constexpr double kReject = 4.5;  // and from which it has none
+constexpr std::size_t kEnoughForScale = 30;
+// A TIN between points is never better than some millimetres: pairs that fit better are no better.
+constexpr double kLeastScale = 0.25;
+
+double robustWeight(double standardised, bool reject) {
+  const double size = std::abs(standardised);
+  if (reject && size > kReject) return 0.0;
+  return size <= kHuber ? 1.0 : kHuber / size;
+}
+
+double varianceWith(double pointing_factor, double variance, double pointing) {
+  return variance + (pointing_factor - 1.0) * pointing;
+}
+
+/// Robust standard deviation, against the noise model, of residuals that should have zero mean: a
+/// shift counts as scatter.
+template <typename Values>
+double scatterOf(const Values& values, double pointing_factor) {
+  if (values.residual.size() < kEnoughForScale) return 1.0;
+  std::vector<double> sizes(values.residual.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    sizes[i] = std::abs(values.residual[i]) /
+               std::sqrt(varianceWith(pointing_factor, values.variance[i], values.pointing[i]));
+  }
+  return std::max(1.4826 * medianInPlace(sizes), kLeastScale);
+}
+
+/// -ln of the likelihood of a group's residuals under Huber's least favourable distribution.
+template <typename Values>
+double unlikeliness(const Values& values, double pointing_factor) {
+  const double scale = scatterOf(values, pointing_factor);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.residual.size(); ++i) {
+    const double variance =
+        scale * scale * varianceWith(pointing_factor, values.variance[i], values.pointing[i]);
+    const double size = std::abs(values.residual[i]) / std::sqrt(variance);
+    const double loss = size <= kHuber ? 0.5 * size * size : kHuber * size - 0.5 * kHuber * kHuber;
+    sum += 0.5 * std::log(variance) + loss;
+  }
+  return sum;
+}
+
+}  // namespace
+
+PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
+  if (o.a == PairObservation::kControl) return {o.a, o.a};
+  return {std::min(o.a, o.b), std::max(o.a, o.b)};
+}
+
+void PairWeights::update(const std::vector<AreaObservations>& observations,
+                         const std::vector<std::vector<double>>& residuals, bool reject) {
+  std::map<Group, Values> groups;
+  for (std::size_t area = 0; area < observations.size(); ++area) {
+    for (std::size_t i = 0; i < observations[area].size(); ++i) {
+      const PairObservation& o = observations[area][i];
+      Values& values = groups[groupOf(o)];
+      values.residual.push_back(residuals[area][i]);
+      values.variance.push_back(o.variance);
+      values.pointing.push_back(o.pointing);
+    }
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const double factor : {1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0}) {
+    double cost = 0.0;
+    for (const auto& [group, values] : groups) cost += unlikeliness(values, factor);
+    if (!(cost < least)) continue;
+    least = cost;
+    pointing_ = factor;
+  }
+  for (const auto& [group, values] : groups) scales_[group] = scatterOf(values, pointing_);
+  double squares = 0.0;
+  kept_ = 0;
+  weights_.assign(observations.size(), {});
+  for (std::size_t area = 0; area < observations.size(); ++area) {
+    for (std::size_t i = 0; i < observations[area].size(); ++i) {
+      const PairObservation& o = observations[area][i];
+      const double scale = scales_[groupOf(o)];
+      const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
+      const double residual = residuals[area][i];
+      const double robust = robustWeight(residual / std::sqrt(variance), reject);
+      weights_[area].push_back(robust * o.variance / variance);
+      if (robust == 0.0) continue;
+      squares += residual * residual / o.variance;
+      ++kept_;
+    }
+  }
+  sigma0_ = kept_ > 0 ? std::sqrt(squares / static_cast<double>(kept_)) : 0.0;
+}
+
+}  // namespace pcl_als
