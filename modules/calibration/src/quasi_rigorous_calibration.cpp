@@ -241,7 +241,9 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   state.levels_open = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
   if (state.levels_open) ++state.looks;
   adjust(state);
-  if (state.seekers == AreaMatcher::Seekers::candidates) selectPairs(state);
+  if (settings_.pair_budget > 0 && state.seekers == AreaMatcher::Seekers::candidates) {
+    selectPairs(state);
+  }
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});

@@ -105,7 +105,7 @@ class Adjustment {
  *
  * Searched by factors of two between 1/4096 and 16 times the model's variances, then of 2^(1/4),
  * one kind after the other until none changes. The model counts as one observation of each level,
- * right within a factor of e^2: where the observations say nothing, it stays.
+ * right within a factor of e: where the observations say nothing, it stays.
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);

@@ -30,7 +30,7 @@ struct CalibrationSettings {
   PatchLimits patches;
   SurveyMap::Selection selection;
   std::size_t candidates = 100'000;   ///< points that look for patches, all areas
-  std::size_t pair_budget = 100'000;  ///< pairs that are adjusted, chosen by information
+  std::size_t pair_budget = 0;        ///< pairs that are adjusted, chosen by information; 0: all
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
