@@ -8,13 +8,13 @@
 #include <vector>
 
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
-#include <pcl_als/filters/intensity_correction.h>
 #include <pcl_als/classification/accuracy_assessment.h>
+#include <pcl_als/filters/intensity_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/radiometry/atmosphere.h>
 #include <pcl_als/quality/accuracy_standards.h>
+#include <pcl_als/radiometry/atmosphere.h>
 #include <pcl_als/tin/tin.h>
 #include <pcl_als/trajectory/trajectory.h>
 
