@@ -149,7 +149,7 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
 }
 
 void writeReport(const CommandLine& line, const CalibrationResult& result,
-                 const std::vector<CalibrationArea>& areas, const app::CalibrationPage& page) {
+                 const std::vector<SurveyArea>& areas, const app::CalibrationPage& page) {
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
   app::writeCalibrationCsv(folder, result, areas);

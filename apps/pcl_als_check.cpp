@@ -7,7 +7,6 @@
 #include <set>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
@@ -16,6 +15,7 @@
 #include "block_check.h"
 #include "command_line.h"
 #include "flight_options.h"
+#include "output_check.h"
 #include "quality_report.h"
 
 namespace {
@@ -115,18 +115,8 @@ void refuseRepeated(const std::vector<std::string>& files) {
 /// What can be known to fail should fail before the work, not after it.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
-  const fs::path folder = fs::absolute(line.text("output")).parent_path();
-  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK) != 0) {
-    throw InputError("cannot write " + line.text("output") + ": " + folder.string() +
-                     " is no folder that can be written to");
-  }
-  if (!line.has("report")) return;
-  std::error_code error;
-  fs::create_directories(line.text("report"), error);
-  if (!fs::is_directory(line.text("report")) || access(line.text("report").c_str(), W_OK) != 0) {
-    throw InputError("option -report: " + line.text("report") +
-                     " is no folder that can be written to");
-  }
+  app::checkWritable(line.text("output"));
+  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
 }
 
 /// The grid for a swath separation image; null where none is wanted, or none can be written.
@@ -154,7 +144,7 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
 /// to use, filled when empty.
 app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
                              const app::CheckSettings& settings, const std::string& image,
-                             std::vector<CalibrationArea>& areas) {
+                             std::vector<SurveyArea>& areas) {
   Step reading("Reading " + std::to_string(files.size()) + " point files", line.quiet());
   app::SurveyReader survey(files, line.threads());
   reading.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
@@ -231,14 +221,12 @@ int check(int argc, char** argv) {
     before = filesBefore(line, files);
     refuseRepeated(before);
   }
-  std::vector<CalibrationArea> areas;
+  std::vector<SurveyArea> areas;
   report.block = checkBlock(line, files, settings, "swath_separation", areas);
   if (!before.empty())
     report.before = checkBlock(line, before, settings, "swath_separation_before", areas);
   report.peak_memory_mb = peakMemory();
-  AtomicFile file(line.text("output"));
-  file.write(app::qualityJson(report));
-  file.commit();
+  writeFile(line.text("output"), app::qualityJson(report));
   if (!line.quiet()) std::cout << app::qualityText(report) << std::endl;
   if (line.has("report")) app::writeQualityTables(line.text("report"), report);
   if (!app::hasAnswer(report.block)) {

@@ -30,9 +30,7 @@ int info(int argc, char** argv) {
   step.done(grouped(points) + " points");
   if (!line.quiet()) std::cout << '\n' << censusText(survey);
   if (line.has("json")) {
-    AtomicFile file(line.text("json"));
-    file.write(censusJson(survey));
-    file.commit();
+    writeFile(line.text("json"), censusJson(survey));
   }
   return kDone;
 }

@@ -14,14 +14,12 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
 
+#include "json_number.h"
+
 namespace pcl_als::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json proportion(const Proportion& p) {
   return {{"value", number(p.value)}, {"low_95", number(p.low)}, {"high_95", number(p.high)}};
@@ -174,9 +172,7 @@ void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& repo
   json["warnings"] = remarks;
   json["inputs"] = report.inputs;
   json["tool_version"] = PCL_ALS_VERSION;
-  AtomicFile file(path);
-  file.write(json.dump(1) + "\n");
-  file.commit();
+  writeFile(path, json.dump(1) + "\n");
 }
 
 CountedSites countSites(const std::vector<CheckedSite>& sites, std::vector<std::string> classes) {

@@ -171,9 +171,7 @@ void writeAlignment(const std::filesystem::path& path, const Result& result,
   json["vertical_distance"] =
       distancesOf(result.vertical_before, result.vertical_after, result.vertical_pairs);
   json["tool_version"] = PCL_ALS_VERSION;
-  AtomicFile file(path);
-  file.write(json.dump(1) + "\n");
-  file.commit();
+  writeFile(path, json.dump(1) + "\n");
 }
 
 }  // namespace pcl_als::app

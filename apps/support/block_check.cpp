@@ -127,16 +127,15 @@ void BlockCheck::chooseAreas() {
   setAreas(map_.selectAreas(pairs, settings_.selection));
 }
 
-void BlockCheck::setAreas(std::vector<CalibrationArea> areas) {
+void BlockCheck::setAreas(std::vector<SurveyArea> areas) {
   areas_ = std::move(areas);
   offsets_.clear();
   control_offsets_.clear();
-  for (const CalibrationArea& area : areas_)
-    offsets_.emplace_back(SwathArea{area.minimum, area.size, area.margin}, courses_.size());
+  for (const SurveyArea& area : areas_) offsets_.emplace_back(area, courses_.size());
   for (const ControlPoint& point : settings_.control) {
     const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlArea);
     control_offsets_.emplace_back(
-        SwathArea{point.position.head<2>() - half, kControlArea, settings_.selection.margin},
+        SurveyArea{point.position.head<2>() - half, kControlArea, settings_.selection.margin},
         courses_.size());
   }
   const std::size_t spread = std::max<std::size_t>(1, areas_.size());
@@ -145,10 +144,10 @@ void BlockCheck::setAreas(std::vector<CalibrationArea> areas) {
 
 void BlockCheck::load(const PointSink& also) {
   std::vector<AreaOffsets*> targets;
-  std::vector<CalibrationArea> squares;
+  std::vector<SurveyArea> squares;
   for (std::vector<AreaOffsets>* some : {&offsets_, &control_offsets_}) {
     for (AreaOffsets& offsets : *some) {
-      const SwathArea& area = offsets.area();
+      const SurveyArea& area = offsets.area();
       targets.push_back(&offsets);
       squares.push_back({area.minimum, area.size, area.margin});
     }

@@ -85,8 +85,8 @@ class BlockCheck {
 
   /// Chooses areas, or takes those of another set of the same block.
   void chooseAreas();
-  void setAreas(std::vector<CalibrationArea> areas);
-  const std::vector<CalibrationArea>& areas() const { return areas_; }
+  void setAreas(std::vector<SurveyArea> areas);
+  const std::vector<SurveyArea>& areas() const { return areas_; }
 
   /// Second look, point by point; \a also gets every point, too, strip by strip.
   using PointSink = std::function<void(int strip, const SwathPoint& point)>;
@@ -109,7 +109,7 @@ class BlockCheck {
   std::vector<StripCourse> courses_;
   std::vector<bool> used_;
   std::vector<SurveyMap::Overlap> overlaps_;
-  std::vector<CalibrationArea> areas_;
+  std::vector<SurveyArea> areas_;
   std::vector<AreaOffsets> offsets_;                             ///< of the areas
   std::vector<AreaOffsets> control_offsets_;                     ///< around the control points
   std::vector<std::vector<std::vector<OffsetSample>>> samples_;  ///< by area, then by overlap

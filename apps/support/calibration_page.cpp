@@ -141,7 +141,7 @@ void CalibrationPage::add(int strip, const CalibrationPoint* points, std::size_t
 }
 
 void CalibrationPage::write(const CommandLine& line, const CalibrationResult& result,
-                            const std::vector<CalibrationArea>& areas) const {
+                            const std::vector<SurveyArea>& areas) const {
   HtmlReport report("Calibration of " + std::to_string(state_->survey.strips().size()) + " strips",
                     line.toolAndVersion());
   const CalibrationVerdict verdict = verdictOf(result);
@@ -154,7 +154,7 @@ void CalibrationPage::write(const CommandLine& line, const CalibrationResult& re
   BlockMap map;
   map.setTitle("Strips, overlaps and the areas that were used");
   std::vector<BlockMap::Area> boxes;
-  for (const CalibrationArea& area : areas) {
+  for (const SurveyArea& area : areas) {
     boxes.push_back({area.minimum, area.minimum + Eigen::Vector2d::Constant(area.size)});
   }
   map.setAreas(std::move(boxes));

@@ -31,7 +31,7 @@ class CalibrationPage {
   void add(int strip, const CalibrationPoint* points, std::size_t count);
   /// Writes into the folder of option -report.
   void write(const CommandLine& line, const CalibrationResult& result,
-             const std::vector<CalibrationArea>& areas) const;
+             const std::vector<SurveyArea>& areas) const;
 
  private:
   struct State;

@@ -22,10 +22,9 @@ void CalibrationPage::add(int /*strip*/, const CalibrationPoint* /*points*/,
                           std::size_t /*count*/) {}
 
 void CalibrationPage::write(const CommandLine& line, const CalibrationResult& result,
-                            const std::vector<CalibrationArea>& /*areas*/) const {
-  AtomicFile file(std::filesystem::path(line.text("report")) / "report.md");
-  file.write("# Calibration\n\n" + calibrationTables(result));
-  file.commit();
+                            const std::vector<SurveyArea>& /*areas*/) const {
+  writeFile(std::filesystem::path(line.text("report")) / "report.md",
+            "# Calibration\n\n" + calibrationTables(result));
 }
 
 }  // namespace pcl_als::app

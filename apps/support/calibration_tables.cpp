@@ -99,12 +99,6 @@ void stripTable(const CalibrationResult& result, std::ostream& out) {
   }
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 std::string pairsCsv(const CalibrationResult& result) {
   std::ostringstream out;
   out << "a,b,correspondences,rms_before_m,rms_after_m,mean_before_m,mean_after_m\n"
@@ -127,10 +121,10 @@ std::string iterationsCsv(const CalibrationResult& result) {
   return out.str();
 }
 
-std::string areasCsv(const std::vector<CalibrationArea>& areas) {
+std::string areasCsv(const std::vector<SurveyArea>& areas) {
   std::ostringstream out;
   out << "x_min,y_min,x_max,y_max\n" << std::fixed << std::setprecision(3);
-  for (const CalibrationArea& area : areas) {
+  for (const SurveyArea& area : areas) {
     out << area.minimum.x() << ',' << area.minimum.y() << ',' << area.minimum.x() + area.size << ','
         << area.minimum.y() + area.size << '\n';
   }
@@ -156,10 +150,10 @@ std::string calibrationTables(const CalibrationResult& result) {
 }
 
 void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
-                         const std::vector<CalibrationArea>& areas) {
-  writeText(folder / "pairs.csv", pairsCsv(result));
-  writeText(folder / "iterations.csv", iterationsCsv(result));
-  writeText(folder / "areas.csv", areasCsv(areas));
+                         const std::vector<SurveyArea>& areas) {
+  writeFile(folder / "pairs.csv", pairsCsv(result));
+  writeFile(folder / "iterations.csv", iterationsCsv(result));
+  writeFile(folder / "areas.csv", areasCsv(areas));
 }
 
 }  // namespace pcl_als::app

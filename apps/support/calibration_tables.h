@@ -16,6 +16,6 @@ std::string calibrationTables(const CalibrationResult& result);
 
 /// Writes pairs.csv, iterations.csv and areas.csv into a folder.
 void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
-                         const std::vector<CalibrationArea>& areas);
+                         const std::vector<SurveyArea>& areas);
 
 }  // namespace pcl_als::app

@@ -5,20 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/visualization/calibration_plots.h>
 #include <pcl_als/visualization/ticks.h>
 
 namespace pcl_als::app {
 namespace {
-
-/// Limits of the difference between swaths, metres: USGS 3DEP Lidar Base Specification 2025 rev. A,
-/// Table 2 (swath overlap difference, RMSDz).
-struct SwathLimit {
-  double rmsdz;
-  const char* levels;
-};
-constexpr SwathLimit kSwathLimits[] = {
-    {0.04, "quality level 0"}, {0.08, "quality levels 1 and 2"}, {0.16, "quality level 3"}};
 
 std::string centimetres(double metres) {
   return numberText(100.0 * metres, 1) + " cm";
@@ -35,14 +27,25 @@ double rmsOf(const std::vector<PairFit>& pairs, double PairFit::*rms) {
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+/// "quality level 0", "quality levels 1 and 2": those whose limit between swaths this is.
+std::string levelsWith(double limit) {
+  std::string levels;
+  int count = 0;
+  for (const QualityLevelLimits& one : qualityLevels()) {
+    if (one.swath_overlap_rmsdz != limit) continue;
+    levels += (count++ == 0 ? "" : " and ") + std::to_string(one.level);
+  }
+  return (count == 1 ? "quality level " : "quality levels ") + levels;
+}
+
 std::string againstSpecification(double rms) {
   const std::string caution =
       " This is a distance along the surface normal where the calibration looked; pcl_als_check "
       "measures what the specification asks for.";
-  for (const SwathLimit& limit : kSwathLimits) {
-    if (rms > limit.rmsdz) continue;
-    return "The fit after calibration is inside the " + centimetres(limit.rmsdz) +
-           " that the USGS Lidar Base Specification allows between swaths at " + limit.levels +
+  if (const auto level = swathQualityLevel(rms)) {
+    const double limit = qualityLevels()[static_cast<std::size_t>(*level)].swath_overlap_rmsdz;
+    return "The fit after calibration is inside the " + centimetres(limit) +
+           " that the USGS Lidar Base Specification allows between swaths at " + levelsWith(limit) +
            "." + caution;
   }
   return "The fit after calibration is outside what the USGS Lidar Base Specification allows "

@@ -61,9 +61,7 @@ void writeClassModel(const std::filesystem::path& path, const GaussianModel& mod
   }
   json["warnings"] = remarks;
   json["tool_version"] = PCL_ALS_VERSION;
-  AtomicFile file(path);
-  file.write(json.dump(1) + "\n");
-  file.commit();
+  writeFile(path, json.dump(1) + "\n");
 }
 
 GaussianModel readClassModel(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 #include <pcl_als/io/atomic_file.h>
 
 #include "intensity_report.h"
+#include "json_number.h"
 
 namespace pcl_als::app {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "pcl_als intensity";
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json modelJson(const RadiometricModel& model) {
   return {{"range_exponent", model.range_exponent},
@@ -234,9 +231,7 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
   json["files"] = filesJson(report);
   json["warnings"] = report.warnings;
   json["report"] = reportJson(report);
-  AtomicFile file(path);
-  file.write(json.dump(1) + "\n");
-  file.commit();
+  writeFile(path, json.dump(1) + "\n");
 }
 
 StoredRadiometry readIntensityJson(const std::filesystem::path& path) {

@@ -12,12 +12,6 @@
 namespace pcl_als::app {
 namespace {
 
-void save(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 std::string slopeName(std::size_t bin) {
   if (bin >= IntensityStatistics::kSlopeBins) return "no surface";
   const int step = static_cast<int>(IntensityStatistics::kSlopeStep);
@@ -191,10 +185,10 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
                 statistics.classOf(static_cast<std::uint8_t>(code)), scale);
   for (std::size_t i = 0; i < statistics.strips(); ++i)
     strips.add(report.run->strips()[i], statistics.strip(i), meanScale(statistics.strip(i)));
-  save(folder / "slopes.csv", slopes.csv.str());
-  save(folder / "classes.csv", classes.csv.str());
-  save(folder / "strips.csv", strips.csv.str());
-  save(folder / "histograms.csv", histogramsCsv(report));
+  writeFile(folder / "slopes.csv", slopes.csv.str());
+  writeFile(folder / "classes.csv", classes.csv.str());
+  writeFile(folder / "strips.csv", strips.csv.str());
+  writeFile(folder / "histograms.csv", histogramsCsv(report));
   std::ostringstream page;
   const RadiometricModel& model = report.run->model();
   page << "# Radiometric correction\n\nReference range " << model.reference_range
@@ -219,7 +213,7 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
          << report.run->input(i).path() << "\n```\n"
          << countsText(report.outcome->counts[i], *report.run) << "```\n";
   for (const std::string& warning : report.warnings) page << "\n- " << warning;
-  save(folder / "report.md", page.str() + "\n");
+  writeFile(folder / "report.md", page.str() + "\n");
 }
 
 }  // namespace pcl_als::app

@@ -269,9 +269,7 @@ void writeLegend(const std::filesystem::path& path, const std::vector<CodeMeanin
     for (const std::uint8_t part : entry.colour) text += ',' + std::to_string(part);
     text += '\n';
   }
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
+  writeFile(path, text);
 }
 
 }  // namespace pcl_als::app

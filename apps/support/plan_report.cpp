@@ -10,6 +10,8 @@
 
 #include <pcl_als/io/atomic_file.h>
 
+#include "json_number.h"
+
 namespace pcl_als::app {
 namespace {
 
@@ -44,10 +46,6 @@ void parameterTable(const FlightPlanResult& result, std::ostream& out) {
     out << " | " << std::left << std::setw(6) << info.unit << " | " << std::setw(14)
         << toString(estimate.status) << std::right << " |\n";
   }
-}
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 Json lineJson(const StripGeometry& line) {
@@ -174,9 +172,7 @@ void writePlan(const std::filesystem::path& path, const FlightPlanResult& result
   root["warnings"] = result.expected.warnings;
   root["inputs"] = inputs;
   root["tool_version"] = PCL_ALS_VERSION;
-  AtomicFile file(path);
-  file.write(root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  file.commit();
+  writeFile(path, root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace pcl_als::app

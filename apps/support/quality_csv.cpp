@@ -12,12 +12,6 @@
 namespace pcl_als::app {
 namespace {
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 /// A cell of a CSV: quoted where it has to be; empty for a number that is not known.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -189,12 +183,12 @@ std::string controlCsv(const QualityReport& report) {
 }  // namespace
 
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report) {
-  writeText(folder / "quality.md", "# Quality\n" + qualityText(report));
-  writeText(folder / "pairs.csv", pairsCsv(report));
-  writeText(folder / "slope_aspect.csv", slopeAspectCsv(report));
-  writeText(folder / "profiles.csv", profilesCsv(report));
-  writeText(folder / "offsets.csv", offsetsCsv(report));
-  if (report.block.control) writeText(folder / "control.csv", controlCsv(report));
+  writeFile(folder / "quality.md", "# Quality\n" + qualityText(report));
+  writeFile(folder / "pairs.csv", pairsCsv(report));
+  writeFile(folder / "slope_aspect.csv", slopeAspectCsv(report));
+  writeFile(folder / "profiles.csv", profilesCsv(report));
+  writeFile(folder / "offsets.csv", offsetsCsv(report));
+  if (report.block.control) writeFile(folder / "control.csv", controlCsv(report));
 }
 
 }  // namespace pcl_als::app

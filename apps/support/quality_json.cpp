@@ -6,20 +6,13 @@
 
 #include <pcl_als/common/system_parameters.h>
 
+#include "json_number.h"
 #include "quality_report.h"
 
 namespace pcl_als::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// null for what is not known.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-Json number(double value, bool known) {
-  return known ? number(value) : Json(nullptr);
-}
 
 Json summaryJson(const OffsetSummary& s) {
   const bool any = s.count > 0;

@@ -86,12 +86,6 @@ void appendLine(std::string& text, const char* format, Values... values) {
   text.append(line, static_cast<std::size_t>(length));
 }
 
-void save(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 std::string trajectoryText(const std::vector<TrajectorySample>& samples) {
   std::string text = "time,x,y,z,roll,pitch,heading\n";
   for (const TrajectorySample& s : samples)
@@ -211,10 +205,10 @@ std::string writeSurveyFiles(const Simulator& simulator, const std::filesystem::
   const auto samples = simulator.trajectory();
   const auto control = simulator.controlPoints();
   const auto training = simulator.landCoverSites(60, 0), check = simulator.landCoverSites(150, 1);
-  save(folder / "trajectory.csv", trajectoryText(samples));
-  save(folder / "control.csv", controlText(control, simulator.options().noise.control > 0.0));
-  save(folder / "training.csv", sitesText(training));
-  save(folder / "checkpoints.csv", sitesText(check));
+  writeFile(folder / "trajectory.csv", trajectoryText(samples));
+  writeFile(folder / "control.csv", controlText(control, simulator.options().noise.control > 0.0));
+  writeFile(folder / "training.csv", sitesText(training));
+  writeFile(folder / "checkpoints.csv", sitesText(check));
   return grouped(samples.size()) + " samples, " + grouped(control.size()) + " control points, " +
          grouped(training.size()) + " training and " + grouped(check.size()) + " check points";
 }
@@ -252,7 +246,7 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
                        {"pressure_kpa", s.atmosphere.pressure_kpa}};
   json["scene"] = sceneJson(simulator);
   json["tool_version"] = PCL_ALS_VERSION;
-  save(options.folder / "truth.json", json.dump(1) + "\n");
+  writeFile(options.folder / "truth.json", json.dump(1) + "\n");
 }
 
 }  // namespace pcl_als::app

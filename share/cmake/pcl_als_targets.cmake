@@ -39,6 +39,7 @@ function(als_add_app)
   add_executable(${target} ${ARG_SOURCES})
   list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
   target_link_libraries(${target} PRIVATE pcl_als_app_support ${ARG_MODULES} ${ARG_PRIVATE})
+  target_compile_definitions(${target} PRIVATE PCL_ALS_VERSION="${PROJECT_VERSION}")
   set_target_properties(${target} PROPERTIES OUTPUT_NAME pcl_als_${ARG_VERB}
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

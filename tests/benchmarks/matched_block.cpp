@@ -23,11 +23,10 @@ MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey,
   limitRoughness();
 }
 
-void MatchedBlock::load(const test::SimulatedSurvey& survey,
-                        const std::vector<CalibrationArea>& areas) {
+void MatchedBlock::load(const test::SimulatedSurvey& survey, const std::vector<SurveyArea>& areas) {
   const std::size_t strips = survey.strips.size();
   const AreaIndex index(areas);
-  for (const CalibrationArea& area : areas) matchers_.emplace_back(area, strips);
+  for (const SurveyArea& area : areas) matchers_.emplace_back(area, strips);
   times_.assign(areas.size(), std::vector<std::vector<double>>(strips));
   parallelFor(strips, 0, [&](std::size_t strip) {
     for (const CalibrationPoint& point : survey.strips[strip]) {

@@ -37,7 +37,7 @@ class MatchedBlock {
   const PatchLimits& limits() const { return limits_; }
 
  private:
-  void load(const test::SimulatedSurvey& survey, const std::vector<CalibrationArea>& areas);
+  void load(const test::SimulatedSurvey& survey, const std::vector<SurveyArea>& areas);
   void prepare(const CalibrationSettings& settings);
   void limitRoughness();
 

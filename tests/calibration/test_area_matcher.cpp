@@ -46,7 +46,7 @@ Trajectory flight() {
   return Trajectory(samples);
 }
 
-const CalibrationArea kArea{{0.0, 0.0}, 50.0, 8.0};
+const SurveyArea kArea{{0.0, 0.0}, 50.0, 8.0};
 
 AreaMatcher matcherOf(const std::vector<CalibrationPoint>& a,
                       const std::vector<CalibrationPoint>& b) {
@@ -121,7 +121,7 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   const Trajectory trajectory = flight();
   const auto a = sampled(8, -8.0, 58.0, {0, 0, 0}), b = sampled(9, -60.0, 110.0, {0, 0, -0.05});
   const AreaMatcher part = matcherOf(a, b);  // keeps of b what the margin holds
-  AreaMatcher whole(CalibrationArea{{0.0, 0.0}, 50.0, 60.0}, 2);
+  AreaMatcher whole(SurveyArea{{0.0, 0.0}, 50.0, 60.0}, 2);
   for (const CalibrationPoint& p : a) whole.add(0, p);
   for (const CalibrationPoint& p : b) whole.add(1, p);
   whole.prepare(PatchLimits(), 500, 0.001);
@@ -181,7 +181,7 @@ TEST(SurveyMap, ChoosesAreasWithinTheBudgetThatBothStripsSee) {
   EXPECT_EQ(all.size(), 4U * 6U);
   EXPECT_LT(few.size(), all.size());
   EXPECT_GT(few.size(), 0U);
-  for (const CalibrationArea& area : all) EXPECT_GE(area.minimum.x(), 99.9);
+  for (const SurveyArea& area : all) EXPECT_GE(area.minimum.x(), 99.9);
 }
 
 TEST(SurveyMap, CountsWhatIsNotFiniteAndRefusesTheAbsurd) {

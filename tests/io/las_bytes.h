@@ -167,6 +167,22 @@ struct LasBytes {
   }
 };
 
+/// A file with something in every place where bytes can be.
+inline LasBytes fullFile(int minor, int format, unsigned count) {
+  LasBytes las;
+  las.minor = minor;
+  las.format = format;
+  las.count = count;
+  las.extra = 5;
+  las.header_tail = "more header";
+  las.vlrs = {LasBytes::vlr("LASF_Projection", 2112, "WKT"),
+              LasBytes::vlr("unknown", 77, "payload")};
+  las.between = "bytes between";
+  if (minor >= 4) las.evlrs = {LasBytes::evlr("LASF_Spec", 65535, std::string(3000, 'w'))};
+  las.after = "bytes behind the end";
+  return las;
+}
+
 inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }

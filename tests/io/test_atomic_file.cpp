@@ -21,15 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(AtomicFile, AppearsOnCommit) {
   const fs::path folder = test::scratch("atomic_commit");
   AtomicFile file(folder / "out.txt");
@@ -84,12 +75,17 @@ TEST(AtomicFile, LongNamesFit) {
 
 TEST(AtomicFile, RefusesWhatIsNoPlaceForAFile) {
   const fs::path folder = test::scratch("atomic_refused");
-  EXPECT_NE(messageOf([&] { AtomicFile(folder / "none" / "a.txt"); }).find("folder does not exist"),
+  EXPECT_NE(test::messageOf<InputError>([&] {
+              AtomicFile(folder / "none" / "a.txt");
+            }).find("folder does not exist"),
             std::string::npos);
-  EXPECT_NE(messageOf([&] { AtomicFile file(folder); }).find("is a folder"), std::string::npos);
-  EXPECT_NE(messageOf([&] { AtomicFile("/dev/null"); }).find("not a regular file"),
+  EXPECT_NE(test::messageOf<InputError>([&] { AtomicFile file(folder); }).find("is a folder"),
             std::string::npos);
-  EXPECT_NE(messageOf([&] { AtomicFile(""); }).find("is not a file name"), std::string::npos);
+  EXPECT_NE(
+      test::messageOf<InputError>([&] { AtomicFile("/dev/null"); }).find("not a regular file"),
+      std::string::npos);
+  EXPECT_NE(test::messageOf<InputError>([&] { AtomicFile(""); }).find("is not a file name"),
+            std::string::npos);
 }
 
 /// Runs in a child process: file size limit instead of a full disk, no privileges needed.
@@ -97,7 +93,8 @@ void writeOverTheLimit(const fs::path& path) {
   const rlimit limit{1000, 1000};
   setrlimit(RLIMIT_FSIZE, &limit);
   std::signal(SIGXFSZ, SIG_IGN);
-  const std::string message = messageOf([&] { AtomicFile(path).write(std::string(5000, 'x')); });
+  const std::string message =
+      test::messageOf<InputError>([&] { AtomicFile(path).write(std::string(5000, 'x')); });
   _exit(message.find("out.txt: cannot be written: ") != std::string::npos ? 0 : 1);
 }
 
@@ -115,8 +112,8 @@ TEST(AtomicFile, AFullDiskIsAnErrorThatSaysSo) {
   const fs::path folder = test::scratch("atomic_full");
   if (mount("none", folder.c_str(), "tmpfs", 0, "size=64k") != 0)
     GTEST_SKIP() << "needs the right to mount a small disk";
-  const std::string message =
-      messageOf([&] { AtomicFile(folder / "out.txt").write(std::string(1 << 20, 'x')); });
+  const std::string message = test::messageOf<InputError>(
+      [&] { AtomicFile(folder / "out.txt").write(std::string(1 << 20, 'x')); });
   const bool nothing_left = fs::is_empty(folder);
   umount(folder.c_str());
   EXPECT_NE(message.find("out.txt: cannot be written: the disk is full"), std::string::npos)

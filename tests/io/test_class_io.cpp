@@ -15,15 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 fs::path fileOf(const std::string& name, const std::string& text) {
   const fs::path folder = fs::path(PCL_ALS_TEST_SCRATCH) / "class_io";
   fs::create_directories(folder);
@@ -38,11 +29,17 @@ TEST(ClassSites, OfCsv) {
   EXPECT_EQ(sites[0].name, "tree");
   EXPECT_EQ(sites[0].place, Eigen::Vector2d(512000.5, 5403000));
   EXPECT_FALSE(sites[0].isArea());
-  EXPECT_NE(messageOf([] { readClassSites(fileOf("b.csv", "x,y,class\n1,2,\n")); }).find("line 2"),
+  EXPECT_NE(test::messageOf<InputError>([] {
+              readClassSites(fileOf("b.csv", "x,y,class\n1,2,\n"));
+            }).find("line 2"),
             std::string::npos);
-  EXPECT_NE(messageOf([] { readClassSites(fileOf("c.csv", "x,y\n1,2\n")); }).find("column 'class'"),
+  EXPECT_NE(test::messageOf<InputError>([] {
+              readClassSites(fileOf("c.csv", "x,y\n1,2\n"));
+            }).find("column 'class'"),
             std::string::npos);
-  EXPECT_NE(messageOf([] { readClassSites(fileOf("d.csv", "x,y,class\n")); }).find("no sites"),
+  EXPECT_NE(test::messageOf<InputError>([] {
+              readClassSites(fileOf("d.csv", "x,y,class\n"));
+            }).find("no sites"),
             std::string::npos);
 }
 
@@ -71,7 +68,7 @@ TEST(ClassSites, OfGeoJson) {
 
 TEST(ClassSites, BadGeoJsonIsNamed) {
   const auto refused = [](const std::string& text) {
-    return messageOf([&] { readClassSites(fileOf("bad.geojson", text)); });
+    return test::messageOf<InputError>([&] { readClassSites(fileOf("bad.geojson", text)); });
   };
   EXPECT_NE(refused("{").find("no GeoJSON"), std::string::npos);
   EXPECT_NE(refused(R"({"features":[{"geometry":null}]})").find("feature 1"), std::string::npos);
@@ -94,7 +91,9 @@ TEST(CountTable, ReadsRowsInAnyOrder) {
   for (const char* bad : {"is,a,b\na,1,2\n", "is,a,b\na,1,2\na,3,4\n", "is,a,b\na,1,2\nc,3,4\n",
                           "is,a,b\na,1,x\nb,3,4\n", "is,a,b\na,1,-2\nb,3,4\n", "is,a\na,1\n",
                           "is,a,b\na,1,1.5\nb,3,4\n"})
-    EXPECT_NE(messageOf([&] { readCountTable(fileOf("bad.csv", bad)); }), "no error") << bad;
+    EXPECT_NE(test::messageOf<InputError>([&] { readCountTable(fileOf("bad.csv", bad)); }),
+              "no error")
+        << bad;
 }
 
 TEST(CheckedSites, ComeBackAsTheyWere) {

@@ -34,27 +34,12 @@ void fill(const LasRecordBlock& block, const std::vector<LasExtraField>& fields)
   }
 }
 
-LasBytes fullFile(int minor, int format) {
-  LasBytes las;
-  las.minor = minor;
-  las.format = format;
-  las.count = 300;
-  las.extra = 5;
-  las.header_tail = "more header";
-  las.vlrs = {LasBytes::vlr("LASF_Projection", 2112, "WKT"),
-              LasBytes::vlr("unknown", 77, "payload")};
-  las.between = "bytes between";
-  if (minor >= 4) las.evlrs = {LasBytes::evlr("LASF_Spec", 65535, std::string(3000, 'w'))};
-  las.after = "bytes behind the end";
-  return las;
-}
-
 class LasExtensionMatrix : public testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(LasExtensionMatrix, KeepsEverythingAndAddsTheFields) {
   const auto folder = test::scratch("las_extension_matrix");
   test::writeBytes(folder / "in.las",
-                   fullFile(std::get<0>(GetParam()), std::get<1>(GetParam())).str());
+                   test::fullFile(std::get<0>(GetParam()), std::get<1>(GetParam()), 300).str());
   const LasFile in(folder / "in.las");
   const auto fields = placeExtension(in, kTwo);
   extendLas(
@@ -116,7 +101,7 @@ TEST(LasExtension, ExtendsTheRecordThatIsThere) {
 
 TEST(LasExtension, WithoutFieldsIsACopy) {
   const auto folder = test::scratch("las_extension_none");
-  const std::string bytes = fullFile(4, 6).str();
+  const std::string bytes = test::fullFile(4, 6, 300).str();
   test::writeBytes(folder / "in.las", bytes);
   extendLas(LasFile(folder / "in.las"), folder / "out.las", LasExtension(),
             [](const LasRecordBlock&) {});

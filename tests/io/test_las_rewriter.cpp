@@ -25,27 +25,12 @@ void addToX(const LasRecordBlock& block, int units) {
   }
 }
 
-/// A file with something in every place where bytes can be.
-LasBytes fullFile(int minor, int format) {
-  LasBytes las;
-  las.minor = minor;
-  las.format = format;
-  las.count = 1000;
-  las.extra = 5;
-  las.header_tail = "more header";
-  las.vlrs = {LasBytes::vlr("LASF_Projection", 2112, "WKT"),
-              LasBytes::vlr("unknown", 77, "payload")};
-  las.between = "bytes between";
-  if (minor >= 4) las.evlrs = {LasBytes::evlr("LASF_Spec", 65535, std::string(3000, 'w'))};
-  las.after = "bytes behind the end";
-  return las;
-}
-
 class LasRewriterMatrix : public testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(LasRewriterMatrix, CopiesEveryByte) {
   const auto folder = test::scratch("las_rewriter_matrix");
-  const std::string bytes = fullFile(std::get<0>(GetParam()), std::get<1>(GetParam())).str();
+  const std::string bytes =
+      test::fullFile(std::get<0>(GetParam()), std::get<1>(GetParam()), 1000).str();
   test::writeBytes(folder / "in.las", bytes);
   const LasRewriteResult result = rewriteLas(folder / "in.las", folder / "out.las", kNothing, 2);
   EXPECT_EQ(result.points, 1000U);
@@ -55,7 +40,7 @@ TEST_P(LasRewriterMatrix, CopiesEveryByte) {
 
 TEST_P(LasRewriterMatrix, ChangesOnlyWhatTheEditChanges) {
   const auto folder = test::scratch("las_rewriter_edit");
-  LasBytes las = fullFile(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  LasBytes las = test::fullFile(std::get<0>(GetParam()), std::get<1>(GetParam()), 1000);
   test::writeBytes(folder / "in.las", las.str());
   const LasRewriteResult result = rewriteLas(
       folder / "in.las", folder / "out.las",

@@ -54,15 +54,6 @@ PointChunk readBack(const LasFile& file, std::vector<std::byte>& records) {
   return chunk;
 }
 
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 class LasWriterMatrix : public testing::TestWithParam<std::pair<int, int>> {};
 
 TEST_P(LasWriterMatrix, ReadsBackWhatWasWritten) {
@@ -222,7 +213,8 @@ TEST(LasWriter, RefusesByNameWhatTheFormatCannotCarry) {
   const auto appending = [&](int minor, int format, const std::function<void(PointChunk&)>& spoil) {
     PointChunk p = somePoints(3);
     spoil(p);
-    return messageOf([&] { LasWriter(folder / "out.las", around(minor, format)).append(p); });
+    return test::messageOf<Error>(
+        [&] { LasWriter(folder / "out.las", around(minor, format)).append(p); });
   };
   const auto has = [](const std::string& message, const char* part) {
     return message.find("out.las: point 2: ") != std::string::npos &&

@@ -23,15 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kUtm = "EPSG:25832";
 
-std::string messageOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 std::size_t filesIn(const fs::path& folder) {
   const auto files = fs::directory_iterator(folder);
   return static_cast<std::size_t>(std::distance(begin(files), end(files)));
@@ -82,11 +73,13 @@ TEST(RasterGrid, CoversABoxWithEdgesThatAreMultiplesOfTheCell) {
 }
 
 TEST(RasterGrid, RefusesWhatGivesNoGrid) {
-  EXPECT_NE(messageOf([] { RasterGrid::covering(0, 0, 1, 1, 0.0); }).find("cell size 0"),
-            std::string::npos);
-  EXPECT_NE(messageOf([] { RasterGrid::covering(0, 0, 1e9, 1, 0.01); }).find("too many"),
-            std::string::npos);
-  EXPECT_NE(messageOf([] { RasterGrid::covering(1, 0, 0, 1, 1.0); }).find("box"),
+  EXPECT_NE(
+      test::messageOf<Error>([] { RasterGrid::covering(0, 0, 1, 1, 0.0); }).find("cell size 0"),
+      std::string::npos);
+  EXPECT_NE(
+      test::messageOf<Error>([] { RasterGrid::covering(0, 0, 1e9, 1, 0.01); }).find("too many"),
+      std::string::npos);
+  EXPECT_NE(test::messageOf<Error>([] { RasterGrid::covering(1, 0, 0, 1, 1.0); }).find("box"),
             std::string::npos);
 }
 
@@ -181,7 +174,7 @@ TEST(RasterIo, WithoutCommitTheOldFileStays) {
 TEST(RasterIo, RefusesWithOneLine) {
   const fs::path folder = test::scratch("raster_refused");
   const auto writing = [&](const Raster& raster, const fs::path& path) {
-    return messageOf([&] { writeRaster(path, raster); });
+    return test::messageOf<Error>([&] { writeRaster(path, raster); });
   };
   EXPECT_NE(writing(numbered(2, 2, "EPSG:1"), folder / "a.tif").find("EPSG:1 is not known"),
             std::string::npos);
@@ -192,13 +185,13 @@ TEST(RasterIo, RefusesWithOneLine) {
   EXPECT_NE(writing(few, folder / "a.tif").find("intensity: has 3 values for 4"),
             std::string::npos);
   test::writeBytes(folder / "text.tif", "no raster");
-  EXPECT_NE(messageOf([&] { readRaster(folder / "text.tif"); }).find("is no GeoTIFF"),
+  EXPECT_NE(test::messageOf<Error>([&] { readRaster(folder / "text.tif"); }).find("is no GeoTIFF"),
             std::string::npos);
-  EXPECT_NE(messageOf([&] { readRaster(folder / "none.tif"); }).find("does not exist"),
+  EXPECT_NE(test::messageOf<Error>([&] { readRaster(folder / "none.tif"); }).find("does not exist"),
             std::string::npos);
   RasterReader reader((writeRaster(folder / "b.tif", numbered(4, 4)), folder / "b.tif"));
   std::vector<float> values(32);
-  EXPECT_NE(messageOf([&] {
+  EXPECT_NE(test::messageOf<Error>([&] {
               reader.read(0, {2, 0, 3, 1}, values.data());
             }).find("window"),
             std::string::npos);
@@ -212,7 +205,7 @@ TEST(RasterIo, ATruncatedFileIsAnErrorAndNoCrash) {
   std::size_t refused = 0;
   for (std::size_t part = 1; part < 8; ++part) {
     test::writeBytes(folder / "cut.tif", whole.substr(0, whole.size() * part / 8));
-    refused += messageOf([&] { readRaster(folder / "cut.tif"); }) != "no error";
+    refused += test::messageOf<Error>([&] { readRaster(folder / "cut.tif"); }) != "no error";
   }
   EXPECT_EQ(refused, 7U);
 }
@@ -225,7 +218,8 @@ void writeOverTheLimit(const fs::path& path, bool cloud_optimised) {
   RasterOptions options;
   options.cloud_optimised = cloud_optimised;
   options.threads = 1;  // a forked process has none of GDAL's worker threads
-  const std::string message = messageOf([&] { writeRaster(path, numbered(600, 600), options); });
+  const std::string message =
+      test::messageOf<Error>([&] { writeRaster(path, numbered(600, 600), options); });
   _exit(message.find("out.tif: ") != std::string::npos ? 0 : 1);
 }
 
@@ -253,11 +247,11 @@ TEST(Png, ComesBackAsItWas) {
     EXPECT_EQ(back.pixels, image.pixels);
   }
   EXPECT_EQ(filesIn(folder), 1U);
-  EXPECT_NE(messageOf([&] {
+  EXPECT_NE(test::messageOf<Error>([&] {
               writePngImage(folder / "b.png", {5, 3, 3, {1}});
             }).find("do not fit"),
             std::string::npos);
-  EXPECT_NE(messageOf([&] { readPngImage(folder / "none.png"); }).find("no PNG"),
+  EXPECT_NE(test::messageOf<Error>([&] { readPngImage(folder / "none.png"); }).find("no PNG"),
             std::string::npos);
 }
 

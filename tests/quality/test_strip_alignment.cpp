@@ -24,9 +24,9 @@ TEST(StripAlignment, MovesAOntoB) {
   const auto a = fly(village, first, kOrigin), b = fly(village, other, kOrigin);
   std::vector<AreaOffsets> areas;
   for (const double x : {0.0, 30.0}) {
-    areas.emplace_back(SwathArea{kOrigin.head<2>() + Eigen::Vector2d(x, 0.0), 30.0, 5.0},
+    areas.emplace_back(SurveyArea{kOrigin.head<2>() + Eigen::Vector2d(x, 0.0), 30.0, 5.0},
                        std::size_t{2});
-    areas.emplace_back(SwathArea{kOrigin.head<2>() + Eigen::Vector2d(x, 30.0), 30.0, 5.0},
+    areas.emplace_back(SurveyArea{kOrigin.head<2>() + Eigen::Vector2d(x, 30.0), 30.0, 5.0},
                        std::size_t{2});
   }
   for (AreaOffsets& area : areas) {
@@ -45,7 +45,7 @@ TEST(StripAlignment, MovesAOntoB) {
 
 TEST(StripAlignment, NothingInCommonIsAStatus) {
   std::vector<AreaOffsets> areas;
-  areas.emplace_back(SwathArea{kOrigin.head<2>(), 50.0, 5.0}, std::size_t{2});
+  areas.emplace_back(SurveyArea{kOrigin.head<2>(), 50.0, 5.0}, std::size_t{2});
   for (const SwathPoint& point : fly(village, {}, kOrigin)) areas[0].add(0, point);
   EXPECT_FALSE(alignStrips(areas, 0, 1, {}).hasConverged());
   EXPECT_FALSE(alignStrips({}, 0, 1, {}).hasConverged());

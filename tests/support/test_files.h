@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,17 @@ inline std::optional<std::filesystem::path> testData(const std::string& name) {
       std::filesystem::path(folder != nullptr ? folder : PCL_ALS_TEST_DATA_DEFAULT) / name;
   if (!std::filesystem::exists(path)) return std::nullopt;
   return path;
+}
+
+/// What an action complains of by throwing an Error; "no error" where it does not.
+template <typename Error>
+std::string messageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 }  // namespace pcl_als::test

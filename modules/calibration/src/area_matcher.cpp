@@ -6,6 +6,7 @@
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/modified_weight.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/tin/orientation_classes.h>
 
 #include "pairing_rules.h"
 
@@ -91,7 +92,7 @@ Eigen::Vector3d AreaMatcher::measuringNormal(const PatchQuality& quality) const 
 }
 
 std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const StripPart& part) const {
-  std::vector<std::vector<std::int32_t>> classes(kOrientationClasses);
+  std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
   std::vector<bool> seen(part.biased.size(), false);
   const auto& triangles = part.surface.tin().triangles();
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -99,7 +100,7 @@ std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const Strip
     if (seen[point] || !part.single[point] || !area_.contains(part.biased[point])) continue;
     seen[point] = true;
     const auto triangle = static_cast<std::int32_t>(t);
-    classes[orientationClass(part.surface.normal(triangle))].push_back(triangle);
+    classes[OrientationClasses::of(part.surface.normal(triangle))].push_back(triangle);
   }
   return classes;
 }
@@ -109,14 +110,14 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   // is there.
   constexpr std::size_t kLooks = 4;
   const auto rough = trianglesByClass(part);
-  std::vector<std::vector<std::int32_t>> classes(kOrientationClasses);
+  std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
   const std::vector<std::size_t> looks = sharesOf(rough, kLooks * count);
   for (std::size_t c = 0; c < rough.size(); ++c) {
     for (std::size_t k = 0; k < looks[c]; ++k) {
       const std::int32_t triangle = rough[c][k * rough[c].size() / looks[c]];
       const PatchQuality quality = part.surface.quality(triangle);
       if (!acceptable(part, quality)) continue;
-      classes[orientationClass(quality.plane_normal)].push_back(
+      classes[OrientationClasses::of(quality.plane_normal)].push_back(
           part.surface.tin().triangles()[triangle].vertex[0]);
       if (quality.slope < kGentle) part.roughness.push_back(quality.roughness);
     }
@@ -307,9 +308,9 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
   return found;
 }
 
-AreaIndex::AreaIndex(const std::vector<CalibrationArea>& areas) {
+AreaIndex::AreaIndex(const std::vector<SurveyArea>& areas) {
   for (std::size_t index = 0; index < areas.size(); ++index) {
-    const CalibrationArea& area = areas[index];
+    const SurveyArea& area = areas[index];
     const auto cell = [](double v) {
       return static_cast<std::int64_t>(std::floor(v / SurveyMap::kCell));
     };

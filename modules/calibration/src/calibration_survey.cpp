@@ -150,7 +150,7 @@ void QuasiRigorousCalibration::chooseAreas() {
   }
   index_ = std::make_unique<AreaIndex>(areas_);
   matchers_.clear();
-  for (const CalibrationArea& area : areas_) matchers_.emplace_back(area, ids_.size());
+  for (const SurveyArea& area : areas_) matchers_.emplace_back(area, ids_.size());
 }
 
 void QuasiRigorousCalibration::load(int strip, const CalibrationPoint* points, std::size_t count) {

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include <pcl_als/calibration/pair_selection.h>
+#include <pcl_als/tin/orientation_classes.h>
 
 #include "pairing_rules.h"
 
@@ -70,7 +71,7 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(
       const PairObservation& o = observations[area][i];
       if (o.a == PairObservation::kControl) chosen_[area].push_back(i);
       if (o.a == PairObservation::kControl || weights[area][i] == 0.0) continue;
-      const auto orientation = static_cast<int>(orientationClass(o.normal));
+      const auto orientation = static_cast<int>(OrientationClasses::of(o.normal));
       Group& group = here[{std::min(o.a, o.b), std::max(o.a, o.b), orientation}];
       group.area = area;
       group.strips = {std::min(o.a, o.b), std::max(o.a, o.b)};

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include <pcl_als/calibration/pair_weights.h>
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
@@ -67,7 +68,8 @@ PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
 }
 
 void PairWeights::update(const std::vector<AreaObservations>& observations,
-                         const std::vector<std::vector<double>>& residuals, bool reject) {
+                         const std::vector<std::vector<double>>& residuals, bool reject,
+                         int threads) {
   std::map<Group, Values> groups;
   for (std::size_t area = 0; area < observations.size(); ++area) {
     for (std::size_t i = 0; i < observations[area].size(); ++i) {
@@ -78,14 +80,13 @@ void PairWeights::update(const std::vector<AreaObservations>& observations,
       values.pointing.push_back(o.pointing);
     }
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (const double factor : {1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0}) {
-    double cost = 0.0;
-    for (const auto& [group, values] : groups) cost += unlikeliness(values, factor);
-    if (!(cost < least)) continue;
-    least = cost;
-    pointing_ = factor;
-  }
+  constexpr std::array<double, 7> kFactors{1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0};
+  std::array<double, kFactors.size()> costs{};
+  parallelFor(kFactors.size(), threads, [&](std::size_t i) {
+    for (const auto& [group, values] : groups) costs[i] += unlikeliness(values, kFactors[i]);
+  });
+  pointing_ = kFactors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
+                                                costs.begin())];
   for (const auto& [group, values] : groups) scales_[group] = scatterOf(values, pointing_);
   double squares = 0.0;
   kept_ = 0;

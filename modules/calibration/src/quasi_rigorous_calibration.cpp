@@ -138,7 +138,7 @@ void QuasiRigorousCalibration::weigh(State& state) const {
       residuals[area].push_back(state.adjustment.residual(o, state.choice.solution));
     }
   });
-  state.weights.update(state.observations, residuals, state.solved);
+  state.weights.update(state.observations, residuals, state.solved, settings_.threads);
 }
 
 void QuasiRigorousCalibration::choose(State& state) const {
@@ -235,8 +235,10 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   const bool rests = done > 0 && result.iterations.back().largest_update < kNearlyAtRest;
   if (state.coarse && (rests || done >= kCoarseAtMost)) {
     state.coarse = false;
-    state.seekers = AreaMatcher::Seekers::candidates;  // now that they are seen at their places
-    pairUp(state);
+    if (state.seekers == AreaMatcher::Seekers::kept) {  // choose again, seen at their places
+      state.seekers = AreaMatcher::Seekers::candidates;
+      pairUp(state);
+    }
   }
   state.levels_open = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
   if (state.levels_open) ++state.looks;

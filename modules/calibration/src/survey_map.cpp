@@ -152,8 +152,8 @@ std::vector<std::int64_t> ranked(const std::map<std::int64_t, double>& scores) {
 
 }  // namespace
 
-std::vector<CalibrationArea> SurveyMap::selectAreas(const std::vector<StripPair>& pairs,
-                                                    const Selection& selection) const {
+std::vector<SurveyArea> SurveyMap::selectAreas(const std::vector<StripPair>& pairs,
+                                               const Selection& selection) const {
   const int cells_per_area =
       std::max(1, static_cast<int>(std::lround(selection.area_size / kCell)));
   const double size = cells_per_area * kCell;
@@ -188,7 +188,7 @@ std::vector<CalibrationArea> SurveyMap::selectAreas(const std::vector<StripPair>
       if (chosen.insert(area).second) budget -= points_of[area];
     }
   }
-  std::vector<CalibrationArea> areas;
+  std::vector<SurveyArea> areas;
   for (const std::int64_t key : chosen) {
     areas.push_back(
         {anchor_ + size * Eigen::Vector2d(columnOf(key), rowOf(key)), size, selection.margin});

@@ -7,6 +7,7 @@
 
 #include <pcl_als/calibration/modified_weight.h>
 #include <pcl_als/calibration/synthetic_pairs.h>
+#include <pcl_als/tin/orientation_classes.h>
 
 #include "pairing_rules.h"
 
@@ -79,8 +80,9 @@ std::vector<double> SyntheticPairs::pairsPerSample(const std::vector<Sample>& sa
                                                    double density, double candidates) const {
   const double side = settings_.selection.area_size;
   const double points = settings_.surface.usable * side * side * density;
-  std::vector<double> of_class(kOrientationClasses, 0.0), pairs;
-  for (const Sample& sample : samples) of_class[orientationClass(sample.normal)] += sample.share;
+  std::vector<double> of_class(OrientationClasses::kCount, 0.0), pairs;
+  for (const Sample& sample : samples)
+    of_class[OrientationClasses::of(sample.normal)] += sample.share;
   std::vector<double> taken = of_class;
   for (double& share : taken) share *= points;
   if (settings_.surface.balanced) {
@@ -89,7 +91,7 @@ std::vector<double> SyntheticPairs::pairsPerSample(const std::vector<Sample>& sa
     for (double& count : taken) count *= std::min(1.0, candidates / points);
   }
   for (const Sample& sample : samples) {
-    const std::size_t orientation = orientationClass(sample.normal);
+    const std::size_t orientation = OrientationClasses::of(sample.normal);
     pairs.push_back(kAccepted * taken[orientation] * sample.share / of_class[orientation]);
   }
   return pairs;

@@ -129,4 +129,10 @@ void AtomicFile::commit() {
   slot_ = nullptr;
 }
 
+void writeFile(const std::filesystem::path& target, std::string_view text) {
+  AtomicFile file(target);
+  file.write(text);
+  file.commit();
+}
+
 }  // namespace pcl_als

@@ -150,9 +150,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
 
 void writeCalibration(const std::filesystem::path& path, const CalibrationResult& result) {
   const std::string text = detail::calibrationToJson(result);
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
+  writeFile(path, text);
 }
 
 }  // namespace pcl_als

@@ -79,9 +79,7 @@ void writeCheckedSites(const fs::path& path, const std::vector<CheckedSite>& sit
     std::snprintf(place, sizeof place, "%.3f,%.3f,", site.place.x(), site.place.y());
     text += place + site.reference + ',' + site.classified + '\n';
   }
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
+  writeFile(path, text);
 }
 
 }  // namespace pcl_als

@@ -88,7 +88,7 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceLimits& limit
   const auto rough = trianglesByClass(std::max<std::size_t>(1, step));
   std::vector<std::size_t> sizes;
   for (const auto& triangles : rough) sizes.push_back(triangles.size());
-  const auto looks = OrientationClasses::evenShares(sizes, kLooks * count);
+  const auto looks = evenShares(sizes, kLooks * count);
   std::vector<std::vector<Candidate>> classes(OrientationClasses::kCount);
   for (std::size_t c = 0; c < rough.size(); ++c) {
     for (std::size_t k = 0; k < looks[c]; ++k) {
@@ -101,7 +101,7 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceLimits& limit
     }
   }
   for (std::size_t c = 0; c < classes.size(); ++c) sizes[c] = classes[c].size();
-  const auto shares = OrientationClasses::evenShares(sizes, count);
+  const auto shares = evenShares(sizes, count);
   for (std::size_t c = 0; c < classes.size(); ++c)
     for (std::size_t k = 0; k < shares[c]; ++k)
       candidates_.push_back(classes[c][k * classes[c].size() / shares[c]]);

@@ -2,14 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/tin/orientation_classes.h>
 
 namespace pcl_als {
 
 std::size_t OrientationClasses::of(const Eigen::Vector3d& normal) {
-  constexpr double kPi = 3.14159265358979323846;
   // Tangents of the steps, squared: most of a strip is flat and needs no angle.
   static const std::array<double, 3> kTangents{std::tan(kSlopeSteps[0]), std::tan(kSlopeSteps[1]),
                                                std::tan(kSlopeSteps[2])};
@@ -26,19 +25,6 @@ std::size_t OrientationClasses::of(const Eigen::Vector3d& normal) {
       std::fmod(std::atan2(normal.y(), normal.x()) + 3.0 * kPi + kAside, 2.0 * kPi) / (2.0 * kPi);
   return static_cast<std::size_t>(1 + step * kAspects +
                                   std::min(kAspects - 1, static_cast<int>(turn * kAspects)));
-}
-
-std::vector<std::size_t> OrientationClasses::evenShares(const std::vector<std::size_t>& available,
-                                                        std::size_t total) {
-  std::vector<std::size_t> order(available.size()), shares(available.size(), 0);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return available[a] < available[b]; });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    shares[order[i]] = std::min(available[order[i]], total / (order.size() - i));
-    total -= shares[order[i]];
-  }
-  return shares;
 }
 
 }  // namespace pcl_als

@@ -105,12 +105,6 @@ std::string tableMarkdown(const ReportTable& table) {
   return out.str();
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 }  // namespace
 
 std::string escapeHtml(const std::string& text) {
@@ -301,10 +295,10 @@ void HtmlReport::write(const std::filesystem::path& folder) const {
     if (block.kind != Kind::table || block.table.name.empty()) continue;
     std::string csv = joined(block.table.columns, ",", true) + "\n";
     for (const auto& row : block.table.rows) csv += joined(row, ",", true) + "\n";
-    writeText(folder / (block.table.name + ".csv"), csv);
+    writeFile(folder / (block.table.name + ".csv"), csv);
   }
-  writeText(folder / "report.md", markdown());
-  writeText(folder / "report.html", html());
+  writeFile(folder / "report.md", markdown());
+  writeFile(folder / "report.html", html());
 }
 
 }  // namespace pcl_als

@@ -40,10 +40,10 @@ struct PatchLimits {
  */
 class AreaMatcher {
  public:
-  AreaMatcher(const CalibrationArea& area, std::size_t strips) : area_(area), strips_(strips) {}
+  AreaMatcher(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
 
   void add(int strip, const CalibrationPoint& point);
-  const CalibrationArea& area() const { return area_; }
+  const SurveyArea& area() const { return area_; }
   std::size_t pointCount() const;
   std::size_t stripCount() const;  ///< strips with points in the area or its margin
 
@@ -105,7 +105,7 @@ class AreaMatcher {
   std::vector<std::vector<std::int32_t>> trianglesByClass(const StripPart& part) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
-  CalibrationArea area_;
+  SurveyArea area_;
   std::vector<StripPart> strips_;
   std::map<std::pair<int, int>, std::vector<std::int32_t>> kept_;  ///< points of the first strip
   PatchLimits limits_;
@@ -115,7 +115,7 @@ class AreaMatcher {
 /// Finds the areas that cover a point, for filling AreaMatchers while files are read.
 class AreaIndex {
  public:
-  explicit AreaIndex(const std::vector<CalibrationArea>& areas);
+  explicit AreaIndex(const std::vector<SurveyArea>& areas);
   /// Indices of the areas whose square with margin may hold the position.
   const std::vector<int>& candidates(const Eigen::Vector3d& position) const;
 

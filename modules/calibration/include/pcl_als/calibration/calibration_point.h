@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/survey_types.h>
+
 namespace pcl_als {
 
 /// What the calibration reads of a point. Position in the ground frame, double.
@@ -25,22 +27,5 @@ struct CalibrationPoint {
 /// True for a point that may be part of a solid surface: a last return, not withheld, not noise,
 /// not vegetation.
 bool isSurfacePoint(const CalibrationPoint& point);
-
-/// A square that is calibrated on; points up to \a margin outside are read too, so that its TIN is
-/// that of the whole.
-struct CalibrationArea {
-  Eigen::Vector2d minimum;  ///< metres, ground frame
-  double size = 0.0;        ///< metres, side
-  double margin = 0.0;      ///< metres
-
-  bool contains(const Eigen::Vector3d& p) const {
-    return p.x() >= minimum.x() && p.y() >= minimum.y() && p.x() < minimum.x() + size &&
-           p.y() < minimum.y() + size;
-  }
-  bool covers(const Eigen::Vector3d& p) const {
-    return p.x() >= minimum.x() - margin && p.y() >= minimum.y() - margin &&
-           p.x() < minimum.x() + size + margin && p.y() < minimum.y() + size + margin;
-  }
-};
 
 }  // namespace pcl_als

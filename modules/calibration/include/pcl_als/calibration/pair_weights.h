@@ -29,7 +29,7 @@ class PairWeights {
   /// \param reject whether residuals may be called outliers: not while they are full of what is
   /// sought
   void update(const std::vector<AreaObservations>& observations,
-              const std::vector<std::vector<double>>& residuals, bool reject);
+              const std::vector<std::vector<double>>& residuals, bool reject, int threads = 0);
 
   /// Robust weight times the model's variance over the scatter found, for Adjustment::accumulate.
   const std::vector<std::vector<double>>& weights() const { return weights_; }

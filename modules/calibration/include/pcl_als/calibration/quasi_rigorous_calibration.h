@@ -87,7 +87,7 @@ class QuasiRigorousCalibration {
   /// result.converged tells whether to trust it; warnings say why not.
   CalibrationResult calibrate();
 
-  const std::vector<CalibrationArea>& areas() const { return areas_; }
+  const std::vector<SurveyArea>& areas() const { return areas_; }
   /// What each area contributed to the determination, in [0, 1]; after calibrate().
   const std::vector<double>& informationShares() const { return information_; }
   std::size_t loadedPoints() const;
@@ -133,7 +133,7 @@ class QuasiRigorousCalibration {
   bool control_seen_ = false;  ///< whether a strip has a patch under any of it
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;
   std::vector<StripPair> pairs_;
-  std::vector<CalibrationArea> areas_;
+  std::vector<SurveyArea> areas_;
   std::size_t pair_areas_ = 0;  ///< the first ones of areas_; the others surround control points
   std::unique_ptr<AreaIndex> index_;
   std::vector<AreaMatcher> matchers_;

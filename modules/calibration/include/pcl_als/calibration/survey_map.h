@@ -65,8 +65,8 @@ class SurveyMap {
    * multiple returns. Each pair chooses in turn, one area from every 4 x 4 group of areas before a
    * second from any, so that the choice spreads along and across the strips.
    */
-  std::vector<CalibrationArea> selectAreas(const std::vector<StripPair>& pairs,
-                                           const Selection& selection) const;
+  std::vector<SurveyArea> selectAreas(const std::vector<StripPair>& pairs,
+                                      const Selection& selection) const;
 
  private:
   struct Cell {

@@ -31,6 +31,23 @@ struct ControlPoint {
   double sigma = 0.0;  ///< standard deviation of the height, metres; 0 when the file gives none
 };
 
+/// A square of ground that is looked at closely; points up to \a margin outside belong to it too,
+/// so that its TINs are those of the whole.
+struct SurveyArea {
+  Eigen::Vector2d minimum;  ///< metres, ground frame
+  double size = 0.0;        ///< metres, side
+  double margin = 0.0;      ///< metres
+
+  bool contains(const Eigen::Vector3d& p) const { return within(p, 0.0); }
+  bool covers(const Eigen::Vector3d& p) const { return within(p, margin); }
+
+ private:
+  bool within(const Eigen::Vector3d& p, double beyond) const {
+    return p.x() >= minimum.x() - beyond && p.y() >= minimum.y() - beyond &&
+           p.x() < minimum.x() + size + beyond && p.y() < minimum.y() + size + beyond;
+  }
+};
+
 /// A place of known reflectance at the laser's wavelength.
 struct ReferenceTarget {
   std::string id;

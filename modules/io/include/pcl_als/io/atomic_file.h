@@ -52,4 +52,7 @@ class AtomicFile {
   detail::TemporarySlot* slot_ = nullptr;
 };
 
+/// A whole file that holds \a text.
+void writeFile(const std::filesystem::path& target, std::string_view text);
+
 }  // namespace pcl_als

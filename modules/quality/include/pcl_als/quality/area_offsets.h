@@ -35,11 +35,11 @@ struct SurfaceLimits {
  */
 class AreaOffsets {
  public:
-  AreaOffsets(const SwathArea& area, std::size_t strips) : area_(area), strips_(strips) {}
+  AreaOffsets(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
 
   /// Keeps solid points (isSolid) inside the area or its margin.
   void add(int strip, const SwathPoint& point);
-  const SwathArea& area() const { return area_; }
+  const SurveyArea& area() const { return area_; }
   const std::vector<SwathPoint>& points(int strip) const { return part(strip).points; }
   std::size_t pointCount() const;
 
@@ -84,7 +84,7 @@ class AreaOffsets {
   bool measureAt(const StripPart& from, std::int32_t point, const StripPart& to, double sign,
                  OffsetSample& sample) const;
 
-  SwathArea area_;
+  SurveyArea area_;
   std::vector<StripPart> strips_;
   SurfaceLimits limits_;
 };

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/survey_types.h>
+
 namespace pcl_als {
 
 /// What a check reads of a point. Position in the ground frame, double. 48 bytes.
@@ -29,22 +31,5 @@ bool isCheckable(const SwathPoint& point);
 /// True for a checkable point that may be part of a solid surface: a last return, no vegetation
 /// (3-5).
 bool isSolid(const SwathPoint& point);
-
-/// A square that is checked; points up to \a margin outside are held too, so that its TINs are
-/// those of the whole.
-struct SwathArea {
-  Eigen::Vector2d minimum;  ///< metres, ground frame
-  double size = 0.0;        ///< metres, side
-  double margin = 0.0;      ///< metres
-
-  bool contains(const Eigen::Vector3d& p) const {
-    return p.x() >= minimum.x() && p.y() >= minimum.y() && p.x() < minimum.x() + size &&
-           p.y() < minimum.y() + size;
-  }
-  bool covers(const Eigen::Vector3d& p) const {
-    return p.x() >= minimum.x() - margin && p.y() >= minimum.y() - margin &&
-           p.x() < minimum.x() + size + margin && p.y() < minimum.y() + size + margin;
-  }
-};
 
 }  // namespace pcl_als

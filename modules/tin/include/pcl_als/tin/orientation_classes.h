@@ -2,8 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,11 +24,22 @@ struct OrientationClasses {
 
   /// The class of an upward normal (any length).
   static std::size_t of(const Eigen::Vector3d& normal);
-
-  /// How many to take of each class, given how many there are: as even as they allow, \a total at
-  /// most.
-  static std::vector<std::size_t> evenShares(const std::vector<std::size_t>& available,
-                                             std::size_t total);
 };
+
+/// How much to take of each class, given how much there is (numbers of points, or areas): as even
+/// as they allow, \a total at most.
+template <typename Amount>
+std::vector<Amount> evenShares(const std::vector<Amount>& available, Amount total) {
+  std::vector<std::size_t> order(available.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return available[a] < available[b]; });
+  std::vector<Amount> shares(available.size(), Amount{0});
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    shares[order[i]] = std::min(available[order[i]], total / static_cast<Amount>(order.size() - i));
+    total -= shares[order[i]];
+  }
+  return shares;
+}
 
 }  // namespace pcl_als
