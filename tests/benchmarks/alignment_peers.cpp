@@ -3,11 +3,12 @@
 //
 // alignment_peers [-seeds FROM:TO] [-density F] [-threads N] [-method TEXT] [-repeat N]
 //                 [-simpleicp PROGRAM]
-// alignment_peers -strips SOURCE,TARGET FILE… [-swap] …
+// alignment_peers -strips SOURCE,TARGET FILE… [-swap] [-in_place] …
 //
 // Aligns two strips with IterativeClosestPatch and with other registrations, in turns, each in a
 // process of its own: simulated pairs with a known motion (scene, flight and noise new for every
-// seed; 2 cm range noise), or two strips of files as they are. Prints time, memory and, where it is
+// seed; 2 cm range noise), or two strips of files as they are (-in_place: known to be where they
+// belong). Prints time, memory and, where it is
 // known, the error, as Markdown; see alignment_peers.md.
 #include <algorithm>
 #include <chrono>
@@ -37,7 +38,7 @@ constexpr double kArcsecond = 4.84813681109536e-6;
 struct Options {
   int from = 1, to = 1, threads = 2, repeat = 1;
   double density = 1.0;
-  bool swap = false;
+  bool swap = false, in_place = false;
   std::string method, simpleicp, source, target;
   std::vector<std::filesystem::path> files;
 };
@@ -70,6 +71,8 @@ bool parse(int argc, char** argv, Options& options) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "-swap") == 0) {
       options.swap = true;
+    } else if (std::strcmp(argv[i], "-in_place") == 0) {
+      options.in_place = true;
     } else if (argv[i][0] != '-') {
       options.files.emplace_back(argv[i]);
     } else if (i + 1 >= argc || !take(options, argv[i], argv[i + 1])) {
@@ -164,6 +167,7 @@ StripPair readPair(const Options& options) {
   }
   const Alignment own = bench::runAlone(ownMethod(options.threads), pair.source, pair.target);
   pair.centroid = Vector3d(own.centroid[0], own.centroid[1], own.centroid[2]);
+  pair.known = options.in_place;
   return pair;
 }
 

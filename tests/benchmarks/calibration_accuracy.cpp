@@ -3,12 +3,15 @@
 //
 // calibration_accuracy [-preset P] [-noise N] [-model rigorous|quasi_rigorous|vertical] [-vertical]
 // [-random] [-seeds FROM:TO] [-density F] [-motion DEG] [-pitch DEG] [-crab DEG] [-bound]
+// [-candidates N] [-budget N] [-against N]
 //
 // Simulates a block for every seed (-vertical: without attitude motion; -motion, -pitch, -crab:
 // largest roll, mean pitch, largest crab; -random: with biases of its own), calibrates it and
 // prints, as Markdown, what is wrong with each parameter beside what is said to be, how often the
 // truth was inside the 68 % and 95 % intervals, what is left in the corrected points, and the time;
-// with -bound also what the range noise alone would leave (FisherBound). It judges nothing.
+// with -bound also what the range noise alone would leave (FisherBound). -candidates: points that
+// look for patches; -budget: pairs that are adjusted; -against: calibrates each block again with
+// that many candidates and no budget, and prints by how much the estimates differ. It judges nothing.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -31,6 +34,7 @@ struct Options {
   bool vertical = false, random = false, bound = false;
   int from = 1, to = 10;
   double density = 1.0;
+  double candidates = 0, budget = 0, against = 0;
   double motion = 0.5, pitch = 1.0, crab = 3.0;  ///< degrees
 
   /// Takes one option with its value; how many arguments that were, 0 for none that is known.
@@ -44,11 +48,14 @@ struct Options {
                               : name == "-noise" ? &noise
                               : name == "-model" ? &model
                                                  : nullptr;
-    double* const number = name == "-density"  ? &density
-                           : name == "-motion" ? &motion
-                           : name == "-pitch"  ? &pitch
-                           : name == "-crab"   ? &crab
-                                               : nullptr;
+    double* const number = name == "-density"      ? &density
+                           : name == "-motion"     ? &motion
+                           : name == "-pitch"      ? &pitch
+                           : name == "-crab"       ? &crab
+                           : name == "-candidates" ? &candidates
+                           : name == "-budget"     ? &budget
+                           : name == "-against"    ? &against
+                                                   : nullptr;
     if (text != nullptr) *text = value;
     if (number != nullptr) *number = std::atof(value);
     const bool known = text != nullptr || number != nullptr;
@@ -109,13 +116,30 @@ SimulationOptions blockOf(const Options& given, int seed) {
   return options;
 }
 
-void runSeed(const Options& given, int seed, bench::AccuracyTable& table) {
+/// What other pairs of the same block say, and how many they were.
+void printDifference(const Options& given, int seed, const test::SimulatedSurvey& survey,
+                     test::SimulatedSurvey::Request request, const CalibrationResult& result,
+                     bench::AccuracyTable& differences) {
+  request.settings.candidates = static_cast<std::size_t>(given.against);
+  request.settings.pair_budget = 0;
+  const CalibrationResult other = survey.loaded(request)->calibrate();
+  char rest[80];
+  std::snprintf(rest, sizeof rest, "%zu of %zu pairs", result.iterations.back().correspondences,
+                other.iterations.back().correspondences);
+  differences.printRow(std::to_string(seed) + ", difference", result, other.biases(), rest);
+}
+
+void runSeed(const Options& given, int seed, bench::AccuracyTable& table,
+             bench::AccuracyTable& differences) {
   const SimulationOptions options = blockOf(given, seed);
   const test::SimulatedSurvey survey(options);
   test::SimulatedSurvey::Request request;
   request.settings.recover_attitude = given.model != "vertical";
   request.rigorous = given.model == "rigorous";
   request.control = survey.control;
+  if (given.candidates > 0)
+    request.settings.candidates = static_cast<std::size_t>(given.candidates);
+  request.settings.pair_budget = static_cast<std::size_t>(given.budget);
   const double start = secondsNow();
   const auto calibration = survey.loaded(request);
   const CalibrationResult result = calibration->calibrate();
@@ -125,6 +149,7 @@ void runSeed(const Options& given, int seed, bench::AccuracyTable& table) {
   char rest[80];
   std::snprintf(rest, sizeof rest, "%.4f / %.4f | %.1f", plan, height, elapsed);
   table.printRow(std::to_string(seed), result, survey.bias, rest);
+  if (given.against > 0) printDifference(given, seed, survey, request, result, differences);
   if (!given.bound || options.noise.range == 0.0) return;
   bench::MatchedBlock block(survey, *calibration, request);
   block.correct(survey.bias);
@@ -146,8 +171,12 @@ int main(int argc, char** argv) {
               options.vertical ? "flown vertically" : "attitude motion and crab",
               options.model.c_str(), options.from, options.to);
   bench::AccuracyTable::printHeader();
-  bench::AccuracyTable table;
-  for (int seed = options.from; seed <= options.to; ++seed) runSeed(options, seed, table);
+  bench::AccuracyTable table, differences;
+  for (int seed = options.from; seed <= options.to; ++seed)
+    runSeed(options, seed, table, differences);
   table.printTotals();
+  if (options.against <= 0) return 0;
+  std::printf("\nDifferences to %.0f candidates\n\n", options.against);
+  differences.printTotals();
   return 0;
 }

@@ -32,6 +32,9 @@ constexpr double kGroups = 60.0;   // of the jackknife, about
 constexpr double kResting = 5e-3;  // metres
 constexpr double kSwing = 10.0;    // updates that may swing, of the convergence
 constexpr std::size_t kSecondOpinionPairs = 25'000;
+// Half of the difference's variance is this estimate's share; and it comes from two values, whose
+// 95 % limit is 4.303 standard deviations (Student, two degrees of freedom) and not 1.960.
+constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
 constexpr double kFrozen = 1e-3;  // metres: below, scatter and threshold stay
 
 struct Extent {
@@ -271,7 +274,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
     excess[p] = std::max(0.0, difference * difference - scale * scale * chance(p, p));
   }
   // Alike in all directions of the plan: what surfaces disagree by has no axes.
-  excess.segment<2>(0).setConstant(excess.segment<2>(0).mean());
+  excess.segment<2>(0).setConstant(kTwoValues * kTwoValues * excess.segment<2>(0).mean());
   excess.segment<2>(3).setConstant(excess.segment<2>(3).mean());
   result_.surface_std = excess.cwiseSqrt();
 }
