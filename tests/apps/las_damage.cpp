@@ -5,6 +5,7 @@
 //   set FIELD VALUE   a field of the header, see kFields
 //   zero_times        the GPS time of every point (formats 6-10)
 //   keep BYTES        only the first bytes
+//   crop_y FROM TO    only the points in that range of northings (no lie; LAS 1.2, 1.3)
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -57,6 +58,26 @@ void zeroTimes(std::vector<char>& bytes) {
     std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + 22, 0, 8);
 }
 
+void cropNorthings(std::vector<char>& bytes, double from, double to) {
+  const std::size_t length = load<std::uint16_t>(bytes, 105);
+  const auto count = load<std::uint32_t>(bytes, 107);
+  const auto first = bytes.begin() + load<std::uint32_t>(bytes, 96);
+  const double scale = load<double>(bytes, 139), offset = load<double>(bytes, 163);
+  auto end = first;
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto record = first + static_cast<std::ptrdiff_t>(i * length);
+    std::int32_t y = 0;
+    std::memcpy(&y, &*record + 4, sizeof(y));
+    const double northing = y * scale + offset;
+    if (northing < from || northing >= to) continue;
+    end = std::copy_n(record, length, end);
+    ++kept;
+  }
+  bytes.erase(end, bytes.end());
+  std::memcpy(bytes.data() + 107, &kept, sizeof(kept));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,6 +91,9 @@ int main(int argc, char** argv) {
       i += 2;
     } else if (words[i] == "zero_times") {
       zeroTimes(bytes);
+    } else if (words[i] == "crop_y" && i + 2 < words.size()) {
+      cropNorthings(bytes, std::stod(words[i + 1]), std::stod(words[i + 2]));
+      i += 2;
     } else if (words[i] == "keep" && i + 1 < words.size()) {
       bytes.resize(std::min<std::size_t>(bytes.size(), std::stoul(words[++i])));
     } else {
