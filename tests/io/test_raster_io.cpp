@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <functional>
 
@@ -208,6 +209,49 @@ TEST(RasterIo, ATruncatedFileIsAnErrorAndNoCrash) {
     refused += test::messageOf<Error>([&] { readRaster(folder / "cut.tif"); }) != "no error";
   }
   EXPECT_EQ(refused, 7U);
+}
+
+/// A GeoTIFF whose header says 'columns' x 'rows': the values of tags 256 and 257 replaced.
+std::string withSize(std::string bytes, std::uint32_t columns, std::uint32_t rows) {
+  const auto u16 = [&](std::size_t at) {
+    std::uint16_t value = 0;
+    std::memcpy(&value, &bytes[at], sizeof value);
+    return value;
+  };
+  std::uint32_t directory = 0;
+  std::memcpy(&directory, &bytes[4], sizeof directory);
+  for (std::size_t i = 0; i < u16(directory); ++i) {
+    const std::size_t entry = directory + 2 + 12 * i;
+    if (u16(entry) != 256 && u16(entry) != 257) continue;
+    const std::uint16_t as_u32 = 4;
+    std::memcpy(&bytes[entry + 2], &as_u32, sizeof as_u32);
+    std::memcpy(&bytes[entry + 8], u16(entry) == 256 ? &columns : &rows, sizeof columns);
+  }
+  return bytes;
+}
+
+// A header may promise anything; the answer is one line and no attempt to have the memory.
+TEST(RasterIo, AHeaderThatPromisesTooMuchIsRefused) {
+  const fs::path folder = test::scratch("raster_lying");
+  RasterOptions plain;
+  plain.overviews = plain.cloud_optimised = plain.compress = false;
+  writeRaster(folder / "a.tif", numbered(20, 10), plain);
+  const std::string good = test::readBytes(folder / "a.tif");
+  ASSERT_EQ(good.substr(0, 4), std::string("II*\0", 4));  // a small classic TIFF
+  const std::pair<std::uint32_t, std::uint32_t> sizes[] = {
+      {20, 2000000000}, {2000000000, 2000000000}, {4294967295U, 1}, {0, 10}, {400000, 400000}};
+  for (const auto& [columns, rows] : sizes) {
+    test::writeBytes(folder / "lie.tif", withSize(good, columns, rows));
+    for (const auto& read :
+         {std::function<void()>([&] { readRaster(folder / "lie.tif"); }),
+          std::function<void()>([&] { readCodeRaster(folder / "lie.tif", 99); })}) {
+      const std::string message = test::messageOf<InputError>(read);
+      EXPECT_NE(message.find("lie.tif: "), std::string::npos) << columns << " x " << rows;
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+  }
+  test::writeBytes(folder / "same.tif", withSize(good, 20, 10));
+  expectEqual(readRaster(folder / "same.tif"), numbered(20, 10));
 }
 
 /// Runs in a child process: file size limit instead of a full disk, no privileges needed.

@@ -46,13 +46,17 @@ class PointClassifier {
 /// building 6, road 11, water 9, ground 2; 1 (unclassified) for others.
 std::uint8_t asprsCodeOf(const std::string& class_name);
 
+/// Whether an ASPRS class code is that of noise (7 low, 18 high), which is no land cover.
+constexpr bool isNoise(std::uint8_t code) {
+  return code == 7 || code == 18;
+}
+
 /** \brief Writes into each point's classification the ASPRS code of its land cover.
  *
- * A point that is not classified (beside the raster, rejected, not finite) keeps its code. Every
- * other field and the order stay; the input is not changed. For a point type of one's own with
- * x, y, z, intensity and classification include impl/land_cover_filter.hpp.
- * \code
- * pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
+ * A point that is not classified (beside the raster, rejected, not finite) keeps its code, and so
+ * does one of noise (7, 18). Every other field and the order stay; the input is not changed. For a
+ * point type of one's own with x, y, z, intensity and classification include
+ * impl/land_cover_filter.hpp. \code pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
  * filter.setClassifier(std::make_shared<pcl_als::PointClassifier>(likelihood, raster));
  * filter.setLocalFrame(strip.frame);
  * filter.setInputCloud(strip.cloud);
