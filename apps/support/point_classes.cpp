@@ -93,7 +93,11 @@ std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_
 
 /// Points of one tile of the raster and the cells that they lie in.
 struct PointClasses::Group {
-  std::vector<std::size_t> points;
+  struct Member {
+    std::size_t point;
+    int column, row;
+  };
+  std::vector<Member> members;
   int west, north, east, south;  ///< columns and rows, inclusive
 };
 
@@ -109,7 +113,7 @@ std::vector<int> PointClasses::classify(const std::vector<Point>& points) {
     if (!grid.holds(column, row)) continue;
     const int c = static_cast<int>(column), r = static_cast<int>(row);
     Group& group = groups.try_emplace({r / kTile, c / kTile}, Group{{}, c, r, c, r}).first->second;
-    group.points.push_back(i);
+    group.members.push_back({i, c, r});
     group.west = std::min(group.west, c), group.east = std::max(group.east, c);
     group.north = std::min(group.north, r), group.south = std::max(group.south, r);
   }
@@ -120,20 +124,20 @@ std::vector<int> PointClasses::classify(const std::vector<Point>& points) {
 
 void PointClasses::classify(const std::vector<Point>& points, const Group& group,
                             std::vector<int>& classes) {
-  // A cell more at each side: a point on an edge may round into it.
-  const RasterGrid& grid = bands_.grid();
-  const int west = std::max(0, group.west - 1), north = std::max(0, group.north - 1);
-  const RasterWindow window{west, north, std::min(grid.columns - 1, group.east + 1) - west + 1,
-                            std::min(grid.rows - 1, group.south + 1) - north + 1};
+  const RasterWindow window{group.west, group.north, group.east - group.west + 1,
+                            group.south - group.north + 1};
   const auto part = std::make_shared<Raster>();
   {
     const std::lock_guard<std::mutex> lock(reading_);
     *part = bands_.readRaster(window);
   }
   const PointClassifier classifier(classifier_, part);
-  for (const std::size_t i : group.points) {
-    const Point& p = points[i];
-    classes[i] = classifier.classify(p.x, p.y, p.z, p.intensity).index;
+  for (const Group::Member& member : group.members) {
+    const Point& point = points[member.point];
+    // The cell is that of the whole raster: a point on an edge may round into another of the part.
+    const std::size_t cell =
+        part->grid.index(member.column - window.column, member.row - window.row);
+    classes[member.point] = classifier.classifyIn(cell, point.z, point.intensity).index;
   }
 }
 

@@ -34,7 +34,7 @@ std::string feature(const std::string& label, const std::string& geometry) {
 #ifdef PCL_ALS_HAVE_GDAL
 Raster smallRaster(int columns, int rows, int bands) {
   Raster raster;
-  raster.grid = {512000.0, 5403000.0, 0.5, columns, rows, "EPSG:25832"};
+  raster.grid = {512000.0, 5403000.0, 0.5, columns, rows, ""};
   for (int band = 0; band < bands; ++band) {
     std::vector<float>& values = raster.addBand("band" + std::to_string(band)).values;
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 17);

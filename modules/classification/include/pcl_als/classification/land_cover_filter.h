@@ -31,6 +31,8 @@ class PointClassifier {
 
   /// \param x, y, z metres, ground frame
   MaximumLikelihood::Decision classify(double x, double y, double z, double intensity) const;
+  /// Of a point in a cell that is known. \param cell see RasterGrid::index()
+  MaximumLikelihood::Decision classifyIn(std::size_t cell, double z, double intensity) const;
   const GaussianModel& model() const { return classifier_->model(); }
 
  private:
