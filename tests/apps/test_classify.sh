@@ -15,6 +15,8 @@ expect_overall() {  # JSON LOW HIGH: overall accuracy within
     failed "$1: overall accuracy is not in $2 to $3"
 }
 
+cmp_differs() { ! cmp -s "$1" "$2"; }
+
 # Table 6 of Habib et al. 2011.
 printf 'is,tree,built-up,grass,soil\ntree,130,40,20,18\nbuilt-up,119,386,12,16\ngrass,34,26,59,43\nsoil,20,16,10,61\n' >table6.csv
 expect 0 'Overall accuracy 63.0 %' accuracy table6.csv -output table6.json
@@ -36,8 +38,10 @@ check "points keep their size" test "$(stat -c %s points/strip1.las)" = "$(stat 
 
 # The saved statistics give the same map; so do other tiles and one thread.
 expect 0 'Overall accuracy' classify "${strips[@]}" -model model.json -checkpoints "$checkpoints" \
-  -cell 2 -output again.tif -checked again.csv -threads 1
+  -cell 2 -output again.tif -checked again.csv -threads 1 -points again
 check "the model gives the same map" cmp map.tif again.tif
+check "and the same points" cmp points/strip1.las again/strip1.las
+check "points are classified" cmp_differs points/strip1.las "$block/strip1.las"
 expect 0 'tree' classify "${strips[@]}" -model model.json -cell 2 -output tiles.tif -tile 100 -checkpoints "$checkpoints" -checked tiles.csv
 check "tiles give the same check points" cmp first.csv tiles.csv
 
