@@ -91,7 +91,7 @@ std::vector<std::string> classModelSeeds() {
 std::vector<std::string> geoTiffSeeds() {
 #ifdef PCL_ALS_HAVE_GDAL
   RasterOptions plain;
-  plain.overviews = plain.cloud_optimised = plain.compress = false;
+  plain.overviews = plain.cloud_optimised = false;
   return {bytesOf([](const fs::path& path) { writeCodeRaster(path, smallMap()); }),
           bytesOf([](const fs::path& path) { writeRaster(path, smallRaster(20, 9, 2)); }),
           bytesOf([&](const fs::path& path) { writeRaster(path, smallRaster(3, 2, 1), plain); })};

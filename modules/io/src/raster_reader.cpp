@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <cstring>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/raster_io.h>
@@ -32,8 +33,12 @@ void checkSize(GDALDatasetH dataset, const fs::path& path) {
   const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
   int width = 0, height = 0;
   GDALGetBlockSize(band, &width, &height);
-  if (double(width) * height * GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band)) >
-      kLargestBlock)
+  // Where the bands lie cell by cell, GDAL unpacks a block of all of them.
+  const char* order = GDALGetMetadataItem(dataset, "INTERLEAVE", "IMAGE_STRUCTURE");
+  const bool together = order != nullptr && std::strcmp(order, "PIXEL") == 0;
+  const double bytes_of_cell = double(GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band))) *
+                               (together ? GDALGetRasterCount(dataset) : 1);
+  if (double(width) * height * bytes_of_cell > kLargestBlock)
     throw InputError(path.string() + ": has blocks of " + std::to_string(width) + " x " +
                      std::to_string(height) + " cells, too large to read; rewrite it in tiles");
 }
