@@ -132,6 +132,14 @@ expect 1 'training.csv is also an input' classify "${strips[@]}" -training "$tra
 mkdir -p twin && cp "$block/strip1.las" twin/
 expect 1 'strip1.las is also another output' classify "$block/strip1.las" twin/strip1.las -training "$training" -output bad.tif -points bad_points
 expect 2 'no names of classes' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside grids.tif
+# A header that tells of 300000 x 300000 cells (tags 256 and 257, the first of the directory).
+cp map.tif lie.tif
+directory=$(od -An -tu4 -j4 -N4 map.tif)
+for tag in 0 1; do
+  printf '\x04\x00\x01\x00\x00\x00\xe0\x93\x04\x00' |
+    dd of=lie.tif bs=1 seek=$((directory + 2 + 12 * tag + 2)) conv=notrunc status=none
+done
+expect 2 'lie.tif: its header promises 300000 x 300000 cells' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside lie.tif
 expect 2 'none.tif: does not exist' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside none.tif
 printf 'x,y,class\n1,2,unclassified\n' >reserved.csv
 expect 2 "named 'unclassified'" classify "${strips[@]}" -training reserved.csv -output bad.tif
