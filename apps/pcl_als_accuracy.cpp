@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <filesystem>
 #include <iostream>
 
 #include <pcl_als/common/errors.h>
@@ -7,6 +8,7 @@
 
 #include "accuracy_report.h"
 #include "command_line.h"
+#include "output_check.h"
 
 namespace pcl_als::app {
 namespace {
@@ -68,6 +70,9 @@ int accuracy(int argc, char** argv) {
   const std::string input = line.inputs(1, 1).front();
   if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_accuracy -h)");
   const std::string other = line.has("compare") ? line.text("compare") : "";
+  std::vector<std::filesystem::path> inputs{input};
+  if (!other.empty()) inputs.emplace_back(other);
+  refuseInput("output", line.text("output"), inputs);
   const bool sites = holdsCheckedSites(input);
   if (!other.empty() && holdsCheckedSites(other) != sites)
     throw InputError(other + ": is not of the same kind (matrix or check points) as " + input);

@@ -12,9 +12,11 @@
 #include <pcl_als/io/class_io.h>
 
 #include "accuracy_report.h"
+#include "class_maps.h"
 #include "class_model_json.h"
 #include "classify_options.h"
 #include "land_cover.h"
+#include "output_check.h"
 #include "point_classes.h"
 #include "strip_rasters.h"
 
@@ -77,11 +79,15 @@ class Classification {
       throw UsageError("option -output is needed (see pcl_als_classify -h)");
     if (line_.has("output") && line_.has("training") == line_.has("model"))
       throw UsageError("one of the options -training and -model is needed");
+    for (const char* name : {"posterior", "accuracy", "checked", "save_model", "map", "points"})
+      if (line_.has(name) && !line_.has("output"))
+        throw UsageError(std::string("option -") + name + " needs -output");
     for (const char* name : {"accuracy", "checked"})
       if (line_.has(name) && !line_.has("checkpoints"))
         throw UsageError(std::string("option -") + name + " needs -checkpoints");
     if (line_.has("beside") && !line_.has("map")) throw UsageError("option -beside needs -map");
-    // Wrong values are told before the long work, not after it.
+    // What is wrong is told before the long work, not after it.
+    if (line_.has("beside")) requireClassMap(line_.text("beside"));
     line_.number("reject", 0.0, 0.5, "(probability)");
     line_.number("training_radius", 0.0, 1000.0, "m");
     line_.number("tile", 64, 8192, "cells");
@@ -89,22 +95,38 @@ class Classification {
   }
 
   void checkOutputs() const {
+    std::vector<fs::path> inputs = files_.paths;
+    for (const char* name : {"training", "checkpoints", "model", "beside"})
+      if (line_.has(name)) inputs.emplace_back(line_.text(name));
     std::set<fs::path> outputs;
+    const auto checkOutput = [&](const char* name, const fs::path& path) {
+      refuseInput(name, path, inputs);
+      if (!outputs.insert(fs::weakly_canonical(path)).second)
+        throw UsageError("option -" + std::string(name) + ": " + path.string() +
+                         " is also another output");
+    };
     for (const char* name :
          {"output", "grids", "posterior", "accuracy", "checked", "save_model", "map"}) {
       if (!line_.has(name)) continue;
-      const fs::path path = fs::absolute(line_.text(name));
-      if (!fs::is_directory(path.parent_path()))
+      if (!fs::is_directory(fs::absolute(line_.text(name)).parent_path()))
         throw InputError(line_.text(name) + ": cannot be created: the folder does not exist");
-      if (!outputs.insert(fs::weakly_canonical(path)).second)
-        throw UsageError("option -" + std::string(name) + ": " + line_.text(name) +
-                         " is also another output");
+      checkOutput(name, line_.text(name));
     }
+    if (!line_.has("points")) return;
+    for (const fs::path& path : files_.paths)
+      checkOutput("points", fs::path(line_.text("points")) / path.filename());
+    makeOutputFolder("points", line_.text("points"));
   }
 
   void readSites() {
     if (line_.has("training")) training_ = readClassSites(line_.text("training"));
     if (line_.has("checkpoints")) checks_ = readClassSites(line_.text("checkpoints"));
+    for (const std::vector<ClassSite>* sites : {&training_, &checks_})
+      for (const ClassSite& site : *sites)
+        if (site.name == kUnclassified)
+          throw InputError(line_.text(sites == &training_ ? "training" : "checkpoints") +
+                           ": a class is named 'unclassified', which means cells without a class; "
+                           "rename it");
     if (line_.has("model")) {
       given_model_ = readClassModel(line_.text("model"));
       bands_ = given_model_->bands;
@@ -252,19 +274,11 @@ class Classification {
 
   void classifyPoints(const MaximumLikelihood& classifier) const {
     const fs::path folder = line_.text("points");
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder)) throw InputError(folder.string() + ": cannot make this folder");
-    std::vector<std::string> needed{"terrain"};
-    for (const std::string& band : bands_)
-      if (band != "terrain") needed.push_back(band);
-    const auto raster = std::make_shared<const Raster>(BandReader(raster_path_, needed).readAll());
-    const auto points = std::make_shared<const PointClassifier>(
-        std::make_shared<const MaximumLikelihood>(classifier), raster);
+    PointClasses classes(std::make_shared<const MaximumLikelihood>(classifier), raster_path_);
     for (const fs::path& path : files_.paths) {
       Step progress("Classifying the points of " + path.filename().string(), line_.quiet());
       const PointClassCounts counts =
-          classifyPointFile(path, folder / path.filename(), points, line_.threads());
+          classifyPointFile(path, folder / path.filename(), classes, line_.threads());
       progress.done(grouped(counts.points) + " points, " + grouped(counts.unclassified) +
                     " without a class");
     }

@@ -8,6 +8,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/class_io.h>
 
 namespace pcl_als::app {
 namespace {
@@ -15,11 +16,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "pcl_als class statistics";
+constexpr int kVersion = 1;
+constexpr std::size_t kMostBands = 100, kMostClasses = 250;
+
+std::string nameOf(const Json& json) {
+  auto name = json.get<std::string>();
+  const std::string fault = classNameFault(name);
+  if (!fault.empty()) throw UsageError("the name of a class " + fault);
+  return name;
+}
 
 GaussianClass classOf(const Json& json, Eigen::Index bands) {
   GaussianClass c;
-  c.name = json.at("name").get<std::string>();
+  c.name = nameOf(json.at("name"));
   c.prior = json.at("prior").get<double>();
+  if (!json.at("samples").is_number_unsigned())
+    throw UsageError("class " + c.name + ": its samples are no count");
   c.samples = json.at("samples").get<std::size_t>();
   c.shrinkage = json.at("shrinkage").get<double>();
   const auto mean = json.at("mean").get<std::vector<double>>();
@@ -42,7 +54,7 @@ void writeClassModel(const std::filesystem::path& path, const GaussianModel& mod
                      const std::vector<std::string>& remarks) {
   Json json;
   json["format"] = kFormat;
-  json["version"] = 1;
+  json["version"] = kVersion;
   json["bands"] = model.bands;
   json["classes"] = Json::array();
   for (const GaussianClass& c : model.classes) {
@@ -71,9 +83,16 @@ GaussianModel readClassModel(const std::filesystem::path& path) {
   if (json.is_discarded() || !json.is_object() || json.value("format", Json()) != kFormat)
     throw InputError(path.string() + ": is no file of class statistics");
   try {
+    if (json.at("version") != kVersion)
+      throw UsageError("is of version " + json.at("version").dump().substr(0, 20) +
+                       ", this program reads version " + std::to_string(kVersion));
     GaussianModel model;
-    model.bands = json.at("bands").get<std::vector<std::string>>();
-    for (const Json& entry : json.at("classes"))
+    const Json &bands = json.at("bands"), &classes = json.at("classes");
+    if (!bands.is_array() || !classes.is_array() || bands.size() > kMostBands ||
+        classes.size() > kMostClasses)
+      throw UsageError("needs lists of at most 100 bands and 250 classes");
+    for (const Json& band : bands) model.bands.push_back(nameOf(band));
+    for (const Json& entry : classes)
       model.classes.push_back(classOf(entry, static_cast<Eigen::Index>(model.bands.size())));
     model.check();
     return model;

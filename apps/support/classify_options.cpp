@@ -38,7 +38,10 @@ void addOutputs(CommandLine& line) {
   line.addOptional("map", "picture of the map with its legend, PNG");
   line.addOptional("beside", "another map of classes (GeoTIFF) to draw at the left of -map");
   line.addOptional("captions", "of -beside and the map, comma-separated (default: before,after)");
-  line.addOptional("points", "folder for copies of the point files with ASPRS classes");
+  line.addOptional(
+      "points",
+      "folder for copies of the point files with ASPRS classes; noise (7, 18) and points "
+      "without a class keep theirs");
 }
 
 }  // namespace

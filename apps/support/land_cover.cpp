@@ -12,10 +12,13 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/io/atomic_file.h>
 
+#include "class_maps.h"
+
 namespace pcl_als::app {
 namespace {
 
 constexpr int kWindow = 512;
+constexpr int kMostCells = 1 << 20;
 
 /// Cells whose centre may lie within a box, clipped to the grid; no columns when there are none.
 RasterWindow windowOf(const RasterGrid& grid, const Eigen::Vector2d& low,
@@ -83,22 +86,25 @@ std::vector<std::vector<float>> BandReader::read(const RasterWindow& window) {
   return values;
 }
 
-Raster BandReader::readAll() {
+Raster BandReader::readRaster(const RasterWindow& window) {
   Raster raster;
   raster.grid = grid();
-  std::vector<std::vector<float>> values = read({0, 0, grid().columns, grid().rows});
+  raster.grid.west += window.column * raster.grid.cell;
+  raster.grid.north -= window.row * raster.grid.cell;
+  raster.grid.columns = window.columns;
+  raster.grid.rows = window.rows;
+  std::vector<std::vector<float>> values = read(window);
   for (std::size_t i = 0; i < values.size(); ++i)
     raster.bands.push_back({names_[i], std::move(values[i])});
   return raster;
 }
 
-SiteCells cellsOf(const ClassSite& site, double radius, BandReader& bands) {
+namespace {
+
+/// Adds the cells of a window that belong to the site.
+void addCells(const ClassSite& site, double radius, const RasterWindow& window, BandReader& bands,
+              SiteCells& cells) {
   const RasterGrid& grid = bands.grid();
-  Eigen::Vector2d low, high;
-  boxOf(site, radius, low, high);
-  const RasterWindow window = windowOf(grid, low, high);
-  SiteCells cells;
-  if (window.columns == 0) return cells;
   const auto values = bands.read(window);
   for (std::size_t i = 0; i < window.cells(); ++i) {
     const int column =
@@ -114,6 +120,22 @@ SiteCells cellsOf(const ClassSite& site, double radius, BandReader& bands) {
     cells.values.push_back(std::move(sample));
     cells.places.push_back(site.isArea() ? centre : site.place);
   }
+}
+
+}  // namespace
+
+SiteCells cellsOf(const ClassSite& site, double radius, BandReader& bands) {
+  Eigen::Vector2d low, high;
+  boxOf(site, radius, low, high);
+  const RasterWindow whole = windowOf(bands.grid(), low, high);
+  SiteCells cells;
+  if (whole.columns == 0) return cells;
+  // A slender area's box may be the whole block: its values come in pieces.
+  const int rows = std::max(1, kMostCells / whole.columns);
+  for (int row = 0; row < whole.rows; row += rows)
+    addCells(site, radius,
+             {whole.column, whole.row + row, whole.columns, std::min(rows, whole.rows - row)},
+             bands, cells);
   return cells;
 }
 
@@ -178,17 +200,13 @@ std::vector<CodeMeaning> legendOf(const GaussianModel& model) {
       {"built-up", {0xD0, 0x43, 0x3A}}, {"building", {0xD0, 0x43, 0x3A}},
       {"road", {0x80, 0x80, 0x80}},     {"water", {0x3B, 0x7D, 0xC4}},
       {"ground", {0xC8, 0x9B, 0x5A}}};
-  // Okabe and Ito's, for classes of other names.
-  static const Colour others[] = {{0xE6, 0x9F, 0x00}, {0x56, 0xB4, 0xE9}, {0x00, 0x9E, 0x73},
-                                  {0xF0, 0xE4, 0x42}, {0x00, 0x72, 0xB2}, {0xD5, 0x5E, 0x00},
-                                  {0xCC, 0x79, 0xA7}};
+  const std::vector<Colour>& others = spareColours();
   if (model.classes.size() > 254) throw UsageError("a map has at most 254 classes");
   std::vector<CodeMeaning> legend;
   std::size_t other = 0;
   for (const GaussianClass& c : model.classes) {
     const auto found = known.find(c.name);
-    const Colour colour =
-        found != known.end() ? found->second : others[other++ % std::size(others)];
+    const Colour colour = found != known.end() ? found->second : others[other++ % others.size()];
     legend.push_back({static_cast<std::uint8_t>(legend.size() + 1), c.name, colour});
   }
   return legend;

@@ -22,8 +22,8 @@ class BandReader {
   const RasterGrid& grid() const { return reader_.layout().grid; }
   /// Values [band][cell] of a window.
   std::vector<std::vector<float>> read(const RasterWindow& window);
-  /// The same, together as a raster.
-  Raster readAll();
+  /// The same as a raster of its own.
+  Raster readRaster(const RasterWindow& window);
 
  private:
   RasterReader reader_;
@@ -70,14 +70,5 @@ CoverCounts classifyCells(const MaximumLikelihood& classifier, BandReader& bands
 
 /// Legend as CSV: value,class,red,green,blue.
 void writeLegend(const std::filesystem::path& path, const std::vector<CodeMeaning>& legend);
-
-/// A map and what stands above it.
-struct TitledMap {
-  std::string caption;
-  std::filesystem::path raster;
-};
-/// Draws maps side by side as a PNG with a legend; in a build without module visualization one
-/// picture of their cells, and the legend as NAME_legend.csv beside it.
-void drawMaps(const std::filesystem::path& path, const std::vector<TitledMap>& maps);
 
 }  // namespace pcl_als::app

@@ -6,34 +6,33 @@
 
 #include <pcl_als/visualization/class_map.h>
 
-#include "land_cover.h"
+#include "class_maps.h"
 
 namespace pcl_als::app {
 namespace {
 
 constexpr int kHeight = 1000, kLeastWidth = 700, kMapHeight = 800;
+constexpr int kLargestRaster = 8192;  // cells: several under each pixel vote on it
 
 }  // namespace
 
 void drawMaps(const std::filesystem::path& path, const std::vector<TitledMap>& maps) {
+  ClassMaps rasters = readClassMaps(maps, kLargestRaster);
   ClassMapPicture picture;
+  std::vector<MapClass> classes;
+  for (const CodeMeaning& entry : rasters.legend)
+    classes.push_back(
+        {entry.value, entry.name, {entry.colour[0], entry.colour[1], entry.colour[2]}});
+  picture.setClasses(std::move(classes));
   double width = 300.0;
-  bool legend = false;
-  for (const TitledMap& map : maps) {
-    CodeRaster raster = readCodeRaster(map.raster);
-    const RasterGrid& grid = raster.grid;
-    if (!legend) {
-      std::vector<MapClass> classes;
-      for (const CodeMeaning& entry : raster.legend)
-        classes.push_back(
-            {entry.value, entry.name, {entry.colour[0], entry.colour[1], entry.colour[2]}});
-      picture.setClasses(std::move(classes));
-      legend = true;
-    }
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const RasterGrid& grid = rasters.maps[i].grid;
     width += std::min(2.0 * kMapHeight, double(kMapHeight) * grid.columns / grid.rows) + 60.0;
-    picture.addMap(
-        map.caption,
-        {grid.columns, grid.rows, grid.cell, {grid.west, grid.north}, std::move(raster.values)});
+    picture.addMap(maps[i].caption, {grid.columns,
+                                     grid.rows,
+                                     grid.cell,
+                                     {grid.west, grid.north},
+                                     std::move(rasters.maps[i].values)});
   }
   writePng(path, picture.draw(std::max(kLeastWidth, static_cast<int>(width)), kHeight).image());
 }

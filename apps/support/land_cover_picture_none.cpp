@@ -4,6 +4,9 @@
 // Pictures of maps in a build without module visualization: cells only, side by side.
 #include <algorithm>
 
+#include <pcl_als/io/raster_io.h>
+
+#include "class_maps.h"
 #include "land_cover.h"
 
 namespace pcl_als::app {
@@ -26,12 +29,11 @@ void paint(const CodeRaster& map, int step, int left, PngImage& image) {
 }  // namespace
 
 void drawMaps(const std::filesystem::path& path, const std::vector<TitledMap>& maps) {
-  std::vector<CodeRaster> rasters;
+  const ClassMaps read = readClassMaps(maps, 4 * kLargestSide);
+  const std::vector<CodeRaster>& rasters = read.maps;
   int side = 1, width = 0, height = 0;
-  for (const TitledMap& map : maps) {
-    rasters.push_back(readCodeRaster(map.raster));
-    side = std::max({side, rasters.back().grid.columns, rasters.back().grid.rows});
-  }
+  for (const CodeRaster& raster : rasters)
+    side = std::max({side, raster.grid.columns, raster.grid.rows});
   const int step = (side + kLargestSide - 1) / kLargestSide;
   for (const CodeRaster& raster : rasters) {
     width += raster.grid.columns / step + kGap;
@@ -47,7 +49,7 @@ void drawMaps(const std::filesystem::path& path, const std::vector<TitledMap>& m
   writePngImage(path, image);
   std::filesystem::path legend = path;
   legend.replace_filename(path.stem().string() + "_legend.csv");
-  writeLegend(legend, rasters.front().legend);
+  writeLegend(legend, read.legend);
 }
 
 }  // namespace pcl_als::app

@@ -24,4 +24,12 @@ void makeOutputFolder(const std::string& option, const fs::path& folder) {
                    " is no folder that can be written to");
 }
 
+void refuseInput(const std::string& option, const fs::path& output,
+                 const std::vector<fs::path>& inputs) {
+  std::error_code error;
+  for (const fs::path& input : inputs)
+    if (fs::equivalent(output, input, error))
+      throw UsageError("option -" + option + ": " + output.string() + " is also an input");
+}
+
 }  // namespace pcl_als::app

@@ -7,12 +7,15 @@
 #include <mutex>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/memory.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/io/point_reader.h>
 
 namespace pcl_als::app {
 namespace {
+
+constexpr double kBytesPerCell = 380.0;  ///< at most, of a tile at work, see SurfaceAccumulator
 
 /// A file and the box its header gives, wider by its resolution.
 struct BoxedFile {
@@ -27,6 +30,19 @@ struct BoxedFile {
 
 bool isEpsg(const std::string& crs) {
   return crs.compare(0, 5, "EPSG:") == 0;
+}
+
+/// As many threads as tiles have room at once in half of the memory.
+int threadsFor(const RasterTile& tile, int threads) {
+  const double memory = physicalMemory(),
+               needed = kBytesPerCell * static_cast<double>(tile.padded.cells());
+  if (memory > 0.0 && needed > 0.8 * memory)
+    throw UsageError("a tile of " + std::to_string(tile.window.columns) +
+                     " cells with margins of " + std::to_string(tile.margin) + " needs " +
+                     std::to_string(static_cast<long>(needed / 1e9)) +
+                     " GB of memory; take smaller gaps, larger cells or smaller tiles");
+  const double room = memory > 0.0 ? 0.5 * memory / needed : 1e9;
+  return std::max(1, static_cast<int>(std::min<double>(threadCount(threads), room)));
 }
 
 /// One tile: its points, its bands, its counts.
@@ -130,7 +146,7 @@ RasterCounts rasterizeStrips(const StripFiles& files, const SurfaceOptions& opti
   std::vector<RasterCounts> counts(tiles.size());
   std::mutex writing, reporting;
   std::size_t done = 0;
-  parallelFor(tiles.size(), threads, [&](std::size_t i) {
+  parallelFor(tiles.size(), threadsFor(tiles.front(), threads), [&](std::size_t i) {
     TileWork work(tiles[i], options);
     for (const BoxedFile& file : boxed)
       if (file.meets(tiles[i].padded)) work.read(file);

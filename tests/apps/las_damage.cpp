@@ -4,6 +4,7 @@
 // las_damage IN OUT CHANGE…: a copy of a LAS file with lies in it, for tests.
 //   set FIELD VALUE   a field of the header, see kFields
 //   zero_times        the GPS time of every point (formats 6-10)
+//   class CODE        of every point (formats 6-10)
 //   keep BYTES        only the first bytes
 //   crop_y FROM TO    only the points in that range of northings (no lie; LAS 1.2, 1.3)
 #include <algorithm>
@@ -51,11 +52,12 @@ void set(std::vector<char>& bytes, const Field& field, const std::string& text) 
   }
 }
 
-void zeroTimes(std::vector<char>& bytes) {
+/// Sets bytes of every record.
+void fillRecords(std::vector<char>& bytes, std::size_t at, std::size_t size, int value) {
   const std::size_t length = load<std::uint16_t>(bytes, 105);
   const auto count = load<std::uint64_t>(bytes, 247);
   for (std::size_t i = 0; i < count; ++i)
-    std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + 22, 0, 8);
+    std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + at, value, size);
 }
 
 void cropNorthings(std::vector<char>& bytes, double from, double to) {
@@ -90,10 +92,12 @@ int main(int argc, char** argv) {
       set(bytes, kFields.at(words[i + 1]), words[i + 2]);
       i += 2;
     } else if (words[i] == "zero_times") {
-      zeroTimes(bytes);
+      fillRecords(bytes, 22, 8, 0);
     } else if (words[i] == "crop_y" && i + 2 < words.size()) {
       cropNorthings(bytes, std::stod(words[i + 1]), std::stod(words[i + 2]));
       i += 2;
+    } else if (words[i] == "class" && i + 1 < words.size()) {
+      fillRecords(bytes, 16, 1, std::stoi(words[++i]));
     } else if (words[i] == "keep" && i + 1 < words.size()) {
       bytes.resize(std::min<std::size_t>(bytes.size(), std::stoul(words[++i])));
     } else {

@@ -11,7 +11,8 @@
 // truth was inside the 68 % and 95 % intervals, what is left in the corrected points, and the time;
 // with -bound also what the range noise alone would leave (FisherBound). -candidates: points that
 // look for patches; -budget: pairs that are adjusted; -against: calibrates each block again with
-// that many candidates and no budget, and prints by how much the estimates differ. It judges nothing.
+// that many candidates and no budget, and prints by how much the estimates differ. It judges
+// nothing.
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -177,6 +177,20 @@ TEST(GaussianTraining, LeavesOutClassesWithoutSamples) {
   EXPECT_THROW(trainGaussianModel(kBands, training), UsageError);
 }
 
+TEST(GaussianModel, StatisticsThatContradictEachOtherAreRefused) {
+  const GaussianModel good = trainGaussianModel(kBands, fourClasses()).model;
+  EXPECT_NO_THROW(good.check());
+  GaussianModel twice = good;
+  twice.classes[1].name = twice.classes[0].name;
+  EXPECT_THROW(twice.check(), UsageError);
+  GaussianModel priors = good;
+  priors.classes[0].prior = 0.9;
+  EXPECT_THROW(priors.check(), UsageError);
+  GaussianModel singular = good;
+  singular.classes[2].covariance.setOnes();
+  EXPECT_THROW(singular.check(), UsageError);
+}
+
 TEST(GaussianTraining, PriorsAreProbabilities) {
   GaussianModel model = trainGaussianModel(kBands, fourClasses()).model;
   setPriors({{"tree", 0.4}, {"soil", 0.3}}, model);

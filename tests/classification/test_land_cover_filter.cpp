@@ -82,6 +82,24 @@ TEST(LandCoverFilter, KeepsPointsBesideTheIndicesAndTakesCodes) {
   EXPECT_EQ(output[1].classification, 4);
 }
 
+TEST(LandCoverFilter, NoiseStaysNoise) {
+  const auto cloud = cloudOf({{5, 5, 307}, {5, 5, 307}, {5, 5, 307}});
+  (*cloud)[0].classification = 7;
+  (*cloud)[1].classification = 18;
+  LandCoverFilter<PointLidar> filter;
+  filter.setClassifier(classifier());
+  LocalFrame frame;
+  frame.origin = {512000.0, 5402990.0, 0.0};
+  filter.setLocalFrame(frame);
+  filter.setInputCloud(cloud);
+  pcl::PointCloud<PointLidar> output;
+  filter.filter(output);
+  EXPECT_EQ(output[0].classification, 7);
+  EXPECT_EQ(output[1].classification, 18);
+  EXPECT_EQ(output[2].classification, 5);
+  EXPECT_EQ(filter.getUnclassified(), 2U);
+}
+
 TEST(LandCoverFilter, RefusesWhatItCannotUse) {
   LandCoverFilter<PointLidar> filter;
   filter.setInputCloud(cloudOf({{5, 5, 307}}));

@@ -180,6 +180,32 @@ TEST(SurfaceRasters, TilesGiveWhatTheWholeGives) {
   EXPECT_EQ(different, 0U);
 }
 
+// The same with the ground filter, in tiles whose edges are not multiples of its cells of 1 m (two
+// of the raster's); west and north are odd numbers of cells.
+TEST(SurfaceRasters, TilesDoNotShowInFilteredTerrain) {
+  const RasterGrid grid{512000.5, 5403000.5, 0.5, 420, 300, ""};
+  std::vector<SurfaceReturn> points = village(grid, 6);
+  for (SurfaceReturn& point : points) point.classification = 0;
+  SurfaceOptions options;
+  options.ground = SurfaceOptions::Ground::filtered;
+  options.largest_object = 15.0;
+  options.terrain_gap = 8.0;
+  const SurfaceResult whole = resultOf(grid, points, options);
+  std::size_t different = 0, tiles = 0;
+  for (const RasterTile& tile : tilesOf(grid, 141, options.margin(grid.cell))) {
+    const SurfaceResult part = resultOf(tile.padded, points, options);
+    ++tiles;
+    for (int row = 0; row < tile.window.rows; ++row)
+      for (int column = 0; column < tile.window.columns; ++column) {
+        const float a = at(whole, "terrain", tile.window.column + column, tile.window.row + row);
+        const float b = at(part, "terrain", tile.margin + column, tile.margin + row);
+        different += !(std::abs(a - b) <= 1e-4F || (std::isnan(a) && std::isnan(b)));
+      }
+  }
+  EXPECT_EQ(tiles, 9U);
+  EXPECT_EQ(different, 0U);
+}
+
 // Houses of 12 m x 10 m and 6 m height go, ground stays: heights within 0.3 m (the filter's first
 // step) of the truth in 99 % of the cells.
 TEST(SurfaceRasters, TheGroundFilterFindsTheTerrainUnderHouses) {

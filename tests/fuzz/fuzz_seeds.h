@@ -14,5 +14,11 @@ std::vector<std::string> trajectorySeeds();
 std::vector<std::string> sbetSeeds();
 std::vector<std::string> controlSeeds();
 std::vector<std::string> calibrationSeeds();
+std::vector<std::string> geoJsonSeeds();
+std::vector<std::string> classSiteSeeds();
+std::vector<std::string> countTableSeeds();
+std::vector<std::string> checkedSiteSeeds();
+std::vector<std::string> classModelSeeds();
+std::vector<std::string> geoTiffSeeds();
 
 }  // namespace pcl_als::fuzz

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "fuzz_targets.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,11 +11,15 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/class_io.h>
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/survey_io.h>
 
+#include "accuracy_report.h"
+#include "class_model_json.h"
 #include "fuzz_seeds.h"
 
 namespace pcl_als::fuzz {
@@ -55,6 +60,53 @@ void readPcd(const std::filesystem::path& path) {
   takeCensus({path});
 }
 
+void assess(const ConfusionMatrix& matrix) {
+  if (matrix.total() == 0) return;
+  app::AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}};
+  report.other = report.result;
+  report.comparison = compareAccuracy(matrix, matrix);
+  app::accuracyText(report);
+}
+
+void readMatrix(const std::filesystem::path& path) {
+  if (holdsCheckedSites(path)) return;
+  const CountTable table = readCountTable(path);
+  ConfusionMatrix matrix(table.classes);
+  for (std::size_t i = 0; i < table.classes.size(); ++i)
+    for (std::size_t j = 0; j < table.classes.size(); ++j)
+      matrix.counts(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          table.counts[i][j];
+  assess(matrix);
+}
+
+void readChecked(const std::filesystem::path& path) {
+  const std::vector<CheckedSite> sites = readCheckedSites(path);
+  const app::CountedSites counted = app::countSites(sites, {});
+  assess(countPoints(counted.classes, counted.points));
+  app::assessSites(counted);
+  app::matchSites(path.string(), sites, sites);
+}
+
+void useModel(const std::filesystem::path& path) {
+  const GaussianModel model = app::readClassModel(path);
+  const MaximumLikelihood classifier(model, 0.01);
+  std::vector<double> values(model.bands.size(), 1.5);
+  classifier.classify(values.data());
+}
+
+void readGeoTiff(const std::filesystem::path& path) {
+  RasterReader reader(path);
+  const RasterGrid& grid = reader.layout().grid;
+  const RasterWindow corner{grid.columns - std::min(grid.columns, 70),
+                            grid.rows - std::min(grid.rows, 70), std::min(grid.columns, 70),
+                            std::min(grid.rows, 70)};
+  std::vector<float> values(corner.cells());
+  for (std::size_t band = 0; band < std::min<std::size_t>(reader.layout().bands.size(), 4); ++band)
+    reader.read(band, corner, values.data());
+  if (grid.cells() <= 1U << 20U) readRaster(path);
+  if (reader.layout().type == RasterLayout::Type::byte) readCodeRaster(path, 300);
+}
+
 bool las(const std::uint8_t* data, std::size_t size) {
   return readAs(".las", data, size, readLas);
 }
@@ -73,6 +125,26 @@ bool control(const std::uint8_t* data, std::size_t size) {
 bool calibration(const std::uint8_t* data, std::size_t size) {
   return readAs(".json", data, size, [](const auto& path) { readCalibration(path); });
 }
+bool geojson(const std::uint8_t* data, std::size_t size) {
+  return readAs(".geojson", data, size, [](const auto& path) { readClassSites(path); });
+}
+bool sites(const std::uint8_t* data, std::size_t size) {
+  return readAs(".csv", data, size, [](const auto& path) { readClassSites(path); });
+}
+bool countTable(const std::uint8_t* data, std::size_t size) {
+  return readAs(".csv", data, size, readMatrix);
+}
+bool checkedSites(const std::uint8_t* data, std::size_t size) {
+  return readAs(".csv", data, size, readChecked);
+}
+bool classModel(const std::uint8_t* data, std::size_t size) {
+  return readAs(".json", data, size, useModel);
+}
+#ifdef PCL_ALS_HAVE_GDAL
+bool geoTiff(const std::uint8_t* data, std::size_t size) {
+  return readAs(".tif", data, size, readGeoTiff);
+}
+#endif
 
 }  // namespace
 
@@ -84,6 +156,14 @@ const std::vector<Target>& targets() {
       {"sbet", sbet, sbetSeeds},
       {"control", control, controlSeeds},
       {"calibration", calibration, calibrationSeeds},
+      {"geojson", geojson, geoJsonSeeds},
+      {"class_sites", sites, classSiteSeeds},
+      {"confusion_matrix", countTable, countTableSeeds},
+      {"checked_sites", checkedSites, checkedSiteSeeds},
+      {"class_model", classModel, classModelSeeds},
+#ifdef PCL_ALS_HAVE_GDAL
+      {"geotiff", geoTiff, geoTiffSeeds},
+#endif
   };
   return all;
 }

@@ -94,8 +94,9 @@ TEST_P(FuzzReplay, SeedsAreAccepted) {
 TEST_P(FuzzReplay, SeedsAndTheirMutationsAreReadOrRefused) {
   const std::vector<std::string> seeds = GetParam().seeds();
   Mutator mutator(20110901);
-  constexpr std::size_t kRounds = 1500;
-  for (std::size_t i = 0; i < kRounds; ++i) {
+  // PROJ takes milliseconds to make a CRS of the keys of a GeoTIFF.
+  const std::size_t rounds = std::string(GetParam().name) == "geotiff" ? 300 : 1500;
+  for (std::size_t i = 0; i < rounds; ++i) {
     const std::string& seed = seeds[i % seeds.size()];
     const std::string bytes =
         i < seeds.size() ? seed : mutator.mutate(seed, seeds[(i * 7 + 3) % seeds.size()]);

@@ -83,14 +83,60 @@ TEST(ClassSites, BadGeoJsonIsNamed) {
             std::string::npos);
 }
 
+TEST(ClassNames, AreWhatTheFilesCanKeep) {
+  for (const char* good :
+       {"tree", "built-up", "B\xC3\xA4ume", "\xE2\x82\xAC \xF0\x9F\x8C\xB3", "7", "#x"})
+    EXPECT_EQ(classNameFault(good), "") << good;
+  const std::pair<std::string, const char*> bad[] = {
+      {"", "must name"},
+      {"a,b", "comma"},
+      {"a;b", "semicolon"},
+      {"a\"b", "quote"},
+      {"a\nb", "control"},
+      {"a\x7F", "control"},
+      {std::string("a\0b", 3), "control"},
+      {"B\xE4ume", "UTF-8"},          // Latin-1
+      {"\xC3", "UTF-8"},              // cut short
+      {"\xC0\xAF", "UTF-8"},          // overlong
+      {"\xED\xA0\x80", "UTF-8"},      // a surrogate
+      {"\xF4\x90\x80\x80", "UTF-8"},  // beyond U+10FFFF
+      {std::string(101, 'x'), "shorter"}};
+  for (const auto& [name, part] : bad)
+    EXPECT_NE(classNameFault(name).find(part), std::string::npos) << name;
+}
+
+TEST(ClassNames, FaultsAreToldWithTheirPlace) {
+  EXPECT_NE(test::messageOf<InputError>([] {
+              readClassSites(fileOf("latin1.csv", "x,y,class\n1,2,tree\n3,4,B\xE4ume\n"));
+            }).find("line 3, column 'class': 'B\xE4ume' is not UTF-8"),
+            std::string::npos);
+  EXPECT_NE(test::messageOf<InputError>([] {
+              readClassSites(
+                  fileOf("comma.geojson",
+                         feature(R"({"type":"Point","coordinates":[500,1]})", R"("roof, flat")")));
+            }).find("feature 1: its class name has a comma"),
+            std::string::npos);
+  EXPECT_NE(test::messageOf<InputError>([] {
+              readClassSites(fileOf("list.geojson",
+                                    feature(R"({"type":"Point","coordinates":[500,1]})", "[1]")));
+            }).find("neither text nor number"),
+            std::string::npos);
+  EXPECT_EQ(
+      readClassSites(fileOf("blanks.geojson",
+                            feature(R"({"type":"Point","coordinates":[500,1]})", R"(" tree ")")))[0]
+          .name,
+      "tree");
+}
+
 TEST(CountTable, ReadsRowsInAnyOrder) {
   const CountTable table = readCountTable(fileOf("m.csv", "is,Tree,Soil\nSoil,3,4\nTree,1,2\n"));
   EXPECT_EQ(table.classes, (std::vector<std::string>{"Tree", "Soil"}));
   EXPECT_EQ(table.counts[0], (std::vector<std::int64_t>{1, 2}));
   EXPECT_EQ(table.counts[1], (std::vector<std::int64_t>{3, 4}));
-  for (const char* bad : {"is,a,b\na,1,2\n", "is,a,b\na,1,2\na,3,4\n", "is,a,b\na,1,2\nc,3,4\n",
-                          "is,a,b\na,1,x\nb,3,4\n", "is,a,b\na,1,-2\nb,3,4\n", "is,a\na,1\n",
-                          "is,a,b\na,1,1.5\nb,3,4\n"})
+  for (const char* bad :
+       {"is,a,b\na,1,2\n", "is,a,b\na,1,2\na,3,4\n", "is,a,b\na,1,2\nc,3,4\n",
+        "is,a,b\na,1,x\nb,3,4\n", "is,a,b\na,1,-2\nb,3,4\n", "is,a\na,1\n",
+        "is,a,b\na,1,1.5\nb,3,4\n", "is,a,b\na,1,1000000000001\nb,3,4\n", "is,a,\na,1,2\nb,3,4\n"})
     EXPECT_NE(test::messageOf<InputError>([&] { readCountTable(fileOf("bad.csv", bad)); }),
               "no error")
         << bad;

@@ -2,8 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <functional>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -208,6 +210,66 @@ TEST(RasterIo, ATruncatedFileIsAnErrorAndNoCrash) {
     refused += test::messageOf<Error>([&] { readRaster(folder / "cut.tif"); }) != "no error";
   }
   EXPECT_EQ(refused, 7U);
+}
+
+/// A GeoTIFF in which tags of the first directory have other values.
+std::string withTags(std::string bytes, const std::map<std::uint16_t, std::uint32_t>& values) {
+  const auto u16 = [&](std::size_t at) {
+    std::uint16_t value = 0;
+    std::memcpy(&value, &bytes[at], sizeof value);
+    return value;
+  };
+  std::uint32_t directory = 0;
+  std::memcpy(&directory, &bytes[4], sizeof directory);
+  for (std::size_t i = 0; i < u16(directory); ++i) {
+    const std::size_t entry = directory + 2 + 12 * i;
+    const auto found = values.find(u16(entry));
+    if (found == values.end()) continue;
+    const std::uint16_t as_u32 = 4;
+    std::memcpy(&bytes[entry + 2], &as_u32, sizeof as_u32);
+    std::memcpy(&bytes[entry + 8], &found->second, sizeof found->second);
+  }
+  return bytes;
+}
+
+constexpr std::uint16_t kColumns = 256, kRows = 257, kSamples = 277;
+
+// A header may promise anything; the answer is one line and no attempt to have the memory.
+TEST(RasterIo, AHeaderThatPromisesTooMuchIsRefused) {
+  const fs::path folder = test::scratch("raster_lying");
+  RasterOptions plain;
+  plain.overviews = plain.cloud_optimised = plain.compress = false;
+  writeRaster(folder / "a.tif", numbered(20, 10), plain);
+  const std::string good = test::readBytes(folder / "a.tif");
+  ASSERT_EQ(good.substr(0, 4), std::string("II*\0", 4));  // a small classic TIFF
+  const std::pair<std::uint32_t, std::uint32_t> sizes[] = {
+      {20, 2000000000}, {2000000000, 2000000000}, {4294967295U, 1}, {0, 10}, {400000, 400000}};
+  for (const auto& [columns, rows] : sizes) {
+    test::writeBytes(folder / "lie.tif", withTags(good, {{kColumns, columns}, {kRows, rows}}));
+    for (const auto& read :
+         {std::function<void()>([&] { readRaster(folder / "lie.tif"); }),
+          std::function<void()>([&] { readCodeRaster(folder / "lie.tif", 99); })}) {
+      const std::string message = test::messageOf<InputError>(read);
+      EXPECT_NE(message.find("lie.tif: "), std::string::npos) << columns << " x " << rows;
+      EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+  }
+  test::writeBytes(folder / "same.tif", withTags(good, {{kColumns, 20}, {kRows, 10}}));
+  expectEqual(readRaster(folder / "same.tif"), numbered(20, 10));
+}
+
+// 2026-11-21, found by fuzz_geotiff: 65535 bands cell by cell are 17 GB for one block.
+TEST(RasterIo, AHeaderThatPromisesTooManyBandsIsRefused) {
+  const fs::path folder = test::scratch("raster_lying_bands");
+  CodeRaster map;
+  map.grid = numbered(30, 5).grid;
+  map.values.assign(map.grid.cells(), 2);
+  writeCodeRaster(folder / "a.tif", map);
+  test::writeBytes(folder / "lie.tif",
+                   withTags(test::readBytes(folder / "a.tif"), {{kSamples, 65535}}));
+  EXPECT_NE(
+      test::messageOf<InputError>([&] { RasterReader(folder / "lie.tif"); }).find("blocks of"),
+      std::string::npos);
 }
 
 /// Runs in a child process: file size limit instead of a full disk, no privileges needed.

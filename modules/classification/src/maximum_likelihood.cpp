@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -16,7 +18,10 @@ void GaussianModel::check() const {
   const auto size = static_cast<Eigen::Index>(bands.size());
   if (bands.empty() || classes.empty())
     throw UsageError("a model of classes needs bands and classes");
+  double priors = 0.0;
+  std::set<std::string> names;
   for (const GaussianClass& c : classes) {
+    if (!names.insert(c.name).second) throw UsageError("class " + c.name + " appears twice");
     const bool fits = c.mean.size() == size && c.covariance.rows() == size &&
                       c.covariance.cols() == size && c.mean.allFinite() && c.covariance.allFinite();
     if (!fits) throw UsageError("class " + c.name + ": mean and covariance must fit the bands");
@@ -25,7 +30,10 @@ void GaussianModel::check() const {
       throw UsageError("class " + c.name + ": its covariance is not positive definite");
     if (!(c.prior > 0.0 && c.prior <= 1.0))
       throw UsageError("class " + c.name + ": its prior is no probability");
+    priors += c.prior;
   }
+  if (std::abs(priors - 1.0) > 1e-6)
+    throw UsageError("the priors of all classes together must be 1, not " + std::to_string(priors));
 }
 
 MaximumLikelihood::MaximumLikelihood(GaussianModel model, double rejection)

@@ -27,7 +27,11 @@ MaximumLikelihood::Decision PointClassifier::classify(double x, double y, double
   const RasterGrid& grid = raster_->grid;
   const long long column = grid.columnOf(x), row = grid.rowOf(y);
   if (!grid.holds(column, row)) return {};
-  const std::size_t cell = grid.index(static_cast<int>(column), static_cast<int>(row));
+  return classifyIn(grid.index(static_cast<int>(column), static_cast<int>(row)), z, intensity);
+}
+
+MaximumLikelihood::Decision PointClassifier::classifyIn(std::size_t cell, double z,
+                                                        double intensity) const {
   constexpr std::size_t kOnStack = 16;
   double few[kOnStack];
   std::vector<double> many(sources_.size() > kOnStack ? sources_.size() : 0);

@@ -15,7 +15,6 @@ namespace pcl_als {
 namespace {
 
 constexpr std::uint8_t kLowNoise = 7, kHighNoise = 18;
-constexpr double kFilterCell = 1.0;  // metres, at least: the ground filter looks at lowest returns
 
 void checkLength(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -62,7 +61,7 @@ void SurfaceOptions::check() const {
 int SurfaceOptions::margin(double cell) const {
   // Twice the radius: see fillByTin(); the texture window comes on top.
   double metres = 2.0 * std::max(surface_gap, terrain_gap);
-  if (ground == Ground::filtered) metres += 2.0 * largest_object;
+  if (ground == Ground::filtered) metres += detail::groundFilterReach(cell, largest_object);
   return static_cast<int>(std::ceil(metres / cell)) +
          static_cast<int>(std::ceil(texture_window / cell)) + 2;
 }
@@ -129,19 +128,17 @@ detail::CellSamples SurfaceAccumulator::State::classifiedGround() const {
 
 detail::CellSamples SurfaceAccumulator::State::filteredGround() const {
   std::vector<std::size_t> candidates;
-  std::vector<Eigen::Vector3d> points;
-  const double east = 0.5 * grid.columns * grid.cell, south = 0.5 * grid.rows * grid.cell;
+  std::vector<detail::LowestReturn> returns;
+  const auto columns = static_cast<std::size_t>(grid.columns);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& cell = cells[i];
-    if (cell.lasts == 0) continue;
-    const Eigen::Vector2d at = place(i, cell.low_x, cell.low_y);
+    if (cells[i].lasts == 0) continue;
     candidates.push_back(i);
-    points.emplace_back(at.x() - east, at.y() + south, cell.low_z);
+    returns.push_back(
+        {static_cast<int>(i % columns), static_cast<int>(i / columns), cells[i].low_z});
   }
   detail::CellSamples samples;
   samples.values.resize(1);
-  const double filter_cell = std::max(kFilterCell, grid.cell);
-  for (const std::size_t k : detail::groundPoints(points, filter_cell, options.largest_object)) {
+  for (const std::size_t k : detail::groundReturns(grid, returns, options.largest_object)) {
     const Cell& cell = cells[candidates[k]];
     samples.cell.push_back(candidates[k]);
     samples.place.push_back(place(candidates[k], cell.low_x, cell.low_y));

@@ -18,6 +18,12 @@ namespace {
 
 using Json = nlohmann::json;
 
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first == std::string::npos ? std::string()
+                                    : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 std::vector<ClassSite> sitesOfCsv(const fs::path& path) {
   detail::CsvTable table(path);
   const std::size_t x = table.required("x"), y = table.required("y"),
@@ -26,7 +32,8 @@ std::vector<ClassSite> sitesOfCsv(const fs::path& path) {
   while (table.next()) {
     ClassSite site;
     site.name = table.text(name);
-    if (site.name.empty()) table.refuse(name, "must name the class");
+    const std::string fault = classNameFault(site.name);
+    if (!fault.empty()) table.refuse(name, fault);
     site.place = {table.number(x), table.number(y)};
     sites.push_back(std::move(site));
   }
@@ -62,8 +69,11 @@ class GeoJsonSites {
       refuse("has no geometry or no property 'class'");
     const Json& label = feature["properties"]["class"];
     ClassSite site;
-    site.name = label.is_string() ? label.get<std::string>() : label.dump();
-    if (site.name.empty() || label.is_null()) refuse("must name the class");
+    if (!label.is_string() && !label.is_number() && !label.is_boolean())
+      refuse("its class is neither text nor number");
+    site.name = label.is_string() ? trimmed(label.get<std::string>()) : label.dump();
+    const std::string fault = classNameFault(site.name);
+    if (!fault.empty()) refuse("its class name " + fault);
     const Json& geometry = feature["geometry"];
     if (!geometry.is_object() || !geometry.contains("type") || !geometry["type"].is_string() ||
         !geometry.contains("coordinates"))
@@ -85,7 +95,11 @@ class GeoJsonSites {
     } else if (type == "MultiPolygon") {
       for (const Json& polygon : coordinates) addGeometry("Polygon", polygon, site);
     } else {
-      refuse("is a " + type.substr(0, 40) + "; points and polygons can be used");
+      const bool word = type.size() <= 40 && std::all_of(type.begin(), type.end(), [](char c) {
+                          return std::isalpha(static_cast<unsigned char>(c)) != 0;
+                        });
+      refuse((word ? "is a " + type : "has an unknown geometry") +
+             "; points and polygons can be used");
     }
   }
 

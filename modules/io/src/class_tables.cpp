@@ -16,11 +16,19 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kMostClasses = 250;
+// Sums of 250 x 250 of them are within 64 bits.
+constexpr std::int64_t kLargestCount = 1'000'000'000'000;
 
 std::int64_t countOf(const detail::CsvTable& table, std::size_t column) {
   const auto count = detail::parseInteger<std::int64_t>(table.text(column));
-  if (!count || *count < 0) table.refuse(column, "is not a count");
+  if (!count || *count < 0 || *count > kLargestCount)
+    table.refuse(column, "is not a count (0 to 10^12)");
   return *count;
+}
+
+void checkName(const detail::CsvTable& table, std::size_t column) {
+  const std::string fault = classNameFault(table.text(column));
+  if (!fault.empty()) table.refuse(column, fault);
 }
 
 }  // namespace
@@ -34,6 +42,10 @@ CountTable readCountTable(const fs::path& path) {
     throw InputError(path.string() + ": has " + std::to_string(size) +
                      " classes; a confusion matrix needs 2 to 250, named in the header after the "
                      "first column");
+  for (const std::string& name : result.classes) {
+    const std::string fault = classNameFault(name);
+    if (!fault.empty()) throw InputError(path.string() + ": a class of the header " + fault);
+  }
   result.counts.assign(size, {});
   std::size_t rows = 0;
   for (; table.next(); ++rows) {
@@ -65,7 +77,8 @@ std::vector<CheckedSite> readCheckedSites(const fs::path& path) {
     CheckedSite site{{table.number(x), table.number(y)},
                      std::string(table.text(reference)),
                      std::string(table.text(classified))};
-    if (site.reference.empty()) table.refuse(reference, "must name the class of the point");
+    checkName(table, reference);
+    if (!site.classified.empty()) checkName(table, classified);
     sites.push_back(std::move(site));
   }
   if (sites.empty()) throw InputError(path.string() + ": has a header but no check points");

@@ -74,7 +74,7 @@ std::string readWholeFile(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path.string() + ": cannot be opened");
   std::string content;
-  for (std::vector<char> block(std::size_t{1} << 20); stream;) {
+  for (std::vector<char> block(std::size_t{1} << 16); stream;) {
     stream.read(block.data(), static_cast<std::streamsize>(block.size()));
     content.append(block.data(), static_cast<std::size_t>(stream.gcount()));
   }

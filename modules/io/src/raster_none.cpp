@@ -47,6 +47,7 @@ int RasterReader::overviews() const {
 }
 void RasterReader::read(std::size_t, const RasterWindow&, float*) {}
 void RasterReader::read(std::size_t, const RasterWindow&, std::uint8_t*) {}
+void RasterReader::readReduced(std::size_t, const RasterWindow&, int, int, std::uint8_t*) {}
 
 void writePngImage(const fs::path& path, const PngImage&) {
   refuse(path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <cstring>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/raster_io.h>
@@ -13,6 +14,36 @@ namespace fs = std::filesystem;
 namespace pcl_als {
 
 using detail::GdalReports;
+
+namespace {
+
+// The emptiest block of 512 x 512 cells is some 64 bytes of file with its place in the index.
+constexpr double kMostCellsPerByte = 65536.0;
+constexpr double kLargestBlock = 512.0 * 1024.0 * 1024.0;
+
+/// A header of a few bytes may promise any number of cells; reading them must not take the machine.
+void checkSize(GDALDatasetH dataset, const fs::path& path) {
+  const double columns = GDALGetRasterXSize(dataset), rows = GDALGetRasterYSize(dataset);
+  std::error_code error;
+  const auto bytes = static_cast<double>(fs::file_size(path, error));
+  if (!error && columns * rows * GDALGetRasterCount(dataset) > kMostCellsPerByte * bytes)
+    throw InputError(path.string() + ": its header promises " + std::to_string(int(columns)) +
+                     " x " + std::to_string(int(rows)) +
+                     " cells, more than a file of its size can hold");
+  const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+  int width = 0, height = 0;
+  GDALGetBlockSize(band, &width, &height);
+  // Where the bands lie cell by cell, GDAL unpacks a block of all of them.
+  const char* order = GDALGetMetadataItem(dataset, "INTERLEAVE", "IMAGE_STRUCTURE");
+  const bool together = order != nullptr && std::strcmp(order, "PIXEL") == 0;
+  const double bytes_of_cell = double(GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band))) *
+                               (together ? GDALGetRasterCount(dataset) : 1);
+  if (double(width) * height * bytes_of_cell > kLargestBlock)
+    throw InputError(path.string() + ": has blocks of " + std::to_string(width) + " x " +
+                     std::to_string(height) + " cells, too large to read; rewrite it in tiles");
+}
+
+}  // namespace
 
 struct RasterReader::State {
   ~State() {
@@ -38,6 +69,7 @@ RasterReader::RasterReader(const fs::path& path) : state_(std::make_unique<State
                                    drivers, nullptr, nullptr));
   reports.check(state_->dataset != nullptr, "is no GeoTIFF that can be read");
   state_->layout = detail::layoutOf(state_->dataset.get(), reports);
+  checkSize(state_->dataset.get(), path);
   for (std::size_t i = 0; i < state_->layout.bands.size(); ++i) {
     int has = 0;
     const double value = GDALGetRasterNoDataValue(
@@ -71,14 +103,21 @@ void RasterReader::read(std::size_t band, const RasterWindow& window, float* val
 }
 
 void RasterReader::read(std::size_t band, const RasterWindow& window, std::uint8_t* values) {
+  readReduced(band, window, window.columns, window.rows, values);
+}
+
+void RasterReader::readReduced(std::size_t band, const RasterWindow& window, int columns, int rows,
+                               std::uint8_t* values) {
   detail::checkWindow(state_->layout, band, window);
   const GdalReports reports(state_->path);
   const GDALRasterBandH handle =
       GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1);
   reports.check(GDALGetRasterDataType(handle) == GDT_Byte, "its cells are no bytes");
-  const CPLErr outcome =
-      GDALRasterIO(handle, GF_Read, window.column, window.row, window.columns, window.rows, values,
-                   window.columns, window.rows, GDT_Byte, 0, 0);
+  GDALRasterIOExtraArg how;
+  INIT_RASTERIO_EXTRA_ARG(how);
+  how.eResampleAlg = GRIORA_Mode;
+  const CPLErr outcome = GDALRasterIOEx(handle, GF_Read, window.column, window.row, window.columns,
+                                        window.rows, values, columns, rows, GDT_Byte, 0, 0, &how);
   reports.check(outcome == CE_None, "cannot be read");
 }
 

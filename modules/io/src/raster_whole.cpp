@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/memory.h>
 #include <pcl_als/io/raster_io.h>
 
 namespace fs = std::filesystem;
@@ -17,6 +19,15 @@ template <typename Each>
 void forWindows(const RasterGrid& grid, Each each) {
   for (int row = 0; row < grid.rows; row += kRows)
     each(RasterWindow{0, row, grid.columns, std::min(kRows, grid.rows - row)});
+}
+
+/// Memory for \a bytes in all is there to be had, as far as one can know.
+void checkMemory(const fs::path& path, double bytes) {
+  const double present = physicalMemory();
+  if (present > 0.0 && bytes > present)
+    throw InputError(
+        path.string() + ": as a whole needs " + std::to_string(std::llround(bytes / 1e9)) +
+        " GB of memory, this machine has " + std::to_string(std::llround(present / 1e9)));
 }
 
 void checkCells(std::size_t values, const RasterGrid& grid, const std::string& what) {
@@ -46,6 +57,8 @@ Raster readRaster(const fs::path& path) {
   RasterReader reader(path);
   Raster raster;
   raster.grid = reader.layout().grid;
+  checkMemory(path, double(sizeof(float)) * static_cast<double>(raster.grid.cells()) *
+                        static_cast<double>(reader.layout().bands.size()));
   for (std::size_t i = 0; i < reader.layout().bands.size(); ++i) {
     RasterBand& band = raster.addBand(reader.layout().bands[i]);
     reader.read(i, {0, 0, raster.grid.columns, raster.grid.rows}, band.values.data());
@@ -67,13 +80,25 @@ void writeCodeRaster(const fs::path& path, const CodeRaster& raster, const Raste
   writer.commit();
 }
 
-CodeRaster readCodeRaster(const fs::path& path) {
+CodeRaster readCodeRaster(const fs::path& path, int largest_side) {
   RasterReader reader(path);
   CodeRaster raster;
   raster.grid = reader.layout().grid;
   raster.legend = reader.layout().legend;
-  raster.values.resize(raster.grid.cells());
-  reader.read(0, {0, 0, raster.grid.columns, raster.grid.rows}, raster.values.data());
+  RasterGrid& grid = raster.grid;
+  const int side = std::max(grid.columns, grid.rows);
+  const int factor = largest_side > 0 ? (side - 1) / largest_side + 1 : 1;
+  RasterWindow window{0, 0, grid.columns, grid.rows};
+  if (factor > 1) {
+    grid.columns = std::max(1, grid.columns / factor);
+    grid.rows = std::max(1, grid.rows / factor);
+    grid.cell *= factor;
+    window.columns = std::min(window.columns, grid.columns * factor);
+    window.rows = std::min(window.rows, grid.rows * factor);
+  }
+  checkMemory(path, static_cast<double>(grid.cells()));
+  raster.values.resize(grid.cells());
+  reader.readReduced(0, window, grid.columns, grid.rows, raster.values.data());
   return raster;
 }
 

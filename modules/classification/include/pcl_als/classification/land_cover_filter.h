@@ -31,6 +31,8 @@ class PointClassifier {
 
   /// \param x, y, z metres, ground frame
   MaximumLikelihood::Decision classify(double x, double y, double z, double intensity) const;
+  /// Of a point in a cell that is known. \param cell see RasterGrid::index()
+  MaximumLikelihood::Decision classifyIn(std::size_t cell, double z, double intensity) const;
   const GaussianModel& model() const { return classifier_->model(); }
 
  private:
@@ -46,13 +48,17 @@ class PointClassifier {
 /// building 6, road 11, water 9, ground 2; 1 (unclassified) for others.
 std::uint8_t asprsCodeOf(const std::string& class_name);
 
+/// Whether an ASPRS class code is that of noise (7 low, 18 high), which is no land cover.
+constexpr bool isNoise(std::uint8_t code) {
+  return code == 7 || code == 18;
+}
+
 /** \brief Writes into each point's classification the ASPRS code of its land cover.
  *
- * A point that is not classified (beside the raster, rejected, not finite) keeps its code. Every
- * other field and the order stay; the input is not changed. For a point type of one's own with
- * x, y, z, intensity and classification include impl/land_cover_filter.hpp.
- * \code
- * pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
+ * A point that is not classified (beside the raster, rejected, not finite) keeps its code, and so
+ * does one of noise (7, 18). Every other field and the order stay; the input is not changed. For a
+ * point type of one's own with x, y, z, intensity and classification include
+ * impl/land_cover_filter.hpp. \code pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
  * filter.setClassifier(std::make_shared<pcl_als::PointClassifier>(likelihood, raster));
  * filter.setLocalFrame(strip.frame);
  * filter.setInputCloud(strip.cloud);

@@ -71,8 +71,7 @@ struct CellCounts {
  * return they stay empty. Points of the classes 7 and 18 (noise) take no part.
  *
  * A tile with SurfaceOptions::margin() cells around it has the values that the whole block would
- * give it, but for Ground::filtered, which looks farther. Memory: 76 bytes per cell, in compute()
- * up to 300 more; none per point.
+ * give it. Memory: 76 bytes per cell, in compute() up to 300 more; none per point.
  * \code
  * SurfaceAccumulator tile(grid, options);
  * for (…) tile.add({x, y, z, intensity, return_number, number_of_returns, classification});

@@ -5,17 +5,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <pcl_als/common/class_site.h>
 
 namespace pcl_als {
 
+/// Why a text cannot name a class in the files of this library, e.g. "has a comma, …"; empty when
+/// it can: UTF-8 without control characters, quotes, commas and semicolons, at most 100 bytes.
+std::string classNameFault(std::string_view name);
+
 /** \brief Reads training or check sites.
  *
  * CSV x,y,class (columns found by name), or GeoJSON (.geojson, .json): features with a property
  * "class" and a Point, MultiPoint, Polygon or MultiPolygon in the ground frame. InputError names
- * file and line or feature; also for a GeoJSON in degrees, which is to be reprojected first.
+ * file and line or feature; also for a GeoJSON in degrees, which is to be reprojected first, and
+ * for a name with classNameFault().
  */
 std::vector<ClassSite> readClassSites(const std::filesystem::path& path);
 

@@ -68,8 +68,9 @@ class RasterWriter {
 /** \brief Reads a GeoTIFF window by window.
  *
  * Bands of any number type are read as float (no-data as NaN) or, those of bytes, as bytes.
- * InputError for a file that is no GeoTIFF, not north up, without georeference or whose cells are
- * not square. A CRS that is an EPSG code is given as "EPSG:…", another as WKT.
+ * InputError for a file that is no GeoTIFF, not north up, without georeference, whose cells are not
+ * square, whose header promises more cells than such a file can hold (65536 per byte) or whose
+ * blocks are larger than 512 MiB. A CRS that is an EPSG code is given as "EPSG:…", another as WKT.
  */
 class RasterReader {
  public:
@@ -82,19 +83,25 @@ class RasterReader {
   int overviews() const;  ///< number of smaller copies of the first band
   void read(std::size_t band, const RasterWindow& window, float* values);
   void read(std::size_t band, const RasterWindow& window, std::uint8_t* values);
+  /// A window of bytes as \a columns x \a rows of the commonest in each part, from overviews where
+  /// there are some.
+  void readReduced(std::size_t band, const RasterWindow& window, int columns, int rows,
+                   std::uint8_t* values);
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// Whole rasters that are in memory.
+/// Whole rasters that are in memory. InputError for a file that needs more than the machine has.
 void writeRaster(const std::filesystem::path& path, const Raster& raster,
                  const RasterOptions& options = {});
 Raster readRaster(const std::filesystem::path& path);
 void writeCodeRaster(const std::filesystem::path& path, const CodeRaster& raster,
                      const RasterOptions& options = {});
-CodeRaster readCodeRaster(const std::filesystem::path& path);
+/// \param largest_side when positive: a raster with a longer side is reduced by a whole factor to
+/// the commonest class of each part, for pictures of rasters larger than memory
+CodeRaster readCodeRaster(const std::filesystem::path& path, int largest_side = 0);
 
 /// Pixels row by row from the top left, 3 (RGB) or 4 (RGBA) bytes each.
 struct PngImage {

@@ -24,7 +24,7 @@ void LandCoverFilter<PointT>::applyFilter(PointCloud& output) {
     auto& point = output[static_cast<std::size_t>(index)];
     const bool finite = std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
     MaximumLikelihood::Decision decision;
-    if (finite) {
+    if (finite && !isNoise(static_cast<std::uint8_t>(point.classification))) {
       const Eigen::Vector3d ground = frame_.toGround({point.x, point.y, point.z});
       decision = classifier_->classify(ground.x(), ground.y(), ground.z(),
                                        static_cast<double>(point.intensity));

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <unistd.h>
+
+namespace pcl_als {
+
+/// Bytes of memory that the machine has; 0 where that is not known.
+inline double physicalMemory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
+  return pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 0.0;
+}
+
+}  // namespace pcl_als
