@@ -11,6 +11,7 @@
 #include "flight_options.h"
 #include "intensity_options.h"
 #include "intensity_output.h"
+#include "intensity_page.h"
 #include "intensity_report.h"
 #include "intensity_run.h"
 
@@ -112,6 +113,16 @@ bool reliable(const CommandLine& line, const app::IntensityReport& report) {
   return !report.reference || report.reference->constant > 0.0;
 }
 
+void writeReport(const CommandLine& line, const app::IntensityReport& report,
+                 const app::IntensityPage& page, bool reliable) {
+  const std::filesystem::path folder = line.text("report");
+  Step step("Writing the report into " + folder.string(), line.quiet());
+  app::writeIntensityReport(folder, report);
+  page.write(line, report, reliable);
+  step.done(app::IntensityPage::draws() ? "report.html with pictures, report.md, CSV"
+                                        : "report.md, CSV; no report.html: built without VTK");
+}
+
 void checkCombinations(const CommandLine& line) {
   if (line.has("radiometry") && line.has("estimate"))
     throw UsageError("options -radiometry and -estimate exclude each other");
@@ -136,6 +147,7 @@ int intensity(int argc, const char* const* argv) {
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
 
   app::IntensityOutcome outcome(run.strips().size());
+  app::IntensityPage page(run, line.has("report"), outcome);
   app::IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
@@ -147,8 +159,9 @@ int intensity(int argc, const char* const* argv) {
     if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
   }
   if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
-  if (line.has("report")) app::writeIntensityReport(line.text("report"), report);
-  return reliable(line, report) ? app::kDone : app::kNoReliableAnswer;
+  const bool answered = reliable(line, report);
+  if (line.has("report")) writeReport(line, report, page, answered);
+  return answered ? app::kDone : app::kNoReliableAnswer;
 }
 
 }  // namespace

@@ -47,7 +47,9 @@ bool numeric(const std::string& cell) {
 std::vector<bool> numericColumns(const ReportTable& table) {
   std::vector<bool> numbers(table.columns.size(), !table.rows.empty());
   for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    const bool ends_early = !row.empty() && row.size() < numbers.size();
+    const std::size_t cells = ends_early ? row.size() - 1 : row.size();
+    for (std::size_t i = 0; i < cells; ++i) {
       numbers[i] = numbers[i] && (row[i].empty() || numeric(row[i]));
     }
   }
@@ -86,7 +88,11 @@ std::string tableHtml(const ReportTable& table) {
   for (const auto& row : table.rows) {
     out << "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      out << (numbers[i] ? "<td class=\"n\">" : "<td>")
+      // A row that ends early says in words why; the words go across what is left.
+      const std::size_t across = i + 1 == row.size() ? table.columns.size() - i : 1;
+      out << (across > 1   ? "<td colspan=\"" + std::to_string(across) + "\">"
+              : numbers[i] ? std::string("<td class=\"n\">")
+                           : std::string("<td>"))
           << (row[i].empty() ? "–" : escapeHtml(row[i])) << "</td>";
     }
     out << "</tr>\n";

@@ -16,6 +16,10 @@ double widest(const std::vector<std::string>& texts, const TextStyle& style) {
   return width;
 }
 
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 bool isDark(const Color& color) {
   return 0.299 * color.r + 0.587 * color.g + 0.114 * color.b < 140.0;
 }
@@ -30,6 +34,28 @@ double drawTitle(Canvas& canvas, const std::string& title) {
   canvas.text(shortened(title, canvas.width() - 2.0 * kPlotMargin, style),
               {kPlotMargin, kPlotMargin + 12.0}, style);
   return kPlotMargin + 40.0;
+}
+
+std::vector<Color> seriesColors(const std::vector<std::string>& names) {
+  std::vector<Color> colors;
+  std::size_t before = 0, after = 0, other = 0;
+  for (const std::string& name : names) {
+    if (endsWith(name, "before") && before == 0) {
+      colors.push_back(ink::before);
+      ++before;
+    } else if (endsWith(name, "after") && after == 0) {
+      colors.push_back(ink::after);
+      ++after;
+    } else {
+      colors.push_back(categoryColor(other + (before + after > 0 ? 2 : 0)));
+      ++other;
+    }
+  }
+  return colors;
+}
+
+Marker markerOf(const std::string& series) {
+  return endsWith(series, "before") ? Marker::diamond : Marker::disk;
 }
 
 std::string shortened(const std::string& text, double width, const TextStyle& style) {

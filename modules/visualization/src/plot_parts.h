@@ -21,6 +21,11 @@ std::string shortened(const std::string& text, double width, const TextStyle& st
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style,
                                  std::size_t most);
 
+/// Colours of series by name: those that end in before and after have theirs, the first of each.
+std::vector<Color> seriesColors(const std::vector<std::string>& names);
+/// before is a diamond, so that it is told from after without its colour.
+Marker markerOf(const std::string& series);
+
 /// Names of what rows and columns of a matrix stand for, and the matrix as coloured cells with
 /// numbers. Text is white on dark cells.
 struct HeatMap {

@@ -40,6 +40,13 @@ double markerSize(std::size_t points, double width) {
 
 }  // namespace
 
+bool SectionLine::contains(const Eigen::Vector2d& place, double margin) const {
+  const Eigen::Vector2d direction = (to - from) / length(), offset = place - from;
+  const double along = direction.dot(offset);
+  const double aside = direction.x() * offset.y() - direction.y() * offset.x();
+  return along >= -margin && along <= length() + margin && std::abs(aside) <= half_width + margin;
+}
+
 SectionPoints::SectionPoints(const SectionLine& line, std::size_t most)
     : line_(line), most_(std::max<std::size_t>(2, most)) {
   if (!(line.length() > 0.0) || !std::isfinite(line.length())) {
