@@ -117,7 +117,10 @@ void addProfile(HtmlReport& report, const SurveyReader& survey, const Calibratio
   picture.setStrips(survey.strips());
   picture.addPanel("As delivered", profile->before);
   picture.addPanel("Calibrated", profile->after);
-  report.addPicture(picture.draw({1400, 1000}).image(),
+  // So high that heights are not drawn smaller than lengths, if a page has room for it.
+  PictureSize size{1400, 800};
+  while (size.height < 1600 && picture.exaggeration(size) < 1.0) size.height += 100;
+  report.addPicture(picture.draw(size).image(),
                     "Section through a " + describe(profile->place) +
                         " before; points by strip, as delivered and calibrated on the same axes.");
 }

@@ -17,7 +17,8 @@ namespace pcl_als::app {
 namespace {
 
 constexpr PictureSize kWide{1400, 640}, kTall{1400, 900};
-constexpr std::size_t kBins = 64;  // of a histogram
+constexpr std::size_t kBins = 64;     // of a histogram
+constexpr std::size_t kFewest = 100;  // points that a ratio is drawn of
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 class PairTable {
@@ -54,7 +55,7 @@ void addSlopes(const IntensityReport& intensity, HtmlReport& report) {
   for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin) {
     const BeforeAfter pair = statistics.slope(bin);
     table.add(slopeName(bin), pair, scale);
-    if (bin == IntensityStatistics::kSlopeBins || pair.before.count() < 2) continue;
+    if (bin == IntensityStatistics::kSlopeBins || pair.before.count() < kFewest) continue;
     const double middle = IntensityStatistics::kSlopeStep * (static_cast<double>(bin) + 0.5);
     for (CurvePlot::Series& series : plot.series) series.x.push_back(middle);
     plot.series[0].y.push_back(varianceToMean(pair.before));
@@ -62,8 +63,10 @@ void addSlopes(const IntensityReport& intensity, HtmlReport& report) {
   }
   report.addSection("By slope");
   if (!plot.series[0].x.empty())
-    report.addPicture(drawCurves(plot, kWide).image(),
-                      "Variance-to-mean ratio before and after, at the same mean of all points.");
+    report.addPicture(
+        drawCurves(plot, kWide).image(),
+        "Variance-to-mean ratio before and after, at the same mean of all points; slopes with " +
+            std::to_string(kFewest) + " points or more.");
   report.addTable(table.table());
 }
 

@@ -14,7 +14,7 @@
 namespace pcl_als::app {
 
 void addSizeOption(CommandLine& line);
-/// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384.
+/// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384, 40 million pixels at most.
 PictureSize sizeOf(const CommandLine& line);
 
 /// So many numbers of an option, parted by a character; UsageError otherwise.

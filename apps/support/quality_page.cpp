@@ -53,7 +53,7 @@ void addPictures(const QualityReport& quality, HtmlReport& report) {
 }
 
 void addSeparation(const QualityReport& quality, HtmlReport& report) {
-  const auto map = separationMap(quality, {1400, 900});
+  const auto map = separationMap(quality, 1400);
   if (!map) return;
   report.addSection("Swath separation");
   report.addPicture(map->image(),

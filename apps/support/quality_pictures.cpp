@@ -144,13 +144,14 @@ std::optional<HistogramPlot> offsetHistogram(const QualityReport& report) {
   return plot;
 }
 
-std::optional<Canvas> separationMap(const QualityReport& report, PictureSize size) {
+std::optional<Canvas> separationMap(const QualityReport& report, int width) {
   if (!report.block.separation) return std::nullopt;
   const SeparationSummary& separation = *report.block.separation;
   const std::string once = numberText(100.0 * separation.limit, 0) + " cm",
                     twice = numberText(200.0 * separation.limit, 0) + " cm";
   ClassMapPicture picture;
   picture.setTitle("Vertical separation of strips");
+  picture.setLegendHeading("separation");
   // Green, yellow and red as the specification asks, in tones that readers of any colour vision
   // tell apart.
   picture.setClasses({{SeparationOverview::within_limit, "up to " + once, Color::rgb(0x009e73)},
@@ -160,7 +161,7 @@ std::optional<Canvas> separationMap(const QualityReport& report, PictureSize siz
   if (report.before && report.before->separation)
     picture.addMap("Before", rasterOf(report.before->separation->overview));
   picture.addMap(report.before ? "After" : "", rasterOf(separation.overview));
-  return picture.draw(size.width, size.height);
+  return picture.draw(width, picture.heightFor(width));
 }
 
 }  // namespace pcl_als::app

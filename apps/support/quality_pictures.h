@@ -23,6 +23,6 @@ CurvePanels offsetPanels(const QualityReport& report, OffsetAgainst against);
 std::optional<HistogramPlot> offsetHistogram(const QualityReport& report);
 
 /// Swath separation, before and after side by side; empty where there is none.
-std::optional<Canvas> separationMap(const QualityReport& report, PictureSize size);
+std::optional<Canvas> separationMap(const QualityReport& report, int width);
 
 }  // namespace pcl_als::app

@@ -191,18 +191,21 @@ class VerdictOnStrips {
     }
     const OverlapTrends::Roll& roll = worst->assessment.trends.roll;
     say(std::to_string(tilted) + " of " + std::to_string(known) +
-        " pairs tilt across their overlap by more than three standard deviations; most strips " +
-        nameOf(*worst) + ", as a roll error of " +
-        withStd(roll.value, roll.std, kRadiansPerArcsec, 1, "arcsec") + " would.");
+        (tilted == 1 ? " pairs tilts across its overlap" : " pairs tilt across their overlap") +
+        " by more than three standard deviations; most strips " + nameOf(*worst) +
+        ", as a roll error of " + withStd(roll.value, roll.std, kRadiansPerArcsec, 1, "arcsec") +
+        " would.");
   }
 
   void sayControl() {
     const auto& control = report_.block.control;
     if (!control || control->points == 0) return;
     const VerticalAccuracy& accuracy = control->accuracy;
-    std::string text = "Control: the strips lie " + centimetres(control->all.mean) +
-                       " above it on average, RMSE " + centimetres(control->all.rms) + " at " +
-                       countText(control->points) + " points";
+    const double mean = control->all.mean;
+    std::string text = "Control: the strips lie " + centimetres(std::abs(mean)) +
+                       (mean < 0.0 ? " below" : " above") + " it on average, RMSE " +
+                       centimetres(control->all.rms) + " at " + countText(control->points) +
+                       " points";
     if (report_.before && report_.before->control && report_.before->control->points > 0)
       text += " (before: " + centimetres(report_.before->control->all.rms) + ")";
     text += "; vertical accuracy class " + numberText(accuracy.class_cm, 0) + " cm (ASPRS 2023)";

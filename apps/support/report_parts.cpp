@@ -38,7 +38,8 @@ void addMap(const CommandLine& line, const StripCoverage& coverage,
     caption += ", control";
   }
   report.addSection("Map");
-  report.addPicture(map.draw(coverage, strips, {1400, 1000}).image(), caption + ".");
+  const PictureSize size{1400, BlockMap::heightFor(coverage, 1400)};
+  report.addPicture(map.draw(coverage, strips, size).image(), caption + ".");
 }
 
 void addWarnings(const std::vector<std::string>& warnings, HtmlReport& report) {

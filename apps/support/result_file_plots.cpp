@@ -180,7 +180,9 @@ void addIntensity(const Json& root, std::vector<NamedPlot>& plots) {
                    "variance / mean",
                    {{"before", {}, {}, {}}, {"after", {}, {}, {}}}};
   for (const Json& bin : report.value("slopes", Json::array())) {
-    if (!bin.at("slope_from_deg").is_number()) continue;  // points without a surface
+    // Neither points without a surface, nor too few for a variance.
+    if (!bin.at("slope_from_deg").is_number() || numberAt(bin, "before", "points") < 100.0)
+      continue;
     const double middle =
         0.5 * (bin["slope_from_deg"].get<double>() + bin.at("slope_to_deg").get<double>());
     for (CurvePlot::Series& series : slopes.series) {

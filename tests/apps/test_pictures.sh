@@ -69,6 +69,7 @@ expect 1 "azimuth" view "${strips[0]}" -output none.png -azimuth nan
 expect 1 "zoom" view "${strips[0]}" -output none.png -zoom 0
 expect 1 "size" view "${strips[0]}" -output none.png -size 10x10
 expect 1 "size" view "${strips[0]}" -output none.png -size large
+expect 1 "40 million pixels" view "${strips[0]}" -output none.png -size 16000x16000
 expect 1 "'moonlight' is none of" view "${strips[0]}" -output none.png -color moonlight
 expect 1 "reference" view "${strips[0]}" -output none.png -color difference
 expect 1 "there is no strip '77'" view "${strips[0]}" -output none.png -strips 77

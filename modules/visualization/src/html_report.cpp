@@ -47,8 +47,7 @@ bool numeric(const std::string& cell) {
 std::vector<bool> numericColumns(const ReportTable& table) {
   std::vector<bool> numbers(table.columns.size(), !table.rows.empty());
   for (const auto& row : table.rows) {
-    const bool ends_early = !row.empty() && row.size() < numbers.size();
-    const std::size_t cells = ends_early ? row.size() - 1 : row.size();
+    const std::size_t cells = row.size() < numbers.size() ? row.size() - 1 : row.size();
     for (std::size_t i = 0; i < cells; ++i) {
       numbers[i] = numbers[i] && (row[i].empty() || numeric(row[i]));
     }
@@ -180,9 +179,9 @@ void HtmlReport::addList(std::vector<std::string> items) {
 
 void HtmlReport::addTable(ReportTable table) {
   for (const auto& row : table.rows) {
-    if (row.size() == table.columns.size()) continue;
+    if (!row.empty() && row.size() <= table.columns.size()) continue;
     throw UsageError("report table '" + table.caption + "': a row has " +
-                     std::to_string(row.size()) + " cells, not " +
+                     std::to_string(row.size()) + " cells, not 1 to " +
                      std::to_string(table.columns.size()));
   }
   blocks_.push_back({Kind::table, {}, {}, std::move(table), {}});
@@ -300,7 +299,9 @@ void HtmlReport::write(const std::filesystem::path& folder) const {
   for (const Block& block : blocks_) {
     if (block.kind != Kind::table || block.table.name.empty()) continue;
     std::string csv = joined(block.table.columns, ",", true) + "\n";
-    for (const auto& row : block.table.rows) csv += joined(row, ",", true) + "\n";
+    for (const auto& row : block.table.rows)
+      csv +=
+          joined(row, ",", true) + std::string(block.table.columns.size() - row.size(), ',') + "\n";
     writeFile(folder / (block.table.name + ".csv"), csv);
   }
   writeFile(folder / "report.md", markdown());
