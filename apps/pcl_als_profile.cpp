@@ -148,7 +148,7 @@ int profile(int argc, char** argv) {
   if (automatic) {
     app::makeOutputFolder("output", line.text("output"));
   } else {
-    app::checkWritable(line.text("output"));
+    app::pictureFile(line);
   }
 
   Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());

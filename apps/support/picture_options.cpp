@@ -2,12 +2,16 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "picture_options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
+
+#include "output_check.h"
 
 namespace pcl_als::app {
 namespace {
@@ -46,6 +50,17 @@ PictureSize sizeOf(const CommandLine& line) {
   throw UsageError(
       "option -size: '" + line.text("size") +
       "' is no WIDTHxHEIGHT from 200x150 to 16384x16384 with 40 million pixels at most");
+}
+
+std::string pictureFile(const CommandLine& line) {
+  const std::filesystem::path file = line.text("output");
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".png" && !std::filesystem::is_directory(file))
+    throw UsageError("option -output: '" + file.string() + "' does not end in .png");
+  checkWritable(file);
+  return file.string();
 }
 
 std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,

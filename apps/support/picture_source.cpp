@@ -148,6 +148,8 @@ PointAttribute::PointAttribute(std::string name, const PictureSource& source,
           "option -color difference: needs -reference STRIP, the strip to compare with");
     }
     reference_ = source.stripNamed(reference, "reference");
+    if (source.strips().size() < 2)
+      throw UsageError("option -color difference: needs a second strip besides " + reference);
     return;
   }
   if (!reference.empty()) throw UsageError("option -reference: only for -color difference");
