@@ -101,13 +101,13 @@ CurvePlot::Series offsetSeries(const std::string& name, const Json& pair, const 
   return series;
 }
 
-/// The pair of the set before with the same strips; null where there is none.
+/// The pair of the set before with the same strips; empty where there is none.
 Json pairBefore(const Json& root, const Json& pair) {
   for (const Json& other : root.value("before", Json::object()).value("pairs", Json::array())) {
     if (other.value("a", "") == pair.value("a", "") && other.value("b", "") == pair.value("b", ""))
       return other;
   }
-  return {};
+  return Json::object();
 }
 
 void addOffsets(const Json& root, std::vector<NamedPlot>& plots) {
@@ -138,7 +138,7 @@ void addOffsets(const Json& root, std::vector<NamedPlot>& plots) {
         if (!series.x.empty()) start = series.x.front();
       }
       const Json before = pairBefore(root, pair);
-      if (!before.is_null())
+      if (!before.empty())
         panel.series.push_back(offsetSeries("before", before, against.key, start));
       panel.series.push_back(offsetSeries(both ? "after" : "as given", pair, against.key, start));
       if (!panel.series.back().x.empty()) plot.panels.push_back(std::move(panel));

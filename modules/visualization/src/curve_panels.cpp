@@ -127,6 +127,7 @@ void CurvePanels::keepLargest(std::size_t most) {
   order.resize(most);
   std::sort(order.begin(), order.end());
   std::vector<Panel> kept;
+  kept.reserve(most);
   for (const std::size_t i : order) kept.push_back(std::move(panels[i]));
   panels = std::move(kept);
 }

@@ -102,17 +102,17 @@ PixelBox drawHeatMap(Canvas& canvas, const HeatMap& heat, const ColorMap& map,
   const double left = std::min(widest(heat.rows, style), 0.4 * box.width) + 14.0 + heading;
   const double count = static_cast<double>(heat.columns.size());
   const bool upright =
-      widest(heat.columns, style) > std::min((box.width - left) / count, 130.0) - 6.0;
+      widest(heat.columns, style) > std::min((box.width - left) / count, 190.0) - 6.0;
   const double top =
       (upright ? std::min(widest(heat.columns, style), 0.4 * box.height) : kNameSize) + 18.0 +
       heading;
   const double cell =
       std::floor(std::min({(box.width - left) / count,
-                           (box.height - top) / static_cast<double>(heat.rows.size()), 130.0}));
+                           (box.height - top) / static_cast<double>(heat.rows.size()), 190.0}));
   const PixelBox cells{std::round(box.x + left), std::round(box.y + top), cell * count,
                        cell * static_cast<double>(heat.rows.size())};
   TextStyle number;
-  number.size = std::clamp(std::floor(0.24 * cell), 9.0, 18.0);
+  number.size = std::clamp(std::floor(0.24 * cell), 9.0, 20.0);
   number.horizontal = number.vertical = Align::center;
   for (std::size_t r = 0; r < heat.rows.size(); ++r) {
     for (std::size_t c = 0; c < heat.columns.size(); ++c) {

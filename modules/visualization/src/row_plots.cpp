@@ -75,8 +75,11 @@ void drawLimits(Canvas& canvas, const Axes& axes, const BeforeAfterPlot& plot) {
   for (const BeforeAfterPlot::Limit& limit : plot.limits) {
     const double x = axes.pixel(limit.value, 0.0).x();
     if (!(x > box.x && x < box.right())) continue;
-    for (double y = box.y; y < box.bottom(); y += 12.0)
+    const int dashes = static_cast<int>(std::ceil(box.height / 12.0));
+    for (int i = 0; i < dashes; ++i) {
+      const double y = box.y + 12.0 * i;
       canvas.line({x, y}, {x, std::min(y + 7.0, box.bottom())}, 1.5, ink::gray);
+    }
     // Names that would cover each other or leave the box are left out.
     if (x - last < 18.0 || Canvas::textSize(limit.name, style).x() > box.height - 12.0) continue;
     if (x + 20.0 > box.right()) continue;
@@ -97,6 +100,7 @@ void BeforeAfterPlot::keepLargest(std::size_t most) {
   order.resize(most);
   std::sort(order.begin(), order.end());
   std::vector<Row> kept;
+  kept.reserve(most);
   for (const std::size_t i : order) kept.push_back(rows[i]);
   rows = std::move(kept);
 }
