@@ -141,7 +141,11 @@ int BlockMap::heightFor(const StripCoverage& coverage, int width, int lowest, in
   const Eigen::Vector2d extent = shownExtent(coverage);
   const double across = width - kLeft - kPanel - kPlotMargin;
   const double height = across * extent.y() / extent.x() + kFoot + kTitleRoom;
-  return static_cast<int>(std::clamp<double>(std::ceil(height), lowest, highest));
+  // Beside it stand the legends of strips and counts, two marks, arrow and scale.
+  const auto rows = static_cast<double>(std::min<std::size_t>(coverage.strips(), 17) + 8);
+  const double panel = kTitleRoom + 23.0 * rows + 200.0;
+  return static_cast<int>(
+      std::clamp(std::ceil(std::max(height, panel)), 1.0 * lowest, 1.0 * highest));
 }
 
 Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::string>& names,

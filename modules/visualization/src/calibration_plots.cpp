@@ -238,6 +238,7 @@ Canvas drawStripErrors(const CalibrationResult& result, PictureSize size) {
     entries.push_back(
         {detail::shortened(result.strip_errors[i].id, 150.0, {}), categoryColor(i), true});
   }
+  entries = detail::fitting(std::move(entries), size.height - top - 20.0 - kPlotMargin);
   const double legend = std::max(legendSize(entries, "strip").x(), 60.0);
   const double panel_w = (size.width - legend - 2.0 * kPlotMargin) / 3.0;
   const double panel_h = (size.height - top - 10.0) / 2.0;

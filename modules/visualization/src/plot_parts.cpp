@@ -58,6 +58,18 @@ Marker markerOf(const std::string& series) {
   return endsWith(series, "before") ? Marker::diamond : Marker::disk;
 }
 
+std::vector<LegendEntry> fitting(std::vector<LegendEntry> entries, double height) {
+  std::size_t most = entries.size();
+  while (most > 2 &&
+         legendSize({entries.begin(), entries.begin() + static_cast<long>(most)}, "x").y() > height)
+    --most;
+  if (most == entries.size()) return entries;
+  const std::size_t more = entries.size() - most + 1;
+  entries.resize(most - 1);
+  entries.push_back({"and " + std::to_string(more) + " more", ink::white});
+  return entries;
+}
+
 std::string shortened(const std::string& text, double width, const TextStyle& style) {
   // No character is narrower than a fifth of its height: what is longer need not be measured whole.
   const auto most = static_cast<std::size_t>(std::max(0.0, 4.0 * 5.0 * width / style.size)) + 16;

@@ -78,7 +78,8 @@ Canvas drawCurves(const CurvePlot& plot, PictureSize size) {
     }
   }
   const std::vector<Color> colors = detail::seriesColors(names);
-  const auto entries = legendOf(names, colors, 0.25 * size.width);
+  const auto entries = detail::fitting(legendOf(names, colors, 0.25 * size.width),
+                                       size.height - top - 2.0 * kPlotMargin);
   const double legend = names.size() > 1 ? legendSize(entries, "").x() : 0.0;
   const PixelBox box = plotBox(canvas, top, legend);
   const Axis y = Axis::around(all_y, plot.y_label);
@@ -115,7 +116,8 @@ Canvas drawHistogram(const HistogramPlot& plot, PictureSize size) {
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, plot.title);
   const std::vector<Color> colors = detail::seriesColors(names);
-  const auto entries = legendOf(names, colors, 0.25 * size.width);
+  const auto entries = detail::fitting(legendOf(names, colors, 0.25 * size.width),
+                                       size.height - top - 2.0 * kPlotMargin);
   const PixelBox box = plotBox(canvas, top, legendSize(entries, "").x());
   Axis x;
   x.low = plot.edges.front();

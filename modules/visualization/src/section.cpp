@@ -162,6 +162,7 @@ Canvas SectionPicture::draw(PictureSize size) const {
     const std::string name = index < strips_.size() ? strips_[index] : std::to_string(strip);
     entries.push_back({detail::shortened(name, 100.0, {}), categoryColor(index)});
   }
+  entries = detail::fitting(std::move(entries), size.height - layout.top - kPlotMargin);
   drawLegend(canvas, entries, "strip", {layout.left + layout.width + kPlotMargin, layout.top});
   return canvas;
 }
