@@ -14,6 +14,7 @@
 #include "intensity_page.h"
 #include "intensity_report.h"
 #include "intensity_run.h"
+#include "output_check.h"
 
 namespace {
 
@@ -136,6 +137,9 @@ int intensity(int argc, const char* const* argv) {
   const app::IntensitySettings settings = app::intensitySettings(line, extinction.per_km);
   const app::IntensityOutput output = app::intensityOutput(line);
   const Files files = filesOf(line);
+  // What can be known to fail should fail before the work, not after it.
+  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
+  if (line.has("json")) app::checkWritable(line.text("json"));
   const auto flight = app::readFlight(line, PointReader::open(files.inputs[0])->info().crs, 0.0,
                                       app::AttitudeUse::ignore);
 

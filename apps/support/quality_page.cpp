@@ -19,6 +19,7 @@ std::string shown(std::string cell) {
 }
 
 void addQualityTable(const QualityTable& table, HtmlReport& report) {
+  if (table.rows.empty()) return;
   ReportTable shown_table{"", table.caption, table.columns, {}};
   for (const auto& row : table.rows) {
     auto& cells = shown_table.rows.emplace_back();
@@ -105,11 +106,16 @@ void QualityPage::write(const CommandLine& line, const QualityReport& quality,
                     line.toolAndVersion());
   addVerdict(verdictOf(quality), report);
   addWarnings(quality.block.warnings, report);
-  report.addSection("Strips against each other");
   const std::vector<QualityTable> tables = qualityTables(quality);
+  const std::size_t of_pairs = tables.size() - (quality.block.control ? 1 : 0);
+  if (!quality.block.pairs.empty()) report.addSection("Strips against each other");
   addQualityTable(tables[0], report);
   addPictures(quality, report);
-  for (std::size_t i = 1; i < tables.size(); ++i) addQualityTable(tables[i], report);
+  for (std::size_t i = 1; i < of_pairs; ++i) addQualityTable(tables[i], report);
+  if (quality.block.control) {
+    report.addSection("Control");
+    addQualityTable(tables.back(), report);
+  }
   addSeparation(quality, report);
   addMap(line, *state_->coverage, state_->strips, areas, report);
   addOrigin(line, inputsOf(line, quality), report);

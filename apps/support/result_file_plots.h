@@ -15,6 +15,7 @@ namespace pcl_als::app {
 struct NamedPlot {
   std::string name;  ///< of the file, without .png
   std::function<Canvas(PictureSize)> draw;
+  std::string file{};  ///< that holds it
 };
 
 /** \brief All plots that a result file holds, whichever tool wrote it.

@@ -128,6 +128,9 @@ echo '{}' >nothing.json
 expect 2 "nothing that can be plotted" plot nothing.json -output plots
 echo '{"curves":[{"name":"x"}]}' >broken.json
 expect 2 "broken.json" plot broken.json -output plots
+echo '{"confusion":{"classes":["a"],"matrix":[[1,2]]}}' >ragged.json
+expect 2 "ragged.json" plot ragged.json -output plots
+expect 1 "too small" plot curves.json -output plots -plots confusion -size 200x150
 echo 'no json' >text.json
 expect 2 "text.json" plot text.json -output plots
 expect 2 "missing.json" plot missing.json -output plots

@@ -52,6 +52,8 @@ expect 0 "report.html" check corrected/strip{1,2,3}.las -before "$block/strip1.l
   -control "$block/control.csv" -output quality.json -report check
 expect 0 "report.html" intensity "${strips[@]}" -corrected intensity -trajectory "$block/trajectory.csv" \
   -estimate strip_gains -json intensity.json -report intensity_report
+expect 2 "report" intensity "${strips[0]}" none.las -trajectory "$block/trajectory.csv" -report /proc/nowhere
+absent none.las
 for file in check/report.html check/report.md check/quality.md intensity_report/report.html intensity_report/report.md; do
   check "$file is there" test -s $file
 done
