@@ -149,11 +149,11 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
 }
 
 void writeReport(const CommandLine& line, const CalibrationResult& result,
-                 const std::vector<SurveyArea>& areas, const app::CalibrationPage& page) {
+                 const QuasiRigorousCalibration& calibration, const app::CalibrationPage& page) {
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  app::writeCalibrationCsv(folder, result, areas);
-  page.write(line, result, areas);
+  app::writeCalibrationCsv(folder, result, calibration.areas());
+  page.write(line, result, calibration.areas(), calibration.trajectory());
   step.done(app::CalibrationPage::draws() ? "report.html with pictures, report.md"
                                           : "report.md; no report.html: built without VTK");
 }
@@ -186,7 +186,7 @@ int calibrate(int argc, char** argv) {
   if (line.has("control")) result.inputs.push_back(line.text("control"));
   writeCalibration(line.text("output"), result);
   if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
-  if (line.has("report")) writeReport(line, result, calibration.areas(), page);
+  if (line.has("report")) writeReport(line, result, calibration, page);
   if (!result.converged) {
     const std::string why = app::notDetermined(result, "is not");
     std::cerr << "pcl_als_calibrate: no reliable answer: "

@@ -16,6 +16,7 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "quality_page.h"
 #include "quality_report.h"
 
 namespace {
@@ -42,7 +43,10 @@ CommandLine commandLine() {
       "are reported side by side");
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   line.addOptional("output", "quality.json to write (needed)");
-  line.addOptional("report", "folder for tables as CSV, quality.md and swath separation images");
+  line.addOptional(
+      "report",
+      "folder for report.html (pictures inside), tables as Markdown and CSV, swath separation "
+      "images");
   line.add("quality_level", "level (QL0 to QL3) that the strips are to keep", 2);
   line.add("control_sigma", "heights of control points whose file gives no sigma, m",
            defaults.control_sigma);
@@ -141,10 +145,10 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
 }
 
 /// Checks one set; \a image: name of its swath separation image, without extension; \a areas: those
-/// to use, filled when empty.
+/// to use, filled when empty; \a page: gets every point, may be null.
 app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
                              const app::CheckSettings& settings, const std::string& image,
-                             std::vector<SurveyArea>& areas) {
+                             std::vector<SurveyArea>& areas, app::QualityPage* page) {
   Step reading("Reading " + std::to_string(files.size()) + " point files", line.quiet());
   app::SurveyReader survey(files, line.threads());
   reading.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
@@ -171,8 +175,13 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
   std::unique_ptr<SwathSeparation> separation = separationOf(line, survey, check);
   {
     Step step("Reading the areas", line.quiet());
-    if (separation) {
-      check.load([&](int strip, const SwathPoint& point) { separation->add(strip, point); });
+    const bool maps = page != nullptr && page->wantsPoints();
+    if (maps) page->begin(survey);
+    if (separation || maps) {
+      check.load([&](int strip, const SwathPoint& point) {
+        if (separation) separation->add(strip, point);
+        if (maps) page->add(strip, point.position);
+      });
     } else {
       check.load({});
     }
@@ -201,6 +210,16 @@ std::string whyNot(const app::CheckedBlock& block) {
   return "no strip covers a control point";
 }
 
+void writeReport(const CommandLine& line, const app::QualityReport& report,
+                 const std::vector<SurveyArea>& areas, const app::QualityPage& page) {
+  const fs::path folder = line.text("report");
+  Step step("Writing the report into " + folder.string(), line.quiet());
+  app::writeQualityTables(folder, report);
+  if (page.wantsPoints()) page.write(line, report, areas);
+  step.done(app::QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
+                                      : "quality.md, CSV; no report.html: built without VTK");
+}
+
 double peakMemory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -222,13 +241,14 @@ int check(int argc, char** argv) {
     refuseRepeated(before);
   }
   std::vector<SurveyArea> areas;
-  report.block = checkBlock(line, files, settings, "swath_separation", areas);
+  app::QualityPage page(line.has("report"));
+  report.block = checkBlock(line, files, settings, "swath_separation", areas, &page);
   if (!before.empty())
-    report.before = checkBlock(line, before, settings, "swath_separation_before", areas);
+    report.before = checkBlock(line, before, settings, "swath_separation_before", areas, nullptr);
   report.peak_memory_mb = peakMemory();
   writeFile(line.text("output"), app::qualityJson(report));
   if (!line.quiet()) std::cout << app::qualityText(report) << std::endl;
-  if (line.has("report")) app::writeQualityTables(line.text("report"), report);
+  if (line.has("report")) writeReport(line, report, areas, page);
   if (!app::hasAnswer(report.block)) {
     std::cerr << "pcl_als_check: no reliable answer: " << whyNot(report.block) << std::endl;
     return app::kNoReliableAnswer;

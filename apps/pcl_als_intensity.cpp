@@ -11,8 +11,10 @@
 #include "flight_options.h"
 #include "intensity_options.h"
 #include "intensity_output.h"
+#include "intensity_page.h"
 #include "intensity_report.h"
 #include "intensity_run.h"
+#include "output_check.h"
 
 namespace {
 
@@ -112,6 +114,16 @@ bool reliable(const CommandLine& line, const app::IntensityReport& report) {
   return !report.reference || report.reference->constant > 0.0;
 }
 
+void writeReport(const CommandLine& line, const app::IntensityReport& report,
+                 const app::IntensityPage& page, bool reliable) {
+  const std::filesystem::path folder = line.text("report");
+  Step step("Writing the report into " + folder.string(), line.quiet());
+  app::writeIntensityReport(folder, report);
+  page.write(line, report, reliable);
+  step.done(app::IntensityPage::draws() ? "report.html with pictures, report.md, CSV"
+                                        : "report.md, CSV; no report.html: built without VTK");
+}
+
 void checkCombinations(const CommandLine& line) {
   if (line.has("radiometry") && line.has("estimate"))
     throw UsageError("options -radiometry and -estimate exclude each other");
@@ -125,6 +137,9 @@ int intensity(int argc, const char* const* argv) {
   const app::IntensitySettings settings = app::intensitySettings(line, extinction.per_km);
   const app::IntensityOutput output = app::intensityOutput(line);
   const Files files = filesOf(line);
+  // What can be known to fail should fail before the work, not after it.
+  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
+  if (line.has("json")) app::checkWritable(line.text("json"));
   const auto flight = app::readFlight(line, PointReader::open(files.inputs[0])->info().crs, 0.0,
                                       app::AttitudeUse::ignore);
 
@@ -136,6 +151,7 @@ int intensity(int argc, const char* const* argv) {
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
 
   app::IntensityOutcome outcome(run.strips().size());
+  app::IntensityPage page(run, line.has("report"), outcome);
   app::IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
@@ -147,8 +163,9 @@ int intensity(int argc, const char* const* argv) {
     if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
   }
   if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
-  if (line.has("report")) app::writeIntensityReport(line.text("report"), report);
-  return reliable(line, report) ? app::kDone : app::kNoReliableAnswer;
+  const bool answered = reliable(line, report);
+  if (line.has("report")) writeReport(line, report, page, answered);
+  return answered ? app::kDone : app::kNoReliableAnswer;
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ std::vector<NamedPlot> chosenPlots(const CommandLine& line, const std::vector<st
       const std::string own = fs::path(file).stem().string() + "_" + plot.name;
       if (names.count(plot.name) != 0) plot.name = own;
       for (int i = 2; !names.insert(plot.name).second; ++i) plot.name = own + std::to_string(i);
+      plot.file = file;
       plots.push_back(std::move(plot));
     }
   }
@@ -61,6 +62,20 @@ std::vector<NamedPlot> chosenPlots(const CommandLine& line, const std::vector<st
   return chosen;
 }
 
+/// A plot that is impossible in any size has a file to blame, not an option.
+Canvas drawn(const NamedPlot& plot, PictureSize size) {
+  try {
+    return plot.draw(size);
+  } catch (const UsageError& error) {
+    try {
+      plot.draw({});
+    } catch (const UsageError&) {
+      throw InputError(plot.file + ": " + error.what());
+    }
+    throw;
+  }
+}
+
 int plot(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -72,7 +87,7 @@ int plot(int argc, char** argv) {
   for (const NamedPlot& each : plots) {
     const fs::path output = fs::path(line.text("output")) / (each.name + ".png");
     Step step("Drawing " + output.string(), line.quiet());
-    writePng(output, each.draw(size).image());
+    writePng(output, drawn(each, size).image());
     step.done(std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   }
   return app::kDone;

@@ -13,6 +13,7 @@
 #include "output_check.h"
 #include "picture_options.h"
 #include "picture_source.h"
+#include "section_places.h"
 
 namespace {
 
@@ -92,16 +93,8 @@ std::vector<bool> chosenStrips(const CommandLine& line, const PictureSource& sou
 std::vector<SectionSearch::Place> search(const PictureSource& source,
                                          const std::vector<bool>& chosen, std::size_t count,
                                          double width) {
-  double cell = 1.0;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    // A few stray points of a strip tell nothing of its density.
-    const int strip = static_cast<int>(i);
-    if (chosen[i] && source.pointsOf(strip) > 1000) {
-      cell = std::max(cell, source.cellFor(strip, 10.0));
-    }
-  }
-  SectionSearch search(source.minimum().head<2>(), source.maximum().head<2>(), std::min(cell, 4.0),
-                       chosen.size());
+  SectionSearch search(source.minimum().head<2>(), source.maximum().head<2>(),
+                       source.sectionCell(chosen), chosen.size());
   source.read([&](const PictureSource::Point& point) {
     const auto strip = static_cast<std::size_t>(point.strip);
     if (chosen[strip] && point.chunk->number_of_returns[point.index] <= 1) {
@@ -141,13 +134,6 @@ std::vector<SectionPoints> collect(const PictureSource& source,
   return sections;
 }
 
-std::string describe(const SectionSearch::Place& place) {
-  const Eigen::Vector2d middle = 0.5 * (place.line.from + place.line.to);
-  return std::string(place.gable ? "gable" : "slope") + " at " + numberText(middle.x(), 1) + ", " +
-         numberText(middle.y(), 1) + ", " + std::to_string(place.strips) +
-         " strips, heights differ by " + numberText(place.difference, 3) + " m";
-}
-
 int profile(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -162,7 +148,7 @@ int profile(int argc, char** argv) {
   if (automatic) {
     app::makeOutputFolder("output", line.text("output"));
   } else {
-    app::checkWritable(line.text("output"));
+    app::pictureFile(line);
   }
 
   Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());
@@ -190,7 +176,7 @@ int profile(int argc, char** argv) {
                   : fs::path(line.text("output"));
     Step drawing("Drawing " + output.string(), line.quiet());
     writePng(output, picture.draw(size).image());
-    drawing.done(automatic ? describe(places[i]) : grouped(before[i].seen()) + " points");
+    drawing.done(automatic ? app::describe(places[i]) : grouped(before[i].seen()) + " points");
   }
   return app::kDone;
 }

@@ -13,7 +13,6 @@
 #include <pcl_als/visualization/voxel_thinning.h>
 
 #include "command_line.h"
-#include "output_check.h"
 #include "picture_options.h"
 #include "picture_source.h"
 
@@ -173,7 +172,7 @@ int view(int argc, char** argv) {
   if (line.has("output") == line.has("window")) {
     throw UsageError("one of -output PICTURE.png and -window is needed");
   }
-  if (line.has("output")) app::checkWritable(line.text("output"));
+  if (line.has("output")) app::pictureFile(line);
 
   Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());
   const PictureSource source(inputs);

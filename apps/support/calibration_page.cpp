@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include <pcl_als/io/survey_io.h>
-#include <pcl_als/visualization/block_map.h>
 #include <pcl_als/visualization/calibration_plots.h>
-#include <pcl_als/visualization/html_report.h>
+#include <pcl_als/visualization/row_plots.h>
 #include <pcl_als/visualization/ticks.h>
 
 #include "calibration_verdict.h"
+#include "section_places.h"
+#include "survey_profile.h"
 
 namespace pcl_als::app {
 namespace {
@@ -85,8 +85,7 @@ void addFits(HtmlReport& report, const CalibrationResult& result) {
   report.addSection("Fit");
   report.addTable(pairTable(result));
   if (!result.pairs.empty()) {
-    const int rows = static_cast<int>(std::min<std::size_t>(result.pairs.size(), 60));
-    report.addPicture(drawPairs(result, {1400, 220 + 26 * rows}).image(),
+    report.addPicture(drawPairs(result, {1400, heightForRows(result.pairs.size())}).image(),
                       "Fit of every pair of overlapping strips before and after.");
   }
   if (!result.residuals.edges.empty()) {
@@ -103,15 +102,36 @@ void addFits(HtmlReport& report, const CalibrationResult& result) {
   }
 }
 
+/// A roof before and after, as in Figure 4 of Habib et al. 2011.
+void addProfile(HtmlReport& report, const SurveyReader& survey, const CalibrationResult& result,
+                const std::shared_ptr<const Trajectory>& trajectory) {
+  if (!result.converged) return;
+  report.addSection("Profile");
+  const auto profile = findProfile(survey, BiasEvaluator(trajectory, result.biases()));
+  if (!profile || profile->after.seen() == 0) {
+    report.addText("No two strips see the same gable roof or slope.");
+    return;
+  }
+  SectionPicture picture;
+  picture.setTitle("Where the misfit of the strips shows best");
+  picture.setStrips(survey.strips());
+  picture.addPanel("As delivered", profile->before);
+  picture.addPanel("Calibrated", profile->after);
+  // So high that heights are not drawn smaller than lengths, if a page has room for it.
+  PictureSize size{1400, 800};
+  while (size.height < 1600 && picture.exaggeration(size) < 1.0) size.height += 100;
+  report.addPicture(picture.draw(size).image(),
+                    "Section through a " + describe(profile->place) +
+                        " before; points by strip, as delivered and calibrated on the same axes.");
+}
+
 void addSummary(HtmlReport& report, const CalibrationResult& result) {
   report.addText("sigma0 " + numberText(result.sigma0, 3) + ", redundancy " +
                  countText(static_cast<std::size_t>(std::max(0L, result.redundancy))) + ", " +
                  std::to_string(result.iterations.size()) + " iterations, model " +
                  std::string(modelName(result.attitude)) + ", " +
                  (result.converged ? "converged." : "not converged."));
-  if (result.warnings.empty()) return;
-  report.addSection("Warnings");
-  report.addList(result.warnings);
+  addWarnings(result.warnings, report);
 }
 
 }  // namespace
@@ -141,35 +161,18 @@ void CalibrationPage::add(int strip, const CalibrationPoint* points, std::size_t
 }
 
 void CalibrationPage::write(const CommandLine& line, const CalibrationResult& result,
-                            const std::vector<SurveyArea>& areas) const {
+                            const std::vector<SurveyArea>& areas,
+                            const std::shared_ptr<const Trajectory>& trajectory) const {
   HtmlReport report("Calibration of " + std::to_string(state_->survey.strips().size()) + " strips",
                     line.toolAndVersion());
-  const CalibrationVerdict verdict = verdictOf(result);
-  report.setVerdict(verdict.grade, verdict.headline);
-  for (const std::string& sentence : verdict.sentences) report.addVerdict(sentence);
+  addVerdict(verdictOf(result), report);
   addSummary(report, result);
   addParameters(report, result);
   addFits(report, result);
 
-  BlockMap map;
-  map.setTitle("Strips, overlaps and the areas that were used");
-  std::vector<BlockMap::Area> boxes;
-  for (const SurveyArea& area : areas) {
-    boxes.push_back({area.minimum, area.minimum + Eigen::Vector2d::Constant(area.size)});
-  }
-  map.setAreas(std::move(boxes));
-  if (line.has("control")) {
-    std::vector<Eigen::Vector2d> places;
-    for (const ControlPoint& point : readControl(line.text("control"))) {
-      places.emplace_back(point.position.head<2>());
-    }
-    map.setControl(std::move(places));
-  }
-  report.addSection("Map");
-  report.addPicture(map.draw(state_->coverage, state_->survey.strips(), {1400, 1000}).image(),
-                    "Outlines of the strips, how many see a place, areas that were used, control.");
-  for (const std::string& input : result.inputs) report.addInput(input);
-  for (const auto& [name, value] : line.settings()) report.addSetting(name, value);
+  addProfile(report, state_->survey, result, trajectory);
+  addMap(line, state_->coverage, state_->survey.strips(), areas, report);
+  addOrigin(line, result.inputs, report);
   report.write(line.text("report"));
 }
 

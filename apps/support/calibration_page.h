@@ -7,6 +7,7 @@
 
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/trajectory/trajectory.h>
 
 #include "command_line.h"
 #include "survey_reader.h"
@@ -31,7 +32,8 @@ class CalibrationPage {
   void add(int strip, const CalibrationPoint* points, std::size_t count);
   /// Writes into the folder of option -report.
   void write(const CommandLine& line, const CalibrationResult& result,
-             const std::vector<SurveyArea>& areas) const;
+             const std::vector<SurveyArea>& areas,
+             const std::shared_ptr<const Trajectory>& trajectory) const;
 
  private:
   struct State;

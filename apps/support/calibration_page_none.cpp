@@ -22,7 +22,8 @@ void CalibrationPage::add(int /*strip*/, const CalibrationPoint* /*points*/,
                           std::size_t /*count*/) {}
 
 void CalibrationPage::write(const CommandLine& line, const CalibrationResult& result,
-                            const std::vector<SurveyArea>& /*areas*/) const {
+                            const std::vector<SurveyArea>& /*areas*/,
+                            const std::shared_ptr<const Trajectory>& /*trajectory*/) const {
   writeFile(std::filesystem::path(line.text("report")) / "report.md",
             "# Calibration\n\n" + calibrationTables(result));
 }

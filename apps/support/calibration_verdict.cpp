@@ -12,10 +12,6 @@
 namespace pcl_als::app {
 namespace {
 
-std::string centimetres(double metres) {
-  return numberText(100.0 * metres, 1) + " cm";
-}
-
 /// RMS of all pairs together.
 double rmsOf(const std::vector<PairFit>& pairs, double PairFit::*rms) {
   double squares = 0.0, count = 0.0;
@@ -92,8 +88,8 @@ void addControl(const CalibrationResult& result, std::vector<std::string>& sente
 
 }  // namespace
 
-CalibrationVerdict verdictOf(const CalibrationResult& result) {
-  CalibrationVerdict verdict;
+Verdict verdictOf(const CalibrationResult& result) {
+  Verdict verdict;
   const double before = rmsOf(result.pairs, &PairFit::rms_before);
   const double after = rmsOf(result.pairs, &PairFit::rms_after);
   const bool complete = std::none_of(

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <new>
+#include <set>
 #include <sstream>
 
 #include <unistd.h>
@@ -71,7 +73,31 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   }
   if (values_.count("input") != 0) inputs_ = values_["input"].as<std::vector<std::string>>();
   if (get<int>("threads") < 0) throw UsageError("option -threads: must be 0 or more");
+  refuseToOverwrite();
   return true;
+}
+
+void CommandLine::refuseToOverwrite() const {
+  std::vector<std::string> others = inputs_;
+  const auto isOutput = [](const std::string& name) {
+    static const std::set<std::string> names = {"output", "json", "accuracy", "save_model",
+                                                "transformed"};
+    return names.count(name) != 0;
+  };
+  for (const auto& [name, value] : values_) {
+    const auto* text = boost::any_cast<std::string>(&value.value());
+    if (text != nullptr && !isOutput(name)) others.push_back(*text);
+  }
+  for (const auto& [name, value] : values_) {
+    const auto* text = boost::any_cast<std::string>(&value.value());
+    std::error_code error;
+    if (text == nullptr || !isOutput(name) || !std::filesystem::is_regular_file(*text, error))
+      continue;
+    for (const std::string& other : others) {
+      if (std::filesystem::equivalent(*text, other, error))
+        throw UsageError("option -" + name + ": " + *text + " is an input");
+    }
+  }
 }
 
 bool CommandLine::has(const char* name) const {

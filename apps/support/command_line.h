@@ -56,6 +56,8 @@ class CommandLine {
 
  private:
   std::string help() const;
+  /// UsageError where a file to write is one that is read.
+  void refuseToOverwrite() const;
 
   std::string tool_, purpose_, synopsis_, example_;
   boost::program_options::options_description options_;

@@ -76,7 +76,10 @@ void addOutputOptions(CommandLine& line) {
   line.addFlag("no_fields", "add no range, incidence angle and reflectance as extra bytes");
   line.addFlag("keep_uncovered", "leave points without a trajectory as they are (default: refuse)");
   line.addOptional("json", "file for model, uncertainties, counts and statistics");
-  line.addOptional("report", "folder for report.md and tables as CSV: what the correction did");
+  line.addOptional(
+      "report",
+      "folder for report.html (pictures inside), report.md and tables as CSV: what the "
+      "correction did");
 }
 
 double positiveOption(const CommandLine& line, const char* option) {

@@ -96,7 +96,10 @@ class OrderedOutcome {
                     const std::vector<std::uint16_t>& after) {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (std::size_t i = 0; i < after.size(); ++i) {
-      const float before = found.window.points[i].intensity;
+      const IntensityPoint& point = found.window.points[i];
+      if (outcome_.seen)
+        outcome_.seen(found.strip[i], found.window.origin + point.position.cast<double>());
+      const float before = point.intensity;
       if (!found.radiometry[i].corrected() || !run.usable(before)) continue;
       IntensityHistogram& histogram = outcome_.histograms[static_cast<std::size_t>(found.strip[i])];
       ++histogram.before[rounded(static_cast<double>(before))];

@@ -25,6 +25,8 @@ struct IntensityOutcome {
   std::vector<IntensityCounts> counts;  ///< by file
   IntensityStatistics statistics;
   std::vector<IntensityHistogram> histograms;
+  /// Called with every point where statistics are wanted, one at a time; may be empty.
+  std::function<void(int strip, const Eigen::Vector3d& place)> seen;
 };
 
 /** \brief Writes a file of the run with corrected intensities.

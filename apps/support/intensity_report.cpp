@@ -12,13 +12,6 @@
 namespace pcl_als::app {
 namespace {
 
-std::string slopeName(std::size_t bin) {
-  if (bin >= IntensityStatistics::kSlopeBins) return "no surface";
-  const int step = static_cast<int>(IntensityStatistics::kSlopeStep);
-  const int from = step * static_cast<int>(bin);
-  return std::to_string(from) + "-" + std::to_string(from + step);
-}
-
 std::string className(int code) {
   static const std::map<int, std::string> names = {{0, "never classified"},
                                                    {1, "unclassified"},
@@ -103,6 +96,13 @@ void termLine(const std::string& name, const EstimatedTerm& term, std::ostream& 
 }
 
 }  // namespace
+
+std::string slopeName(std::size_t bin) {
+  if (bin >= IntensityStatistics::kSlopeBins) return "no surface";
+  const int step = static_cast<int>(IntensityStatistics::kSlopeStep);
+  const int from = step * static_cast<int>(bin);
+  return std::to_string(from) + "-" + std::to_string(from + step);
+}
 
 double meanScale(const BeforeAfter& all) {
   return all.after.mean() > 0.0 ? all.before.mean() / all.after.mean() : 1.0;

@@ -30,6 +30,9 @@ std::string overlapText(const OverlapResult& overlaps, const std::vector<std::st
 std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
 
+/// "10-15", or "no surface".
+std::string slopeName(std::size_t bin);
+
 /// Factor that brings corrected values to the mean of the given ones.
 double meanScale(const BeforeAfter& all);
 

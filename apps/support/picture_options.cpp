@@ -2,12 +2,16 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "picture_options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
+
+#include "output_check.h"
 
 namespace pcl_als::app {
 namespace {
@@ -36,12 +40,27 @@ void addSizeOption(CommandLine& line) {
 
 PictureSize sizeOf(const CommandLine& line) {
   const std::vector<double> size = parsed(line.text("size"), 'x');
+  // Drawing takes some 110 bytes a pixel: larger pictures would end in a lack of memory.
+  constexpr double kMostPixels = 40e6;
   if (size.size() == 2 && size[0] >= 200 && size[1] >= 150 && size[0] <= 16384 &&
-      size[1] <= 16384 && size[0] == std::floor(size[0]) && size[1] == std::floor(size[1])) {
+      size[1] <= 16384 && size[0] * size[1] <= kMostPixels && size[0] == std::floor(size[0]) &&
+      size[1] == std::floor(size[1])) {
     return {static_cast<int>(size[0]), static_cast<int>(size[1])};
   }
-  throw UsageError("option -size: '" + line.text("size") +
-                   "' is no WIDTHxHEIGHT from 200x150 to 16384x16384");
+  throw UsageError(
+      "option -size: '" + line.text("size") +
+      "' is no WIDTHxHEIGHT from 200x150 to 16384x16384 with 40 million pixels at most");
+}
+
+std::string pictureFile(const CommandLine& line) {
+  const std::filesystem::path file = line.text("output");
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".png" && !std::filesystem::is_directory(file))
+    throw UsageError("option -output: '" + file.string() + "' does not end in .png");
+  checkWritable(file);
+  return file.string();
 }
 
 std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,

@@ -14,8 +14,11 @@
 namespace pcl_als::app {
 
 void addSizeOption(CommandLine& line);
-/// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384.
+/// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384, 40 million pixels at most.
 PictureSize sizeOf(const CommandLine& line);
+
+/// The file of -output, which can be written and ends in .png; UsageError or InputError.
+std::string pictureFile(const CommandLine& line);
 
 /// So many numbers of an option, parted by a character; UsageError otherwise.
 std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,

@@ -8,6 +8,8 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "section_places.h"
+
 namespace pcl_als::app {
 namespace {
 
@@ -97,28 +99,12 @@ std::uint64_t PictureSource::pointCount() const {
   return count;
 }
 
-std::uint64_t PictureSource::pointsOf(int strip) const {
-  std::uint64_t count = 0;
-  for (std::size_t file = 0; file < files_.size(); ++file) {
-    for (const PointSource& source : files_[file].sources) {
-      if (stripNamed(naming_->nameOf(file, source.id), "") == strip) count += source.points;
-    }
-  }
-  return count;
+double PictureSource::sectionCell(const std::vector<bool>& chosen) const {
+  return app::sectionCell(stripDensities(files_, *naming_), chosen);
 }
 
 double PictureSource::cellFor(int strip, double points) const {
-  // From the boxes of the files: a slanting strip fills its box in part, and gets larger cells.
-  double area = 0.0, count = 0.0;
-  for (std::size_t file = 0; file < files_.size(); ++file) {
-    for (const PointSource& source : files_[file].sources) {
-      if (stripNamed(naming_->nameOf(file, source.id), "") != strip) continue;
-      const Eigen::Vector3d size = source.maximum - source.minimum;
-      area += size.x() * size.y();
-      count += static_cast<double>(source.points);
-    }
-  }
-  return std::clamp(std::sqrt(points * area / std::max(1.0, count)), 0.5, 20.0);
+  return stripDensities(files_, *naming_)[static_cast<std::size_t>(strip)].cellFor(points);
 }
 
 int PictureSource::stripNamed(const std::string& name, const std::string& option) const {
@@ -162,6 +148,8 @@ PointAttribute::PointAttribute(std::string name, const PictureSource& source,
           "option -color difference: needs -reference STRIP, the strip to compare with");
     }
     reference_ = source.stripNamed(reference, "reference");
+    if (source.strips().size() < 2)
+      throw UsageError("option -color difference: needs a second strip besides " + reference);
     return;
   }
   if (!reference.empty()) throw UsageError("option -reference: only for -color difference");

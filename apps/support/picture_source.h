@@ -37,7 +37,8 @@ class PictureSource {
   /// The strip of that name; UsageError that lists the names.
   int stripNamed(const std::string& name, const std::string& option) const;
 
-  std::uint64_t pointsOf(int strip) const;
+  /// Cells for a SectionSearch among the chosen strips.
+  double sectionCell(const std::vector<bool>& chosen) const;
   /// Side of a cell in which a strip has so many points on average, 0.5 to 20 m.
   double cellFor(int strip, double points) const;
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "block_check.h"
 
@@ -18,7 +19,16 @@ struct QualityReport {
   double peak_memory_mb = 0.0;
 };
 
-/// Tables for people.
+/// A table for people. A row may end early, with a remark for the rest of its cells.
+struct QualityTable {
+  std::string caption;  ///< what it shows, with units
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+/// Heights, movements, shifts, trends, and control where it was given.
+std::vector<QualityTable> qualityTables(const QualityReport& report);
+
+/// The tables and what they come to, for a terminal.
 std::string qualityText(const QualityReport& report);
 
 /// quality.json; its keys are in the README of module quality.
@@ -30,6 +40,10 @@ void writeQualityTables(const std::filesystem::path& folder, const QualityReport
 
 /// Whether there is any number to rely on: a judged pair, or a control point.
 bool hasAnswer(const CheckedBlock& block);
+
+bool judged(const CheckedPair& pair);
+/// The same pair in the set before; null where there is none.
+const CheckedPair* pairBefore(const QualityReport& report, const CheckedPair& pair);
 
 /// "QL1", or "none" where no level is kept.
 std::string levelName(const std::optional<int>& level);

@@ -31,57 +31,38 @@ std::string size(double value, int digits = 4) {
   return std::isfinite(value) ? format("%.*f", digits, value) : "-";
 }
 
-const CheckedPair* pairIn(const CheckedBlock& block, const CheckedPair& like) {
-  for (const CheckedPair& pair : block.pairs)
-    if ((pair.a == like.a && pair.b == like.b)) return &pair;
-  return nullptr;
-}
-
-bool judged(const CheckedPair& pair) {
-  return pair.assessment.status == PairAssessment::Status::judged;
-}
-
 /// Calls row(label, block, pair) for every pair of the report, before and after together.
 template <typename Row>
 void forEachPair(const QualityReport& report, Row row) {
   for (const CheckedPair& pair : report.block.pairs) {
-    const CheckedPair* before = report.before ? pairIn(*report.before, pair) : nullptr;
+    const CheckedPair* before = pairBefore(report, pair);
     if (before != nullptr) row("before", *before);
     row(report.before ? "after" : "", pair);
   }
 }
 
-/// Rows of cells, as wide as need be. A row may end early with a remark instead of cells.
-class TextTable {
- public:
-  explicit TextTable(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-
-  std::string text() const {
-    std::vector<std::size_t> widths;
-    for (const std::string& cell : rows_[0]) widths.push_back(cell.size());
-    for (const auto& row : rows_) {
-      const std::size_t cells = row.size() < widths.size() ? row.size() - 1 : row.size();
-      for (std::size_t i = 0; i < cells; ++i) widths[i] = std::max(widths[i], row[i].size());
-    }
-    std::string out, rule = "|";
-    for (const std::size_t width : widths) rule += std::string(width + 2, '-') + '|';
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      out += '|';
-      for (std::size_t i = 0; i < rows_[r].size(); ++i) {
-        const std::string& cell = rows_[r][i];
-        const std::string padding(widths[i] - std::min(widths[i], cell.size()), ' ');
-        out += ' ' + (i == 0 ? cell + padding : padding + cell) + " |";
-      }
-      out += '\n';
-      if (r == 0) out += rule + '\n';
-    }
-    return out;
+/// Columns as wide as need be.
+std::string textOf(const QualityTable& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& cell : table.columns) widths.push_back(cell.size());
+  for (const auto& row : table.rows) {
+    const std::size_t cells = row.size() < widths.size() ? row.size() - 1 : row.size();
+    for (std::size_t i = 0; i < cells; ++i) widths[i] = std::max(widths[i], row[i].size());
   }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
+  const auto line = [&](const std::vector<std::string>& row) {
+    std::string text = "|";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - std::min(widths[i], row[i].size()), ' ');
+      text += ' ' + (i == 0 ? row[i] + padding : padding + row[i]) + " |";
+    }
+    return text + '\n';
+  };
+  std::string text = '\n' + table.caption + "\n\n" + line(table.columns) + '|';
+  for (const std::size_t width : widths) text += std::string(width + 2, '-') + '|';
+  text += '\n';
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
 
 /// "a & b", and which set where there are two.
 std::string labelOf(const char* set, const CheckedPair& pair) {
@@ -92,9 +73,11 @@ std::string withStd(double value, double std, int digits = 4) {
   return metres(value, digits) + " (" + size(std, digits) + ")";
 }
 
-std::string verticalTable(const QualityReport& report) {
-  TextTable table({"pair", "overlap m2", "places", "mean (std)", "median", "RMSDz", "RMS of cells",
-                   "95 %", "level"});
+QualityTable verticalTable(const QualityReport& report) {
+  QualityTable table{"Height differences a - b on smooth level single-return ground, m",
+                     {"pair", "overlap m2", "places", "mean (std)", "median", "RMSDz",
+                      "RMS of cells", "95 %", "level"},
+                     {}};
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const OffsetSummary& v = pair.assessment.vertical;
     std::vector<std::string> row{labelOf(set, pair), format("%.0f", pair.overlap_area),
@@ -108,14 +91,18 @@ std::string verticalTable(const QualityReport& report) {
             levelName(pair.assessment.quality_level)})
         row.push_back(cell);
     }
-    table.add(row);
+    table.rows.push_back(row);
   });
-  return "\nHeight differences a - b on smooth level single-return ground, m\n\n" + table.text();
+  return table;
 }
 
-/// The paper's Table 3.
-std::string alignmentTable(const QualityReport& report) {
-  TextTable table({"pair", "XT m", "YT m", "ZT m", "omega mdeg", "phi mdeg", "kappa mdeg"});
+/// Table 3 of Habib et al. 2011.
+QualityTable alignmentTable(const QualityReport& report) {
+  QualityTable table{
+      "Rigid movement of a onto b about the centroid of their overlap (ICPatch), "
+      "with standard deviations",
+      {"pair", "XT m", "YT m", "ZT m", "omega mdeg", "phi mdeg", "kappa mdeg"},
+      {}};
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     if (!pair.alignment) return;
     const PatchAlignmentResult& r = *pair.alignment;
@@ -128,17 +115,17 @@ std::string alignmentTable(const QualityReport& report) {
                         ? withStd(value / unit, r.standardDeviation(i) / unit, i < 3 ? 4 : 2)
                         : "not determined");
     }
-    table.add(row);
+    table.rows.push_back(row);
   });
-  return "\nRigid movement of a onto b about the centroid of their overlap (ICPatch), with "
-         "standard "
-         "deviations\n\n" +
-         table.text();
+  return table;
 }
 
-std::string shiftTable(const QualityReport& report) {
-  TextTable table(
-      {"pair", "places", "mean", "RMS", "slopes", "east (std)", "north (std)", "up (std)"});
+QualityTable shiftTable(const QualityReport& report) {
+  QualityTable table{
+      "Normal distances a - b of all smooth surfaces; movement of a onto b that slopes over 10 "
+      "degrees show, m",
+      {"pair", "places", "mean", "RMS", "slopes", "east (std)", "north (std)", "up (std)"},
+      {}};
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     if (!judged(pair)) return;
     const OffsetSummary& n = pair.assessment.normal;
@@ -147,12 +134,9 @@ std::string shiftTable(const QualityReport& report) {
                                  size(n.rms), std::to_string(h.count)};
     if (!h.determined) row.push_back("not determined: " + h.reason);
     for (int i = 0; h.determined && i < 3; ++i) row.push_back(withStd(h.shift[i], h.std[i]));
-    table.add(row);
+    table.rows.push_back(row);
   });
-  return "\nNormal distances a - b of all smooth surfaces; movement of a onto b that slopes over "
-         "10 "
-         "degrees show, m\n\n" +
-         table.text();
+  return table;
 }
 
 std::string arcsec(const OverlapTrends::Roll& roll) {
@@ -160,9 +144,13 @@ std::string arcsec(const OverlapTrends::Roll& roll) {
                          : "-";
 }
 
-std::string trendTable(const QualityReport& report) {
-  TextTable table({"pair", "flown", "across mm/100 m", "along mm/100 m", "time mm/s",
-                   "angle mm/deg", "as roll error, arcsec"});
+QualityTable trendTable(const QualityReport& report) {
+  QualityTable table{
+      "How height differences change: across the overlap (right of a's flight), along it, with "
+      "time and scan angle of a",
+      {"pair", "flown", "across mm/100 m", "along mm/100 m", "time mm/s", "angle mm/deg",
+       "as roll error, arcsec"},
+      {}};
   const auto trend = [](const Trend& t, double factor) {
     return t.determined ? withStd(factor * t.slope, factor * t.std, 2) : std::string("-");
   };
@@ -172,16 +160,13 @@ std::string trendTable(const QualityReport& report) {
     std::string roll = arcsec(t.roll);
     if (t.relation == FlightRelation::parallel) roll = "a - b " + roll;
     if (t.roll_b.determined) roll = "a " + roll + ", b " + arcsec(t.roll_b);
-    table.add({labelOf(set, pair), toString(t.relation), trend(t.across, 1e5), trend(t.along, 1e5),
-               trend(t.time, 1e3), trend(t.scan_angle, 1e3), roll});
+    table.rows.push_back({labelOf(set, pair), toString(t.relation), trend(t.across, 1e5),
+                          trend(t.along, 1e5), trend(t.time, 1e3), trend(t.scan_angle, 1e3), roll});
   });
-  return "\nHow height differences change: across the overlap (right of a's flight), along it, "
-         "with "
-         "time and scan angle of a\n\n" +
-         table.text();
+  return table;
 }
 
-std::string triangleTable(const QualityReport& report) {
+std::string triangleText(const QualityReport& report) {
   if (report.block.triangles.empty()) return {};
   std::string text =
       "\nClosure of height differences around three strips, on the ground that all three see, "
@@ -196,13 +181,16 @@ std::string triangleTable(const QualityReport& report) {
   return text;
 }
 
-std::string controlTable(const QualityReport& report) {
-  if (!report.block.control) return {};
-  TextTable table({"strip", "points", "mean", "sd", "RMSE", "largest"});
+std::optional<QualityTable> controlTable(const QualityReport& report) {
+  if (!report.block.control) return std::nullopt;
+  QualityTable table{"Heights of strips above control, m",
+                     {"strip", "points", "mean", "sd", "RMSE", "largest"},
+                     {}};
   const auto row = [&](const std::string& strip, const char* set, const OffsetSummary* s) {
     if (s == nullptr) return;
-    table.add({strip + (*set == 0 ? "" : std::string(" ") + set), std::to_string(s->count),
-               metres(s->mean), size(s->std), size(s->rms), size(s->largest)});
+    table.rows.push_back({strip + (*set == 0 ? "" : std::string(" ") + set),
+                          std::to_string(s->count), metres(s->mean), size(s->std), size(s->rms),
+                          size(s->largest)});
   };
   const auto both = [&](const std::string& strip, auto find) {
     if (report.before && report.before->control)
@@ -217,7 +205,13 @@ std::string controlTable(const QualityReport& report) {
     });
   }
   both("all", [](const ControlAssessment& control) { return &control.all; });
-  std::string text = "\nHeights of strips above control, m\n\n" + table.text();
+  return table;
+}
+
+/// What the standards make of control.
+std::string controlFigures(const QualityReport& report) {
+  if (!report.block.control) return {};
+  std::string text;
   const auto figures = [&](const char* label, const ControlAssessment& control) {
     const VerticalAccuracy& accuracy = control.accuracy;
     text += format(
@@ -243,14 +237,34 @@ std::string levelName(const std::optional<int>& level) {
   return level ? format("QL%d", *level) : "none";
 }
 
+bool judged(const CheckedPair& pair) {
+  return pair.assessment.status == PairAssessment::Status::judged;
+}
+
+const CheckedPair* pairBefore(const QualityReport& report, const CheckedPair& like) {
+  if (!report.before) return nullptr;
+  for (const CheckedPair& pair : report.before->pairs)
+    if (pair.a == like.a && pair.b == like.b) return &pair;
+  return nullptr;
+}
+
 bool hasAnswer(const CheckedBlock& block) {
   return (block.control && block.control->points > 0) ||
          std::any_of(block.pairs.begin(), block.pairs.end(), judged);
 }
 
+std::vector<QualityTable> qualityTables(const QualityReport& report) {
+  std::vector<QualityTable> tables = {verticalTable(report), alignmentTable(report),
+                                      shiftTable(report), trendTable(report)};
+  if (auto control = controlTable(report)) tables.push_back(std::move(*control));
+  return tables;
+}
+
 std::string qualityText(const QualityReport& report) {
-  std::string text = verticalTable(report) + alignmentTable(report) + shiftTable(report) +
-                     trendTable(report) + triangleTable(report) + controlTable(report);
+  std::string text = textOf(verticalTable(report)) + textOf(alignmentTable(report)) +
+                     textOf(shiftTable(report)) + textOf(trendTable(report)) + triangleText(report);
+  if (const auto control = controlTable(report)) text += textOf(*control);
+  text += controlFigures(report);
   const QualityLevelLimits& limits =
       qualityLevels()[static_cast<std::size_t>(report.quality_level)];
   std::size_t kept = 0, all = 0;

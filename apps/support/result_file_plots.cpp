@@ -11,6 +11,9 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/visualization/calibration_plots.h>
+#include <pcl_als/visualization/curve_panels.h>
+#include <pcl_als/visualization/row_plots.h>
+#include <pcl_als/visualization/ticks.h>
 
 namespace pcl_als::app {
 namespace {
@@ -79,35 +82,157 @@ void addConfusion(const Json& confusion, std::vector<NamedPlot>& plots) {
   plots.push_back({"confusion", [plot](PictureSize size) { return drawConfusion(plot, size); }});
 }
 
-/// Offsets of strip pairs in bins of a quantity, as pcl_als_check writes them.
-void addOffsets(const Json& pairs, std::vector<NamedPlot>& plots) {
+std::string pairName(const Json& pair) {
+  return pair.value("a", "") + " : " + pair.value("b", "");
+}
+
+/// Offsets of a pair in bins of a quantity, as pcl_als_check writes them; x counts from \a start.
+CurvePlot::Series offsetSeries(const std::string& name, const Json& pair, const char* key,
+                               double start) {
+  CurvePlot::Series series;
+  series.name = name;
+  const Json profiles = pair.value("trends", Json::object()).value("profiles", Json::object());
+  for (const Json& bin : profiles.value(key, Json::array())) {
+    series.x.push_back(0.5 * (bin.at("from").get<double>() + bin.at("to").get<double>()) - start);
+    series.y.push_back(bin.at("mean_m"));
+    const double places = bin.value("places", 1.0);
+    series.std.push_back(bin.value("sd_m", 0.0) / std::sqrt(std::max(1.0, places)));
+  }
+  return series;
+}
+
+/// The pair of the set before with the same strips; empty where there is none.
+Json pairBefore(const Json& root, const Json& pair) {
+  for (const Json& other : root.value("before", Json::object()).value("pairs", Json::array())) {
+    if (other.value("a", "") == pair.value("a", "") && other.value("b", "") == pair.value("b", ""))
+      return other;
+  }
+  return Json::object();
+}
+
+void addOffsets(const Json& root, std::vector<NamedPlot>& plots) {
   struct Against {
     const char *key, *name, *label;
+    bool common_x;
   };
   static constexpr Against kAgainst[] = {
-      {"distance_m", "offset_against_distance", "distance from the middle of the overlap, m"},
-      {"time_s", "offset_against_time", "time, s"},
-      {"scan_angle_deg", "offset_against_scan_angle", "scan angle, degrees"}};
+      {"distance_m", "offset_against_distance", "distance from the centre line of the overlap, m",
+       true},
+      {"time_s", "offset_against_time", "time of the first strip, s from the overlap's start",
+       false},
+      {"scan_angle_deg", "offset_against_scan_angle", "scan angle of the first strip, degrees",
+       true}};
+  const bool both = root.contains("before");
   for (const Against& against : kAgainst) {
-    CurvePlot plot{std::string("Height offset of strips against ") + against.label,
-                   against.label,
-                   "first strip above the second, m",
-                   {}};
-    for (const Json& pair : pairs) {
-      const Json profiles = pair.value("trends", Json::object()).value("profiles", Json::object());
-      CurvePlot::Series series;
-      series.name = pair.value("a", "") + " : " + pair.value("b", "");
-      for (const Json& bin : profiles.value(against.key, Json::array())) {
-        series.x.push_back(0.5 * (bin.at("from").get<double>() + bin.at("to").get<double>()));
-        series.y.push_back(bin.at("mean_m"));
-        const double places = bin.value("places", 1.0);
-        series.std.push_back(bin.value("sd_m", 0.0) / std::sqrt(std::max(1.0, places)));
+    CurvePanels plot;
+    plot.title = "Height of the first strip above the second";
+    plot.x_label = against.label;
+    plot.y_label = "offset, m";
+    plot.common_x = against.common_x;
+    for (const Json& pair : root.at("pairs")) {
+      CurvePanels::Panel panel;
+      panel.title = pairName(pair);
+      double start = 0.0;
+      if (!against.common_x) {
+        const CurvePlot::Series series = offsetSeries("", pair, against.key, 0.0);
+        if (!series.x.empty()) start = series.x.front();
       }
-      if (!series.x.empty()) plot.series.push_back(std::move(series));
+      const Json before = pairBefore(root, pair);
+      if (!before.empty())
+        panel.series.push_back(offsetSeries("before", before, against.key, start));
+      panel.series.push_back(offsetSeries(both ? "after" : "as given", pair, against.key, start));
+      if (!panel.series.back().x.empty()) plot.panels.push_back(std::move(panel));
     }
-    if (plot.series.empty()) continue;
-    plots.push_back({against.name, [plot](PictureSize size) { return drawCurves(plot, size); }});
+    if (plot.panels.empty()) continue;
+    plot.keepLargest();
+    plots.push_back(
+        {against.name, [plot](PictureSize size) { return drawCurvePanels(plot, size); }});
   }
+}
+
+double numberAt(const Json& json, const char* outer, const char* inner) {
+  const Json value = json.value(outer, Json::object()).value(inner, Json());
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+void addHeights(const Json& root, std::vector<NamedPlot>& plots) {
+  BeforeAfterPlot plot;
+  plot.title = "Height differences of overlapping strips on level ground";
+  plot.x_label = "RMSDz, m";
+  plot.before = "before";
+  plot.after = root.contains("before") ? "after" : "strips as given";
+  for (const Json& pair : root.at("pairs")) {
+    const double after = numberAt(pair, "vertical", "rms_m");
+    if (!std::isfinite(after)) continue;
+    plot.rows.push_back(
+        {pairName(pair), numberAt(pairBefore(root, pair), "vertical", "rms_m"), after});
+  }
+  if (plot.rows.empty()) return;
+  plot.keepLargest(60);
+  plots.push_back({"heights", [plot](PictureSize size) { return drawBeforeAfter(plot, size); }});
+}
+
+/// Variance to mean by slope, histograms and gains of strips, as pcl_als_intensity writes them.
+void addIntensity(const Json& root, std::vector<NamedPlot>& plots) {
+  const Json report = root.value("report", Json::object());
+  CurvePlot slopes{"Variance to mean of intensity by slope",
+                   "slope of the surface, degrees",
+                   "variance / mean",
+                   {{"before", {}, {}, {}}, {"after", {}, {}, {}}}};
+  for (const Json& bin : report.value("slopes", Json::array())) {
+    // Neither points without a surface, nor too few for a variance.
+    if (!bin.at("slope_from_deg").is_number() || numberAt(bin, "before", "points") < 100.0)
+      continue;
+    const double middle =
+        0.5 * (bin["slope_from_deg"].get<double>() + bin.at("slope_to_deg").get<double>());
+    for (CurvePlot::Series& series : slopes.series) {
+      series.x.push_back(middle);
+      series.y.push_back(numberAt(bin, series.name.c_str(), "variance_to_mean"));
+    }
+  }
+  if (!slopes.series[0].x.empty())
+    plots.push_back(
+        {"variance_to_mean", [slopes](PictureSize size) { return drawCurves(slopes, size); }});
+  CurvePanels histograms;
+  histograms.title = "Intensities by strip";
+  histograms.x_label = "intensity as written in the file";
+  histograms.y_label = "points";
+  for (const Json& strip : report.value("strips", Json::array())) {
+    const Json& histogram = strip.at("histogram");
+    CurvePanels::Panel panel{"strip " + strip.value("strip", ""), {}};
+    for (const char* set : {"before", "after"}) {
+      CurvePlot::Series series{set, {}, numbers(histogram.at(set)), {}};
+      for (std::size_t i = 0; i < series.y.size(); ++i)
+        series.x.push_back((static_cast<double>(i) + 0.5) *
+                           histogram.at("bin_width").get<double>());
+      panel.series.push_back(std::move(series));
+    }
+    if (!panel.series[0].x.empty()) histograms.panels.push_back(std::move(panel));
+  }
+  if (histograms.panels.empty()) return;
+  histograms.keepLargest();
+  plots.push_back(
+      {"histograms", [histograms](PictureSize size) { return drawCurvePanels(histograms, size); }});
+}
+
+void addGains(const Json& root, std::vector<NamedPlot>& plots) {
+  IntervalPlot plot;
+  plot.title = "Gains of the strips with 95 % intervals";
+  plot.x_label = "factor on what the strip received";
+  plot.reference = 1.0;
+  bool any = false;
+  for (const Json& gain : root.value("strip_gains", Json::array())) {
+    const double value = gain.at("value");
+    const bool known = gain.value("status", "") == "estimated" && gain.at("std").is_number();
+    const double std =
+        known ? value * gain["std"].get<double>() : std::numeric_limits<double>::quiet_NaN();
+    any = any || known;
+    plot.rows.push_back(
+        {"strip " + gain.value("strip", ""), value, std,
+         known ? numberText(value, 4) + " ± " + numberText(std, 4) : gain.value("status", "")});
+  }
+  if (!any) return;
+  plots.push_back({"strip_gains", [plot](PictureSize size) { return drawIntervals(plot, size); }});
 }
 
 }  // namespace
@@ -125,7 +250,14 @@ std::vector<NamedPlot> plotsOf(const std::filesystem::path& file) {
     if (root.contains("curves")) addCurves(root["curves"], plots);
     if (root.contains("histograms")) addHistograms(root["histograms"], plots);
     if (root.contains("confusion")) addConfusion(root["confusion"], plots);
-    if (root.value("format", "") == "pcl_als quality") addOffsets(root.at("pairs"), plots);
+    if (root.value("format", "") == "pcl_als quality") {
+      addHeights(root, plots);
+      addOffsets(root, plots);
+    }
+    if (root.value("format", "") == "pcl_als intensity") {
+      addIntensity(root, plots);
+      addGains(root, plots);
+    }
   } catch (const nlohmann::json::exception& error) {
     const std::string what = error.what();
     const std::size_t end = what.find("] ");

@@ -15,12 +15,14 @@ namespace pcl_als::app {
 struct NamedPlot {
   std::string name;  ///< of the file, without .png
   std::function<Canvas(PictureSize)> draw;
+  std::string file{};  ///< that holds it
 };
 
 /** \brief All plots that a result file holds, whichever tool wrote it.
  *
  * calibration.json: parameters, correlation, pairs, convergence, residuals, strip_errors.
- * quality.json: offset_against_distance, …_time and …_scan_angle of the pairs.
+ * quality.json: heights, offset_against_distance, …_time and …_scan_angle of the pairs.
+ * JSON of pcl_als_intensity: variance_to_mean, histograms, strip_gains. accuracy.json: confusion.
  * Any result: "curves", "histograms" and "confusion" at the top level (README of module
  * visualization). InputError for a file that is no JSON, is malformed, or has nothing to plot.
  */

@@ -17,11 +17,66 @@ constexpr double kMostCells = 16e6;    // of all strips, 40 bytes each
 constexpr double kMostPixels = 400e6;  // of the image, which is written in strips of rows
 constexpr double kMostInPng = 64e6;
 constexpr int kRows = 512;
+constexpr int kOverviewSide = 1400;  // cells
+
+/// Counts cells by what they are, then takes the most.
+class OverviewCounts {
+ public:
+  explicit OverviewCounts(const RasterGrid& grid)
+      : step_((std::max(grid.columns, grid.rows) + kOverviewSide - 1) / kOverviewSide) {
+    overview_.columns = (grid.columns + step_ - 1) / step_;
+    overview_.rows = (grid.rows + step_ - 1) / step_;
+    overview_.cell = grid.cell * step_;
+    overview_.north_west = {grid.west, grid.north};
+    counts_.resize(static_cast<std::size_t>(overview_.columns) *
+                   static_cast<std::size_t>(overview_.rows));
+  }
+
+  void add(int column, int row, SeparationOverview::Code code) {
+    if (code == SeparationOverview::nothing) return;
+    const int place = row / step_ * overview_.columns + column / step_;
+    ++counts_[static_cast<std::size_t>(place)][code - 1];
+  }
+
+  SeparationOverview overview() const {
+    SeparationOverview result = overview_;
+    for (const auto& counts : counts_) {
+      // Where anything was measured, cells that one strip alone has say nothing.
+      const auto most = std::max_element(counts.begin() + 1, counts.end());
+      auto code = static_cast<std::uint8_t>(SeparationOverview::nothing);
+      if (*most > 0)
+        code = static_cast<std::uint8_t>(most - counts.begin() + 1);
+      else if (counts[0] > 0)
+        code = SeparationOverview::one_strip;
+      result.codes.push_back(code);
+    }
+    return result;
+  }
+
+ private:
+  int step_;
+  SeparationOverview overview_;
+  std::vector<std::array<std::uint32_t, 4>> counts_;
+};
+
+SeparationOverview::Code codeOf(const SwathSeparation::Cell& cell, double limit) {
+  if (cell.strips < 2)
+    return cell.strips == 1 ? SeparationOverview::one_strip : SeparationOverview::nothing;
+  switch (separationColour(cell.separation, limit)) {
+    case SeparationColour::green:
+      return SeparationOverview::within_limit;
+    case SeparationColour::yellow:
+      return SeparationOverview::within_twice;
+    default:
+      return SeparationOverview::beyond;
+  }
+}
 
 struct Outputs {
   RasterWriter colours, metres;
   PngImage png;
-  int step = 1;  ///< of the cells that the PNG shows
+  int step;  ///< of the cells that the PNG shows
+  OverviewCounts overview;
 };
 
 RasterLayout layoutOf(const RasterGrid& grid, bool colours, double limit) {
@@ -55,18 +110,13 @@ void writeRows(const std::vector<SwathSeparation::Cell>& cells, const RasterWind
       const std::uint8_t rgba[] = {pixel.red, pixel.green, pixel.blue, pixel.alpha};
       outputs.png.pixels.insert(outputs.png.pixels.end(), rgba, rgba + 4);
     }
+    const SeparationOverview::Code code = codeOf(cells[i], summary.limit);
+    outputs.overview.add(column, row, code);
     if (cells[i].strips < 2) continue;
     metres[i] = cells[i].separation;
-    switch (separationColour(cells[i].separation, summary.limit)) {
-      case SeparationColour::green:
-        ++summary.green;
-        break;
-      case SeparationColour::yellow:
-        ++summary.yellow;
-        break;
-      default:
-        ++summary.red;
-    }
+    summary.green += code == SeparationOverview::within_limit ? 1 : 0;
+    summary.yellow += code == SeparationOverview::within_twice ? 1 : 0;
+    summary.red += code == SeparationOverview::beyond ? 1 : 0;
   }
   for (std::size_t k = 0; k < 3; ++k) outputs.colours.write(k, window, bands[k].data());
   outputs.metres.write(0, window, metres.data());
@@ -96,8 +146,9 @@ SeparationSummary writeSeparation(const std::filesystem::path& folder, const std
   options.threads = threads;
   Outputs outputs{{colours, layoutOf(grid, true, summary.limit), options},
                   {metres, layoutOf(grid, false, summary.limit), options},
-                  {},
-                  1};
+                  PngImage(),
+                  1,
+                  OverviewCounts(grid)};
   while (static_cast<double>(grid.cells()) > kMostInPng * outputs.step * outputs.step)
     ++outputs.step;
   outputs.png.width = (grid.columns + outputs.step - 1) / outputs.step;
@@ -119,6 +170,7 @@ SeparationSummary writeSeparation(const std::filesystem::path& folder, const std
   outputs.colours.commit();
   outputs.metres.commit();
   writePngImage(png, outputs.png);
+  summary.overview = outputs.overview.overview();
   summary.files = {colours.filename().string(), metres.filename().string(),
                    png.filename().string()};
   return summary;

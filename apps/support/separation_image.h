@@ -13,12 +13,23 @@
 
 namespace pcl_als::app {
 
+/// A swath separation image made small: of every place, what most of the cells are that two strips
+/// see.
+struct SeparationOverview {
+  enum Code : std::uint8_t { nothing, one_strip, within_limit, within_twice, beyond };
+  int columns = 0, rows = 0;
+  double cell = 0.0;                                     ///< metres
+  Eigen::Vector2d north_west = Eigen::Vector2d::Zero();  ///< metres, ground frame
+  std::vector<std::uint8_t> codes;                       ///< row by row from the north-west
+};
+
 /// Cells of a swath separation image by colour, and where it is.
 struct SeparationSummary {
   double cell = 0.0;   ///< metres
   double limit = 0.0;  ///< metres: green up to it, yellow up to twice as much
   std::uint64_t green = 0, yellow = 0, red = 0;
   std::vector<std::string> files;
+  SeparationOverview overview;
 };
 
 /// The grid of an image: \a cell metres, doubled until its memory suffices. \a covered_area: m^2 of

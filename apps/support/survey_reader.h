@@ -52,6 +52,9 @@ class SurveyReader {
   /// Finest coordinate step of the files, metres.
   double resolution() const;
 
+  const std::vector<PointFileSources>& files() const { return files_; }
+  const StripNaming& naming() const { return *naming_; }
+
   /// Matches the files' times to the trajectory's; returns what was assumed, one line each.
   std::vector<std::string> alignTimes(const Trajectory& trajectory, std::optional<int> gps_week);
 

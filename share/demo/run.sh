@@ -109,7 +109,8 @@ Look at:
   $pictures/  the block, two strips' differences and three roofs before and after
   $result  biases, uncertainty, correlations, fits; in words: calibration.txt
   $corrected/  the corrected strips (any LAS viewer)
-  $out/quality.json  the check before and after; tables and swath separation images: quality/
+  $out/quality/report.html  the same of the check before and after; tables and swath separation images beside it
+  $out/quality.json  the check for programs
   $block/  the simulated strips, trajectory, control and truth
   $out/summary.txt  these tables
 Tools are in $bin; each explains itself with -h.

@@ -92,6 +92,19 @@ for threads in 1 3; do
 done
 check "one thread gives what three give" cmp threads1.txt threads3.txt
 
+if [[ -x $bin/pcl_als_plot ]]; then  # built with VTK
+  expect 0 "heights.png" plot quality.json -output plots
+  for name in heights offset_against_distance offset_against_time offset_against_scan_angle; do
+    check "$name.png is drawn" test -s plots/$name.png
+  done
+  # Pairs that could not be judged are on the page with the reason.
+  expect 3 "1 and 3: only" check a.pcd edge.pcd -output edge.json -report edge
+  check "the page says what was not judged" grep -q '<li>Not judged: strips 1 and 3 (only' edge/report.html
+  check "and that there is no answer" grep -q 'class="bad">' edge/report.html
+  expect 0 "1 & 2" check a.pcd b.pcd edge.pcd point.pcd -output some.json -report some
+  check "a pair without numbers has its row" grep -q 'colspan="6">only' some/report.html
+fi
+
 # Before and after: every pair that slopes or overlaps enough gets better, control does.
 expect 0 "converged" calibrate "${strips[@]}" -trajectory "$block/trajectory.csv" \
   -control "$block/control.csv" -output calibration.json -corrected after

@@ -67,8 +67,10 @@ expect 1 "output" view "${strips[0]}"
 expect 1 "elevation" view "${strips[0]}" -output none.png -elevation 91
 expect 1 "azimuth" view "${strips[0]}" -output none.png -azimuth nan
 expect 1 "zoom" view "${strips[0]}" -output none.png -zoom 0
+expect 1 "is an input" view "${strips[0]}" -output "$block/../block/strip1.las"
 expect 1 "size" view "${strips[0]}" -output none.png -size 10x10
 expect 1 "size" view "${strips[0]}" -output none.png -size large
+expect 1 "40 million pixels" view "${strips[0]}" -output none.png -size 16000x16000
 expect 1 "'moonlight' is none of" view "${strips[0]}" -output none.png -color moonlight
 expect 1 "reference" view "${strips[0]}" -output none.png -color difference
 expect 1 "there is no strip '77'" view "${strips[0]}" -output none.png -strips 77
@@ -79,6 +81,8 @@ expect 1 "extent" view "${strips[0]}" -output none.png -extent 1,2,3
 expect 2 "no point to draw" view "${strips[0]}" -output none.png -extent 1,1,2,2
 expect 2 "missing.las" view missing.las -output none.png
 expect 2 "cannot write" view "${strips[0]}" -output nowhere/none.png
+expect 1 "does not end in .png" view "${strips[0]}" -output none.jpg
+expect 1 "second strip" view "${strips[0]}" -output none.png -color difference -reference 1
 absent none.png
 
 # Sections, of strips dense enough to show roofs
@@ -124,6 +128,9 @@ echo '{}' >nothing.json
 expect 2 "nothing that can be plotted" plot nothing.json -output plots
 echo '{"curves":[{"name":"x"}]}' >broken.json
 expect 2 "broken.json" plot broken.json -output plots
+echo '{"confusion":{"classes":["a"],"matrix":[[1,2]]}}' >ragged.json
+expect 2 "ragged.json" plot ragged.json -output plots
+expect 1 "too small" plot curves.json -output plots -plots confusion -size 200x150
 echo 'no json' >text.json
 expect 2 "text.json" plot text.json -output plots
 expect 2 "missing.json" plot missing.json -output plots

@@ -86,9 +86,22 @@ TEST(HtmlReport, WritesPageMarkdownAndCsv) {
   EXPECT_NE(contentOf(folder / "report.html").find("</html>"), std::string::npos);
 }
 
-TEST(HtmlReport, RefusesRaggedTablesAndFoldersThatCannotBe) {
+TEST(HtmlReport, RowsThatEndEarlyGoAcross) {
+  const auto folder = pictureFile("early");
   HtmlReport report("x", "y");
-  EXPECT_THROW(report.addTable({"", "bad", {"a", "b"}, {{"1"}}}), UsageError);
+  report.addTable({"t", "", {"pair", "mean", "rms"}, {{"1 : 2", "0.1", "0.2"}, {"1 : 3", "none"}}});
+  const std::string html = report.html();
+  EXPECT_NE(html.find("1 : 3</td><td colspan=\"2\">none</td></tr>"), std::string::npos);
+  // The remark makes no text of the column's numbers.
+  EXPECT_NE(html.find("<td class=\"n\">0.1</td>"), std::string::npos);
+  report.write(folder);
+  EXPECT_EQ(contentOf(folder / "t.csv"), "pair,mean,rms\n1 : 2,0.1,0.2\n1 : 3,none,\n");
+}
+
+TEST(HtmlReport, RefusesTablesAndFoldersThatCannotBe) {
+  HtmlReport report("x", "y");
+  EXPECT_THROW(report.addTable({"", "bad", {"a", "b"}, {{"1", "2", "3"}}}), UsageError);
+  EXPECT_THROW(report.addTable({"", "bad", {"a", "b"}, {{}}}), UsageError);
   EXPECT_THROW(report.write("/proc/nowhere"), InputError);
 }
 

@@ -59,6 +59,29 @@ TEST(CalibrationPlots, AreTidyInThreeSizes) {
   writePng(pictureFile("parameters.png"), drawParameters(result).image());
 }
 
+TEST(CalibrationPlots, AreTidyWithManyStrips) {
+  CalibrationResult result = sample();
+  const StripErrors strip = result.strip_errors[0];
+  CurvePlot curves{"Many", "x", "y", {}};
+  for (int i = 0; i < 80; ++i) {
+    result.strip_errors.push_back(strip);
+    result.strip_errors.back().id = "line_" + std::to_string(i);
+    result.pairs.push_back({"line_" + std::to_string(i), "x", 10, 0.1, 0.01, 0, 0});
+    curves.series.push_back({"line_" + std::to_string(i), {0, 1}, {0.0, 1.0 * i}, {}});
+  }
+  expectTidy(drawPairs(result, {1400, 1780}));
+  expectTidy(drawCurves(curves));
+  int named = 0, more = 0;
+  const Canvas errors = drawStripErrors(result, {1400, 760});
+  expectTidy(errors);
+  for (const auto& text : errors.texts()) {
+    named += text.text.rfind("line_", 0) == 0 || text.text == "1" ? 1 : 0;
+    if (text.text.rfind("and ", 0) == 0) more = std::stoi(text.text.substr(4));
+  }
+  EXPECT_GT(more, 40);
+  EXPECT_GE(named + more, 81);  // "1" is a mark of an axis, too
+}
+
 TEST(CalibrationPlots, SayTheNumbers) {
   const CalibrationResult result = sample();
   EXPECT_EQ(estimateText(SystemParameter::boresight_roll, result[SystemParameter::boresight_roll]),
@@ -185,6 +208,15 @@ TEST(BlockMap, ShowsOverlapsWhereTheyAre) {
                two = countOf(canvas, Color::rgb(0xc3d7e6));
   EXPECT_NEAR(one / two, 400.0 / 100.0, 0.4);
   EXPECT_THROW(map.draw(coverage, {"1"}), UsageError);
+  // As high as the legend of many strips needs, and with scale and arrow.
+  StripCoverage flat({0.0, 0.0}, {4000.0, 100.0}, 40);
+  flat.add({10.0, 10.0, 0.0}, 39);
+  std::vector<std::string> names;
+  for (int i = 0; i < 40; ++i) names.push_back("line_" + std::to_string(i));
+  const Canvas low = map.draw(flat, names, {1400, BlockMap::heightFor(flat, 1400)});
+  expectTidy(low);
+  placeOf(low, "N");
+  placeOf(low, "and 24 more");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <pcl_als/visualization/point_picture.h>
 #include <pcl_als/visualization/point_scene.h>
 #include <pcl_als/visualization/private_display.h>
+#include <pcl_als/visualization/result_plots.h>
 #include <pcl_als/visualization/voxel_thinning.h>
 
 #include "picture_checks.h"
@@ -196,6 +197,26 @@ TEST_F(WithDisplay, LaidOutPictureIsTidyWithATrueScaleBar) {
   const PixelBox west = placeOf(canvas, "699200"), east = placeOf(canvas, "699800");
   EXPECT_NEAR((east.x + 0.5 * east.width) - (west.x + 0.5 * west.width),
               600.0 / camera.metresPerPixel(), 2.0);
+}
+
+TEST_F(WithDisplay, SmallPicturesAreTidy) {
+  for (const bool categories : {false, true}) {
+    for (const PictureSize size : {PictureSize{480, 320}, {640, 420}, {800, 600}}) {
+      PointPicture picture(size.width, size.height);
+      picture.setTitle(std::string(3000, 'W'));
+      OrthographicCamera camera;
+      camera.frame(kOrigin, kOrigin + Eigen::Vector3d(1000.0, 600.0, 50.0), picture.mapWidth(),
+                   picture.mapHeight());
+      PixelThinning points(camera);
+      points.add(kOrigin, 1.0F);
+      points.add(kOrigin + Eigen::Vector3d(1000.0, 600.0, 50.0), NAN);
+      PointColoring coloring;
+      coloring.heading = "elevation, m";
+      if (categories) coloring.categories = {{1.0F, "ground", {0, 0, 0}}};
+      coloring.fitScale(points, 0.0, false);
+      expectTidy(picture.draw(points, coloring));
+    }
+  }
 }
 
 TEST(PointColoring, EqualValuesGetAScaleAllTheSame) {

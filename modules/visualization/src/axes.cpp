@@ -43,7 +43,9 @@ Axes::Axes(Canvas& canvas, const PixelBox& box, const Axis& x, const Axis& y)
       x_(x),
       y_(y) {
   x_marks_ = marksOf(x_, std::max(3, static_cast<int>(box_.width / 80.0)));
-  y_marks_ = marksOf(y_, std::max(3, static_cast<int>(box_.height / 45.0)));
+  // Low panels get closer marks, so that there is more than one to read a scale from.
+  const double most = std::max(box_.height / 45.0, std::min(5.0, box_.height / 24.0));
+  y_marks_ = marksOf(y_, std::max(2, static_cast<int>(most)));
   // Marks of the x axis must leave room between each other.
   TextStyle style;
   style.size = kTextSize;

@@ -16,12 +16,21 @@ namespace {
 using detail::kPlotMargin;
 
 constexpr double kMostCells = 16e6, kMostSide = 1000.0;
+constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0, kTitleRoom = 64.0;  // pixels
+constexpr double kRim = 3.0;  // cells around all, so that outlines are not cut
+const Color kAreaColor = Color::rgb(0xd55e00);
 
 Color overlapColor(int strips) {
   static const std::array<Color, 5> shades = {ink::white, Color::rgb(0xe9eef2),
                                               Color::rgb(0xc3d7e6), Color::rgb(0x8db6d3),
                                               Color::rgb(0x4f8fba)};
   return shades[static_cast<std::size_t>(std::min(strips, 4))];
+}
+
+/// Metres from west to east and south to north that a map shows.
+Eigen::Vector2d shownExtent(const StripCoverage& coverage) {
+  return coverage.cell() *
+         Eigen::Vector2d(coverage.columns() + 2.0 * kRim, coverage.rows() + 2.0 * kRim);
 }
 
 /// Ground to pixels.
@@ -128,17 +137,25 @@ bool StripCoverage::covers(std::size_t strip, int column, int row) const {
                        static_cast<std::size_t>(column)] != 0;
 }
 
+int BlockMap::heightFor(const StripCoverage& coverage, int width, int lowest, int highest) {
+  const Eigen::Vector2d extent = shownExtent(coverage);
+  const double across = width - kLeft - kPanel - kPlotMargin;
+  const double height = across * extent.y() / extent.x() + kFoot + kTitleRoom;
+  // Beside it stand the legends of strips and counts, two marks, arrow and scale.
+  const auto rows = static_cast<double>(std::min<std::size_t>(coverage.strips(), 17) + 8);
+  const double panel = kTitleRoom + 23.0 * rows + 200.0;
+  return static_cast<int>(
+      std::clamp(std::ceil(std::max(height, panel)), 1.0 * lowest, 1.0 * highest));
+}
+
 Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::string>& names,
                       PictureSize size) const {
   if (names.size() != coverage.strips())
     throw UsageError("a block map needs a name for each strip");
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, title_);
-  constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0;
-  const double rim = 3.0 * coverage.cell();  // so that outlines are not cut
-  const Eigen::Vector2d extent =
-      coverage.cell() * Eigen::Vector2d(coverage.columns(), coverage.rows()) +
-      Eigen::Vector2d::Constant(2.0 * rim);
+  const double rim = kRim * coverage.cell();
+  const Eigen::Vector2d extent = shownExtent(coverage);
   const double room_x = size.width - kLeft - kPanel - kPlotMargin,
                room_y = size.height - top - kFoot;
   if (room_x < 100.0 || room_y < 100.0) throw UsageError("a picture too small for a block map");
@@ -153,9 +170,10 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   for (const Area& area : areas_) {
     const Eigen::Vector2d low = frame.pixel({area.minimum.x(), area.maximum.y()});
     const Eigen::Vector2d high = frame.pixel({area.maximum.x(), area.minimum.y()});
-    canvas.fill(
-        {low.x(), low.y(), std::max(2.0, high.x() - low.x()), std::max(2.0, high.y() - low.y())},
-        Color::rgb(0xd55e00).withAlpha(150));
+    const PixelBox box{low.x(), low.y(), std::max(2.0, high.x() - low.x()),
+                       std::max(2.0, high.y() - low.y())};
+    canvas.fill(box, kAreaColor.withAlpha(45));
+    canvas.frame(box, 1.0, kAreaColor.withAlpha(190));
   }
   for (std::size_t s = 0; s < coverage.strips(); ++s) {
     drawOutline(canvas, whole, s, frame, categoryColor(s));
@@ -185,7 +203,7 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   drawLegend(canvas, counts, "strips at a place", {left, y});
   y += legendSize(counts, "x").y() + 16.0;
   std::vector<LegendEntry> marks;
-  if (!areas_.empty()) marks.push_back({"areas used", Color::rgb(0xe08a4d)});
+  if (!areas_.empty()) marks.push_back({"areas used", mix(ink::white, kAreaColor, 0.6)});
   if (!marks.empty()) drawLegend(canvas, marks, "", {left, y});
   y += legendSize(marks, "").y();
   if (!control_.empty()) {

@@ -8,6 +8,7 @@
 #include <pcl_als/visualization/axes.h>
 #include <pcl_als/visualization/calibration_plots.h>
 #include <pcl_als/visualization/map_furniture.h>
+#include <pcl_als/visualization/row_plots.h>
 
 #include "plot_parts.h"
 
@@ -201,44 +202,16 @@ Canvas drawConvergence(const CalibrationResult& result, PictureSize size) {
 }
 
 Canvas drawPairs(const CalibrationResult& result, PictureSize size) {
-  if (result.pairs.empty()) throw UsageError("plot of pairs: no pair of strips");
-  Canvas canvas(size.width, size.height);
-  const double top = detail::drawTitle(canvas, "Fit of overlapping strips before and after");
-  std::vector<double> values = {0.0};
-  TextStyle name;
-  name.horizontal = Align::high;
-  double widest = 0.0;
+  BeforeAfterPlot plot;
+  plot.title = "Fit of overlapping strips before and after";
+  plot.x_label = "RMS of the normal distances, m";
   for (const PairFit& pair : result.pairs) {
-    values.insert(values.end(), {pair.rms_before, pair.rms_after});
-    widest = std::max(widest, Canvas::textSize(pair.a + " : " + pair.b, name).x());
+    plot.rows.push_back({pair.a + " : " + pair.b, pair.rms_before, pair.rms_after});
   }
-  const double left = std::min(widest, 0.3 * size.width) + kPlotMargin + 14.0;
-  const PixelBox box{left, top + 40.0, size.width - left - 2.0 * kPlotMargin,
-                     size.height - top - 124.0};
-  Axis y;
-  y.high = static_cast<double>(result.pairs.size());
-  y.ticks = false;
-  Axes axes(canvas, box, Axis::around(values, "RMS of the normal distances, m", true), y);
-  name.size = std::clamp(std::floor(0.7 * box.height / y.high), 7.0, 14.0);
-  const double dot = std::clamp(0.5 * box.height / y.high, 4.0, 12.0);
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    const PairFit& pair = result.pairs[i];
-    const double at = y.high - static_cast<double>(i) - 0.5;
-    const Eigen::Vector2d before = axes.pixel(pair.rms_before, at);
-    const Eigen::Vector2d after = axes.pixel(pair.rms_after, at);
-    canvas.line(before, after, 2.0, ink::gray.withAlpha(120));
-    canvas.marker(Marker::diamond, before, dot, ink::before);
-    canvas.marker(Marker::disk, after, dot, ink::after);
-    canvas.text(detail::shortened(pair.a + " : " + pair.b, left - kPlotMargin, name),
-                {box.x - 10.0, after.y()}, name);
-  }
-  axes.drawFrame();
-  TextStyle key;
-  canvas.marker(Marker::diamond, {box.x + 8.0, top + 20.0}, 11.0, ink::before);
-  const PixelBox before = canvas.text("as delivered", {box.x + 22.0, top + 20.0}, key);
-  canvas.marker(Marker::disk, {before.right() + 30.0, top + 20.0}, 11.0, ink::after);
-  canvas.text("calibrated", {before.right() + 44.0, top + 20.0}, key);
-  return canvas;
+  constexpr std::size_t kMost = 60;
+  if (plot.rows.size() > kMost) plot.title += " (the " + std::to_string(kMost) + " largest)";
+  plot.keepLargest(kMost);
+  return drawBeforeAfter(plot, size);
 }
 
 Canvas drawResiduals(const CalibrationResult& result, PictureSize size) {
@@ -265,6 +238,7 @@ Canvas drawStripErrors(const CalibrationResult& result, PictureSize size) {
     entries.push_back(
         {detail::shortened(result.strip_errors[i].id, 150.0, {}), categoryColor(i), true});
   }
+  entries = detail::fitting(std::move(entries), size.height - top - 20.0 - kPlotMargin);
   const double legend = std::max(legendSize(entries, "strip").x(), 60.0);
   const double panel_w = (size.width - legend - 2.0 * kPlotMargin) / 3.0;
   const double panel_h = (size.height - top - 10.0) / 2.0;

@@ -74,17 +74,33 @@ void ClassMapPicture::drawMap(Canvas& canvas, const Map& map, const Eigen::Vecto
   drawCoordinates(canvas, map.raster.north_west, metres_per_pixel, box);
 }
 
+std::vector<LegendEntry> ClassMapPicture::legend() const {
+  std::vector<LegendEntry> entries;
+  for (const MapClass& c : classes_) entries.push_back({c.name, c.color});
+  return entries;
+}
+
+/// Pixels from west to east that each map may take.
+double ClassMapPicture::roomAcross(int width) const {
+  const double room = width - 3.0 * kMargin - std::max(legendSize(legend(), heading_).x(), 130.0);
+  return room / static_cast<double>(maps_.size()) - kLabels - 2.0 * kMargin;
+}
+
+int ClassMapPicture::heightFor(int width, int lowest, int highest) const {
+  double height = 0.0;
+  for (const Map& map : maps_)
+    height = std::max(height, roomAcross(width) * map.raster.rows / map.raster.columns);
+  height += kMargin + (title_.empty() ? 0.0 : kTitle) + kCaption + kFoot;
+  return static_cast<int>(std::clamp<double>(std::ceil(height), lowest, highest));
+}
+
 Canvas ClassMapPicture::draw(int width, int height) const {
   if (maps_.empty() || classes_.empty()) throw UsageError("a class map needs a map and classes");
   Canvas canvas(width, height);
-  std::vector<LegendEntry> entries;
-  for (const MapClass& c : classes_) entries.push_back({c.name, c.color});
-  const Eigen::Vector2d legend = legendSize(entries, "Classes");
+  const std::vector<LegendEntry> entries = legend();
   const double top = kMargin + (title_.empty() ? 0.0 : kTitle);
-  const double room = width - 3.0 * kMargin - std::max(legend.x(), 130.0);
-  const double room_x = room / static_cast<double>(maps_.size()) - kLabels - 2.0 * kMargin;
-  const double room_y = height - top - kCaption - kFoot;
-  if (room_x < 50.0 || room_y < 50.0 || top + legend.y() > height - 150.0) {
+  const double room_x = roomAcross(width), room_y = height - top - kCaption - kFoot;
+  if (room_x < 50.0 || room_y < 50.0 || top + legendSize(entries, heading_).y() > height - 150.0) {
     throw UsageError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                      " pixels is too small for these maps and classes");
   }
@@ -102,7 +118,7 @@ Canvas ClassMapPicture::draw(int width, int height) const {
     drawMap(canvas, map, {legend_x, top}, metres_per_pixel);
     legend_x += kLabels + map.raster.columns * map.raster.cell / metres_per_pixel + 2.0 * kMargin;
   }
-  drawLegend(canvas, entries, "Classes", {legend_x, top + kCaption});
+  drawLegend(canvas, entries, heading_, {legend_x, top + kCaption});
   drawScaleBar(canvas, metres_per_pixel, 120.0, {legend_x, height - kFoot});
   drawNorthArrow(canvas, {legend_x + 18.0, height - kFoot - 80.0}, 44.0);
   return canvas;

@@ -47,7 +47,8 @@ bool numeric(const std::string& cell) {
 std::vector<bool> numericColumns(const ReportTable& table) {
   std::vector<bool> numbers(table.columns.size(), !table.rows.empty());
   for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    const std::size_t cells = row.size() < numbers.size() ? row.size() - 1 : row.size();
+    for (std::size_t i = 0; i < cells; ++i) {
       numbers[i] = numbers[i] && (row[i].empty() || numeric(row[i]));
     }
   }
@@ -86,7 +87,11 @@ std::string tableHtml(const ReportTable& table) {
   for (const auto& row : table.rows) {
     out << "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      out << (numbers[i] ? "<td class=\"n\">" : "<td>")
+      // A row that ends early says in words why; the words go across what is left.
+      const std::size_t across = i + 1 == row.size() ? table.columns.size() - i : 1;
+      out << (across > 1   ? "<td colspan=\"" + std::to_string(across) + "\">"
+              : numbers[i] ? std::string("<td class=\"n\">")
+                           : std::string("<td>"))
           << (row[i].empty() ? "–" : escapeHtml(row[i])) << "</td>";
     }
     out << "</tr>\n";
@@ -174,9 +179,9 @@ void HtmlReport::addList(std::vector<std::string> items) {
 
 void HtmlReport::addTable(ReportTable table) {
   for (const auto& row : table.rows) {
-    if (row.size() == table.columns.size()) continue;
+    if (!row.empty() && row.size() <= table.columns.size()) continue;
     throw UsageError("report table '" + table.caption + "': a row has " +
-                     std::to_string(row.size()) + " cells, not " +
+                     std::to_string(row.size()) + " cells, not 1 to " +
                      std::to_string(table.columns.size()));
   }
   blocks_.push_back({Kind::table, {}, {}, std::move(table), {}});
@@ -294,7 +299,9 @@ void HtmlReport::write(const std::filesystem::path& folder) const {
   for (const Block& block : blocks_) {
     if (block.kind != Kind::table || block.table.name.empty()) continue;
     std::string csv = joined(block.table.columns, ",", true) + "\n";
-    for (const auto& row : block.table.rows) csv += joined(row, ",", true) + "\n";
+    for (const auto& row : block.table.rows)
+      csv +=
+          joined(row, ",", true) + std::string(block.table.columns.size() - row.size(), ',') + "\n";
     writeFile(folder / (block.table.name + ".csv"), csv);
   }
   writeFile(folder / "report.md", markdown());

@@ -16,6 +16,10 @@ double widest(const std::vector<std::string>& texts, const TextStyle& style) {
   return width;
 }
 
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 bool isDark(const Color& color) {
   return 0.299 * color.r + 0.587 * color.g + 0.114 * color.b < 140.0;
 }
@@ -32,18 +36,56 @@ double drawTitle(Canvas& canvas, const std::string& title) {
   return kPlotMargin + 40.0;
 }
 
-std::string shortened(const std::string& text, double width, const TextStyle& style) {
-  if (Canvas::textSize(text, style).x() <= width) return text;
-  std::string shorter = text;
-  while (!shorter.empty()) {
-    // A character of UTF-8 is a first byte and those after it that begin with 10.
-    while (!shorter.empty() && (static_cast<unsigned char>(shorter.back()) & 0xC0U) == 0x80U) {
-      shorter.pop_back();
+std::vector<Color> seriesColors(const std::vector<std::string>& names) {
+  std::vector<Color> colors;
+  std::size_t before = 0, after = 0, other = 0;
+  for (const std::string& name : names) {
+    if (endsWith(name, "before") && before == 0) {
+      colors.push_back(ink::before);
+      ++before;
+    } else if (endsWith(name, "after") && after == 0) {
+      colors.push_back(ink::after);
+      ++after;
+    } else {
+      colors.push_back(categoryColor(other + (before + after > 0 ? 2 : 0)));
+      ++other;
     }
-    if (!shorter.empty()) shorter.pop_back();
-    if (Canvas::textSize(shorter + "…", style).x() <= width) return shorter + "…";
   }
-  return {};
+  return colors;
+}
+
+Marker markerOf(const std::string& series) {
+  return endsWith(series, "before") ? Marker::diamond : Marker::disk;
+}
+
+std::vector<LegendEntry> fitting(std::vector<LegendEntry> entries, double height) {
+  std::size_t most = entries.size();
+  while (most > 2 &&
+         legendSize({entries.begin(), entries.begin() + static_cast<long>(most)}, "x").y() > height)
+    --most;
+  if (most == entries.size()) return entries;
+  const std::size_t more = entries.size() - most + 1;
+  entries.resize(most - 1);
+  entries.push_back({"and " + std::to_string(more) + " more", ink::white});
+  return entries;
+}
+
+std::string shortened(const std::string& text, double width, const TextStyle& style) {
+  // No character is narrower than a fifth of its height: what is longer need not be measured whole.
+  const auto most = static_cast<std::size_t>(std::max(0.0, 4.0 * 5.0 * width / style.size)) + 16;
+  if (text.size() <= most && Canvas::textSize(text, style).x() <= width) return text;
+  // Lengths in bytes at which a character of UTF-8 begins: none of those after it that begin
+  // with 10.
+  std::vector<std::size_t> ends = {0};
+  for (std::size_t i = 1; i < std::min(text.size(), most); ++i) {
+    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) ends.push_back(i);
+  }
+  const auto too_wide = std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) {
+    return Canvas::textSize(text.substr(0, end) + "…", style).x() <= width;
+  });
+  if (too_wide == ends.begin()) return {};
+  const std::size_t end = *(too_wide - 1);
+  return end == 0 ? std::string() : text.substr(0, end) + "…";
 }
 
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style,
@@ -72,17 +114,17 @@ PixelBox drawHeatMap(Canvas& canvas, const HeatMap& heat, const ColorMap& map,
   const double left = std::min(widest(heat.rows, style), 0.4 * box.width) + 14.0 + heading;
   const double count = static_cast<double>(heat.columns.size());
   const bool upright =
-      widest(heat.columns, style) > std::min((box.width - left) / count, 130.0) - 6.0;
+      widest(heat.columns, style) > std::min((box.width - left) / count, 190.0) - 6.0;
   const double top =
       (upright ? std::min(widest(heat.columns, style), 0.4 * box.height) : kNameSize) + 18.0 +
       heading;
   const double cell =
       std::floor(std::min({(box.width - left) / count,
-                           (box.height - top) / static_cast<double>(heat.rows.size()), 130.0}));
+                           (box.height - top) / static_cast<double>(heat.rows.size()), 190.0}));
   const PixelBox cells{std::round(box.x + left), std::round(box.y + top), cell * count,
                        cell * static_cast<double>(heat.rows.size())};
   TextStyle number;
-  number.size = std::clamp(std::floor(0.24 * cell), 9.0, 18.0);
+  number.size = std::clamp(std::floor(0.24 * cell), 9.0, 20.0);
   number.horizontal = number.vertical = Align::center;
   for (std::size_t r = 0; r < heat.rows.size(); ++r) {
     for (std::size_t c = 0; c < heat.columns.size(); ++c) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pcl_als/visualization/canvas.h>
+#include <pcl_als/visualization/map_furniture.h>
 
 namespace pcl_als::detail {
 
@@ -20,6 +21,14 @@ std::string shortened(const std::string& text, double width, const TextStyle& st
 /// The text in lines of at most so many pixels, broken at blanks; the last of \a most is shortened.
 std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style,
                                  std::size_t most);
+
+/// Colours of series by name: those that end in before and after have theirs, the first of each.
+std::vector<Color> seriesColors(const std::vector<std::string>& names);
+/// before is a diamond, so that it is told from after without its colour.
+Marker markerOf(const std::string& series);
+
+/// As many entries as fit so many pixels below each other; the last then says how many more.
+std::vector<LegendEntry> fitting(std::vector<LegendEntry> entries, double height);
 
 /// Names of what rows and columns of a matrix stand for, and the matrix as coloured cells with
 /// numbers. Text is white on dark cells.

@@ -166,8 +166,10 @@ void PointPicture::drawPanel(Canvas& canvas, const PixelThinning& points,
   const double metres = points.camera().metresPerPixel();
   drawScaleBar(canvas, metres, kPanel - 40.0, {left, foot});
   const Eigen::Vector2d north = northIn(points.camera());
-  if (north.norm() > 0.05) drawNorthArrow(canvas, {left + 24.0, foot - 92.0}, 46.0, north);
   const double room = foot - 150.0 - top;
+  // A picture too low for scale and arrow has north up, or says where it looks, all the same.
+  if (north.norm() > 0.05 && room > 130.0)
+    drawNorthArrow(canvas, {left + 24.0, foot - 92.0}, 46.0, north);
   const bool gaps = anyWithoutValue(points);
   if (coloring.categories.empty()) {
     TextStyle bold;

@@ -15,30 +15,6 @@ namespace {
 
 using detail::kPlotMargin;
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-/// before and after have their colours; where several series have them (by pair), the shape of the
-/// marker tells those apart.
-std::vector<Color> colorsOf(const std::vector<std::string>& names) {
-  std::vector<Color> colors;
-  std::size_t before = 0, after = 0, other = 0;
-  for (const std::string& name : names) {
-    if (endsWith(name, "before") && before == 0) {
-      colors.push_back(ink::before);
-      ++before;
-    } else if (endsWith(name, "after") && after == 0) {
-      colors.push_back(ink::after);
-      ++after;
-    } else {
-      colors.push_back(categoryColor(other + (before + after > 0 ? 2 : 0)));
-      ++other;
-    }
-  }
-  return colors;
-}
-
 PixelBox plotBox(const Canvas& canvas, double top, double legend_width) {
   const double left = 110.0, bottom = 84.0;
   const double right = legend_width > 0.0 ? legend_width + 2.0 * kPlotMargin : kPlotMargin;
@@ -101,8 +77,9 @@ Canvas drawCurves(const CurvePlot& plot, PictureSize size) {
       all_y.insert(all_y.end(), {series.y[i] - half, series.y[i] + half});
     }
   }
-  const std::vector<Color> colors = colorsOf(names);
-  const auto entries = legendOf(names, colors, 0.25 * size.width);
+  const std::vector<Color> colors = detail::seriesColors(names);
+  const auto entries = detail::fitting(legendOf(names, colors, 0.25 * size.width),
+                                       size.height - top - 2.0 * kPlotMargin);
   const double legend = names.size() > 1 ? legendSize(entries, "").x() : 0.0;
   const PixelBox box = plotBox(canvas, top, legend);
   const Axis y = Axis::around(all_y, plot.y_label);
@@ -112,7 +89,7 @@ Canvas drawCurves(const CurvePlot& plot, PictureSize size) {
     const CurvePlot::Series& series = plot.series[i];
     axes.errorBars(series.x, series.y, series.std, colors[i].withAlpha(150));
     axes.line(series.x, series.y, 2.0, colors[i]);
-    axes.points(series.x, series.y, 7.0, colors[i]);
+    axes.points(series.x, series.y, 7.0, colors[i], detail::markerOf(series.name));
   }
   axes.drawFrame();
   if (legend > 0.0) drawLegend(canvas, entries, "", {box.right() + kPlotMargin, box.y});
@@ -138,8 +115,9 @@ Canvas drawHistogram(const HistogramPlot& plot, PictureSize size) {
   }
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, plot.title);
-  const std::vector<Color> colors = colorsOf(names);
-  const auto entries = legendOf(names, colors, 0.25 * size.width);
+  const std::vector<Color> colors = detail::seriesColors(names);
+  const auto entries = detail::fitting(legendOf(names, colors, 0.25 * size.width),
+                                       size.height - top - 2.0 * kPlotMargin);
   const PixelBox box = plotBox(canvas, top, legendSize(entries, "").x());
   Axis x;
   x.low = plot.edges.front();

@@ -40,6 +40,13 @@ double markerSize(std::size_t points, double width) {
 
 }  // namespace
 
+bool SectionLine::contains(const Eigen::Vector2d& place, double margin) const {
+  const Eigen::Vector2d direction = (to - from) / length(), offset = place - from;
+  const double along = direction.dot(offset);
+  const double aside = direction.x() * offset.y() - direction.y() * offset.x();
+  return along >= -margin && along <= length() + margin && std::abs(aside) <= half_width + margin;
+}
+
 SectionPoints::SectionPoints(const SectionLine& line, std::size_t most)
     : line_(line), most_(std::max<std::size_t>(2, most)) {
   if (!(line.length() > 0.0) || !std::isfinite(line.length())) {
@@ -155,6 +162,7 @@ Canvas SectionPicture::draw(PictureSize size) const {
     const std::string name = index < strips_.size() ? strips_[index] : std::to_string(strip);
     entries.push_back({detail::shortened(name, 100.0, {}), categoryColor(index)});
   }
+  entries = detail::fitting(std::move(entries), size.height - layout.top - kPlotMargin);
   drawLegend(canvas, entries, "strip", {layout.left + layout.width + kPlotMargin, layout.top});
   return canvas;
 }

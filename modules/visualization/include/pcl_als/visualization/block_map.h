@@ -50,6 +50,9 @@ class BlockMap {
   void setAreas(std::vector<Area> areas) { areas_ = std::move(areas); }
   void setControl(std::vector<Eigen::Vector2d> points) { control_ = std::move(points); }
 
+  /// The height at which the map fills a width, within limits.
+  static int heightFor(const StripCoverage& coverage, int width, int lowest = 560,
+                       int highest = 1400);
   /// \param names one for each strip of the coverage, else UsageError
   Canvas draw(const StripCoverage& coverage, const std::vector<std::string>& names,
               PictureSize size = {}) const;

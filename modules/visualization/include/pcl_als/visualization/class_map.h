@@ -45,22 +45,27 @@ class ClassMapPicture {
  public:
   void setTitle(std::string title) { title_ = std::move(title); }
   void setClasses(std::vector<MapClass> classes) { classes_ = std::move(classes); }
+  void setLegendHeading(std::string heading) { heading_ = std::move(heading); }
   /// UsageError unless there is one code for each cell.
   void addMap(std::string caption, ClassRaster raster);
 
   /// UsageError without maps or classes, or where the picture is too small for them.
   Canvas draw(int width, int height) const;
+  /// The height at which the maps fill a width, within limits.
+  int heightFor(int width, int lowest = 420, int highest = 1400) const;
 
  private:
   struct Map {
     std::string caption;
     ClassRaster raster;
   };
+  std::vector<LegendEntry> legend() const;
+  double roomAcross(int width) const;
   Image imageOf(const ClassRaster& raster, double pixels_per_cell) const;
   void drawMap(Canvas& canvas, const Map& map, const Eigen::Vector2d& corner,
                double metres_per_pixel) const;
 
-  std::string title_;
+  std::string title_, heading_ = "Classes";
   std::vector<MapClass> classes_;
   std::vector<Map> maps_;
 };

@@ -12,7 +12,7 @@
 namespace pcl_als {
 
 /// A table of a report. Numbers are given as text with the digits to be shown; a cell that is
-/// empty is shown as a dash.
+/// empty is shown as a dash. A row may end early: its last cell, a remark, goes across the rest.
 struct ReportTable {
   std::string name;                  ///< of its CSV file: NAME.csv; empty: no file
   std::string caption;               ///< what the table shows, with units

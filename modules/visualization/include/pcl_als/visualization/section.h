@@ -18,6 +18,8 @@ struct SectionLine {
   double half_width = 1.0;                                                       ///< metres
 
   double length() const { return (to - from).norm(); }
+  /// Whether a place is in the section, or so many metres beside it at most.
+  bool contains(const Eigen::Vector2d& place, double margin = 0.0) const;
 };
 
 /** \brief Collects the points of a section by strip.
