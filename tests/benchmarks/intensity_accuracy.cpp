@@ -140,7 +140,7 @@ RadiometricCells cellsOf(const test::SimulatedStrips& block, const RadiometricMo
       if (p.return_number >= p.number_of_returns) last.emplace_back(p.getVector3fMap());
     const LocalSurfaces surfaces(last, LocalSurfaceSettings());
     const RadiometricEvaluator evaluator(block.flight, model);
-    std::size_t cursor = 0;
+    RadiometryCursor cursor;
     for (const PointLidar& p : *strip.cloud) {
       const Eigen::Vector3d place = strip.frame.toGround(p.getVector3fMap());
       LocalSurface surface;

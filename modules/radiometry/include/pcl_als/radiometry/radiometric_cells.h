@@ -25,7 +25,7 @@ struct CellSums {
 /// What makes a cell of a strip smooth enough to be compared with that of another.
 struct SmoothCellSettings {
   std::uint32_t least_points = 3;
-  double most_excluded = 0.25;     ///< share of the cell's points
+  double most_excluded = 0.1;      ///< share of the cell's points
   double least_coherence = 0.995;  ///< length of the mean normal: 0.995 are 6 degrees RMS
   double most_variation = 0.3;     ///< standard deviation over mean of the intensities
   double most_turn = 5.0;          ///< degrees between the normals of two strips
