@@ -146,7 +146,7 @@ RadiometricCells cellsOf(const test::SimulatedStrips& block, const RadiometricMo
       LocalSurface surface;
       if (p.return_number >= p.number_of_returns) surface = surfaces.at(p.getVector3fMap());
       cells.add(static_cast<int>(s), place.x(), place.y(), static_cast<double>(p.intensity),
-                p.intensity > 0.0F && p.intensity < 65535.0F,
+                p.intensity > 0.0F && p.intensity < 65535.0F && p.number_of_returns == 1,
                 evaluator.evaluate({p.gps_time, place, p.return_number, p.number_of_returns},
                                    surface, cursor),
                 surface);
