@@ -11,86 +11,15 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/pcd_io.h>
+
+#include "intensity_survey.h"
 
 namespace pcl_als::app {
 namespace {
 
 constexpr std::size_t kBlock = 4096;  ///< records that share a box
 constexpr std::size_t kIntensity = 12, kReturns = 14;
-
-/// Points of one strip, one after the other in the file.
-struct PointRun {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::uint16_t source = 0;
-  std::uint64_t points = 0, zeros = 0;
-  double largest = 0.0;    ///< intensity
-  TimeRange times;         ///< without zeros
-  bool zero_time = false;  ///< there are points of time 0
-  Eigen::Vector3d minimum = Eigen::Vector3d::Constant(kInfinity), maximum = -minimum;
-};
-
-/// Collects what a survey says of points.
-struct SurveyTally {
-  std::map<std::uint16_t, PointSource> sources;
-  TimeRange times, zero_times;
-  std::uint64_t zeros = 0;
-  double largest = 0.0;
-
-  void add(const PointRun& run) {
-    TimeRange all = run.times;
-    if (run.zero_time) all.add(0.0);
-    if (run.zero_time) zero_times.add(0.0);
-    times.add(run.times.first);
-    times.add(run.times.last);
-    const auto [at, fresh] = sources.try_emplace(run.source);
-    PointSource& source = at->second;
-    if (fresh) {
-      source.id = run.source;
-      source.first_time = all.first;
-      source.last_time = all.last;
-      source.minimum = run.minimum;
-      source.maximum = run.maximum;
-    }
-    source.points += run.points;
-    source.first_time = std::min(source.first_time, all.first);
-    source.last_time = std::max(source.last_time, all.last);
-    source.minimum = source.minimum.cwiseMin(run.minimum);
-    source.maximum = source.maximum.cwiseMax(run.maximum);
-    zeros += run.zeros;
-    largest = std::max(largest, run.largest);
-  }
-
-  void merge(const SurveyTally& other) {
-    for (const auto& [id, theirs] : other.sources) {
-      const auto [at, fresh] = sources.try_emplace(id, theirs);
-      if (fresh) continue;
-      PointSource& mine = at->second;
-      mine.points += theirs.points;
-      mine.first_time = std::min(mine.first_time, theirs.first_time);
-      mine.last_time = std::max(mine.last_time, theirs.last_time);
-      mine.minimum = mine.minimum.cwiseMin(theirs.minimum);
-      mine.maximum = mine.maximum.cwiseMax(theirs.maximum);
-    }
-    for (const auto& [mine, theirs] :
-         {std::pair(&times, &other.times), std::pair(&zero_times, &other.zero_times)}) {
-      mine->first = std::min(mine->first, theirs->first);
-      mine->last = std::max(mine->last, theirs->last);
-    }
-    zeros += other.zeros;
-    largest = std::max(largest, other.largest);
-  }
-
-  void store(IntensitySurvey& survey) const {
-    for (const auto& [id, source] : sources) survey.sources.sources.push_back(source);
-    const TimeRange& range = times.empty() ? zero_times : times;
-    survey.first_time = range.first;
-    survey.last_time = range.last;
-    survey.zeros = zeros;
-    survey.largest = largest;
-  }
-};
 
 /// Sorts single and last returns by strip; the map is asked when the strip changes.
 class SurfacePoints {
@@ -154,8 +83,7 @@ class LasInput : public IntensityInput {
     const std::size_t step = request.records == nullptr ? length() : request.record_length;
     out.origin = positionOf(records);
     out.points.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-      out.points[i] = pointOf(records + i * step, out.origin);
+    for (std::size_t i = 0; i < count; ++i) out.points[i] = pointOf(records + i * step, out.origin);
     out.gain_control.clear();
     if (gain_control_ >= 0)
       decodeLasExtraField(records, count, step,
@@ -251,10 +179,9 @@ class LasInput : public IntensityInput {
       at += lookAtRun(records + at * length(), count - at, box, run);
       tally.add(run);
       box.block = block;
-      const auto same = std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block),
-                                     boxes.end(), [&run](const BlockBox& b) {
-                                       return b.source == run.source;
-                                     });
+      const auto same =
+          std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block), boxes.end(),
+                       [&run](const BlockBox& b) { return b.source == run.source; });
       if (same == boxes.end())
         boxes.push_back(box);
       else
@@ -403,8 +330,7 @@ std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".pcd") return std::make_unique<PcdInput>(path, options);
-  if (extension == ".las" || extension == ".laz")
-    return std::make_unique<LasInput>(path, options);
+  if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
   throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");
 }
 

@@ -195,8 +195,7 @@ struct FieldPlaces {
     }
   }
   void store(std::byte* record, const CorrectedPoint& point) const {
-    if (original >= 0)
-      storeLas(record + original, loadLas<std::uint16_t>(record + kIntensityAt));
+    if (original >= 0) storeLas(record + original, loadLas<std::uint16_t>(record + kIntensityAt));
     if (reflectance >= 0) storeLas(record + reflectance, static_cast<float>(point.reflectance));
     if (range >= 0) storeLas(record + range, static_cast<float>(point.range));
     if (incidence >= 0) storeLas(record + incidence, static_cast<float>(point.incidence));

@@ -225,8 +225,7 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
     out.divisor[i] = known_gains_[static_cast<std::size_t>(strip)];
     out.radiometry[i] = PointRadiometry();
     if (choice.wanted && !choice.wanted(place.x(), place.y())) continue;
-    const bool on_surface =
-        of_strip != nullptr && point.return_number >= point.number_of_returns;
+    const bool on_surface = of_strip != nullptr && point.return_number >= point.number_of_returns;
     if (on_surface) out.surfaces[i] = of_strip->at(point.position);
     out.radiometry[i] =
         evaluator.evaluate({times(point.time), place, point.return_number, point.number_of_returns},
@@ -257,7 +256,8 @@ const OverlapResult& IntensityRun::adjust(const std::function<void(double)>& pro
           const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
           parts[part].add(found.strip[i], place.x(), place.y(),
                           static_cast<double>(point.intensity) / found.divisor[i],
-                          usable(point.intensity) && point.number_of_returns <= 1, found.radiometry[i], found.surfaces[i]);
+                          usable(point.intensity) && point.number_of_returns <= 1,
+                          found.radiometry[i], found.surfaces[i]);
         }
       });
       for (const RadiometricCells& part : parts) cells.merge(part);

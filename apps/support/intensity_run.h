@@ -55,7 +55,7 @@ struct EvaluatedWindow {
   IntensityWindow window;
   std::vector<PointRadiometry> radiometry;
   std::vector<LocalSurface> surfaces;  ///< empty where none are sought
-  std::vector<int> strip;       ///< of each point
+  std::vector<int> strip;              ///< of each point
   std::vector<double> divisor;  ///< of each point's intensity: gains, pulse energy, gain control
 };
 

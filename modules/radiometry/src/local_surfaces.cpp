@@ -112,8 +112,8 @@ double LocalSurfaces::radiusFor(const std::vector<Eigen::Vector3f>& points) {
   for (const Eigen::Vector3f& p : points) {
     const auto column = static_cast<std::int32_t>(std::floor(p.x() / kCell));
     const auto row = static_cast<std::int32_t>(std::floor(p.y() / kCell));
-    const std::uint64_t cell = std::uint64_t{static_cast<std::uint32_t>(column)} << 32U |
-                               static_cast<std::uint32_t>(row);
+    const std::uint64_t cell =
+        std::uint64_t{static_cast<std::uint32_t>(column)} << 32U | static_cast<std::uint32_t>(row);
     if (cells.empty() || cells.back() != cell) cells.push_back(cell);
   }
   if (cells.empty()) return 1.0;

@@ -80,8 +80,7 @@ PointRadiometry RadiometricEvaluator::evaluate(const RadiometryPoint& point,
   PointRadiometry result;
   if (!point.position.allFinite()) return result;
   result.status = RadiometryStatus::uncovered;
-  if (!cursor.span.holds(point.time) &&
-      !trajectory_->pathAt(point.time, cursor.span, cursor.node))
+  if (!cursor.span.holds(point.time) && !trajectory_->pathAt(point.time, cursor.span, cursor.node))
     return result;
   const Eigen::Vector3d beam = point.position - cursor.span.at(point.time);
   result.status = RadiometryStatus::above_sensor;

@@ -57,7 +57,8 @@ class RadiometricCells {
   std::uint32_t oneIn() const { return one_in_; }
   bool wants(double x, double y) const;
   /// \a usable: the intensity is neither zero nor saturated, and the return its pulse's only one:
-  /// what reaches the ground through leaves is darker, and more so from one strip than from another.
+  /// what reaches the ground through leaves is darker, and more so from one strip than from
+  /// another.
   void add(int strip, double x, double y, double intensity, bool usable,
            const PointRadiometry& point, const LocalSurface& surface);
   void merge(const RadiometricCells& other);
