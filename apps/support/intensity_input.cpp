@@ -3,6 +3,7 @@
 #include "intensity_input.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -10,74 +11,15 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/pcd_io.h>
+
+#include "intensity_survey.h"
 
 namespace pcl_als::app {
 namespace {
 
 constexpr std::size_t kBlock = 4096;  ///< records that share a box
 constexpr std::size_t kIntensity = 12, kReturns = 14;
-
-/// Collects what a survey says of points.
-struct SurveyTally {
-  std::map<std::uint16_t, PointSource> sources;
-  PointSource* last = nullptr;  ///< in sources
-  TimeRange times, zero_times;
-  std::uint64_t zeros = 0;
-  double largest = 0.0;
-
-  void add(std::uint16_t id, double time, double intensity, const Eigen::Vector3d& position) {
-    // Points of one strip come in long runs: the map is asked when the strip changes.
-    if (last == nullptr || last->id != id) {
-      const auto [at, fresh] = sources.try_emplace(id);
-      last = &at->second;
-      if (fresh) {
-        last->id = id;
-        last->first_time = last->last_time = time;
-        last->minimum = last->maximum = position;
-      }
-    }
-    PointSource& source = *last;
-    ++source.points;
-    source.first_time = std::min(source.first_time, time);
-    source.last_time = std::max(source.last_time, time);
-    source.minimum = source.minimum.cwiseMin(position);
-    source.maximum = source.maximum.cwiseMax(position);
-    (time == 0.0 ? zero_times : times).add(time);
-    zeros += intensity == 0.0 ? 1 : 0;
-    largest = std::max(largest, intensity);
-  }
-
-  void merge(const SurveyTally& other) {
-    for (const auto& [id, theirs] : other.sources) {
-      const auto [at, fresh] = sources.try_emplace(id, theirs);
-      if (fresh) continue;
-      PointSource& mine = at->second;
-      mine.points += theirs.points;
-      mine.first_time = std::min(mine.first_time, theirs.first_time);
-      mine.last_time = std::max(mine.last_time, theirs.last_time);
-      mine.minimum = mine.minimum.cwiseMin(theirs.minimum);
-      mine.maximum = mine.maximum.cwiseMax(theirs.maximum);
-    }
-    for (const auto& [mine, theirs] :
-         {std::pair(&times, &other.times), std::pair(&zero_times, &other.zero_times)}) {
-      mine->first = std::min(mine->first, theirs->first);
-      mine->last = std::max(mine->last, theirs->last);
-    }
-    zeros += other.zeros;
-    largest = std::max(largest, other.largest);
-  }
-
-  void store(IntensitySurvey& survey) const {
-    for (const auto& [id, source] : sources) survey.sources.sources.push_back(source);
-    const TimeRange& range = times.empty() ? zero_times : times;
-    survey.first_time = range.first;
-    survey.last_time = range.last;
-    survey.zeros = zeros;
-    survey.largest = largest;
-  }
-};
 
 /// Sorts single and last returns by strip; the map is asked when the strip changes.
 class SurfacePoints {
@@ -102,8 +44,14 @@ class SurfacePoints {
 struct BlockBox {
   std::uint32_t block = 0;
   std::uint16_t source = 0;
-  std::int32_t min_x, min_y, max_x, max_y;
+  std::int32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
 
+  void add(const BlockBox& other) {
+    min_x = std::min(min_x, other.min_x);
+    min_y = std::min(min_y, other.min_y);
+    max_x = std::max(max_x, other.max_x);
+    max_y = std::max(max_y, other.max_y);
+  }
   bool near(const BlockBox& other, double margin_x, double margin_y) const {
     return source == other.source && min_x <= other.max_x + margin_x &&
            max_x >= other.min_x - margin_x && min_y <= other.max_y + margin_y &&
@@ -113,38 +61,39 @@ struct BlockBox {
 
 class LasInput : public IntensityInput {
  public:
-  LasInput(const std::string& path, const std::string& gain_control, int threads)
-      : IntensityInput(path), file_(path) {
+  LasInput(const std::string& path, const Options& options) : IntensityInput(path), file_(path) {
+    window_ = options.window;
     survey_.sources.info = file_.info();
     survey_.has_time = file_.layout().gps_time >= 0;
-    findGainControl(gain_control);
-    look(file_.header().compressed ? 1 : threads);
+    findGainControl(options.gain_control);
+    look(file_.header().compressed ? 1 : options.threads);
   }
 
   std::size_t windows() const override {
-    return (file_.header().point_count + kWindow - 1) / kWindow;
+    return (file_.header().point_count + window_ - 1) / window_;
   }
   const LasFile* las() const override { return &file_; }
 
-  void load(std::size_t window, const std::map<std::uint16_t, double>& margins,
-            IntensityWindow& out) const override {
-    const std::uint64_t first = window * std::uint64_t{kWindow};
-    const std::size_t count = std::min<std::uint64_t>(kWindow, file_.header().point_count - first);
-    thread_local std::vector<std::byte> records;
-    read(first, count, records);
-    out.origin = positionOf(records.data());
+  void load(std::size_t window, const WindowRequest& request, IntensityWindow& out) const override {
+    const std::uint64_t first = window * std::uint64_t{window_};
+    const std::size_t count = std::min<std::uint64_t>(window_, file_.header().point_count - first);
+    thread_local std::vector<std::byte> own;
+    const std::byte* records = request.records;
+    if (records == nullptr) read(first, count, own), records = own.data();
+    const std::size_t step = request.records == nullptr ? length() : request.record_length;
+    out.origin = positionOf(records);
     out.points.resize(count);
-    out.surface_points.clear();
-    for (std::size_t i = 0; i < count; ++i)
-      out.points[i] = pointOf(&records[i * length()], out.origin);
-    SurfacePoints surface_points(out);
-    for (const IntensityPoint& point : out.points) surface_points.add(point);
+    for (std::size_t i = 0; i < count; ++i) out.points[i] = pointOf(records + i * step, out.origin);
     out.gain_control.clear();
     if (gain_control_ >= 0)
-      decodeLasExtraField(records.data(), count, length(),
+      decodeLasExtraField(records, count, step,
                           file_.extraFields()[static_cast<std::size_t>(gain_control_)],
                           out.gain_control);
-    loadNeighbours(window, margins, out);
+    out.surface_points.clear();
+    if (!request.surfaces) return;
+    SurfacePoints surface_points(out);
+    for (const IntensityPoint& point : out.points) surface_points.add(point);
+    loadNeighbours(window, request.margins, out);
   }
 
  private:
@@ -170,12 +119,12 @@ class LasInput : public IntensityInput {
   }
 
   Eigen::Vector3d positionOf(const std::byte* record) const {
+    return metres({loadLas<std::int32_t>(record), loadLas<std::int32_t>(record + 4),
+                   loadLas<std::int32_t>(record + 8)});
+  }
+  Eigen::Vector3d metres(const std::array<std::int32_t, 3>& raw) const {
     const LasHeader& header = file_.header();
-    Eigen::Vector3d position;
-    for (int axis = 0; axis < 3; ++axis)
-      position[axis] =
-          loadLas<std::int32_t>(record + 4 * axis) * header.scale[axis] + header.offset[axis];
-    return position;
+    return Eigen::Vector3d(raw[0], raw[1], raw[2]).cwiseProduct(header.scale) + header.offset;
   }
 
   std::uint16_t sourceOf(const std::byte* record) const {
@@ -203,9 +152,9 @@ class LasInput : public IntensityInput {
     std::vector<std::vector<BlockBox>> boxes(windows());
     parallelFor(windows(), threads, [&](std::size_t window) {
       std::vector<std::byte> records;
-      const std::uint64_t first = window * std::uint64_t{kWindow};
+      const std::uint64_t first = window * std::uint64_t{window_};
       const std::size_t count =
-          std::min<std::uint64_t>(kWindow, file_.header().point_count - first);
+          std::min<std::uint64_t>(window_, file_.header().point_count - first);
       read(first, count, records);
       for (std::size_t at = 0; at < count; at += kBlock)
         lookAtBlock(static_cast<std::uint32_t>((first + at) / kBlock), &records[at * length()],
@@ -224,25 +173,53 @@ class LasInput : public IntensityInput {
   void lookAtBlock(std::uint32_t block, const std::byte* records, std::size_t count,
                    SurveyTally& tally, std::vector<BlockBox>& boxes) const {
     const std::size_t first_of_block = boxes.size();
-    const int time_at = file_.layout().gps_time;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::byte* record = records + i * length();
-      const std::uint16_t source = sourceOf(record);
-      const auto x = loadLas<std::int32_t>(record), y = loadLas<std::int32_t>(record + 4);
-      tally.add(source, time_at < 0 ? 0.0 : loadLas<double>(record + time_at),
-                loadLas<std::uint16_t>(record + kIntensity), positionOf(record));
-      const auto box =
+    for (std::size_t at = 0; at < count;) {
+      BlockBox box;
+      PointRun run;
+      at += lookAtRun(records + at * length(), count - at, box, run);
+      tally.add(run);
+      box.block = block;
+      const auto same =
           std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block), boxes.end(),
-                       [source](const BlockBox& b) { return b.source == source; });
-      if (box == boxes.end()) {
-        boxes.push_back({block, source, x, y, x, y});
-        continue;
-      }
-      box->min_x = std::min(box->min_x, x);
-      box->min_y = std::min(box->min_y, y);
-      box->max_x = std::max(box->max_x, x);
-      box->max_y = std::max(box->max_y, y);
+                       [&run](const BlockBox& b) { return b.source == run.source; });
+      if (same == boxes.end())
+        boxes.push_back(box);
+      else
+        same->add(box);
     }
+  }
+
+  /// Looks at the records of the first one's strip; returns how many there are in a row.
+  std::size_t lookAtRun(const std::byte* records, std::size_t count, BlockBox& box,
+                        PointRun& run) const {
+    const int time_at = file_.layout().gps_time;
+    std::array<std::int32_t, 3> least, most;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      least[axis] = most[axis] = loadLas<std::int32_t>(records + 4 * axis);
+    run.source = sourceOf(records);
+    std::uint16_t largest = 0;
+    std::size_t i = 0;
+    for (; i < count && sourceOf(records) == run.source; ++i, records += length()) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto value = loadLas<std::int32_t>(records + 4 * axis);
+        least[axis] = std::min(least[axis], value);
+        most[axis] = std::max(most[axis], value);
+      }
+      const auto intensity = loadLas<std::uint16_t>(records + kIntensity);
+      largest = std::max(largest, intensity);
+      run.zeros += intensity == 0 ? 1 : 0;
+      const double time = time_at < 0 ? 0.0 : loadLas<double>(records + time_at);
+      if (time == 0.0)
+        run.zero_time = true;
+      else
+        run.times.add(time);
+    }
+    run.points = i;
+    run.largest = largest;
+    run.minimum = metres(least);
+    run.maximum = metres(most);
+    box = {0, run.source, least[0], least[1], most[0], most[1]};
+    return i;
   }
 
   /// Blocks outside the window with points within the margin of a block of the same strip in it.
@@ -263,7 +240,7 @@ class LasInput : public IntensityInput {
     }
     if (blocks.size() * kBlock > kMostNeighbours)
       throw InputError(path_ + ": its points are in no order of time or place (around " +
-                       std::to_string(kWindow) + " of them lie more than " +
+                       std::to_string(window_) + " of them lie more than " +
                        std::to_string(kMostNeighbours) + " others); sort it by time");
     return blocks;
   }
@@ -304,23 +281,20 @@ class LasInput : public IntensityInput {
 
 class PcdInput : public IntensityInput {
  public:
-  PcdInput(const std::string& path, const std::string& gain_control)
+  PcdInput(const std::string& path, const Options& options)
       : IntensityInput(path), strip_(loadPcd(path)) {
-    if (!gain_control.empty())
+    if (!options.gain_control.empty())
       throw UsageError("option -agc_field: " + path + " is a PCD; gain control is read from LAS");
     survey_.sources.info = PointReader::open(path)->info();
     SurveyTally tally;
-    for (const PointLidar& point : *strip_.cloud)
-      tally.add(point.point_source_id, point.gps_time, static_cast<double>(point.intensity),
-                strip_.frame.toGround(point.getVector3fMap()));
+    for (const PointLidar& point : *strip_.cloud) tally.add(runOf(point));
     tally.store(survey_);
   }
 
   std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
   const Strip<PointLidar>* strip() const override { return &strip_; }
 
-  void load(std::size_t, const std::map<std::uint16_t, double>&,
-            IntensityWindow& out) const override {
+  void load(std::size_t, const WindowRequest&, IntensityWindow& out) const override {
     out.origin = strip_.frame.origin;
     out.points.clear();
     out.surface_points.clear();
@@ -334,18 +308,29 @@ class PcdInput : public IntensityInput {
   }
 
  private:
+  PointRun runOf(const PointLidar& point) const {
+    PointRun run;
+    run.source = point.point_source_id;
+    run.points = 1;
+    run.zeros = point.intensity == 0.0F ? 1 : 0;
+    run.largest = static_cast<double>(point.intensity);
+    run.zero_time = point.gps_time == 0.0;
+    if (!run.zero_time) run.times.add(point.gps_time);
+    run.minimum = run.maximum = strip_.frame.toGround(point.getVector3fMap());
+    return run;
+  }
+
   Strip<PointLidar> strip_;
 };
 
 }  // namespace
 
 std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
-                                                     const std::string& gain_control, int threads) {
+                                                     const Options& options) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension == ".pcd") return std::make_unique<PcdInput>(path, gain_control);
-  if (extension == ".las" || extension == ".laz")
-    return std::make_unique<LasInput>(path, gain_control, threads);
+  if (extension == ".pcd") return std::make_unique<PcdInput>(path, options);
+  if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
   throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");
 }
 

@@ -44,6 +44,17 @@ struct IntensitySurvey {
   double first_time = 0.0, last_time = 0.0;
 };
 
+/// What of a window is wanted.
+struct WindowRequest {
+  /// Whether surfaces will be sought: points of other windows within these metres of the points of
+  /// each source come along; sources without a margin get none.
+  bool surfaces = true;
+  std::map<std::uint16_t, double> margins;
+  /// The window's records, where the caller has them already (LAS): the file is not read again.
+  const std::byte* records = nullptr;
+  std::size_t record_length = 0;
+};
+
 /** \brief A point file, read window by window.
  *
  * LAS: windows are runs of records. The first look keeps a box for every 4096 records and strip (32
@@ -55,18 +66,24 @@ struct IntensitySurvey {
 class IntensityInput {
  public:
   static constexpr std::size_t kWindow = std::size_t{1} << 17;
+  /// Without surfaces nothing is gained by more than a processor's cache holds.
+  static constexpr std::size_t kSmallWindow = std::size_t{1} << 13;
   static constexpr std::size_t kMostNeighbours = std::size_t{1} << 22;
 
   virtual ~IntensityInput() = default;
-  /// By extension. \a gain_control: name of an extra field to read; empty: none.
-  static std::unique_ptr<IntensityInput> open(const std::string& path,
-                                              const std::string& gain_control, int threads);
+  struct Options {
+    std::string gain_control;  ///< name of an extra field to read; empty: none
+    std::size_t window = kWindow;
+    int threads = 1;
+  };
+  /// By extension.
+  static std::unique_ptr<IntensityInput> open(const std::string& path, const Options& options);
 
   const std::string& path() const { return path_; }
   const IntensitySurvey& survey() const { return survey_; }
   virtual std::size_t windows() const = 0;
-  /// \a margins: metres around the points of each source; sources without one get no neighbours.
-  virtual void load(std::size_t window, const std::map<std::uint16_t, double>& margins,
+  std::size_t windowSize() const { return window_; }  ///< points
+  virtual void load(std::size_t window, const WindowRequest& request,
                     IntensityWindow& out) const = 0;
   /// The file behind it; null for a PCD.
   virtual const LasFile* las() const { return nullptr; }
@@ -76,6 +93,7 @@ class IntensityInput {
  protected:
   explicit IntensityInput(std::string path) : path_(std::move(path)) {}
   std::string path_;
+  std::size_t window_ = kWindow;
   IntensitySurvey survey_;
 };
 

@@ -70,7 +70,7 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
 }
 
 std::uint16_t rounded(double value) {
-  return static_cast<std::uint16_t>(std::clamp(std::round(value), 0.0, kMost));
+  return static_cast<std::uint16_t>(std::clamp(value, 0.0, kMost) + 0.5);
 }
 
 /// Takes in blocks as they come and merges them in their order, so that threads change no sum.
@@ -182,6 +182,29 @@ double valueOf(const std::string& field, const CorrectedPoint& point) {
   return field.rfind("range", 0) == 0 ? point.range : point.incidence;
 }
 
+/// Where the values of a point go in its record; -1: nowhere.
+struct FieldPlaces {
+  std::ptrdiff_t original = -1, reflectance = -1, range = -1, incidence = -1;
+
+  explicit FieldPlaces(const std::vector<LasExtraField>& fields) {
+    for (const LasExtraField& field : fields) {
+      const auto at = static_cast<std::ptrdiff_t>(field.position);
+      if (field.name == kOriginal)
+        original = at;
+      else if (field.name.rfind("reflectance", 0) == 0)
+        reflectance = at;
+      else
+        (field.name.rfind("range", 0) == 0 ? range : incidence) = at;
+    }
+  }
+  void store(std::byte* record, const CorrectedPoint& point) const {
+    if (original >= 0) storeLas(record + original, loadLas<std::uint16_t>(record + kIntensityAt));
+    if (reflectance >= 0) storeLas(record + reflectance, static_cast<float>(point.reflectance));
+    if (range >= 0) storeLas(record + range, static_cast<float>(point.range));
+    if (incidence >= 0) storeLas(record + incidence, static_cast<float>(point.incidence));
+  }
+};
+
 void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
               const IntensityOutput& output, const std::function<void(double)>& progress,
               IntensityOutcome& outcome) {
@@ -189,27 +212,24 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
   IntensityCounts& counts = outcome.counts[file];
   OutputFields wanted(output, run.constant() > 0.0);
   wanted.avoid(las);
-  const std::vector<LasExtraField> fields = placeExtension(las, wanted.fields);
+  const FieldPlaces places(placeExtension(las, wanted.fields));
   OrderedOutcome ordered(outcome, counts);
   const std::uint64_t all = las.header().point_count;
+  const std::size_t per_window = run.input(file).windowSize();
   const LasEdit edit = [&](const LasRecordBlock& block) {
     thread_local EvaluatedWindow found;
-    const std::size_t window = block.first / IntensityInput::kWindow;
-    run.evaluate(file, window, found);
+    thread_local std::vector<std::uint16_t> stored;
+    const std::size_t window = block.first / per_window;
+    run.evaluate(file, window, found, {{}, block.records, block.record_length});
     BlockOutcome part(run.strips().size());
-    std::vector<std::uint16_t> stored(block.count);
+    stored.resize(block.count);
     for (std::size_t i = 0; i < block.count; ++i) {
       std::byte* record = block.records + i * block.record_length;
       const CorrectedPoint point = correctedPoint(run, found, i);
       const double scaled =
           found.radiometry[i].corrected() ? output.scale * point.intensity : point.intensity;
       stored[i] = rounded(scaled);
-      for (const LasExtraField& field : fields) {
-        if (field.name == kOriginal)
-          storeLas(record + field.position, loadLas<std::uint16_t>(record + kIntensityAt));
-        else
-          storeLas(record + field.position, static_cast<float>(valueOf(field.name, point)));
-      }
+      places.store(record, point);
       storeLas(record + kIntensityAt, stored[i]);
       tally(run, found, i, point, scaled, part);
     }
@@ -219,7 +239,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
     // With the counts of all points, but before the output gets its name.
     if (done == all) checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
-  extendLas(las, path, {wanted.fields, IntensityInput::kWindow}, edit, run.settings().threads);
+  extendLas(las, path, {wanted.fields, per_window}, edit, run.settings().threads);
 }
 
 void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,

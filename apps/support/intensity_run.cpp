@@ -45,8 +45,12 @@ IntensityRun::IntensityRun(const std::vector<std::string>& paths,
 void IntensityRun::openFiles(const std::vector<std::string>& paths) {
   std::vector<PointFileSources> sources;
   double largest = 0.0;
+  IntensityInput::Options options;
+  options.gain_control = settings_.gain_control;
+  options.threads = settings_.threads;
+  if (!settings_.find_surfaces) options.window = IntensityInput::kSmallWindow;
   for (const std::string& path : paths) {
-    inputs_.push_back(IntensityInput::open(path, settings_.gain_control, settings_.threads));
+    inputs_.push_back(IntensityInput::open(path, options));
     const IntensitySurvey& survey = inputs_.back()->survey();
     if (!survey.has_time) {
       throw InputError(path + ": point format " +
@@ -118,7 +122,7 @@ void IntensityRun::chooseRadii() {
     const std::size_t probes = std::min(windows, kProbes);
     for (std::size_t probe = 0; probe < probes; ++probe) {
       IntensityWindow window;
-      inputs_[file]->load(probe * windows / probes, {}, window);
+      inputs_[file]->load(probe * windows / probes, WindowRequest(), window);
       std::size_t cursor = 0;
       for (const auto& [source, points] : window.surface_points) {
         double radius = LocalSurfaces::radiusFor(points);
@@ -177,42 +181,57 @@ double IntensityRun::gainControl(double value, const std::string& path) const {
   return below.gain + t * (above->gain - below.gain);
 }
 
-void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
-                            const std::function<bool(double x, double y)>& wanted) const {
-  std::map<std::uint16_t, double> margins;
-  for (const auto& [source, strip] : strip_of_[file])
-    if (settings_.find_surfaces) margins[source] = radius(strip);
-  inputs_[file]->load(window, margins, out.window);
-  const std::vector<IntensityPoint>& points = out.window.points;
+std::map<std::uint16_t, LocalSurfaces> IntensityRun::surfacesOf(
+    std::size_t file, const IntensityWindow& window) const {
   std::map<std::uint16_t, LocalSurfaces> surfaces;
-  for (const auto& [source, neighbours] : out.window.surface_points) {
-    if (!settings_.find_surfaces) break;
+  for (const auto& [source, neighbours] : window.surface_points) {
     LocalSurfaceSettings settings = settings_.surfaces;
     settings.radius = radius(strip_of_[file].at(source));
     surfaces.emplace(source, LocalSurfaces(neighbours, settings));
   }
+  return surfaces;
+}
+
+void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
+                            const WindowChoice& choice) const {
+  WindowRequest request;
+  request.surfaces = settings_.find_surfaces;
+  request.records = choice.records;
+  request.record_length = choice.record_length;
+  for (const auto& [source, strip] : strip_of_[file])
+    if (request.surfaces) request.margins[source] = radius(strip);
+  inputs_[file]->load(window, request, out.window);
+  const std::vector<IntensityPoint>& points = out.window.points;
+  const std::map<std::uint16_t, LocalSurfaces> surfaces = surfacesOf(file, out.window);
   const RadiometricEvaluator evaluator(trajectory_, model_);
-  out.radiometry.assign(points.size(), PointRadiometry());
-  out.surfaces.assign(points.size(), LocalSurface());
+  const TimeAlignment& times = times_[file];
+  out.radiometry.resize(points.size());
+  out.surfaces.assign(request.surfaces ? points.size() : 0, LocalSurface());
   out.strip.resize(points.size());
   out.divisor.resize(points.size());
-  std::size_t cursor = 0;
+  RadiometryCursor cursor;
+  const LocalSurface none;
+  const LocalSurfaces* of_strip = nullptr;
   int strip = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const IntensityPoint& point = points[i];
     const Eigen::Vector3d place = out.window.origin + point.position.cast<double>();
-    if (i == 0 || points[i - 1].source != point.source) strip = strip_of_[file].at(point.source);
+    if (i == 0 || points[i - 1].source != point.source) {
+      strip = strip_of_[file].at(point.source);
+      const auto at = surfaces.find(point.source);
+      of_strip = at == surfaces.end() ? nullptr : &at->second;
+    }
     out.strip[i] = strip;
-    if (wanted && !wanted(place.x(), place.y())) continue;
-    if (settings_.find_surfaces && point.return_number >= point.number_of_returns)
-      out.surfaces[i] = surfaces.at(point.source).at(point.position);
-    out.radiometry[i] = evaluator.evaluate(
-        {times_[file](point.time), place, point.return_number, point.number_of_returns},
-        out.surfaces[i], cursor);
-    double divisor = known_gains_[static_cast<std::size_t>(strip)];
+    out.divisor[i] = known_gains_[static_cast<std::size_t>(strip)];
+    out.radiometry[i] = PointRadiometry();
+    if (choice.wanted && !choice.wanted(place.x(), place.y())) continue;
+    const bool on_surface = of_strip != nullptr && point.return_number >= point.number_of_returns;
+    if (on_surface) out.surfaces[i] = of_strip->at(point.position);
+    out.radiometry[i] =
+        evaluator.evaluate({times(point.time), place, point.return_number, point.number_of_returns},
+                           on_surface ? out.surfaces[i] : none, cursor);
     if (!out.window.gain_control.empty())
-      divisor *= gainControl(out.window.gain_control[i], inputs_[file]->path());
-    out.divisor[i] = divisor;
+      out.divisor[i] *= gainControl(out.window.gain_control[i], inputs_[file]->path());
   }
 }
 
@@ -229,14 +248,16 @@ const OverlapResult& IntensityRun::adjust(const std::function<void(double)>& pro
       std::vector<RadiometricCells> parts(count, RadiometricCells(cell_size_, one_cell_in_));
       parallelFor(count, settings_.threads, [&](std::size_t part) {
         EvaluatedWindow found;
-        evaluate(file, first + part, found,
-                 [&](double x, double y) { return parts[part].wants(x, y); });
+        WindowChoice choice;
+        choice.wanted = [&](double x, double y) { return parts[part].wants(x, y); };
+        evaluate(file, first + part, found, choice);
         for (std::size_t i = 0; i < found.window.points.size(); ++i) {
           const IntensityPoint& point = found.window.points[i];
           const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
           parts[part].add(found.strip[i], place.x(), place.y(),
-                          static_cast<double>(point.intensity) / std::max(1e-300, found.divisor[i]),
-                          usable(point.intensity), found.radiometry[i], found.surfaces[i]);
+                          static_cast<double>(point.intensity) / found.divisor[i],
+                          usable(point.intensity) && point.number_of_returns <= 1,
+                          found.radiometry[i], found.surfaces[i]);
         }
       });
       for (const RadiometricCells& part : parts) cells.merge(part);
@@ -255,11 +276,13 @@ const ReferenceResult& IntensityRun::refer(std::vector<ReferenceTarget> targets,
   for (std::size_t file = 0; file < files(); ++file) {
     for (std::size_t window = 0; window < inputs_[file]->windows(); ++window) {
       EvaluatedWindow found;
-      evaluate(file, window, found,
-               [&](double x, double y) { return calibration.touches(x, y, x, y); });
+      WindowChoice choice;
+      choice.wanted = [&](double x, double y) { return calibration.touches(x, y, x, y); };
+      evaluate(file, window, found, choice);
       for (std::size_t i = 0; i < found.window.points.size(); ++i) {
         const IntensityPoint& point = found.window.points[i];
-        if (found.radiometry[i].status != RadiometryStatus::surface || !usable(point.intensity))
+        if (found.radiometry[i].status != RadiometryStatus::surface || !usable(point.intensity) ||
+            point.number_of_returns > 1)
           continue;
         const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
         const double divisor =

@@ -54,9 +54,16 @@ struct IntensityCounts {
 struct EvaluatedWindow {
   IntensityWindow window;
   std::vector<PointRadiometry> radiometry;
-  std::vector<LocalSurface> surfaces;
-  std::vector<int> strip;       ///< of each point
+  std::vector<LocalSurface> surfaces;  ///< empty where none are sought
+  std::vector<int> strip;              ///< of each point
   std::vector<double> divisor;  ///< of each point's intensity: gains, pulse energy, gain control
+};
+
+/// What of a window to evaluate, and from what.
+struct WindowChoice {
+  std::function<bool(double x, double y)> wanted;  ///< whether a point needs it; empty: all do
+  const std::byte* records = nullptr;              ///< as WindowRequest
+  std::size_t record_length = 0;
 };
 
 /** \brief Point files and their flight, ready for estimating and correcting.
@@ -92,9 +99,8 @@ class IntensityRun {
   const std::vector<double>& estimatedGains() const { return estimated_gains_; }
   double constant() const { return constant_; }  ///< corrected intensity of reflectance 1; 0: none
 
-  /// \a wanted: whether a point needs a surface; empty: all do.
   void evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
-                const std::function<bool(double x, double y)>& wanted = {}) const;
+                const WindowChoice& choice = WindowChoice()) const;
   bool usable(float intensity) const { return intensity > 0.0F && intensity < saturation_; }
 
  private:
@@ -102,6 +108,8 @@ class IntensityRun {
   void alignTimes();
   void chooseRadii();
   void chooseCells();
+  std::map<std::uint16_t, LocalSurfaces> surfacesOf(std::size_t file,
+                                                    const IntensityWindow& window) const;
   double knownGain(const std::string& strip) const;
   double gainControl(double value, const std::string& path) const;
 

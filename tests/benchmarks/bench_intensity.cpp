@@ -84,7 +84,7 @@ void RadarEquation(benchmark::State& state) {
   level.support = 10;
   const Strip<PointLidar>& flown = block.strips[0].strip;
   for (auto _ : state) {
-    std::size_t cursor = 0;
+    RadiometryCursor cursor;
     double sum = 0.0;
     for (const PointLidar& p : *flown.cloud)
       sum +=

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 //
-// intensity_accuracy [SEEDS]: what the radiometric correction is worth on simulated blocks whose
-// reflectance is known. First one block through calibration and correction; then the parameters
-// that overlaps give over many blocks, against their standard deviations.
+// intensity_accuracy [SEEDS [FIRST]]: what the radiometric correction is worth on simulated blocks
+// whose reflectance is known. First one block through calibration and correction; then the
+// parameters that overlaps give over many blocks, against their standard deviations; with a first
+// seed only that.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -140,13 +141,13 @@ RadiometricCells cellsOf(const test::SimulatedStrips& block, const RadiometricMo
       if (p.return_number >= p.number_of_returns) last.emplace_back(p.getVector3fMap());
     const LocalSurfaces surfaces(last, LocalSurfaceSettings());
     const RadiometricEvaluator evaluator(block.flight, model);
-    std::size_t cursor = 0;
+    RadiometryCursor cursor;
     for (const PointLidar& p : *strip.cloud) {
       const Eigen::Vector3d place = strip.frame.toGround(p.getVector3fMap());
       LocalSurface surface;
       if (p.return_number >= p.number_of_returns) surface = surfaces.at(p.getVector3fMap());
       cells.add(static_cast<int>(s), place.x(), place.y(), static_cast<double>(p.intensity),
-                p.intensity > 0.0F && p.intensity < 65535.0F,
+                p.intensity > 0.0F && p.intensity < 65535.0F && p.number_of_returns == 1,
                 evaluator.evaluate({p.gps_time, place, p.return_number, p.number_of_returns},
                                    surface, cursor),
                 surface);
@@ -182,10 +183,10 @@ struct Coverage {
 };
 
 /// Case 1: exponents and gains unknown. Case 2: one gain for all strips, extinction unknown.
-void coverage(int seeds, bool gains, const char* noise) {
+void coverage(int first, int seeds, bool gains, const char* noise) {
   Coverage range, incidence, extinction, gain;
   int lost = 0;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = first; seed < first + seeds; ++seed) {
     SimulationOptions options = SimulationOptions::preset("small", 0.6, 0.6);
     options.seed = static_cast<std::uint64_t>(seed);
     options.noise = NoiseOptions::named(noise);
@@ -217,7 +218,7 @@ void coverage(int seeds, bool gains, const char* noise) {
     for (const double factor : factors) mean += std::log(factor) / 5.0;
     for (std::size_t i = 0; gains && i < factors.size(); ++i)
       gain.add(std::log(result.gains[i].value), std::log(factors[i]) - mean, result.gains[i].std);
-    if (seed == 1)
+    if (seed == first)
       std::printf("  cells %zu, clusters %zu, sigma0 %.4f, median variation %.3f -> %.3f -> %.3f\n",
                   result.cells, result.clusters, result.sigma0, result.before.median,
                   result.physics.median, result.after.median);
@@ -236,20 +237,22 @@ void coverage(int seeds, bool gains, const char* noise) {
 
 int main(int argc, char** argv) {
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 20;
+  const int first = argc > 2 ? std::atoi(argv[2]) : 1;
   for (const char* noise : {"range", "realistic"}) {
+    if (argc > 2) break;
     SimulationOptions options = SimulationOptions::preset("small");
     options.noise = NoiseOptions::named(noise);
     test::SimulatedStrips block(options);
     const RadiometricModel model = modelOf(options);
     std::printf("\n== block with the preset's biases, noise %s\n", noise);
-    if (argc <= 2) calibrate(options, block);
     printRatios("as received", ratiosOf(block, model, false));
+    calibrate(options, block);
     printRatios("corrected after calibration", ratiosOf(block, model, true));
   }
   std::printf("\n== overlap-driven parameters\n");
   for (const char* noise : {"range", "realistic"}) {
-    coverage(seeds, true, noise);
-    coverage(seeds, false, noise);
+    coverage(first, seeds, true, noise);
+    coverage(first, seeds, false, noise);
   }
   return 0;
 }

@@ -2,30 +2,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# intensity_speed.sh BIN_DIR FILE.las TRAJECTORY [ROUNDS]: pcl_als_intensity against cp of the same file, run in turn; the
+# intensity_speed.sh BIN_DIR TRAJECTORY ROUNDS FILE.las…: pcl_als_intensity against cp of the same files, run in turn; the
 # best of the rounds, one thread, processor time in milliseconds (a machine that is shared says little of the clock), and memory.
 set -euo pipefail
 export LC_ALL=C
-bin=$1 file=$2 flight=$3 rounds=${4:-5}
+bin=$1 flight=$2 rounds=$3
+shift 3
+files=("$@")
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 declare -A best memory
 measure() {  # NAME COMMAND…
   local name=$1 kilobytes user system ms
   shift
+  rm -rf -- "$work/out" && mkdir "$work/out"
   command time -f '%M %U %S' -o "$work/used" "$@" >/dev/null
   read -r kilobytes user system <"$work/used"
   ms=$(bc -l <<<"1000 * ($user + $system) / 1" | cut -d. -f1)
   [[ -n ${best[$name]:-} && ${best[$name]} -le $ms ]] || best[$name]=$ms
   memory[$name]=$kilobytes
 }
-run() { measure "$1" "$bin/pcl_als_intensity" "$file" "$work/out.las" -trajectory "$flight" -threads 1 -quiet "${@:2}"; }
+run() { measure "$1" "$bin/pcl_als_intensity" "${files[@]}" -corrected "$work/out" -trajectory "$flight" -threads 1 -quiet "${@:2}"; }
 for ((round = 0; round < rounds; ++round)); do
-  measure cp cp "$file" "$work/copy.las"
+  measure cp cp "${files[@]}" "$work/out"
   run no_normals -no_incidence -no_fields -no_original
   run no_fields -no_fields -no_original
   run all
-  rm -f -- "$work"/*.las
 done
 printf '%-12s %8s %8s %10s\n' what ms "of cp" "memory MB"
 for name in cp no_normals no_fields all; do

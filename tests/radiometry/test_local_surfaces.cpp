@@ -106,6 +106,29 @@ TEST(LocalSurfaces, RoofEdgesAreNotRoundedOff) {
   EXPECT_LT(wrong, count / 20);
 }
 
+TEST(LocalSurfaces, ARowOnARoofAndOneOnTheGroundAreNoSlope) {
+  // Scan lines 3 m apart, one on a narrow roof of 4 m: with its neighbour on the ground it spans a
+  // plane of atan(4 / 3) = 53 degrees that holds 12 of 15 points.
+  Points points;
+  for (int row = -5; row <= 5; ++row)
+    for (int column = -20; column <= 20; ++column)
+      points.emplace_back(0.7F * static_cast<float>(column), 3.0F * static_cast<float>(row),
+                          row == 0 ? 4.0F : 0.0F);
+  LocalSurfaceSettings settings;
+  settings.radius = 3.25;
+  const LocalSurfaces surfaces(points, settings);
+  EXPECT_FALSE(surfaces.at({0.0F, 0.0F, 4.0F}).found());
+  // A slope as steep with rows half as far apart is one: rows at -3, -1.5, 0, 1.5 and 3 m.
+  Points slope;
+  for (int row = -10; row <= 10; ++row)
+    for (int column = -20; column <= 20; ++column)
+      slope.emplace_back(0.7F * static_cast<float>(column), 1.5F * static_cast<float>(row),
+                         2.0F * static_cast<float>(row));
+  const LocalSurface found = LocalSurfaces(slope, settings).at({0.0F, 0.0F, 0.0F});
+  ASSERT_TRUE(found.found());
+  EXPECT_NEAR(degreesBetween(found.normal, Eigen::Vector3f::UnitZ()), 53.13, 1e-2);
+}
+
 TEST(LocalSurfaces, LeavesHaveNone) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> place(-5.0F, 5.0F);

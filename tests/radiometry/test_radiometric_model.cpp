@@ -80,7 +80,7 @@ TEST(RadiometricModel, RefusesWhatNoReceiverDoes) {
 
 TEST(RadiometricEvaluator, RangeAndIncidenceByHand) {
   const RadiometricEvaluator evaluator(flight(), RadiometricModel());
-  std::size_t cursor = 0;
+  RadiometryCursor cursor;
   // At t = 10 the sensor is 500 m east; a point 300 m north of it, 400 m below (600 m up): a
   // triangle of 300, 400, 500. Level ground: cos = 0.8.
   const PointRadiometry found =
@@ -93,7 +93,7 @@ TEST(RadiometricEvaluator, RangeAndIncidenceByHand) {
 
 TEST(RadiometricEvaluator, ASurfaceThatFacesTheSensorHasNoIncidence) {
   const RadiometricEvaluator evaluator(flight(), RadiometricModel());
-  std::size_t cursor = 0;
+  RadiometryCursor cursor;
   LocalSurface tilted = level();
   tilted.normal = Eigen::Vector3f(0.0F, -0.6F, 0.8F);  // towards the flight line
   const auto found = evaluator.evaluate(pointAt(10.0, 500.0, 300.0, 600.0), tilted, cursor);
@@ -106,7 +106,7 @@ TEST(RadiometricEvaluator, SteepIncidenceIsLimitedAndSaysSo) {
   RadiometricModel model;
   model.largest_incidence = 60.0;
   const RadiometricEvaluator evaluator(flight(), model);
-  std::size_t cursor = 0;
+  RadiometryCursor cursor;
   LocalSurface steep = level();
   steep.normal = Eigen::Vector3f(1.0F, 0.0F, 0.1F).normalized();  // 84 degrees from the beam
   const auto found = evaluator.evaluate(pointAt(10.0, 500.0, 0.0, 0.0), steep, cursor);
@@ -117,7 +117,7 @@ TEST(RadiometricEvaluator, SteepIncidenceIsLimitedAndSaysSo) {
 
 TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
   const RadiometricEvaluator evaluator(flight(), RadiometricModel());
-  std::size_t cursor = 0;
+  RadiometryCursor cursor;
   const RadiometryPoint point = pointAt(10.0, 500.0, 300.0, 600.0);
   auto found = evaluator.evaluate(point, LocalSurface(), cursor);
   EXPECT_EQ(found.status, RadiometryStatus::no_surface);
@@ -135,7 +135,7 @@ TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
 
 TEST(RadiometricEvaluator, WhatCannotBeServedStaysAsItIs) {
   const RadiometricEvaluator evaluator(flight(), RadiometricModel());
-  std::size_t cursor = 0;
+  RadiometryCursor cursor;
   const auto status = [&](const RadiometryPoint& point) {
     const PointRadiometry found = evaluator.evaluate(point, level(), cursor);
     EXPECT_EQ(found.factor, 1.0);

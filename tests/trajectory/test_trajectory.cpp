@@ -205,6 +205,21 @@ TEST(Trajectory, ASpanHoldsItsTime) {
   EXPECT_LT((span.at(17.5).position - circling(17.5)).norm(), 1e-11);
 }
 
+TEST(Trajectory, ThePathAloneIsThatOfThePoses) {
+  const Trajectory trajectory(
+      joined(sampled(circling, 0.0, 20.0, 0.5), sampled(circling, 30.0, 50.0, 0.5)));
+  PathSpan span;
+  std::size_t cursor = 0;
+  EXPECT_FALSE(span.holds(0.0));
+  for (const double time : {0.0, 3.14, 17.3, 20.0, 30.0, 49.9, 50.0}) {
+    ASSERT_TRUE(trajectory.pathAt(time, span, cursor)) << time;
+    // Coordinates of 5.7e6 m: a double's step is 9e-10 m.
+    EXPECT_LT((span.at(time) - poseOf(trajectory, time).position).norm(), 3e-9) << time;
+  }
+  for (const double time : {-0.1, 25.0, 50.1, static_cast<double>(NAN)})
+    EXPECT_FALSE(trajectory.pathAt(time, span, cursor)) << time;
+}
+
 TEST(Trajectory, UnsortedSamplesAreSortedAndReported) {
   auto samples = sampled(circling, 0.0, 20.0, 0.1);
   const Trajectory sorted(samples);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_set>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/radiometry/local_surfaces.h>
@@ -51,6 +50,30 @@ struct PlaneSums {
   }
 };
 
+/// Planes less steep cost little where they are wrong: cos 15 degrees is 0.966.
+constexpr float kGentle = 0.268F;
+/// Share of the extent along the slope that may be without points: three even rows leave 0.5.
+constexpr float kWidestGap = 0.6F;
+
+/// Whether the points on a steep plane are two groups with nothing between: a row on a roof and one
+/// on the ground lie on a plane as well, and it is no surface.
+template <typename Points>
+bool bridges(const Plane& plane, const Points& points, std::size_t count, float tolerance) {
+  const float steepness = std::hypot(plane.slope_x, plane.slope_y);
+  if (steepness < kGentle) return false;
+  const float within = tolerance / plane.over_length();
+  std::array<float, kMostPoints> along;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (std::abs(plane.above(points[i])) <= within)
+      along[n++] = plane.slope_x * points[i].x() + plane.slope_y * points[i].y();
+  if (n < 2) return true;
+  std::sort(along.begin(), along.begin() + static_cast<std::ptrdiff_t>(n));
+  float widest = 0.0F;
+  for (std::size_t i = 1; i < n; ++i) widest = std::max(widest, along[i] - along[i - 1]);
+  return widest > kWidestGap * (along[n - 1] - along[0]);
+}
+
 LocalSurface surfaceOf(const Plane& plane, double sum_sq, std::size_t support) {
   LocalSurface surface;
   surface.normal = Eigen::Vector3f(-plane.slope_x, -plane.slope_y, 1.0F) * plane.over_length();
@@ -85,16 +108,19 @@ struct LocalSurfaces::Neighbours {
 
 double LocalSurfaces::radiusFor(const std::vector<Eigen::Vector3f>& points) {
   constexpr float kCell = 4.0F;
-  std::unordered_set<std::uint64_t> cells;
+  std::vector<std::uint64_t> cells;
   for (const Eigen::Vector3f& p : points) {
     const auto column = static_cast<std::int32_t>(std::floor(p.x() / kCell));
     const auto row = static_cast<std::int32_t>(std::floor(p.y() / kCell));
-    cells.insert(std::uint64_t{static_cast<std::uint32_t>(column)} << 32U |
-                 static_cast<std::uint32_t>(row));
+    const std::uint64_t cell =
+        std::uint64_t{static_cast<std::uint32_t>(column)} << 32U | static_cast<std::uint32_t>(row);
+    if (cells.empty() || cells.back() != cell) cells.push_back(cell);
   }
   if (cells.empty()) return 1.0;
+  std::sort(cells.begin(), cells.end());
+  const auto distinct = std::unique(cells.begin(), cells.end()) - cells.begin();
   const double density =
-      static_cast<double>(points.size()) / (static_cast<double>(cells.size()) * kCell * kCell);
+      static_cast<double>(points.size()) / (static_cast<double>(distinct) * kCell * kCell);
   return std::clamp(std::sqrt(kWantedPoints / (M_PI * density)), 0.1, 100.0);
 }
 
@@ -190,7 +216,9 @@ LocalSurface LocalSurfaces::at(const Eigen::Vector3f& point) const {
   const bool flat = sum_sq <= half * half * static_cast<double>(neighbours.count);
   const bool on_it = std::abs(plane.height) * over_length <= settings_.tolerance;
   const double steepest = std::cos(settings_.steepest * kRadiansPerDegree);
-  if (flat && on_it && over_length >= steepest) return surfaceOf(plane, sum_sq, neighbours.count);
+  if (flat && on_it && over_length >= steepest &&
+      !bridges(plane, neighbours.point, neighbours.count, std::numeric_limits<float>::max()))
+    return surfaceOf(plane, sum_sq, neighbours.count);
   return robust(neighbours);
 }
 
@@ -215,7 +243,8 @@ LocalSurface LocalSurfaces::robust(const Neighbours& neighbours) const {
         const float share = plane.above(neighbours.point[k]) * over_length / tolerance;
         cost += std::min(1.0F, share * share);
       }
-      if (cost < best_cost) best_cost = cost, best = plane;
+      if (cost < best_cost && !bridges(plane, neighbours.point, n, tolerance))
+        best_cost = cost, best = plane;
     }
   }
   if (!std::isfinite(best_cost)) return {};
@@ -245,6 +274,7 @@ LocalSurface LocalSurfaces::robust(const Neighbours& neighbours) const {
                       share >= settings_.least_share;
   const bool on_it = std::abs(best.height) * over_length <= tolerance;
   if (!enough || !on_it || over_length < steepest) return {};
+  if (bridges(best, neighbours.point, n, tolerance)) return {};
   const double half = 0.6 * settings_.tolerance;
   if (sum_sq > half * half * static_cast<double>(support)) return {};
   return surfaceOf(best, sum_sq, support);

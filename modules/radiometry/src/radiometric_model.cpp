@@ -30,12 +30,19 @@ void RadiometricModel::check() const {
 
 double RadiometricModel::factor(double range, double cosine) const {
   const double ratio = range / reference_range;
-  // The plain radar equation is by far the most frequent: pow() costs more than all the rest.
-  double value = range_exponent == 2.0 ? ratio * ratio : std::pow(ratio, range_exponent);
-  if (extinction_per_km != 0.0)
-    value *= std::exp(2.0 * extinction_per_km * (range - reference_range) / 1000.0);
-  if (std::isnan(cosine) || incidence_exponent == 0.0) return value;
-  return incidence_exponent == 1.0 ? value / cosine : value / std::pow(cosine, incidence_exponent);
+  double value = 1.0, logarithm = 2.0 * extinction_per_km * (range - reference_range) / 1000.0;
+  // The plain radar equation is by far the most frequent: it needs no logarithms.
+  if (range_exponent == 2.0)
+    value = ratio * ratio;
+  else if (range_exponent != 0.0)
+    logarithm += range_exponent * std::log(ratio);
+  if (!std::isnan(cosine)) {
+    if (incidence_exponent == 1.0)
+      value /= cosine;
+    else if (incidence_exponent != 0.0)
+      logarithm -= incidence_exponent * std::log(cosine);
+  }
+  return logarithm == 0.0 ? value : value * std::exp(logarithm);
 }
 
 const char* nameOf(RadiometryStatus status) {
@@ -69,18 +76,19 @@ RadiometricEvaluator::RadiometricEvaluator(std::shared_ptr<const Trajectory> tra
 
 PointRadiometry RadiometricEvaluator::evaluate(const RadiometryPoint& point,
                                                const LocalSurface& surface,
-                                               std::size_t& cursor) const {
+                                               RadiometryCursor& cursor) const {
   PointRadiometry result;
   if (!point.position.allFinite()) return result;
-  SensorPose pose;
   result.status = RadiometryStatus::uncovered;
-  if (!trajectory_->poseAt(point.time, pose, cursor)) return result;
-  const Eigen::Vector3d beam = point.position - pose.position;
+  if (!cursor.span.holds(point.time) && !trajectory_->pathAt(point.time, cursor.span, cursor.node))
+    return result;
+  const Eigen::Vector3d beam = point.position - cursor.span.at(point.time);
   result.status = RadiometryStatus::above_sensor;
   if (!(beam.z() < 0.0)) return result;
   const double range = beam.norm();
   result.range = static_cast<float>(range);
-  result.beam = (beam / range).cast<float>();
+  const double per_range = 1.0 / range;
+  result.beam = (per_range * beam).cast<float>();
   double cosine = std::numeric_limits<double>::quiet_NaN();
   if (point.return_number < point.number_of_returns) {
     result.status = RadiometryStatus::partial;
@@ -88,7 +96,7 @@ PointRadiometry RadiometricEvaluator::evaluate(const RadiometryPoint& point,
     result.status = RadiometryStatus::no_surface;
   } else {
     result.status = RadiometryStatus::surface;
-    cosine = std::abs(surface.normal.cast<double>().dot(beam)) / range;
+    cosine = std::abs(surface.normal.cast<double>().dot(beam)) * per_range;
     result.incidence = static_cast<float>(std::acos(std::min(1.0, cosine)));
     if (cosine < least_cosine_) {
       result.status = RadiometryStatus::limited;

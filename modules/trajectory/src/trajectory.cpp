@@ -242,6 +242,15 @@ bool Trajectory::spanAt(double time, FlightSpan& span, std::size_t& cursor) cons
   return true;
 }
 
+bool Trajectory::pathAt(double time, PathSpan& span, std::size_t& cursor) const {
+  std::size_t node = 0;
+  if (!spanNode(time, cursor, node)) return false;
+  const Node& a = nodes_[node];
+  const Node& b = nodes_[node + 1];
+  span = {a.time, b.time, a.position, (b.position - a.position) / (b.time - a.time)};
+  return true;
+}
+
 bool Trajectory::poseAt(double time, SensorPose& pose, std::size_t& cursor) const {
   std::size_t node = 0;
   if (!spanNode(time, cursor, node)) return false;

@@ -38,7 +38,8 @@ struct LocalSurfaceSettings {
  * not lie on one plane, planes through the point and two of its neighbours are tried and the one
  * with the least truncated squared distances is refitted to the points on it (MSAC), so that a
  * point at a ridge, at eaves or at a kerb takes the plane it lies on. A plane that holds too few of
- * the neighbours, is too steep, or has its points on a line is none.
+ * the neighbours, is too steep, or has its points on a line is none, and so is a steep one whose
+ * points are two rows with nothing between (one on a roof, one on the ground).
  *
  * Which points count as neighbours is the caller's choice: single and last returns of one strip.
  * Points: metres in any frame in which floats serve (LocalFrame). Const functions may be called by

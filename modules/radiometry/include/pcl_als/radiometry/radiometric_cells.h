@@ -25,7 +25,7 @@ struct CellSums {
 /// What makes a cell of a strip smooth enough to be compared with that of another.
 struct SmoothCellSettings {
   std::uint32_t least_points = 3;
-  double most_excluded = 0.25;     ///< share of the cell's points
+  double most_excluded = 0.1;      ///< share of the cell's points
   double least_coherence = 0.995;  ///< length of the mean normal: 0.995 are 6 degrees RMS
   double most_variation = 0.3;     ///< standard deviation over mean of the intensities
   double most_turn = 5.0;          ///< degrees between the normals of two strips
@@ -56,7 +56,9 @@ class RadiometricCells {
   double size() const { return size_; }
   std::uint32_t oneIn() const { return one_in_; }
   bool wants(double x, double y) const;
-  /// \a usable: the intensity is neither zero nor saturated.
+  /// \a usable: the intensity is neither zero nor saturated, and the return its pulse's only one:
+  /// what reaches the ground through leaves is darker, and more so from one strip than from
+  /// another.
   void add(int strip, double x, double y, double intensity, bool usable,
            const PointRadiometry& point, const LocalSurface& surface);
   void merge(const RadiometricCells& other);

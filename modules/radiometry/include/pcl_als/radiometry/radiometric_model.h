@@ -63,6 +63,13 @@ struct RadiometryPoint {
   std::uint8_t return_number = 1, number_of_returns = 1;
 };
 
+/// Where the last point was found on the flight: points in order of time are looked up once per
+/// piece of flight. Start with an empty one.
+struct RadiometryCursor {
+  std::size_t node = 0;
+  PathSpan span;
+};
+
 /** \brief Applies a RadiometricModel to points of a flight.
  *
  * The range is that from the trajectory's position at the point's time to the point; a lever arm of
@@ -76,9 +83,8 @@ class RadiometricEvaluator {
 
   const RadiometricModel& model() const { return model_; }
   const Trajectory& trajectory() const { return *trajectory_; }
-  /// \a cursor: as Trajectory::poseAt().
   PointRadiometry evaluate(const RadiometryPoint& point, const LocalSurface& surface,
-                           std::size_t& cursor) const;
+                           RadiometryCursor& cursor) const;
 
  private:
   std::shared_ptr<const Trajectory> trajectory_;

@@ -41,6 +41,16 @@ struct FlightSpan {
   SensorPose at(double time) const;
 };
 
+/// The path alone of a piece of flight between two samples: a straight line at constant speed.
+struct PathSpan {
+  double from = 0.0, to = 0.0;  ///< seconds; from == to: no piece
+  Eigen::Vector3d position;     ///< at \a from, metres, ground frame
+  Eigen::Vector3d velocity;     ///< metres per second
+
+  bool holds(double time) const { return from <= time && time < to; }
+  Eigen::Vector3d at(double time) const { return position + (time - from) * velocity; }
+};
+
 /// Body (right-forward-up) to ground: Rz(-heading) Rx(pitch) Ry(roll), radians.
 Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading);
 
@@ -112,6 +122,8 @@ class Trajectory {
 
   /// As poseAt, but the whole span that holds the time, for callers with many points in it.
   bool spanAt(double time, FlightSpan& span, std::size_t& cursor) const;
+  /// As spanAt, for callers who need no attitude.
+  bool pathAt(double time, PathSpan& span, std::size_t& cursor) const;
 
  private:
   using Rotation = Eigen::Quaternion<double, Eigen::DontAlign>;  ///< body to ground

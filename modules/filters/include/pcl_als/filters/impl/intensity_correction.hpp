@@ -46,7 +46,7 @@ void IntensityCorrection<PointT>::applyFilter(PointCloud& output) {
   radiometry_.assign(this->input_->size(), PointRadiometry());
   output = *this->input_;
   parallelFor((count + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
-    std::size_t cursor = 0;
+    RadiometryCursor cursor;
     for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
       const auto index = static_cast<std::size_t>((*this->indices_)[i]);
       const PointT& point = (*this->input_)[index];
