@@ -114,7 +114,7 @@ class GeoJsonSites {
   Eigen::Vector2d placeOf(const Json& point) {
     if (!point.is_array() || point.size() < 2 || !point[0].is_number() || !point[1].is_number())
       refuse("has a position that is no pair of numbers");
-    const Eigen::Vector2d place(point[0].get<double>(), point[1].get<double>());
+    Eigen::Vector2d place(point[0].get<double>(), point[1].get<double>());
     if (!place.allFinite()) refuse("has a position that is not finite");
     largest_ = std::max(largest_, place.cwiseAbs().maxCoeff());
     return place;
