@@ -23,6 +23,7 @@ void addMap(const CommandLine& line, const StripCoverage& coverage,
   map.setTitle(areas.empty() ? "Strips and overlaps"
                              : "Strips, overlaps and the areas that were used");
   std::vector<BlockMap::Area> boxes;
+  boxes.reserve(areas.size());
   for (const SurveyArea& area : areas) {
     boxes.push_back({area.minimum, area.minimum + Eigen::Vector2d::Constant(area.size)});
   }
@@ -30,10 +31,10 @@ void addMap(const CommandLine& line, const StripCoverage& coverage,
   std::string caption = "Outlines of the strips and how many see a place";
   if (!areas.empty()) caption += ", areas that were used";
   if (line.has("control")) {
+    const std::vector<ControlPoint> control = readControl(line.text("control"));
     std::vector<Eigen::Vector2d> places;
-    for (const ControlPoint& point : readControl(line.text("control"))) {
-      places.emplace_back(point.position.head<2>());
-    }
+    places.reserve(control.size());
+    for (const ControlPoint& point : control) places.emplace_back(point.position.head<2>());
     map.setControl(std::move(places));
     caption += ", control";
   }

@@ -33,11 +33,20 @@ if command -v Xvfb >/dev/null; then
   expect 0 "shown" view "${strips[@]}" -output again.png -size 800x600 -threads 1
   check "the picture is the same every time" cmp top.png again.png
   # And with a display that was there before.
-  Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp 3>display.txt 2>/dev/null &
+  mkdir screen
+  Xvfb -displayfd 3 -screen 0 1024x768x24 -fbdir screen -nolisten tcp 3>display.txt 2>/dev/null &
   server=$!
   for ((i = 0; i < 100; ++i)); do [[ -s display.txt ]] && break; sleep 0.1; done
   DISPLAY=:$(<display.txt) run view "${strips[@]}" -output display.png -size 800x600
   check "the picture is the same with a display" cmp top.png display.png
+  # A window stays open and shows something on the screen.
+  cp screen/Xvfb_screen0 empty_screen
+  DISPLAY=:$(<display.txt) "$bin/pcl_als_view" "${strips[@]}" -window >window.txt 2>&1 &
+  window=$!
+  for ((i = 0; i < 300; ++i)); do cmp -s screen/Xvfb_screen0 empty_screen || break; sleep 0.1; done
+  check "the window is drawn" eval '! cmp -s screen/Xvfb_screen0 empty_screen'
+  check "the window stays open" kill "$window"
+  wait "$window" 2>/dev/null
   kill "$server"
   wait "$server" 2>/dev/null
   check "no server is left behind" eval '! pgrep -P $$ Xvfb'
@@ -130,7 +139,6 @@ echo '{"curves":[{"name":"x"}]}' >broken.json
 expect 2 "broken.json" plot broken.json -output plots
 echo '{"confusion":{"classes":["a"],"matrix":[[1,2]]}}' >ragged.json
 expect 2 "ragged.json" plot ragged.json -output plots
-expect 1 "too small" plot curves.json -output plots -plots confusion -size 200x150
 echo 'no json' >text.json
 expect 2 "text.json" plot text.json -output plots
 expect 2 "missing.json" plot missing.json -output plots

@@ -106,6 +106,8 @@ for name in heights offset_against_distance offset_against_time offset_against_s
   check "$name.png is drawn" test -s plots/$name.png
 done
 
+expect 1 "too small" plot quality.json -output plots -plots offset_against_distance -size 200x150
+
 for page in report check intensity_report; do
   pictures=$(grep -o '<img ' $page/report.html | wc -l)
   check "$page has pictures" test "$pictures" -ge 4
