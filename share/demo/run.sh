@@ -7,8 +7,9 @@
 # strips and control before and after, and shows all beside the truth. What is there is not repeated.
 #   OUT_DIR            where the block and the results go (default: ./pcl_als_demo; about 1.2 GB)
 #   PCL_ALS_BUILD_DIR  build folder (default: build/ in the sources)
+#   PCL_ALS_DEMO_DENSITY  share of the pulses (default: 1, which makes 11 million points)
 if [[ ${1:-} == -h || ${1:-} == --help || $# -gt 1 ]]; then
-  sed -n '5,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
+  sed -n '5,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
   [[ $# -eq 1 ]]; exit
 fi
 source "$(dirname -- "${BASH_SOURCE[0]}")/../packages.sh"
@@ -39,7 +40,8 @@ cmake --build "$pcl_als_build" --target pcl_als_tools
 
 pcl_als_step "Simulating the block"
 if outdated "$block/truth.json" "$bin/pcl_als_simulate"; then
-  "$bin/pcl_als_simulate" -output "$block" -preset paper -noise range
+  "$bin/pcl_als_simulate" -output "$block" -preset paper -noise range \
+    -density "${PCL_ALS_DEMO_DENSITY:-1}"
 else
   echo "$block is up to date"
 fi
