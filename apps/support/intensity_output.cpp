@@ -70,7 +70,7 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
 }
 
 std::uint16_t rounded(double value) {
-  return static_cast<std::uint16_t>(std::clamp(value, 0.0, kMost) + 0.5);
+  return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, kMost)));
 }
 
 /// Takes in blocks as they come and merges them in their order, so that threads change no sum.
