@@ -80,9 +80,9 @@ bool CommandLine::parse(int argc, const char* const* argv) {
 }
 
 void CommandLine::refuseToOverwrite() const {
-  static const std::set<std::string> outputs{"output",   "json",        "accuracy",
-                                             "grids",    "posterior",   "checked",
-                                             "map",      "save_model",  "transformed"};
+  static const std::set<std::string> outputs{"output", "json",       "accuracy",
+                                             "grids",  "posterior",  "checked",
+                                             "map",    "save_model", "transformed"};
   std::vector<std::filesystem::path> inputs(inputs_.begin(), inputs_.end());
   std::vector<std::pair<std::string, std::string>> written;
   for (const auto& [name, value] : values_) {
