@@ -8,8 +8,8 @@
 // Aligns two strips with IterativeClosestPatch and with other registrations, in turns, each in a
 // process of its own: simulated pairs with a known motion (scene, flight and noise new for every
 // seed; 2 cm range noise), or two strips of files as they are (-in_place: known to be where they
-// belong). -points, -pairs: ICPatch's, instead of its defaults. Prints time, memory and, where it is
-// known, the error, as Markdown; see alignment_peers.md.
+// belong). -points, -pairs: ICPatch's, instead of its defaults. Prints time, memory and, where it
+// is known, the error, as Markdown; see alignment_peers.md.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

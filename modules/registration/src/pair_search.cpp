@@ -32,10 +32,11 @@ class DirectedSearch {
         groups_(groups),
         noise_(noise) {}
 
-  void run(const Candidate* first, const Candidate* last, SurfaceSide& patches,
+  void run(const Candidate* candidates, std::size_t count, std::size_t stride, SurfaceSide& patches,
            PatchPairs& pairs) const {
     std::int32_t hint = Tin::kNone;
-    for (; first != last; ++first) {
+    for (std::size_t i = 0; i < count; i += stride) {
+      const Candidate* const first = candidates + i;
       const Vector3d moved = there_ * first->position;
       const auto match = patches.surface().closest(moved, threshold_, hint);
       PatchPlane plane;
@@ -125,8 +126,8 @@ void addTasks(SurfaceSide& points, SurfaceSide& patches, bool source_point,
 }  // namespace
 
 PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& motion,
-                     double threshold, const PlanGrid& groups, const PointNoise& noise,
-                     int threads) {
+                     double threshold, const PlanGrid& groups, const PointNoise& noise, int threads,
+                     std::size_t stride) {
   const DirectedSearch forward(motion, true, threshold, groups, noise);
   const DirectedSearch backward(motion, false, threshold, groups, noise);
   std::vector<Task> tasks;
@@ -136,8 +137,10 @@ PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& mo
   }
   parallelFor(tasks.size(), threads, [&](std::size_t i) {
     Task& task = tasks[i];
-    task.pairs.reserve(static_cast<std::size_t>(task.last - task.first));
-    (task.source_point ? forward : backward).run(task.first, task.last, *task.patches, task.pairs);
+    const auto count = static_cast<std::size_t>(task.last - task.first);
+    task.pairs.reserve(count / stride + 1);
+    (task.source_point ? forward : backward)
+        .run(task.first, count, stride, *task.patches, task.pairs);
   });
   PatchPairs pairs;
   std::size_t count = 0;

@@ -24,11 +24,12 @@ struct PointNoise {
 
 /** \brief Finds the pairs of both directions in all areas, with the source moved.
  *
- * \param groups cells whose pairs the jackknife leaves out together. The order of the pairs and
+ * \param groups cells whose pairs the jackknife leaves out together.
+ * \param stride only one candidate in so many looks for a patch. The order of the pairs and
  * all their values do not depend on the number of threads.
  */
 PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& motion,
-                     double threshold, const PlanGrid& groups, const PointNoise& noise,
-                     int threads);
+                     double threshold, const PlanGrid& groups, const PointNoise& noise, int threads,
+                     std::size_t stride = 1);
 
 }  // namespace pcl_als::registration

@@ -20,6 +20,8 @@ constexpr std::size_t kFewestInStep = 30;
 constexpr double kLeastScatter = 1e-6;  // metres
 constexpr std::size_t kChunk = 8192;
 constexpr std::size_t kFewestGroups = 10;
+// What the normals' noise makes of the normal matrix is a mean: a sample of many pairs has it.
+constexpr std::size_t kNoiseSample = 8, kEnoughToSample = 20'000;
 
 std::size_t chunks(std::size_t count) {
   return (count + kChunk - 1) / kChunk;
@@ -113,6 +115,8 @@ double PatchAdjustment::weightOf(double rest, const PatchPair& pair,
 NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
                                             const ScatterBySlope& scatter) const {
   std::vector<NormalEquations> parts(chunks(pairs_.size()));
+  const std::size_t sample = pairs_.size() < kEnoughToSample ? 1 : kNoiseSample;
+  const auto of_sample = static_cast<double>(sample);
   parallelFor(parts.size(), threads_, [&](std::size_t chunk) {
     NormalEquations sum;
     const std::size_t end = std::min(pairs_.size(), (chunk + 1) * kChunk);
@@ -122,7 +126,8 @@ NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
       const double weight = weightOf(rest, pairs_[i], scatter);
       if (weight == 0.0) continue;
       sum.matrix.noalias() += (weight * row) * row.transpose();
-      if (pairs_[i].tilt_variance > 0.0) sum.noise += weight * frame_.noiseOf(pairs_[i]);
+      if (i % sample == 0 && pairs_[i].tilt_variance > 0.0)
+        sum.noise += of_sample * weight * frame_.noiseOf(pairs_[i]);
       sum.right -= weight * rest * row;
       sum.weights += weight;
     }

@@ -30,7 +30,9 @@ constexpr double kThresholdSigmas = 8.0;
 constexpr std::size_t kFewestPairs = 50;
 constexpr double kGroups = 60.0;   // of the jackknife, about
 constexpr double kResting = 5e-3;  // metres
-constexpr double kSwing = 10.0;    // updates that may swing, of the convergence
+// On the way a part of the candidates will do.
+constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
+constexpr double kSwing = 10.0;  // updates that may swing, of the convergence
 constexpr std::size_t kSecondOpinionPairs = 25'000;
 // Half of the difference's variance is this estimate's share; and it comes from two values, whose
 // 95 % limit is 4.303 standard deviations (Student, two degrees of freedom) and not 1.960.
@@ -282,10 +284,15 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
 bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
   threshold_ = std::clamp(threshold_, kLeastThreshold, kFirstFineThreshold);
   double step = 1.0, previous = threshold_;
+  std::size_t stride = settings_.pairs < kEnoughForStride ? 1 : kFirstStride;
   for (result_.iterations = 1; result_.iterations <= settings_.maximum_iterations;
        ++result_.iterations) {
-    pairs_ = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads);
-    if (pairs_.size() < kFewestPairs) return false;
+    pairs_ = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads, stride);
+    if (pairs_.size() < kFewestPairs * stride) {
+      if (stride == 1) return false;
+      stride = 1;
+      continue;
+    }
     const Unknowns update = adjust(pairs_, settings_.determined_std / 3.0, 1e9) + returnToGuess();
     const double moved = update.norm();
     // Pairs that flip to and fro between two patches would keep it swinging by some hundredths of
@@ -293,7 +300,11 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
     if (moved < kFrozen && moved > 0.5 * previous) step *= 0.5;
     previous = moved;
     motion_ = frame().motionOf(step * update) * motion_;
-    if (step * moved < settings_.convergence && isSmall(update)) return true;
+    if (stride == 1 && step * moved < settings_.convergence && isSmall(update)) return true;
+    if (moved < kResting && stride > 1) {
+      stride = 1;
+      previous = threshold_;
+    }
     robustness_ = moved < kResting ? Robustness() : Robustness::whileMoving();
     if (moved > kFrozen)
       threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);

@@ -56,10 +56,10 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
   /// Estimates a scale about the centroid, too. Default false.
   void setEstimateScale(bool estimate) { settings_.estimate_scale = estimate; }
   bool getEstimateScale() const { return settings_.estimate_scale; }
-  /// Points of each cloud that are triangulated, about; >= 100. Default 800 000.
+  /// Points of each cloud that are triangulated, about; >= 100. Default 700 000.
   void setMaximumPoints(std::size_t points) { settings_.points = points; }
   std::size_t getMaximumPoints() const { return settings_.points; }
-  /// Points that look for a patch in each direction, about; >= 100. Default 120 000.
+  /// Points that look for a patch in each direction, about; >= 100. Default 180 000.
   void setMaximumPairs(std::size_t pairs) { settings_.pairs = pairs; }
   std::size_t getMaximumPairs() const { return settings_.pairs; }
   /// Metres at the overlap's radius: what is known less well is reported as not determined. Default

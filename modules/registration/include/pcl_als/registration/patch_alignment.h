@@ -15,8 +15,8 @@ namespace pcl_als {
 struct PatchAlignmentSettings {
   double search_distance = 15.0;  ///< > 0: how far surfaces may be apart at the guess
   bool estimate_scale = false;    ///< a seventh unknown
-  std::size_t points = 800'000;   ///< of each cloud that are triangulated, about
-  std::size_t pairs = 120'000;    ///< that look for a patch in each direction, about
+  std::size_t points = 700'000;   ///< of each cloud that are triangulated, about
+  std::size_t pairs = 180'000;    ///< that look for a patch in each direction, about
   int maximum_iterations = 50;    ///< of the fine stage
   double convergence = 2e-5;      ///< metres: no point moves further in an iteration
   double determined_std = 0.1;    ///< metres at the overlap's radius: above, not determined
