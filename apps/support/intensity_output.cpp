@@ -227,7 +227,8 @@ void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesy
     if (counts.points == all)
       checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
-  extendLas(las, path, {wanted.fields, run.input(file).windowSize()}, edit, run.settings().threads);
+  extendLas(las, path, {wanted.fields, run.input(file).windowSize(), true}, edit,
+            run.settings().threads);
 }
 
 void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
@@ -264,7 +265,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
     // With the counts of all points, but before the output gets its name.
     if (done == all) checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
-  extendLas(las, path, {wanted.fields, per_window}, edit, run.settings().threads);
+  extendLas(las, path, {wanted.fields, per_window, true}, edit, run.settings().threads);
 }
 
 void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
