@@ -48,7 +48,9 @@ ALS_VECTOR_CLONES RoundedCounts roundColumns(const ValueColumns& values, double 
     saturated += given >= saturation ? 1U : 0U;
     clipped += value > kMost ? 1U : 0U;
     under_half += value < 0.5 ? 1U : 0U;
-    stored[i] = static_cast<std::int32_t>((value < kMost ? value : kMost) + 0.5);
+    // As std::lround, which would be a call per value.
+    const double from_half = 0.5 + (value < kMost ? value : kMost);
+    stored[i] = static_cast<std::int32_t>(from_half);
   }
   return {zeros, saturated, clipped, under_half};
 }
