@@ -8,7 +8,6 @@
 
 #include "accuracy_report.h"
 #include "command_line.h"
-#include "output_check.h"
 
 namespace pcl_als::app {
 namespace {
@@ -70,9 +69,6 @@ int accuracy(int argc, char** argv) {
   const std::string input = line.inputs(1, 1).front();
   if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_accuracy -h)");
   const std::string other = line.has("compare") ? line.text("compare") : "";
-  std::vector<std::filesystem::path> inputs{input};
-  if (!other.empty()) inputs.emplace_back(other);
-  refuseInput("output", line.text("output"), inputs);
   const bool sites = holdsCheckedSites(input);
   if (!other.empty() && holdsCheckedSites(other) != sites)
     throw InputError(other + ": is not of the same kind (matrix or check points) as " + input);

@@ -95,12 +95,8 @@ class Classification {
   }
 
   void checkOutputs() const {
-    std::vector<fs::path> inputs = files_.paths;
-    for (const char* name : {"training", "checkpoints", "model", "beside"})
-      if (line_.has(name)) inputs.emplace_back(line_.text(name));
     std::set<fs::path> outputs;
     const auto checkOutput = [&](const char* name, const fs::path& path) {
-      refuseInput(name, path, inputs);
       if (!outputs.insert(fs::weakly_canonical(path)).second)
         throw UsageError("option -" + std::string(name) + ": " + path.string() +
                          " is also another output");
@@ -113,8 +109,11 @@ class Classification {
       checkOutput(name, line_.text(name));
     }
     if (!line_.has("points")) return;
-    for (const fs::path& path : files_.paths)
-      checkOutput("points", fs::path(line_.text("points")) / path.filename());
+    for (const fs::path& path : files_.paths) {
+      const fs::path output = fs::path(line_.text("points")) / path.filename();
+      refuseInput("points", output, files_.paths);
+      checkOutput("points", output);
+    }
     makeOutputFolder("points", line_.text("points"));
   }
 

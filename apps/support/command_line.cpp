@@ -14,6 +14,8 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "output_check.h"
+
 namespace po = boost::program_options;
 
 namespace pcl_als::app {
@@ -78,26 +80,20 @@ bool CommandLine::parse(int argc, const char* const* argv) {
 }
 
 void CommandLine::refuseToOverwrite() const {
-  std::vector<std::string> others = inputs_;
-  const auto isOutput = [](const std::string& name) {
-    static const std::set<std::string> names = {"output", "json", "accuracy", "save_model",
-                                                "transformed"};
-    return names.count(name) != 0;
-  };
+  static const std::set<std::string> outputs{"output", "json",       "accuracy",
+                                             "grids",  "posterior",  "checked",
+                                             "map",    "save_model", "transformed"};
+  std::vector<std::filesystem::path> inputs(inputs_.begin(), inputs_.end());
+  std::vector<std::pair<std::string, std::string>> written;
   for (const auto& [name, value] : values_) {
     const auto* text = boost::any_cast<std::string>(&value.value());
-    if (text != nullptr && !isOutput(name)) others.push_back(*text);
+    if (text == nullptr) continue;
+    if (outputs.count(name) != 0)
+      written.emplace_back(name, *text);
+    else
+      inputs.emplace_back(*text);
   }
-  for (const auto& [name, value] : values_) {
-    const auto* text = boost::any_cast<std::string>(&value.value());
-    std::error_code error;
-    if (text == nullptr || !isOutput(name) || !std::filesystem::is_regular_file(*text, error))
-      continue;
-    for (const std::string& other : others) {
-      if (std::filesystem::equivalent(*text, other, error))
-        throw UsageError("option -" + name + ": " + *text + " is an input");
-    }
-  }
+  for (const auto& [name, path] : written) refuseInput(name, path, inputs);
 }
 
 bool CommandLine::has(const char* name) const {

@@ -65,9 +65,6 @@ void checkMovable(const fs::path& input, const fs::path& output) {
   if ((extensionOf(input) == ".pcd") != (extensionOf(output) == ".pcd"))
     throw UsageError(output.string() +
                      ": source and output must be of one kind, .las/.laz or .pcd");
-  std::error_code absent;
-  if (fs::equivalent(input, output, absent))
-    throw UsageError(output.string() + ": source and output are the same file");
 }
 
 std::uint64_t movePointFile(const fs::path& input, const fs::path& output,

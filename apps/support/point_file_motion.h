@@ -12,8 +12,8 @@ namespace pcl_als::app {
 /** \brief Moves the points of a file into another of the same kind: .las and .laz on the raw
  * integers, everything else byte for byte, in constant memory; .pcd with all fields.
  *
- * UsageError for files of different kinds or the same file, InputError for a point that leaves the
- * range of the file's coordinates. \return the number of points.
+ * UsageError for files of different kinds, InputError for a point that leaves the range of the
+ * file's coordinates. \return the number of points.
  */
 std::uint64_t movePointFile(const std::filesystem::path& input, const std::filesystem::path& output,
                             const RigidMotion& motion, int threads);

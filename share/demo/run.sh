@@ -7,7 +7,7 @@
 # strips and control before and after, and shows all beside the truth. What is there is not repeated.
 #   OUT_DIR            where the block and the results go (default: ./pcl_als_demo; about 1.2 GB)
 #   PCL_ALS_BUILD_DIR  build folder (default: build/ in the sources)
-#   PCL_ALS_DEMO_DENSITY  share of the pulses (default: 1, which makes 11 million points)
+#   PCL_ALS_DEMO_PRESET  the block: paper (default, 11 million points) or small (a tenth of that)
 if [[ ${1:-} == -h || ${1:-} == --help || $# -gt 1 ]]; then
   sed -n '5,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"
   [[ $# -eq 1 ]]; exit
@@ -40,8 +40,7 @@ cmake --build "$pcl_als_build" --target pcl_als_tools
 
 pcl_als_step "Simulating the block"
 if outdated "$block/truth.json" "$bin/pcl_als_simulate"; then
-  "$bin/pcl_als_simulate" -output "$block" -preset paper -noise range \
-    -density "${PCL_ALS_DEMO_DENSITY:-1}"
+  "$bin/pcl_als_simulate" -output "$block" -preset "${PCL_ALS_DEMO_PRESET:-paper}" -noise range
 else
   echo "$block is up to date"
 fi

@@ -44,7 +44,7 @@ expect 1 "-pair" icpatch "$a" "$b" -pair 1:x -output x.json
 expect 1 "-transformed" icpatch "$a" "$b" -pair 1:2 -output x.json -transformed x.las
 expect 1 "search_distance" icpatch "$a" "$b" -output x.json -search_distance -1
 expect 1 "one kind" icpatch "$a" "$b" -output x.json -transformed x.pcd
-expect 1 "same file" icpatch "$a" "$b" -output x.json -transformed "$a"
+expect 1 "is also an input" icpatch "$a" "$b" -output x.json -transformed "$a"
 expect 1 "unknown" icpatch "$a" "$b" -output x.json -unknown 3
 expect 2 "missing.las" icpatch missing.las "$b" -output x.json
 expect 2 "strip 77" icpatch "$a" "$b" -pair 77:2 -output x.json

@@ -76,7 +76,7 @@ expect 1 "output" view "${strips[0]}"
 expect 1 "elevation" view "${strips[0]}" -output none.png -elevation 91
 expect 1 "azimuth" view "${strips[0]}" -output none.png -azimuth nan
 expect 1 "zoom" view "${strips[0]}" -output none.png -zoom 0
-expect 1 "is an input" view "${strips[0]}" -output "$block/../block/strip1.las"
+expect 1 "is also an input" view "${strips[0]}" -output "$block/../block/strip1.las"
 expect 1 "size" view "${strips[0]}" -output none.png -size 10x10
 expect 1 "size" view "${strips[0]}" -output none.png -size large
 expect 1 "40 million pixels" view "${strips[0]}" -output none.png -size 16000x16000

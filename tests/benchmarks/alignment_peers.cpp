@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 //
 // alignment_peers [-seeds FROM:TO] [-density F] [-threads N] [-method TEXT] [-repeat N]
-//                 [-simpleicp PROGRAM]
+//                 [-simpleicp PROGRAM] [-points N] [-pairs N]
 // alignment_peers -strips SOURCE,TARGET FILE… [-swap] [-in_place] …
 //
 // Aligns two strips with IterativeClosestPatch and with other registrations, in turns, each in a
 // process of its own: simulated pairs with a known motion (scene, flight and noise new for every
 // seed; 2 cm range noise), or two strips of files as they are (-in_place: known to be where they
-// belong). Prints time, memory and, where it is
+// belong). -points, -pairs: ICPatch's, instead of its defaults. Prints time, memory and, where it is
 // known, the error, as Markdown; see alignment_peers.md.
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@ using Eigen::Vector3d;
 constexpr double kArcsecond = 4.84813681109536e-6;
 
 struct Options {
-  int from = 1, to = 1, threads = 2, repeat = 1;
+  int from = 1, to = 1, threads = 2, repeat = 1, points = 0, pairs = 0;
   double density = 1.0;
   bool swap = false, in_place = false;
   std::string method, simpleicp, source, target;
@@ -57,6 +57,8 @@ bool take(Options& options, const char* name, const char* value) {
   if (option == "-density") return (options.density = std::atof(value)) > 0.0;
   if (option == "-threads") return (options.threads = std::atoi(value)) > 0;
   if (option == "-repeat") return (options.repeat = std::atoi(value)) > 0;
+  if (option == "-points") return (options.points = std::atoi(value)) > 0;
+  if (option == "-pairs") return (options.pairs = std::atoi(value)) > 0;
   if (option == "-method") return !(options.method = value).empty();
   if (option == "-simpleicp") return !(options.simpleicp = value).empty();
   if (option != "-strips") return false;
@@ -123,7 +125,7 @@ StripPair simulatedPair(int seed, double density) {
   return pair;
 }
 
-Alignment alignOwn(const Points& source, const Points& target, int threads) {
+Alignment alignOwn(const Points& source, const Points& target, const Options& options) {
   pcl::PointCloud<pcl::PointXYZ>::Ptr clouds[2];
   for (const bool moving : {true, false}) {
     auto& cloud = clouds[moving ? 0 : 1];
@@ -133,7 +135,9 @@ Alignment alignOwn(const Points& source, const Points& target, int threads) {
   }
   const auto start = std::chrono::steady_clock::now();
   IterativeClosestPatch<pcl::PointXYZ, pcl::PointXYZ, double> icpatch;
-  icpatch.setNumberOfThreads(threads);
+  icpatch.setNumberOfThreads(options.threads);
+  if (options.points > 0) icpatch.setMaximumPoints(static_cast<std::size_t>(options.points));
+  if (options.pairs > 0) icpatch.setMaximumPairs(static_cast<std::size_t>(options.pairs));
   icpatch.setInputSource(clouds[0]);
   icpatch.setInputTarget(clouds[1]);
   pcl::PointCloud<pcl::PointXYZ> aligned;
@@ -147,9 +151,9 @@ Alignment alignOwn(const Points& source, const Points& target, int threads) {
   return result;
 }
 
-AlignmentMethod ownMethod(int threads) {
-  return {"pcl_als ICPatch", [threads](const Points& source, const Points& target) {
-            return alignOwn(source, target, threads);
+AlignmentMethod ownMethod(const Options& options) {
+  return {"pcl_als ICPatch", [options](const Points& source, const Points& target) {
+            return alignOwn(source, target, options);
           }};
 }
 
@@ -165,7 +169,7 @@ StripPair readPair(const Options& options) {
         (source ? pair.source : pair.target).emplace_back(p.getVector3fMap() + shift.cast<float>());
     }
   }
-  const Alignment own = bench::runAlone(ownMethod(options.threads), pair.source, pair.target);
+  const Alignment own = bench::runAlone(ownMethod(options), pair.source, pair.target);
   pair.centroid = Vector3d(own.centroid[0], own.centroid[1], own.centroid[2]);
   pair.known = options.in_place;
   return pair;
@@ -196,7 +200,7 @@ void print(const std::string& pair, const std::string& method, const StripPair& 
 }
 
 void compare(const std::string& name, const StripPair& pair, const Options& options) {
-  std::vector<AlignmentMethod> methods{ownMethod(options.threads)};
+  std::vector<AlignmentMethod> methods{ownMethod(options)};
   for (AlignmentMethod& method : bench::otherMethods(options.threads, options.simpleicp))
     methods.push_back(std::move(method));
   methods.erase(std::remove_if(methods.begin(), methods.end(),
