@@ -21,6 +21,9 @@ namespace {
 constexpr std::size_t kBlock = 4096;  ///< records that share a box
 constexpr std::size_t kIntensity = 12, kReturns = 14;
 
+/// X, Y, Z and the four bytes behind them, which are ignored, as one vector.
+using Lanes = std::int32_t __attribute__((vector_size(16)));
+
 /// Sorts single and last returns by strip; the map is asked when the strip changes.
 class SurfacePoints {
  public:
@@ -61,10 +64,16 @@ struct BlockBox {
 
 class LasInput : public IntensityInput {
  public:
-  LasInput(const std::string& path, const Options& options) : IntensityInput(path), file_(path) {
+  LasInput(const std::string& path, const Options& options)
+      : IntensityInput(path),
+        file_(path),
+        layout_(file_.layout()),
+        length_(file_.header().record_length),
+        scale_(file_.header().scale),
+        offset_(file_.header().offset) {
     window_ = options.window;
     survey_.sources.info = file_.info();
-    survey_.has_time = file_.layout().gps_time >= 0;
+    survey_.has_time = layout_.gps_time >= 0;
     findGainControl(options.gain_control);
     look(file_.header().compressed ? 1 : options.threads);
   }
@@ -80,7 +89,7 @@ class LasInput : public IntensityInput {
     thread_local std::vector<std::byte> own;
     const std::byte* records = request.records;
     if (records == nullptr) read(first, count, own), records = own.data();
-    const std::size_t step = request.records == nullptr ? length() : request.record_length;
+    const std::size_t step = request.records == nullptr ? length_ : request.record_length;
     out.origin = positionOf(records);
     out.points.resize(count);
     for (std::size_t i = 0; i < count; ++i) out.points[i] = pointOf(records + i * step, out.origin);
@@ -97,10 +106,8 @@ class LasInput : public IntensityInput {
   }
 
  private:
-  std::size_t length() const { return file_.header().record_length; }
-
   void read(std::uint64_t first, std::size_t count, std::vector<std::byte>& records) const {
-    records.resize(count * length());
+    records.resize(count * length_);
     file_.readRecords(first, count, records.data());
   }
 
@@ -123,26 +130,24 @@ class LasInput : public IntensityInput {
                    loadLas<std::int32_t>(record + 8)});
   }
   Eigen::Vector3d metres(const std::array<std::int32_t, 3>& raw) const {
-    const LasHeader& header = file_.header();
-    return Eigen::Vector3d(raw[0], raw[1], raw[2]).cwiseProduct(header.scale) + header.offset;
+    return Eigen::Vector3d(raw[0], raw[1], raw[2]).cwiseProduct(scale_) + offset_;
   }
 
   std::uint16_t sourceOf(const std::byte* record) const {
-    return loadLas<std::uint16_t>(record + file_.layout().point_source_id);
+    return loadLas<std::uint16_t>(record + layout_.point_source_id);
   }
 
   IntensityPoint pointOf(const std::byte* record, const Eigen::Vector3d& origin) const {
-    const LasRecordLayout& layout = file_.layout();
     IntensityPoint point;
     point.position = (positionOf(record) - origin).cast<float>();
-    if (layout.gps_time >= 0) point.time = loadLas<double>(record + layout.gps_time);
+    if (layout_.gps_time >= 0) point.time = loadLas<double>(record + layout_.gps_time);
     point.intensity = loadLas<std::uint16_t>(record + kIntensity);
     point.source = sourceOf(record);
     const auto returns = loadLas<std::uint8_t>(record + kReturns);
-    point.return_number = layout.extended ? returns & 15U : returns & 7U;
-    point.number_of_returns = layout.extended ? returns >> 4U : (returns >> 3U) & 7U;
-    const auto code = loadLas<std::uint8_t>(record + layout.classification);
-    point.classification = layout.extended ? code : code & 31U;
+    point.return_number = layout_.extended ? returns & 15U : returns & 7U;
+    point.number_of_returns = layout_.extended ? returns >> 4U : (returns >> 3U) & 7U;
+    const auto code = loadLas<std::uint8_t>(record + layout_.classification);
+    point.classification = layout_.extended ? code : code & 31U;
     return point;
   }
 
@@ -151,13 +156,13 @@ class LasInput : public IntensityInput {
     std::vector<SurveyTally> tallies(windows());
     std::vector<std::vector<BlockBox>> boxes(windows());
     parallelFor(windows(), threads, [&](std::size_t window) {
-      std::vector<std::byte> records;
+      thread_local std::vector<std::byte> records;
       const std::uint64_t first = window * std::uint64_t{window_};
       const std::size_t count =
           std::min<std::uint64_t>(window_, file_.header().point_count - first);
       read(first, count, records);
       for (std::size_t at = 0; at < count; at += kBlock)
-        lookAtBlock(static_cast<std::uint32_t>((first + at) / kBlock), &records[at * length()],
+        lookAtBlock(static_cast<std::uint32_t>((first + at) / kBlock), &records[at * length_],
                     std::min(kBlock, count - at), tallies[window], boxes[window]);
     });
     SurveyTally sum;
@@ -176,7 +181,7 @@ class LasInput : public IntensityInput {
     for (std::size_t at = 0; at < count;) {
       BlockBox box;
       PointRun run;
-      at += lookAtRun(records + at * length(), count - at, box, run);
+      at += lookAtRun(records + at * length_, count - at, box, run);
       tally.add(run);
       box.block = block;
       const auto same =
@@ -192,33 +197,36 @@ class LasInput : public IntensityInput {
   /// Looks at the records of the first one's strip; returns how many there are in a row.
   std::size_t lookAtRun(const std::byte* records, std::size_t count, BlockBox& box,
                         PointRun& run) const {
-    const int time_at = file_.layout().gps_time;
-    std::array<std::int32_t, 3> least, most;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      least[axis] = most[axis] = loadLas<std::int32_t>(records + 4 * axis);
-    run.source = sourceOf(records);
+    const auto time_at = static_cast<std::size_t>(std::max(0, layout_.gps_time));
+    const std::uint16_t source = sourceOf(records);
+    auto least = loadLas<Lanes>(records), most = least;
+    // In locals: a compiler must expect that bytes of records are those of the result.
     std::uint16_t largest = 0;
+    std::uint64_t zeros = 0, zero_times = 0;
+    TimeRange times;
     std::size_t i = 0;
-    for (; i < count && sourceOf(records) == run.source; ++i, records += length()) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto value = loadLas<std::int32_t>(records + 4 * axis);
-        least[axis] = std::min(least[axis], value);
-        most[axis] = std::max(most[axis], value);
-      }
+    for (; i < count && sourceOf(records) == source; ++i, records += length_) {
+      const auto value = loadLas<Lanes>(records);
+      least = value < least ? value : least;
+      most = value > most ? value : most;
       const auto intensity = loadLas<std::uint16_t>(records + kIntensity);
       largest = std::max(largest, intensity);
-      run.zeros += intensity == 0 ? 1 : 0;
-      const double time = time_at < 0 ? 0.0 : loadLas<double>(records + time_at);
+      zeros += intensity == 0 ? 1 : 0;
+      const double time = survey_.has_time ? loadLas<double>(records + time_at) : 0.0;
       if (time == 0.0)
-        run.zero_time = true;
+        ++zero_times;
       else
-        run.times.add(time);
+        times.add(time);
     }
+    run.source = source;
     run.points = i;
+    run.zeros = zeros;
+    run.zero_time = zero_times > 0;
+    run.times = times;
     run.largest = largest;
-    run.minimum = metres(least);
-    run.maximum = metres(most);
-    box = {0, run.source, least[0], least[1], most[0], most[1]};
+    run.minimum = metres({least[0], least[1], least[2]});
+    run.maximum = metres({most[0], most[1], most[2]});
+    box = {0, source, least[0], least[1], most[0], most[1]};
     return i;
   }
 
@@ -264,9 +272,9 @@ class LasInput : public IntensityInput {
       const std::size_t count = std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
       read(first, count, records);
       for (std::size_t i = 0; i < count; ++i) {
-        const auto box = reach.find(sourceOf(&records[i * length()]));
+        const auto box = reach.find(sourceOf(&records[i * length_]));
         if (box == reach.end()) continue;
-        const IntensityPoint point = pointOf(&records[i * length()], out.origin);
+        const IntensityPoint point = pointOf(&records[i * length_], out.origin);
         if (box->second.contains(Eigen::Vector2f(point.position.head<2>())))
           surface_points.add(point);
       }
@@ -274,6 +282,9 @@ class LasInput : public IntensityInput {
   }
 
   LasFile file_;
+  const LasRecordLayout layout_;  ///< of the file, as are the next three
+  const std::size_t length_;
+  const Eigen::Vector3d scale_, offset_;
   int gain_control_ = -1;  ///< index of the extra field
   std::vector<BlockBox> boxes_;
   std::vector<std::size_t> first_box_;  ///< of each window, and the end

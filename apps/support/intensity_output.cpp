@@ -13,6 +13,8 @@
 #include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
 
+#include "intensity_columns.h"
+
 namespace pcl_als::app {
 namespace {
 
@@ -205,6 +207,30 @@ struct FieldPlaces {
   }
 };
 
+/// As writeLas(), where no surfaces are wanted.
+void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
+                    const IntensityOutput& output, const std::function<void(double)>& progress,
+                    IntensityCounts& counts) {
+  const LasFile& las = *run.input(file).las();
+  OutputFields wanted(output, false);
+  wanted.avoid(las);
+  const FieldPlaces places(placeExtension(las, wanted.fields));
+  const RangeOnlyCorrection correction(run, file, output.scale, places.original);
+  const std::uint64_t all = las.header().point_count;
+  std::mutex mutex;
+  const LasEdit edit = [&](const LasRecordBlock& block) {
+    const IntensityCounts part = correction.apply(block);
+    const std::lock_guard<std::mutex> lock(mutex);
+    counts.merge(part);
+    progress(static_cast<double>(counts.points) / static_cast<double>(all));
+    // With the counts of all points, but before the output gets its name.
+    if (counts.points == all)
+      checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
+  };
+  extendLas(las, path, {wanted.fields, run.input(file).windowSize(), true}, edit,
+            run.settings().threads);
+}
+
 void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
               const IntensityOutput& output, const std::function<void(double)>& progress,
               IntensityOutcome& outcome) {
@@ -239,7 +265,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
     // With the counts of all points, but before the output gets its name.
     if (done == all) checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
-  extendLas(las, path, {wanted.fields, per_window}, edit, run.settings().threads);
+  extendLas(las, path, {wanted.fields, per_window, true}, edit, run.settings().threads);
 }
 
 void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
@@ -287,6 +313,8 @@ void writeCorrected(const IntensityRun& run, std::size_t file, const std::filesy
     throw UsageError(path.string() + ": input and output must be of one kind, .las/.laz or .pcd");
   if (pcd_out)
     writePcd(run, file, path, output, outcome);
+  else if (RangeOnlyCorrection::serves(run.settings(), output))
+    writeRangeOnly(run, file, path, output, progress, outcome.counts[file]);
   else
     writeLas(run, file, path, output, progress, outcome);
 }

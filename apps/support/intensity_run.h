@@ -82,6 +82,10 @@ class IntensityRun {
   std::size_t files() const { return inputs_.size(); }
   const IntensitySettings& settings() const { return settings_; }
   const std::vector<std::string>& remarks() const { return remarks_; }
+  const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
+  const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
+  /// By point source id.
+  const std::map<std::uint16_t, int>& stripsOf(std::size_t file) const { return strip_of_[file]; }
   double saturation() const { return saturation_; }
   double cellSize() const { return cell_size_; }
   double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }
@@ -97,6 +101,11 @@ class IntensityRun {
   void useConstant(double constant) { constant_ = constant; }
   const RadiometricModel& model() const { return model_; }
   const std::vector<double>& estimatedGains() const { return estimated_gains_; }
+  /// What all intensities of a strip are divided by: known gain, pulse energy, estimated gain.
+  double gain(int strip) const {
+    return known_gains_[static_cast<std::size_t>(strip)] *
+           estimated_gains_[static_cast<std::size_t>(strip)];
+  }
   double constant() const { return constant_; }  ///< corrected intensity of reflectance 1; 0: none
 
   void evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,

@@ -78,5 +78,29 @@ expect 2 'does not cover the times of 1 of' intensity values.las y.las "${flight
 expect 0 '1 points without a trajectory' intensity values.las x.las "${flight[@]}" -keep_uncovered
 check "without a trajectory" test "$(intensity_of x.las 4)" = "$(intensity_of values.las 4)"
 
+# Without surfaces points are computed in columns; a gain control of 1 everywhere makes the tool take them one by one, as
+# with surfaces (its positions are floats there: 3e-8 of a range). Counts are the same, intensities to their rounding.
+printf 'value,gain\n-1,1\n9,1\n' >ones.csv
+poke values.las 3 8 '\xff\xff\xff\x7f'
+singly=(-agc_field reflectance -agc_gain ones.csv)
+counts_of() { grep -v 'Writing\|Looking\|Reading\|gain control' "$1"; }
+compare() {  # WHAT OPTION…: both ways
+  local what=$1 different
+  shift
+  expect 0 'points without a trajectory' intensity values.las singly.las "${flight[@]}" -keep_uncovered -no_fields -no_incidence "$@" "${singly[@]}"
+  counts_of out.txt >singly.txt
+  expect 0 'points without a trajectory' intensity values.las columns.las "${flight[@]}" -keep_uncovered -no_fields -no_incidence "$@"
+  counts_of out.txt >columns.txt
+  check "$what: counts" diff singly.txt columns.txt
+  different=$(cmp -l singly.las columns.las | wc -l)
+  check "$what: $different bytes differ" test "$different" -le 3
+  expect 0 '' intensity values.las threads.las "${flight[@]}" -keep_uncovered -no_fields -no_incidence "$@" -threads 1
+  check "$what: one thread as all" cmp threads.las columns.las
+}
+compare 'all terms'
+compare 'no original' -no_original -scale 3
+compare 'another exponent' -range_exponent 3.3 -attenuation 2 -gains 1=0.7
+compare 'no range' -no_range -visibility 1
+
 absent y.las
 finish

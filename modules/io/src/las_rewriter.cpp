@@ -43,6 +43,7 @@ class Rewrite {
         per_block_(extension.block_records > 0
                        ? extension.block_records
                        : std::max<std::size_t>(1, kBlockBytes / out_length_)),
+        keeps_coordinates_(extension.keeps_coordinates),
         output_(output, head_) {}
 
   LasRewriteResult run(int threads) {
@@ -66,15 +67,20 @@ class Rewrite {
     const std::size_t count = std::min<std::uint64_t>(per_block_, header_.point_count - first);
     buffer.resize(per_block_ * out_length_);
     readBlock(first, count, buffer);
-    detail::LasBox before, after;
-    before.add(buffer.data(), count, out_length_);
-    edit_({buffer.data(), count, out_length_, first});
-    after.add(buffer.data(), count, out_length_);
-    boxes_.add(before, after);
+    editBlock({buffer.data(), count, out_length_, first});
     if (output_.compressed())
       output_.append(buffer.data(), count);
     else
       output_.putAt(first, buffer.data(), count);
+  }
+
+  void editBlock(const LasRecordBlock& block) {
+    if (keeps_coordinates_) return edit_(block);
+    detail::LasBox before, after;
+    before.add(block.records, block.count, out_length_);
+    edit_(block);
+    after.add(block.records, block.count, out_length_);
+    boxes_.add(before, after);
   }
 
   /// The input's records, each followed by zeros up to the output's length.
@@ -137,6 +143,7 @@ class Rewrite {
   const detail::LasHead head_;
   const std::size_t out_length_;
   const std::size_t per_block_;
+  const bool keeps_coordinates_;
   detail::LasOutput output_;
   Boxes boxes_;
 };

@@ -7,6 +7,8 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/radiometry/radiometric_model.h>
 
+#include "range_kernel.h"
+
 namespace pcl_als {
 namespace {
 
@@ -105,6 +107,28 @@ PointRadiometry RadiometricEvaluator::evaluate(const RadiometryPoint& point,
   }
   result.factor = model_.factor(range, cosine);
   return result;
+}
+
+RangeCounts RadiometricEvaluator::evaluateRanges(const PointColumns& points, std::size_t count,
+                                                 const RangeColumns& out,
+                                                 RadiometryCursor& cursor) const {
+  RangeCounts counts;
+  for (std::size_t first = 0, last = 0; first < count; first = last) {
+    const double time = points.time[first];
+    ++last;
+    if (!cursor.span.holds(time) && !trajectory_->pathAt(time, cursor.span, cursor.node)) {
+      out.range[first] = std::numeric_limits<double>::quiet_NaN();
+      out.factor[first] = 1.0;
+      ++counts.uncovered;
+      continue;
+    }
+    while (last < count && cursor.span.holds(points.time[last])) ++last;
+    counts.above_sensor += detail::rangeKernel(
+        cursor.span, model_,
+        {points.time + first, points.x + first, points.y + first, points.z + first}, last - first,
+        {out.range + first, out.factor + first});
+  }
+  return counts;
 }
 
 }  // namespace pcl_als

@@ -8,18 +8,8 @@
 
 #include <cmath>
 
+#include <pcl_als/common/vector_clones.h>
 #include <pcl_als/trajectory/scan_geometry.h>
-
-// Compiled twice, for AVX2 and for every x86-64, and chosen when the program starts: the same
-// operations on more lanes, so the same results. Sanitizers run before that choice is possible.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define ALS_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
-#define ALS_INLINE __attribute__((always_inline)) inline
-#else
-#define ALS_VECTOR_CLONES
-#define ALS_INLINE inline
-#endif
 
 namespace pcl_als::detail {
 namespace {

@@ -48,6 +48,7 @@ LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& o
 struct LasExtension {
   std::vector<LasExtraField> fields;  ///< appended to every record, zeros before the edit
   std::size_t block_records = 0;      ///< records of the blocks handed to the edit; 0: about 1 MiB
+  bool keeps_coordinates = false;     ///< the edit leaves X, Y and Z alone: no box is taken of them
 };
 
 /** \brief Where the fields will lie in the records of the output: behind all that is there.

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/radiometry/local_surfaces.h>
+#include <pcl_als/trajectory/point_columns.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
@@ -70,6 +71,17 @@ struct RadiometryCursor {
   PathSpan span;
 };
 
+/// Columns that receive what evaluateRanges() finds of points.
+struct RangeColumns {
+  double* range = nullptr;   ///< metres; NaN: left as it is
+  double* factor = nullptr;  ///< corrected over given intensity; 1: left as it is
+};
+
+/// Points that evaluateRanges() left as they are.
+struct RangeCounts {
+  std::uint64_t uncovered = 0, above_sensor = 0;
+};
+
 /** \brief Applies a RadiometricModel to points of a flight.
  *
  * The range is that from the trajectory's position at the point's time to the point; a lever arm of
@@ -85,6 +97,11 @@ class RadiometricEvaluator {
   const Trajectory& trajectory() const { return *trajectory_; }
   PointRadiometry evaluate(const RadiometryPoint& point, const LocalSurface& surface,
                            RadiometryCursor& cursor) const;
+
+  /// As evaluate() of points without surfaces, many at a time; factors agree to 2e-11. Positions
+  /// must be finite.
+  RangeCounts evaluateRanges(const PointColumns& points, std::size_t count, const RangeColumns& out,
+                             RadiometryCursor& cursor) const;
 
  private:
   std::shared_ptr<const Trajectory> trajectory_;

@@ -8,18 +8,11 @@
 #include <string>
 
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/point_columns.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_errors.h>
 
 namespace pcl_als {
-
-/// Points as columns: time in the trajectory's count of seconds, metres in the ground frame.
-struct PointColumns {
-  const double* time = nullptr;
-  const double* x = nullptr;
-  const double* y = nullptr;
-  const double* z = nullptr;
-};
 
 /// Columns that receive an effect on the ground coordinates, metres.
 struct EffectColumns {
