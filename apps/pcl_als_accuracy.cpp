@@ -13,12 +13,7 @@ namespace pcl_als::app {
 namespace {
 
 ConfusionMatrix readMatrix(const std::string& path) {
-  const CountTable table = readCountTable(path);
-  ConfusionMatrix matrix(table.classes);
-  for (std::size_t i = 0; i < table.classes.size(); ++i)
-    for (std::size_t j = 0; j < table.classes.size(); ++j)
-      matrix.counts(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          table.counts[i][j];
+  ConfusionMatrix matrix = matrixOf(readCountTable(path));
   if (matrix.total() == 0) throw InputError(path + ": counts no check points");
   return matrix;
 }

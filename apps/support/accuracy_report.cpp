@@ -175,6 +175,15 @@ void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& repo
   writeFile(path, json.dump(1) + "\n");
 }
 
+ConfusionMatrix matrixOf(const CountTable& table) {
+  ConfusionMatrix matrix(table.classes);
+  for (std::size_t i = 0; i < table.classes.size(); ++i)
+    for (std::size_t j = 0; j < table.classes.size(); ++j)
+      matrix.counts(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          table.counts[i][j];
+  return matrix;
+}
+
 CountedSites countSites(const std::vector<CheckedSite>& sites, std::vector<std::string> classes) {
   CountedSites counted{std::move(classes), {}};
   for (const CheckedSite& site : sites)

@@ -9,6 +9,7 @@
 
 #include <pcl_als/classification/accuracy_assessment.h>
 #include <pcl_als/common/class_site.h>
+#include <pcl_als/io/class_io.h>
 
 namespace pcl_als::app {
 
@@ -25,6 +26,8 @@ struct AccuracyReport {
 /// The tables that the tools print.
 std::string accuracyText(const AccuracyReport& report);
 void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report);
+
+ConfusionMatrix matrixOf(const CountTable& table);
 
 /// Check points of one or two classifications with a common list of classes. A class that only
 /// check points have, and points without a class, get a row of their own ("unclassified").

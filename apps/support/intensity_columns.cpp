@@ -11,8 +11,7 @@ namespace pcl_als::app {
 namespace {
 
 constexpr std::size_t kTile = 256;  ///< points whose columns fit the first-level cache
-constexpr std::size_t kIntensityAt = 12, kReturnsAt = 14;
-constexpr double kMost = 65535.0;
+constexpr std::size_t kReturnsAt = 14;
 
 using Column = std::array<double, kTile>;
 using IntegerColumn = std::array<std::int32_t, kTile>;
@@ -46,10 +45,10 @@ ALS_VECTOR_CLONES RoundedCounts roundColumns(const ValueColumns& values, double 
     const double value = range[i] == range[i] ? corrected : given;
     zeros += given == 0.0 ? 1U : 0U;
     saturated += given >= saturation ? 1U : 0U;
-    clipped += value > kMost ? 1U : 0U;
+    clipped += value > kLargestIntensity ? 1U : 0U;
     under_half += value < 0.5 ? 1U : 0U;
     // As std::lround, which would be a call per value.
-    const double from_half = 0.5 + (value < kMost ? value : kMost);
+    const double from_half = 0.5 + (value < kLargestIntensity ? value : kLargestIntensity);
     stored[i] = static_cast<std::int32_t>(from_half);
   }
   return {zeros, saturated, clipped, under_half};

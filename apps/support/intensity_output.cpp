@@ -18,8 +18,6 @@
 namespace pcl_als::app {
 namespace {
 
-constexpr double kMost = 65535.0;
-constexpr std::size_t kIntensityAt = 12;
 constexpr const char* kOriginal = "original_intensity";
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -58,7 +56,7 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
   ++out.counts.status[static_cast<std::size_t>(found.radiometry[i].status)];
   out.counts.zeros += given.intensity == 0.0F ? 1 : 0;
   out.counts.saturated += static_cast<double>(given.intensity) >= run.saturation() ? 1 : 0;
-  out.counts.clipped += stored > kMost ? 1 : 0;
+  out.counts.clipped += stored > kLargestIntensity ? 1 : 0;
   out.counts.rounded_to_zero += given.intensity > 0.0F && stored < 0.5 ? 1 : 0;
   if (!run.settings().statistics || !found.radiometry[i].corrected() ||
       !run.usable(given.intensity))
@@ -72,7 +70,7 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
 }
 
 std::uint16_t rounded(double value) {
-  return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, kMost)));
+  return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, kLargestIntensity)));
 }
 
 /// Takes in blocks as they come and merges them in their order, so that threads change no sum.
@@ -290,7 +288,7 @@ void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::
     for (PcdColumn& column : columns)
       column.values[i] = column.name == kOriginal ? (*strip.cloud)[i].intensity
                                                   : static_cast<float>(valueOf(column.name, point));
-    tally(run, found, i, point, std::clamp(scaled, 0.5, kMost), part);
+    tally(run, found, i, point, std::clamp(scaled, 0.5, kLargestIntensity), part);
   }
   OrderedOutcome ordered(outcome, outcome.counts[file]);
   if (run.settings().statistics && !stored.empty()) ordered.addHistogram(found, run, stored);

@@ -12,6 +12,9 @@
 
 namespace pcl_als::app {
 
+inline constexpr std::size_t kIntensityAt = 12;       ///< byte of a LAS record
+inline constexpr double kLargestIntensity = 65535.0;  ///< that a LAS record can hold
+
 /// What to write besides corrected intensities.
 struct IntensityOutput {
   double scale = 1.0;         ///< on corrected intensities in the 16-bit field

@@ -6,6 +6,11 @@
 
 namespace pcl_als::app {
 
+void SurveyTally::add(const PointSource& source) {
+  const auto [at, fresh] = sources_.try_emplace(source.id, source);
+  if (!fresh) at->second.merge(source);
+}
+
 void SurveyTally::add(const PointRun& run) {
   TimeRange all = run.times;
   if (run.zero_time) all.add(0.0);
@@ -14,35 +19,13 @@ void SurveyTally::add(const PointRun& run) {
     times_.add(run.times.first);
     times_.add(run.times.last);
   }
-  const auto [at, fresh] = sources_.try_emplace(run.source);
-  PointSource& source = at->second;
-  if (fresh) {
-    source.id = run.source;
-    source.first_time = all.first;
-    source.last_time = all.last;
-    source.minimum = run.minimum;
-    source.maximum = run.maximum;
-  }
-  source.points += run.points;
-  source.first_time = std::min(source.first_time, all.first);
-  source.last_time = std::max(source.last_time, all.last);
-  source.minimum = source.minimum.cwiseMin(run.minimum);
-  source.maximum = source.maximum.cwiseMax(run.maximum);
+  add({run.source, run.points, all.first, all.last, run.minimum, run.maximum});
   zeros_ += run.zeros;
   largest_ = std::max(largest_, run.largest);
 }
 
 void SurveyTally::merge(const SurveyTally& other) {
-  for (const auto& [id, theirs] : other.sources_) {
-    const auto [at, fresh] = sources_.try_emplace(id, theirs);
-    if (fresh) continue;
-    PointSource& mine = at->second;
-    mine.points += theirs.points;
-    mine.first_time = std::min(mine.first_time, theirs.first_time);
-    mine.last_time = std::max(mine.last_time, theirs.last_time);
-    mine.minimum = mine.minimum.cwiseMin(theirs.minimum);
-    mine.maximum = mine.maximum.cwiseMax(theirs.maximum);
-  }
+  for (const auto& [id, theirs] : other.sources_) add(theirs);
   for (const auto& [mine, theirs] :
        {std::pair(&times_, &other.times_), std::pair(&zero_times_, &other.zero_times_)}) {
     mine->first = std::min(mine->first, theirs->first);

@@ -31,6 +31,8 @@ class SurveyTally {
   void store(IntensitySurvey& survey) const;
 
  private:
+  void add(const PointSource& source);
+
   std::map<std::uint16_t, PointSource> sources_;
   TimeRange times_, zero_times_;
   std::uint64_t zeros_ = 0;

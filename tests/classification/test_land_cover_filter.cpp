@@ -44,16 +44,22 @@ pcl::PointCloud<PointLidar>::Ptr cloudOf(std::initializer_list<Eigen::Vector3f> 
   return cloud;
 }
 
-// A leaf and the ground under it, in one cell, beside the raster, not finite.
-TEST(LandCoverFilter, PointsOfOneCellCanBeOfDifferentClasses) {
-  const float none = std::numeric_limits<float>::quiet_NaN();
-  const auto cloud = cloudOf({{5, 5, 307}, {5, 5, 300.2F}, {-5, 5, 307}, {5, 5, none}});
+/// A filter of that classifier whose floats are relative to the raster's south-west corner.
+LandCoverFilter<PointLidar> filterOf(const pcl::PointCloud<PointLidar>::Ptr& cloud) {
   LandCoverFilter<PointLidar> filter;
   filter.setClassifier(classifier());
   LocalFrame frame;
   frame.origin = {512000.0, 5402990.0, 0.0};
   filter.setLocalFrame(frame);
   filter.setInputCloud(cloud);
+  return filter;
+}
+
+// A leaf and the ground under it, in one cell, beside the raster, not finite.
+TEST(LandCoverFilter, PointsOfOneCellCanBeOfDifferentClasses) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  const auto cloud = cloudOf({{5, 5, 307}, {5, 5, 300.2F}, {-5, 5, 307}, {5, 5, none}});
+  LandCoverFilter<PointLidar> filter = filterOf(cloud);
   pcl::PointCloud<PointLidar> output;
   filter.filter(output);
   ASSERT_EQ(output.size(), 4U);
@@ -68,13 +74,8 @@ TEST(LandCoverFilter, PointsOfOneCellCanBeOfDifferentClasses) {
 
 TEST(LandCoverFilter, KeepsPointsBesideTheIndicesAndTakesCodes) {
   const auto cloud = cloudOf({{5, 5, 307}, {6, 5, 307}});
-  LandCoverFilter<PointLidar> filter;
-  filter.setClassifier(classifier());
-  LocalFrame frame;
-  frame.origin = {512000.0, 5402990.0, 0.0};
-  filter.setLocalFrame(frame);
+  LandCoverFilter<PointLidar> filter = filterOf(cloud);
   filter.setCodes({{"tree", 4}});
-  filter.setInputCloud(cloud);
   filter.setIndices(pcl::IndicesPtr(new pcl::Indices{1}));
   pcl::PointCloud<PointLidar> output;
   filter.filter(output);
@@ -86,12 +87,7 @@ TEST(LandCoverFilter, NoiseStaysNoise) {
   const auto cloud = cloudOf({{5, 5, 307}, {5, 5, 307}, {5, 5, 307}});
   (*cloud)[0].classification = 7;
   (*cloud)[1].classification = 18;
-  LandCoverFilter<PointLidar> filter;
-  filter.setClassifier(classifier());
-  LocalFrame frame;
-  frame.origin = {512000.0, 5402990.0, 0.0};
-  filter.setLocalFrame(frame);
-  filter.setInputCloud(cloud);
+  LandCoverFilter<PointLidar> filter = filterOf(cloud);
   pcl::PointCloud<PointLidar> output;
   filter.filter(output);
   EXPECT_EQ(output[0].classification, 7);

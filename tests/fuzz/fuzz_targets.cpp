@@ -70,13 +70,7 @@ void assess(const ConfusionMatrix& matrix) {
 
 void readMatrix(const std::filesystem::path& path) {
   if (holdsCheckedSites(path)) return;
-  const CountTable table = readCountTable(path);
-  ConfusionMatrix matrix(table.classes);
-  for (std::size_t i = 0; i < table.classes.size(); ++i)
-    for (std::size_t j = 0; j < table.classes.size(); ++j)
-      matrix.counts(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          table.counts[i][j];
-  assess(matrix);
+  assess(app::matrixOf(readCountTable(path)));
 }
 
 void readChecked(const std::filesystem::path& path) {

@@ -44,6 +44,14 @@ std::string ownName(const std::filesystem::path& path, const std::set<std::strin
 
 }  // namespace
 
+void PointSource::merge(const PointSource& other) {
+  points += other.points;
+  first_time = std::min(first_time, other.first_time);
+  last_time = std::max(last_time, other.last_time);
+  minimum = minimum.cwiseMin(other.minimum);
+  maximum = maximum.cwiseMax(other.maximum);
+}
+
 StripNaming::StripNaming(const Files& files) {
   const bool by_file = sameSingleId(files) && !timesConnect(files);
   std::set<std::string> taken;

@@ -68,25 +68,14 @@ ALS_INLINE std::uint64_t kernel(const PathSpan& span, const RadiometricModel& mo
   return above;
 }
 
-ALS_VECTOR_CLONES std::uint64_t rangesOnly(const PathSpan& span, const RadiometricModel& model,
-                                           const PointColumns& points, std::size_t count,
-                                           const RangeColumns& out) {
+ALS_VECTOR_CLONES std::uint64_t chosenKernel(bool square, bool air, const PathSpan& span,
+                                             const RadiometricModel& model,
+                                             const PointColumns& points, std::size_t count,
+                                             const RangeColumns& out) {
+  if (square && air) return kernel<true, true>(span, model, points, count, out);
+  if (square) return kernel<true, false>(span, model, points, count, out);
+  if (air) return kernel<false, true>(span, model, points, count, out);
   return kernel<false, false>(span, model, points, count, out);
-}
-ALS_VECTOR_CLONES std::uint64_t squares(const PathSpan& span, const RadiometricModel& model,
-                                        const PointColumns& points, std::size_t count,
-                                        const RangeColumns& out) {
-  return kernel<true, false>(span, model, points, count, out);
-}
-ALS_VECTOR_CLONES std::uint64_t airOnly(const PathSpan& span, const RadiometricModel& model,
-                                        const PointColumns& points, std::size_t count,
-                                        const RangeColumns& out) {
-  return kernel<false, true>(span, model, points, count, out);
-}
-ALS_VECTOR_CLONES std::uint64_t squaresAndAir(const PathSpan& span, const RadiometricModel& model,
-                                              const PointColumns& points, std::size_t count,
-                                              const RangeColumns& out) {
-  return kernel<true, true>(span, model, points, count, out);
 }
 
 }  // namespace
@@ -94,11 +83,10 @@ ALS_VECTOR_CLONES std::uint64_t squaresAndAir(const PathSpan& span, const Radiom
 std::uint64_t rangeKernel(const PathSpan& span, const RadiometricModel& model,
                           const PointColumns& points, std::size_t count, const RangeColumns& out) {
   const bool square = model.range_exponent == 2.0, air = model.extinction_per_km != 0.0;
-  if (square) return (air ? squaresAndAir : squares)(span, model, points, count, out);
-  if (model.range_exponent == 0.0)
-    return (air ? airOnly : rangesOnly)(span, model, points, count, out);
+  if (square || model.range_exponent == 0.0)
+    return chosenKernel(square, air, span, model, points, count, out);
   // Any other exponent needs a logarithm.
-  const std::uint64_t above = rangesOnly(span, model, points, count, out);
+  const std::uint64_t above = chosenKernel(false, false, span, model, points, count, out);
   for (std::size_t i = 0; i < count; ++i)
     if (!std::isnan(out.range[i])) out.factor[i] = model.factor(out.range[i], std::nan(""));
   return above;

@@ -36,14 +36,14 @@ class DirectedSearch {
            PatchPairs& pairs) const {
     std::int32_t hint = Tin::kNone;
     for (std::size_t i = 0; i < count; i += stride) {
-      const Candidate* const first = candidates + i;
-      const Vector3d moved = there_ * first->position;
+      const Candidate& candidate = candidates[i];
+      const Vector3d moved = there_ * candidate.position;
       const auto match = patches.surface().closest(moved, threshold_, hint);
       PatchPlane plane;
       if (!match || !patches.planeOf(match->triangle, plane)) continue;
       PatchPair pair;
-      if (!direction(*first, plane, patches.isCoarse(), pair)) continue;
-      fill(*first, moved, *match, pair);
+      if (!direction(candidate, plane, patches.isCoarse(), pair)) continue;
+      fill(candidate, moved, *match, pair);
       pairs.push_back(pair);
     }
   }

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/visualization/axes.h>
@@ -118,18 +117,7 @@ void check(const CurvePanels& plot) {
 }  // namespace
 
 void CurvePanels::keepLargest(std::size_t most) {
-  if (panels.size() <= most) return;
-  std::vector<std::size_t> order(panels.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
-    return largestValue(panels[a]) > largestValue(panels[b]);
-  });
-  order.resize(most);
-  std::sort(order.begin(), order.end());
-  std::vector<Panel> kept;
-  kept.reserve(most);
-  for (const std::size_t i : order) kept.push_back(std::move(panels[i]));
-  panels = std::move(kept);
+  detail::keepLargest(panels, most, largestValue);
 }
 
 Canvas drawCurvePanels(const CurvePanels& plot, PictureSize size) {

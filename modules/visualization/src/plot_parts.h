@@ -2,7 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/visualization/canvas.h>
@@ -29,6 +32,22 @@ Marker markerOf(const std::string& series);
 
 /// As many entries as fit so many pixels below each other; the last then says how many more.
 std::vector<LegendEntry> fitting(std::vector<LegendEntry> entries, double height);
+
+/// Drops all but the \a most items of largest value; those that stay keep their order.
+template <typename Item, typename Value>
+void keepLargest(std::vector<Item>& items, std::size_t most, Value value) {
+  if (items.size() <= most) return;
+  std::vector<std::size_t> order(items.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return value(items[a]) > value(items[b]); });
+  order.resize(most);
+  std::sort(order.begin(), order.end());
+  std::vector<Item> kept;
+  kept.reserve(most);
+  for (const std::size_t i : order) kept.push_back(std::move(items[i]));
+  items = std::move(kept);
+}
 
 /// Names of what rows and columns of a matrix stand for, and the matrix as coloured cells with
 /// numbers. Text is white on dark cells.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/visualization/axes.h>
@@ -91,18 +90,7 @@ void drawLimits(Canvas& canvas, const Axes& axes, const BeforeAfterPlot& plot) {
 }  // namespace
 
 void BeforeAfterPlot::keepLargest(std::size_t most) {
-  if (rows.size() <= most) return;
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
-    return shownValue(rows[a]) > shownValue(rows[b]);
-  });
-  order.resize(most);
-  std::sort(order.begin(), order.end());
-  std::vector<Row> kept;
-  kept.reserve(most);
-  for (const std::size_t i : order) kept.push_back(rows[i]);
-  rows = std::move(kept);
+  detail::keepLargest(rows, most, shownValue);
 }
 
 int heightForRows(std::size_t rows) {

@@ -23,6 +23,9 @@ struct PointSource {
   double first_time = 0.0, last_time = 0.0;           ///< smallest and largest GPS time, seconds
   Eigen::Vector3d minimum = Eigen::Vector3d::Zero();  ///< metres, ground frame
   Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
+
+  /// Takes in other points of the same id; both must hold some.
+  void merge(const PointSource& other);
 };
 
 /// A point file and the ids in it, ascending.
