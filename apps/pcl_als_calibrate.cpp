@@ -152,7 +152,7 @@ void writeReport(const CommandLine& line, const CalibrationResult& result,
                  const QuasiRigorousCalibration& calibration, const app::CalibrationPage& page) {
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  app::writeCalibrationCsv(folder, result, calibration.areas());
+  app::writeCalibrationCsv(folder, result, calibration.areas(), calibration.informationShares());
   page.write(line, result, calibration.areas(), calibration.trajectory());
   step.done(app::CalibrationPage::draws() ? "report.html with pictures, report.md"
                                           : "report.md; no report.html: built without VTK");

@@ -121,12 +121,14 @@ std::string iterationsCsv(const CalibrationResult& result) {
   return out.str();
 }
 
-std::string areasCsv(const std::vector<SurveyArea>& areas) {
+std::string areasCsv(const std::vector<SurveyArea>& areas, const std::vector<double>& information) {
   std::ostringstream out;
-  out << "x_min,y_min,x_max,y_max\n" << std::fixed << std::setprecision(3);
-  for (const SurveyArea& area : areas) {
-    out << area.minimum.x() << ',' << area.minimum.y() << ',' << area.minimum.x() + area.size << ','
-        << area.minimum.y() + area.size << '\n';
+  out << "x_min,y_min,x_max,y_max,information\n" << std::fixed;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const SurveyArea& area = areas[i];
+    out << std::setprecision(3) << area.minimum.x() << ',' << area.minimum.y() << ','
+        << area.minimum.x() + area.size << ',' << area.minimum.y() + area.size << ','
+        << std::setprecision(6) << information[i] << '\n';
   }
   return out.str();
 }
@@ -150,10 +152,11 @@ std::string calibrationTables(const CalibrationResult& result) {
 }
 
 void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
-                         const std::vector<SurveyArea>& areas) {
+                         const std::vector<SurveyArea>& areas,
+                         const std::vector<double>& information) {
   writeFile(folder / "pairs.csv", pairsCsv(result));
   writeFile(folder / "iterations.csv", iterationsCsv(result));
-  writeFile(folder / "areas.csv", areasCsv(areas));
+  writeFile(folder / "areas.csv", areasCsv(areas, information));
 }
 
 }  // namespace pcl_als::app

@@ -45,7 +45,7 @@ void MatchedBlock::prepare(const CalibrationSettings& settings) {
   std::size_t strips_in_areas = 1;
   for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
   const std::size_t candidates =
-      std::clamp<std::size_t>(settings.candidates / strips_in_areas, 150, 2000);
+      std::max<std::size_t>(settings.candidates / strips_in_areas, 150);
   parallelFor(matchers_.size(), 0, [&](std::size_t i) {
     matchers_[i].prepare(limits_, i < pair_areas_ ? candidates : 0, settings.resolution);
   });

@@ -213,6 +213,22 @@ TEST(Adjustment, ScattersAsItsCovarianceSays) {
   for (const P p : kSix) EXPECT_LT(squares[indexOf(p)] / kBlocks, 1.25) << infoOf(p).name;
 }
 
+TEST(Adjustment, SaysWhatEachAreaContributes) {
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  auto areas = simulated(someBiases(), 0.0, 6);
+  for (PairObservation& o : areas.back()) o.row_a = o.row_b = SystemRow::Zero();  // tells nothing
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  const std::vector<double> shares = adjustment.informationShares(kSix);
+  ASSERT_EQ(shares.size(), areas.size());
+  double sum = 0.0;
+  for (const double share : shares) sum += share;
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  // Not quite nothing: it shows the trajectory's errors to its neighbours.
+  EXPECT_LT(shares.back(), 0.1 * shares.front());
+}
+
 TEST(Adjustment, HoldsWhatIsNotEstimated) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.0, 3);

@@ -49,11 +49,11 @@ Trajectory flight() {
 const SurveyArea kArea{{0.0, 0.0}, 50.0, 8.0};
 
 AreaMatcher matcherOf(const std::vector<CalibrationPoint>& a,
-                      const std::vector<CalibrationPoint>& b) {
+                      const std::vector<CalibrationPoint>& b, std::size_t candidates = 500) {
   AreaMatcher matcher(kArea, 2);
   for (const CalibrationPoint& p : a) matcher.add(0, p);
   for (const CalibrationPoint& p : b) matcher.add(1, p);
-  matcher.prepare(PatchLimits(), 500, 0.001);
+  matcher.prepare(PatchLimits(), candidates, 0.001);
   return matcher;
 }
 
@@ -194,6 +194,50 @@ TEST(SurveyMap, CountsWhatIsNotFiniteAndRefusesTheAbsurd) {
   EXPECT_EQ(map.pointCount(0), 0U);
   p.position = Eigen::Vector3d(1e18, 0.0, 2.0);
   EXPECT_THROW(map.add(0, &p, 1), InputError);
+}
+
+struct MeanDistance {
+  double value = 0.0, variance = 0.0, independent = 0.0;  ///< as if the pairs shared nothing
+};
+
+/// Of two strips of level ground under 2 cm of noise, weighted as the adjustment weighs pairs; all
+/// points look for patches.
+MeanDistance meanDistance(unsigned draw) {
+  std::mt19937_64 random(draw);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  std::vector<CalibrationPoint> strips[2] = {sampled(2 * draw, -8.0, 58.0, {0, 0, 0}),
+                                             sampled(2 * draw + 1, -8.0, 58.0, {0, 0, 0})};
+  for (auto& strip : strips) {
+    for (CalibrationPoint& p : strip) p.position.z() = 100.0 + noise(random);
+  }
+  const Trajectory trajectory = flight();
+  double sum = 0.0, weights = 0.0, pairs = 0.0;
+  for (const PairObservation& o :
+       matcherOf(strips[0], strips[1], 1'000'000)
+           .match({{0, 1}}, 0.5, trajectory, NoiseModel{0.02, 0.0, 0.0, 0.0})) {
+    const double weight = 1.0 / (o.variance * o.sharing);
+    sum += (o.a == 0 ? weight : -weight) * o.distance(SystemVector::Zero());
+    weights += weight;
+    pairs += 1.0 / o.variance;
+  }
+  return {sum / weights, 1.0 / weights, 1.0 / pairs};
+}
+
+TEST(AreaMatcher, SaysWhatPairsShare) {
+  constexpr int kDraws = 25;
+  double squares = 0.0, said = 0.0, independent = 0.0;
+  for (unsigned draw = 1; draw <= kDraws; ++draw) {
+    const MeanDistance mean = meanDistance(draw);
+    squares += mean.value * mean.value;
+    said += mean.variance;
+    independent += mean.independent;
+  }
+  // A mean square of 25 draws is known to 28 %: twice that and more, either way.
+  EXPECT_LT(squares, 1.7 * said);
+  EXPECT_GT(squares, 0.4 * said);
+  // Every point seeks one patch and is, on the mean, once a vertex: n points of either strip tell
+  // their difference to 2 s^2 / n, and 2 n pairs of variance 1.5 s^2 would to 0.75 s^2 / n.
+  EXPECT_NEAR(said / independent, 2.0 / 0.75, 0.4);
 }
 
 }  // namespace

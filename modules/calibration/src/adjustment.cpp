@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
@@ -198,6 +199,21 @@ Adjustment::Share Adjustment::shareOf(std::size_t area, const AdjustmentSolution
   }
   return {reduction.transpose() * (own.right - own.matrix * unknowns),
           reduction.transpose() * own.matrix * reduction};
+}
+
+std::vector<double> Adjustment::informationShares(
+    const std::vector<SystemParameter>& estimate) const {
+  std::vector<double> shares(area_normals_.size(), 0.0);
+  Eigen::MatrixXd inverse;
+  double ignored = 0.0;
+  if (estimate.empty() || !invert(sub(reduced_->normal, estimate), inverse, ignored)) return shares;
+  const AdjustmentSolution zero = unsolved(SystemVector::Zero());
+  parallelFor(shares.size(), threads_, [&](std::size_t area) {
+    shares[area] = (inverse * sub(shareOf(area, zero).normal, estimate)).trace();
+  });
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share = all > 0.0 ? share / all : 0.0;
+  return shares;
 }
 
 SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,

@@ -54,7 +54,7 @@ SystemMatrix inverseNormal(const Groups& groups, double shared) {
 PairSelection::PairSelection(const std::vector<AreaObservations>& observations,
                              const std::vector<std::vector<double>>& weights,
                              const PairSelectionSettings& settings)
-    : settings_(settings), chosen_(observations.size()), shares_(observations.size(), 0.0) {
+    : settings_(settings), chosen_(observations.size()) {
   std::vector<Group> groups = groupsOf(observations, weights);
   spreadEvenly(groups);
   spendOnInformation(groups);
@@ -76,7 +76,7 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(
       group.area = area;
       group.strips = {std::min(o.a, o.b), std::max(o.a, o.b)};
       group.row += (o.a < o.b ? 1.0 : -1.0) * o.row();  // of the first strip against the second
-      group.variance += o.variance / weights[area][i];
+      group.variance += o.variance / (weights[area][i] * o.sharing);  // fewer share less
       group.members.push_back(i);
     }
     for (auto& [key, group] : here) {
@@ -141,8 +141,6 @@ void PairSelection::spendOnInformation(std::vector<Group>& groups) const {
 }
 
 void PairSelection::takeMembers(const std::vector<Group>& groups) {
-  const SystemMatrix inverse = inverseNormal(groups, settings_.shared_variance);
-  double all = 0.0;
   double owed = 0.0;  // fractions of pairs carried from group to group, so that the sum holds
   for (const Group& group : groups) {
     const std::size_t size = group.members.size();
@@ -153,12 +151,7 @@ void PairSelection::takeMembers(const std::vector<Group>& groups) {
     for (std::size_t k = 0; k < taken; ++k) {
       chosen_[group.area].push_back(group.members[k * size / taken]);
     }
-    const double share = group.information(settings_.shared_variance) *
-                         (group.row * inverse * group.row.transpose()).value();
-    shares_[group.area] += share;
-    all += share;
   }
-  for (double& share : shares_) share = all > 0.0 ? share / all : 0.0;
   for (auto& indices : chosen_) std::sort(indices.begin(), indices.end());
 }
 

@@ -98,7 +98,7 @@ void PairWeights::update(const std::vector<AreaObservations>& observations,
       const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
       const double residual = residuals[area][i];
       const double robust = robustWeight(residual / std::sqrt(variance), reject);
-      weights_[area].push_back(robust * o.variance / variance);
+      weights_[area].push_back(robust * o.variance / (variance * o.sharing));
       if (robust == 0.0) continue;
       squares += residual * residual / o.variance;
       ++kept_;

@@ -19,8 +19,8 @@ constexpr double kSignificantTilt = 5.0;
 /// meet \a meetings times.
 template <typename Amount>
 Amount candidatesPerStrip(Amount all, Amount meetings) {
-  constexpr Amount kFewest = 150, kMost = 2000;
-  return std::clamp(all / meetings, kFewest, kMost);
+  constexpr Amount kFewest = 150;
+  return std::max(all / meetings, kFewest);
 }
 
 /// Effect on the normal distance of the pulse's stretch over the footprint, n'u range divergence

@@ -127,7 +127,6 @@ void QuasiRigorousCalibration::selectPairs(State& state) {
   parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
     matchers_[i].keep(state.observations[i], selection.chosen()[i]);
   });
-  information_ = selection.informationShares();
   state.seekers = AreaMatcher::Seekers::kept;
 }
 
@@ -327,6 +326,8 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   report.addStrips(errors, used_, state.choice.solution, result);
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
   result.observability = observability(state, spans, result);
+  information_ = state.adjustment.informationShares(state.choice.estimate);
+  information_.resize(areas_.size(), 0.0);
   state.threshold = settings_.max_normal_distance;
   state.seekers = AreaMatcher::Seekers::candidates;
   pairUp(state);

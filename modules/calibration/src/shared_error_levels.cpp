@@ -11,8 +11,15 @@ namespace {
 constexpr int kKinds = 4;
 constexpr int kSteps = 4;  // of the search to a factor of two
 constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
-constexpr double kBelief = 1.0;          // standard deviation of ln(level) by the model's own word
 using Powers = std::array<int, kKinds>;  // of 2^(1/kSteps); local last: it costs most to change
+
+// -2 ln of the belief in a level by the model's own word: Cauchy in ln(level). A factor of e is as
+// it may be; but a system may also be far better than its data sheet, or have no such error at all,
+// and then the observations decide.
+double disbelief(double level) {
+  const double factor = std::log(level);
+  return 2.0 * std::log1p(factor * factor);
+}
 
 double levelOf(int power) {
   return std::exp2(static_cast<double>(power) / kSteps);
@@ -29,7 +36,7 @@ SharedErrorLevels levelsOf(const Powers& power) {
 double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
             const Powers& power) {
   double belief = 0.0;
-  for (const int p : power) belief += std::pow(std::log(levelOf(p)) / kBelief, 2);
+  for (const int p : power) belief += disbelief(levelOf(p));
   return adjustment.deviance(levelsOf(power), estimate) + belief;
 }
 

@@ -43,6 +43,46 @@ struct SyntheticPairs::Sample {
   double share = 0.0;
 };
 
+/// How many pairs the points of an area make, and how much of their noise those share: what
+/// NoiseShares counts, in the mean.
+class SyntheticPairs::Uses {
+ public:
+  /// \a seekers of a strip by sample, of \a points that it has in the area.
+  void add(std::vector<double> seekers, const std::vector<Sample>& samples, double points) {
+    seekers_.push_back(std::move(seekers));
+    auto& all = points_.emplace_back();
+    for (const Sample& sample : samples) all.push_back(points * sample.share);
+    if (points > 0.0) ++strips_;
+  }
+
+  /// Pairs of points of strip \a a with patches of \a b in a sample, as independent ones.
+  double worth(std::size_t a, std::size_t b, std::size_t sample) const {
+    const double others = std::max(1.0, strips_ - 1.0);
+    const double seeks = points_[b][sample] > 0.0 ? seekers_[b][sample] / points_[b][sample] : 0.0;
+    const double point = others + asVertex(a, sample);
+    const double patch = std::max(kFootShare, asVertex(b, sample) + others * seeks);
+    return seekers_[a][sample] * (1.0 + kFootShare) / (point + patch);
+  }
+
+ private:
+  /// How often a point of a strip is a vertex of a patch that was sought.
+  double asVertex(std::size_t strip, std::size_t sample) const {
+    double sought = 0.0;
+    for (std::size_t other = 0; other < seekers_.size(); ++other) {
+      if (other != strip && points_[other][sample] > 0.0) sought += seekers_[other][sample];
+    }
+    return points_[strip][sample] > 0.0 ? sought / points_[strip][sample] : 0.0;
+  }
+
+  std::vector<std::vector<double>> seekers_, points_;  ///< by strip and sample
+  double strips_ = 0.0;
+};
+
+double SyntheticPairs::pointsIn(double density) const {
+  const double side = settings_.selection.area_size;
+  return settings_.surface.usable * side * side * density;
+}
+
 SurfacePoint SyntheticPairs::groundAt(const Eigen::Vector2d& place) const {
   if (!settings_.surface.terrain) return {};
   return settings_.surface.terrain(place).value_or(SurfacePoint());
@@ -78,8 +118,7 @@ std::vector<SyntheticPairs::Sample> SyntheticPairs::samplesOf(const Eigen::Vecto
 
 std::vector<double> SyntheticPairs::pairsPerSample(const std::vector<Sample>& samples,
                                                    double density, double candidates) const {
-  const double side = settings_.selection.area_size;
-  const double points = settings_.surface.usable * side * side * density;
+  const double points = pointsIn(density);
   std::vector<double> of_class(OrientationClasses::kCount, 0.0), pairs;
   for (const Sample& sample : samples)
     of_class[OrientationClasses::of(sample.normal)] += sample.share;
@@ -130,9 +169,12 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
 void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double candidates,
                              ObservedBlock& block) const {
   const std::vector<Sample> samples = samplesOf(corner);
-  std::vector<std::vector<double>> taken;
+  Uses uses;
   for (const StripGeometry& strip : block.strips) {
-    taken.push_back(pairsPerSample(samples, strip.density, candidates));
+    uses.add(pairsPerSample(samples, strip.density, candidates), samples,
+             strip.covers(corner + Eigen::Vector2d::Constant(0.5 * settings_.selection.area_size))
+                 ? pointsIn(strip.density)
+                 : 0.0);
   }
   AreaObservations observations;
   std::vector<double> weights;
@@ -145,8 +187,8 @@ void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double ca
         o.b = b;
         if (!observe(samples[k], &block.strips[i], block.strips[j], o)) continue;
         observations.push_back(o);
-        weights.push_back(taken[i][k] +
-                          taken[j][k]);  // points of each look for patches of the other
+        // Points of each look for patches of the other.
+        weights.push_back(uses.worth(i, j, k) + uses.worth(j, i, k));
       }
     }
   }

@@ -36,7 +36,7 @@ bool collectRing(const Tin& tin, std::int32_t triangle, int corner,
 
 /// The plane of least squared orthogonal distances.
 struct Plane {
-  Vector3d normal;
+  Vector3d normal, centre;
   double rms = 0.0;
   double spread = 0.0;  ///< root of the in-plane scatter along the narrower direction
 };
@@ -53,7 +53,7 @@ Plane fitPlane(const Tin& tin, const std::vector<std::int32_t>& vertices) {
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(scatter);  // closed form: a fifth of the time of the iterative one
-  Plane plane{solver.eigenvectors().col(0), 0.0, std::sqrt(std::max(0.0, solver.eigenvalues()[1]))};
+  Plane plane{solver.eigenvectors().col(0), origin + mean, 0.0, std::sqrt(std::max(0.0, solver.eigenvalues()[1]))};
   double sum = 0.0;
   for (const std::int32_t v : vertices) {
     const double distance = plane.normal.dot(tin.points()[v] - origin - mean);
@@ -94,10 +94,17 @@ PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   const Plane plane = fitPlane(tin_, ring);
   quality.longest_edge = static_cast<float>(longestEdge(tin_, tin_.triangles()[triangle]));
   quality.slope = static_cast<float>(std::atan2(normal.head<2>().norm(), normal.z()));
-  quality.spread = static_cast<float>(plane.spread);
   quality.roughness = static_cast<float>(plane.rms);
-  quality.plane_normal = plane.normal.z() < 0.0 ? Vector3d(-plane.normal) : plane.normal;
   quality.bend = static_cast<float>(angleBetween(normal, plane.normal));
+
+  const auto& own = tin_.triangles()[triangle].vertex;
+  const auto isOwn = [&own](std::int32_t v) { return v == own[0] || v == own[1] || v == own[2]; };
+  ring.erase(std::remove_if(ring.begin(), ring.end(), isOwn), ring.end());
+  constexpr std::size_t kEnough = 4;
+  const Plane around = ring.size() >= kEnough ? fitPlane(tin_, ring) : plane;
+  quality.spread = static_cast<float>(around.spread);
+  quality.plane_normal = around.normal.z() < 0.0 ? Vector3d(-around.normal) : around.normal;
+  quality.plane_centre = around.centre;
   return quality;
 }
 

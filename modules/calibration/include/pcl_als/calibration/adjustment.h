@@ -72,6 +72,10 @@ class Adjustment {
   /// determine.
   const SystemMatrix& reducedNormal() const;
 
+  /// What each area contributes to the determination of these parameters: its part of the trace of
+  /// N^-1 N, in [0, 1].
+  std::vector<double> informationShares(const std::vector<SystemParameter>& estimate) const;
+
   /// What a solution leaves of an observation's misclosure, local shifts included, metres.
   double residual(const PairObservation& observation, const AdjustmentSolution& solution) const;
 
@@ -105,7 +109,8 @@ class Adjustment {
  *
  * Searched by factors of two between 1/4096 and 16 times the model's variances, then of 2^(1/4),
  * one kind after the other until none changes. The model counts as one observation of each level,
- * right within a factor of e: where the observations say nothing, it stays.
+ * right within a factor of e (Cauchy): where the observations say nothing, it stays; where they say
+ * much, it does not hold them back.
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);

@@ -36,6 +36,9 @@ struct PairObservation {
   double misclosure = 0.0;
   double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
   double pointing = 0.0;  ///< part of it that comes from pointing and footprint, m^2
+  /// Variance and the covariances with all other pairs of the area, over the variance: a point
+  /// seeks patches in several strips and is a vertex of patches that many seek.
+  double sharing = 1.0;
   double stretch = 0.0;   ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
   double ranges = 0.0;    ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
   double lateral = 0.0,

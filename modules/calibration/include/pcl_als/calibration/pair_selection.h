@@ -39,9 +39,6 @@ class PairSelection {
   /// Indices of the chosen observations, ascending, by area.
   const std::vector<std::vector<std::size_t>>& chosen() const { return chosen_; }
   std::size_t chosenCount() const;
-  /// What each area's chosen pairs contribute to the determination: its trace of N^-1 N_area over
-  /// that of all, in [0, 1].
-  const std::vector<double>& informationShares() const { return shares_; }
 
  private:
   struct Group;
@@ -54,7 +51,6 @@ class PairSelection {
 
   PairSelectionSettings settings_;
   std::vector<std::vector<std::size_t>> chosen_;
-  std::vector<double> shares_;
 };
 
 }  // namespace pcl_als

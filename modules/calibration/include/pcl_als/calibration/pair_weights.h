@@ -31,7 +31,8 @@ class PairWeights {
   void update(const std::vector<AreaObservations>& observations,
               const std::vector<std::vector<double>>& residuals, bool reject, int threads = 0);
 
-  /// Robust weight times the model's variance over the scatter found, for Adjustment::accumulate.
+  /// Robust weight times the model's variance over the scatter found, over what the pair shares
+  /// with others, for Adjustment::accumulate.
   const std::vector<std::vector<double>>& weights() const { return weights_; }
   double pointingFactor() const { return pointing_; }  ///< of the pointing's variance
   double sigma0() const { return sigma0_; }            ///< against the noise model as given

@@ -88,7 +88,7 @@ class QuasiRigorousCalibration {
   CalibrationResult calibrate();
 
   const std::vector<SurveyArea>& areas() const { return areas_; }
-  /// What each area contributed to the determination, in [0, 1]; after calibrate().
+  /// What each area contributed to the determination, together 1; after calibrate().
   const std::vector<double>& informationShares() const { return information_; }
   std::size_t loadedPoints() const;
   std::vector<StripPair> const& pairs() const { return pairs_; }

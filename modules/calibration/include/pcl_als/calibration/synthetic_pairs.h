@@ -80,11 +80,13 @@ class SyntheticPairs {
 
  private:
   struct Sample;
+  class Uses;
   using Places = std::vector<Eigen::Vector2d>;
 
   Places chooseAreas(int first, const ObservedBlock& block) const;
   std::vector<Sample> samplesOf(const Eigen::Vector2d& corner) const;
   SurfacePoint groundAt(const Eigen::Vector2d& place) const;
+  double pointsIn(double density) const;  ///< of an area, on its usable surface
   std::vector<double> pairsPerSample(const std::vector<Sample>& samples, double density,
                                      double candidates) const;
   void addArea(const Eigen::Vector2d& corner, int first, double candidates,

@@ -24,8 +24,10 @@ struct PatchMatch {
 
 /// What the surface around a triangle is like: decides whether it is a patch worth measuring to.
 struct PatchQuality {
-  /// Of the neighbourhood's plane, unit, upward: less noisy than the triangle's own.
+  /// Of the plane of the vertices around the triangle, without its own: less noisy than the
+  /// triangle's, and independent of its noise. Unit, upward.
   Eigen::Vector3d plane_normal = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d plane_centre = Eigen::Vector3d::Zero();  ///< a point of that plane
   /// Root of the summed squares of the vertices' distances from their centre along the narrower
   /// direction in the plane, metres: heights with noise sigma tilt the plane by sigma / spread
   /// radians.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/tin/tin.h>
+
+namespace pcl_als {
+
+/** \brief How much noise the pairs of an area share: PairObservation::sharing.
+ *
+ * A pair is sum_p c_p e_p over its points: the point itself with c = 1, the patch's vertices with
+ * minus their weights of the interpolation. With V the covariance of all pairs of the area, sharing
+ * is the sum of |V_ij| along a row over V_ii: with u_p the sum of |c_p| over all pairs,
+ * sum_p |c_p| u_p var(e_p) / variance. A diagonal matrix with these sums is not smaller than V
+ * (Gershgorin), so that weights of 1 / (variance * sharing) never promise more than the points
+ * hold, however many pairs are made of them.
+ */
+class NoiseShares {
+ public:
+  /// \param points of every strip
+  explicit NoiseShares(const std::vector<std::size_t>& points);
+
+  /// \param triangle and \param weights of the patch; \param point_variance and
+  /// \param vertex_variance of the point and of one vertex along the pair's normal, m^2.
+  void add(const PairObservation& o, const Tin::Triangle& triangle, const Eigen::Vector3d& weights,
+           double point_variance, double vertex_variance);
+
+  /// Of the observations that were added, in that order.
+  void setSharing(AreaObservations& observations) const;
+
+ private:
+  struct Pair {
+    std::array<std::size_t, 3> vertex;
+    Eigen::Vector3d weights;
+    double point_variance, vertex_variance;
+  };
+  std::vector<std::vector<double>> used_;  ///< u, by strip and point
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace pcl_als
