@@ -3,13 +3,14 @@
 //
 // calibration_accuracy [-preset P] [-noise N] [-model rigorous|quasi_rigorous|vertical] [-vertical]
 // [-random] [-seeds FROM:TO] [-density F] [-motion DEG] [-pitch DEG] [-crab DEG] [-bound]
-// [-candidates N] [-budget N] [-against N]
+// [-known_ranging] [-candidates N] [-budget N] [-against N]
 //
 // Simulates a block for every seed (-vertical: without attitude motion; -motion, -pitch, -crab:
 // largest roll, mean pitch, largest crab; -random: with biases of its own), calibrates it and
 // prints, as Markdown, what is wrong with each parameter beside what is said to be, how often the
 // truth was inside the 68 % and 95 % intervals, what is left in the corrected points, and the time;
-// with -bound also what the range noise alone would leave (FisherBound). -candidates: points that
+// with -bound also what the range noise alone would leave (FisherBound); with -known_ranging the
+// instrument's range scale and its error on slopes are known to be zero. -candidates: points that
 // look for patches; -budget: pairs that are adjusted; -against: calibrates each block again with
 // that many candidates and no budget, and prints by how much the estimates differ. It judges
 // nothing.
@@ -32,7 +33,7 @@ using simulation::SimulationOptions;
 
 struct Options {
   std::string preset = "paper", noise = "range", model = "quasi_rigorous";
-  bool vertical = false, random = false, bound = false;
+  bool vertical = false, random = false, bound = false, known_ranging = false;
   int from = 1, to = 10;
   double density = 1.0;
   double candidates = 0, budget = 0, against = 0;
@@ -40,8 +41,13 @@ struct Options {
 
   /// Takes one option with its value; how many arguments that were, 0 for none that is known.
   int take(const std::string& name, const char* value) {
-    if (name == "-vertical" || name == "-random" || name == "-bound") {
-      (name == "-vertical" ? vertical : name == "-random" ? random : bound) = true;
+    bool* const flag = name == "-vertical"        ? &vertical
+                       : name == "-random"        ? &random
+                       : name == "-bound"         ? &bound
+                       : name == "-known_ranging" ? &known_ranging
+                                                  : nullptr;
+    if (flag != nullptr) {
+      *flag = true;
       return 1;
     }
     if (value == nullptr) return 0;
@@ -141,6 +147,10 @@ void runSeed(const Options& given, int seed, bench::AccuracyTable& table,
   if (given.candidates > 0)
     request.settings.candidates = static_cast<std::size_t>(given.candidates);
   request.settings.pair_budget = static_cast<std::size_t>(given.budget);
+  if (given.known_ranging) {
+    request.settings.shared_errors.ranging_incidence = 1e-6;
+    request.settings.shared_errors.range_scale = 1e-10;
+  }
   const double start = secondsNow();
   const auto calibration = survey.loaded(request);
   const CalibrationResult result = calibration->calibrate();

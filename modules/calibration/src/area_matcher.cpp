@@ -227,8 +227,9 @@ class AreaMatcher::PointGeometry {
   }
 
  private:
-  /// Where the pulse meets the plane around the patch. A range with its noise in the design would go
-  /// with the noise of the distance that is measured: over a million pairs, a range scale of 6 ppm.
+  /// Where the pulse meets the plane around the patch. A range with its noise in the design would
+  /// go with the noise of the distance that is measured: over a million pairs, a range scale of 6
+  /// ppm.
   Eigen::Vector3d alongBeam(const Eigen::Vector3d& measured, const PatchQuality& surface) const {
     constexpr double kGrazing = 0.2;
     const Eigen::Vector3d towards = (measured - pose_.position).normalized();

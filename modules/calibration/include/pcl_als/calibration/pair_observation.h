@@ -39,8 +39,8 @@ struct PairObservation {
   /// Variance and the covariances with all other pairs of the area, over the variance: a point
   /// seeks patches in several strips and is a vertex of patches that many seek.
   double sharing = 1.0;
-  double stretch = 0.0;   ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
-  double ranges = 0.0;    ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
+  double stretch = 0.0;  ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
+  double ranges = 0.0;   ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 
