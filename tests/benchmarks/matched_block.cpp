@@ -8,6 +8,8 @@
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 
+#include "pairing_rules.h"
+
 namespace pcl_als::bench {
 
 MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey,
@@ -44,8 +46,7 @@ void MatchedBlock::load(const test::SimulatedSurvey& survey, const std::vector<S
 void MatchedBlock::prepare(const CalibrationSettings& settings) {
   std::size_t strips_in_areas = 1;
   for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
-  const std::size_t candidates =
-      std::max<std::size_t>(settings.candidates / strips_in_areas, 150);
+  const std::size_t candidates = candidatesPerStrip(settings.candidates, strips_in_areas);
   parallelFor(matchers_.size(), 0, [&](std::size_t i) {
     matchers_[i].prepare(limits_, i < pair_areas_ ? candidates : 0, settings.resolution);
   });

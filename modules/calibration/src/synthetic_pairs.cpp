@@ -49,10 +49,14 @@ class SyntheticPairs::Uses {
  public:
   /// \a seekers of a strip by sample, of \a points that it has in the area.
   void add(std::vector<double> seekers, const std::vector<Sample>& samples, double points) {
-    seekers_.push_back(std::move(seekers));
     auto& all = points_.emplace_back();
     for (const Sample& sample : samples) all.push_back(points * sample.share);
-    if (points > 0.0) ++strips_;
+    if (points > 0.0) {
+      ++strips_;
+      sought_.resize(samples.size(), 0.0);
+      for (std::size_t k = 0; k < samples.size(); ++k) sought_[k] += seekers[k];
+    }
+    seekers_.push_back(std::move(seekers));
   }
 
   /// Pairs of points of strip \a a with patches of \a b in a sample, as independent ones.
@@ -65,18 +69,20 @@ class SyntheticPairs::Uses {
   }
 
  private:
-  /// How often a point of a strip is a vertex of a patch that was sought.
+  /// How often a point of a strip is a vertex of a patch that the other strips sought.
   double asVertex(std::size_t strip, std::size_t sample) const {
-    double sought = 0.0;
-    for (std::size_t other = 0; other < seekers_.size(); ++other) {
-      if (other != strip && points_[other][sample] > 0.0) sought += seekers_[other][sample];
-    }
-    return points_[strip][sample] > 0.0 ? sought / points_[strip][sample] : 0.0;
+    const double points = points_[strip][sample];
+    return points > 0.0 ? (sought_[sample] - seekers_[strip][sample]) / points : 0.0;
   }
 
   std::vector<std::vector<double>> seekers_, points_;  ///< by strip and sample
+  std::vector<double> sought_;                         ///< seekers of all strips with points
   double strips_ = 0.0;
 };
+
+Eigen::Vector2d SyntheticPairs::middleOf(const Eigen::Vector2d& corner) const {
+  return corner + Eigen::Vector2d::Constant(0.5 * settings_.selection.area_size);
+}
 
 double SyntheticPairs::pointsIn(double density) const {
   const double side = settings_.selection.area_size;
@@ -172,9 +178,7 @@ void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double ca
   Uses uses;
   for (const StripGeometry& strip : block.strips) {
     uses.add(pairsPerSample(samples, strip.density, candidates), samples,
-             strip.covers(corner + Eigen::Vector2d::Constant(0.5 * settings_.selection.area_size))
-                 ? pointsIn(strip.density)
-                 : 0.0);
+             strip.covers(middleOf(corner)) ? pointsIn(strip.density) : 0.0);
   }
   AreaObservations observations;
   std::vector<double> weights;
@@ -199,10 +203,9 @@ void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double ca
 void SyntheticPairs::addPairs(int first, ObservedBlock& block) const {
   const Places corners = chooseAreas(first, block);
   double strips_in_areas = 1.0;
-  const Eigen::Vector2d middle = Eigen::Vector2d::Constant(0.5 * settings_.selection.area_size);
   for (const Eigen::Vector2d& corner : corners) {
     for (const StripGeometry& strip : block.strips) {
-      strips_in_areas += strip.covers(corner + middle) ? 1.0 : 0.0;
+      strips_in_areas += strip.covers(middleOf(corner)) ? 1.0 : 0.0;
     }
   }
   const double candidates =

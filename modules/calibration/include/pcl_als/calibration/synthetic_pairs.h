@@ -86,6 +86,7 @@ class SyntheticPairs {
   Places chooseAreas(int first, const ObservedBlock& block) const;
   std::vector<Sample> samplesOf(const Eigen::Vector2d& corner) const;
   SurfacePoint groundAt(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d middleOf(const Eigen::Vector2d& corner) const;  ///< of the area with this corner
   double pointsIn(double density) const;  ///< of an area, on its usable surface
   std::vector<double> pairsPerSample(const std::vector<Sample>& samples, double density,
                                      double candidates) const;
