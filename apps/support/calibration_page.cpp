@@ -20,7 +20,7 @@ constexpr PictureSize kWide{1400, 640}, kSquare{1200, 900};
 ReportTable parameterTable(const CalibrationResult& result) {
   ReportTable table{"parameters",
                     "Biases, assumed − true. std: what the pairs share is accounted for; formal "
-                    "std: pairs taken as independent (Habib et al. 2011, Eq. 26)",
+                    "std: only the noise of points counted (Habib et al. 2011, Eq. 26)",
                     {"parameter", "unit", "bias", "std", "formal std", "status"},
                     {}};
   for (const SystemParameterInfo& info : systemParameters()) {

@@ -50,7 +50,7 @@ class AreaNormal {
   };
   Reduced reduced(double shift_variance) const;
   const std::vector<int>& knots() const { return knots_; }
-  /// The parameters' part, nothing eliminated: pairs taken as independent.
+  /// The parameters' part, nothing eliminated: only the noise of points counts.
   SystemMatrix parameters() const {
     return matrix_.topLeftCorner<kSystemParameterCount, kSystemParameterCount>();
   }

@@ -16,7 +16,7 @@ namespace pcl_als {
 struct AdjustmentSolution {
   bool solved = false;  ///< false: the normal matrix is singular for the chosen parameters
   SystemVector biases = SystemVector::Zero();
-  SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): pairs independent, nothing shared
+  SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): only the noise of points
   SystemMatrix covariance = SystemMatrix::Zero();  ///< the honest one, see Adjustment
   Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
 };

@@ -27,7 +27,7 @@ enum class AttitudeSource {
 struct ParameterEstimate {
   double bias = 0.0;
   double std = 0.0;         ///< honest standard deviation: what the pairs share is accounted for
-  double std_formal = 0.0;  ///< Habib et al. 2011, Eq. (26): pairs taken as independent
+  double std_formal = 0.0;  ///< Habib et al. 2011, Eq. (26): only the noise of points
   ParameterStatus status = ParameterStatus::fixed;
   std::string reason;  ///< why it is fixed or not estimable; empty when estimated
 };
