@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include <pcl_als/calibration/adjustment.h>
@@ -51,6 +52,19 @@ bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log
             ldlt.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols())) *
             scale.asDiagonal();
   return true;
+}
+
+SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double>& weights) {
+  SystemMatrix sum = SystemMatrix::Zero();
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    const PairObservation& o = area[i];
+    if (weights[i] == 0.0 || o.tilt_variance == 0.0) continue;
+    const Eigen::Matrix<double, 3, kGlobal> design = o.design.cast<double>();
+    const SystemRow row = o.normal.transpose() * design;
+    sum += weights[i] / o.variance * o.tilt_variance *
+           (design.transpose() * design - row.transpose() * row);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -106,9 +120,12 @@ void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
   areas_ = &areas;
   weights_ = &weights;
   std::vector<std::unique_ptr<AreaNormal>> normals(areas.size());
+  std::vector<SystemMatrix> noise(areas.size());
   parallelFor(areas.size(), threads_, [&](std::size_t area) {
     normals[area] = std::make_unique<AreaNormal>(areas[area], weights[area], errors_);
+    noise[area] = slopeNoiseOf(areas[area], weights[area]);
   });
+  slope_noise_ = std::accumulate(noise.begin(), noise.end(), SystemMatrix(SystemMatrix::Zero()));
   area_normals_.clear();
   for (auto& normal : normals) area_normals_.push_back(std::move(*normal));
   setLevels(levels_);
@@ -242,6 +259,23 @@ SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
   return expanded(scatter, estimate);
 }
 
+Eigen::VectorXd Adjustment::slopeNoise(const Eigen::MatrixXd& independent,
+                                       const std::vector<SystemParameter>& estimate) const {
+  constexpr double kCaution = 2.0, kLeast = 1e-4;
+  const Eigen::VectorXd scale = independent.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> llt(scale.asDiagonal() * independent * scale.asDiagonal());
+  const Eigen::MatrixXd noise =
+      scale.asDiagonal() * sub(slope_noise_, estimate) * scale.asDiagonal();
+  const Eigen::MatrixXd half = llt.matrixL().solve(noise);
+  const Eigen::MatrixXd share = llt.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (share + share.transpose()));
+  const Eigen::VectorXd left =
+      (1.0 - kCaution * solver.eigenvalues().array()).max(kLeast).rsqrt().matrix();
+  const Eigen::MatrixXd root = llt.matrixL().transpose().solve(solver.eigenvectors());
+  return ((root * left.asDiagonal()).rowwise().norm().array() / root.rowwise().norm().array())
+      .matrix();
+}
+
 AdjustmentSolution Adjustment::unsolved(const SystemVector& held) const {
   AdjustmentSolution solution;
   solution.biases = held;
@@ -267,10 +301,12 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
   solution.formal = expanded(formal, estimate);
   const SystemMatrix robust = jackknife(solution, estimate) + model * reduced_->prior_share * model;
+  const Eigen::VectorXd slopes = slopeNoise(sub(independent, estimate), estimate);
   SystemVector inflation = SystemVector::Ones();
-  for (const SystemParameter p : estimate) {
-    const int i = indexOf(p);
-    inflation[i] = std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
+  for (std::size_t k = 0; k < estimate.size(); ++k) {
+    const int i = indexOf(estimate[k]);
+    inflation[i] =
+        slopes[static_cast<Eigen::Index>(k)] * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
   }
   solution.covariance = inflation.asDiagonal() * model * inflation.asDiagonal();
   solution.solved = true;

@@ -83,13 +83,13 @@ bool AreaMatcher::acceptable(const StripPart& part, const PatchQuality& quality)
          quality.vertices >= limits_.minimum_vertices;
 }
 
-Eigen::Vector3d AreaMatcher::measuringNormal(const PatchQuality& quality) const {
+AreaMatcher::Direction AreaMatcher::measuringDirection(const PatchQuality& quality) const {
   const Eigen::Vector3d& normal = quality.plane_normal;
   const double noise = std::max<double>(quality.roughness, limits_.plain_roughness);
   const double tilt = noise / std::max<double>(quality.spread, 1e-3);
-  return std::hypot(normal.x(), normal.y()) < kSignificantTilt * tilt
-             ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
-             : normal;
+  if (std::hypot(normal.x(), normal.y()) < kSignificantTilt * tilt)
+    return {Eigen::Vector3d::UnitZ(), 0.0};
+  return {normal, tilt * tilt};
 }
 
 std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const StripPart& part) const {
@@ -275,7 +275,10 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       observation.time_b = foot.time;
       observation.lateral = foot.lateral;
       observation.height = foot.height;
-      observation.normal = measuringNormal(quality);
+      const Direction direction = measuringDirection(quality);
+      observation.normal = direction.normal;
+      observation.tilt_variance = direction.variance;
+      observation.design = (point.design - foot.design).cast<float>();
       observation.row_a = observation.normal.transpose() * point.design;
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position) +
@@ -314,7 +317,10 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.time_a = observation.time_b = foot.time;
       observation.lateral = foot.lateral;
       observation.height = foot.height;
-      observation.normal = measuringNormal(quality);
+      const Direction direction = measuringDirection(quality);
+      observation.normal = direction.normal;
+      observation.tilt_variance = direction.variance;
+      observation.design = (-foot.design).cast<float>();
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position) +
                                observation.row() * corrected_for_;

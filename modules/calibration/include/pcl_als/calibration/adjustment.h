@@ -36,6 +36,10 @@ class AreaNormal;  // normal equations of one area
  * N is replaced by how far the solution moves when areas are left out, one after the other (the
  * jackknife, from each area's own normal equations), and the larger standard deviation of the two
  * is kept.
+ *
+ * Noise of the measured slopes looks like information, sum w tilt_variance (A'A - r'r) of pairs
+ * with rows r = n'A. Where half of what a direction seems to be determined by may be that, nothing
+ * is: standard deviations grow accordingly, without limit in effect.
  */
 class Adjustment {
  public:
@@ -91,6 +95,9 @@ class Adjustment {
     SystemMatrix normal;
   };
   Share shareOf(std::size_t area, const AdjustmentSolution& solution) const;
+  /// By how much the noise of the slopes may have made standard deviations too small.
+  Eigen::VectorXd slopeNoise(const Eigen::MatrixXd& independent,
+                             const std::vector<SystemParameter>& estimate) const;
   SystemMatrix jackknife(const AdjustmentSolution& solution,
                          const std::vector<SystemParameter>& estimate) const;
 
@@ -100,6 +107,7 @@ class Adjustment {
   const std::vector<AreaObservations>* areas_ = nullptr;
   const std::vector<std::vector<double>>* weights_ = nullptr;
   std::vector<AreaNormal> area_normals_;
+  SystemMatrix slope_noise_ = SystemMatrix::Zero();  ///< what looks like information
   std::unique_ptr<const Normal> normal_;
   std::unique_ptr<Reduced> reduced_;
 };

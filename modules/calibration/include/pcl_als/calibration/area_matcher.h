@@ -99,7 +99,11 @@ class AreaMatcher {
   /// The direction in which a pair measures: that of the neighbourhood's plane, less noisy than the
   /// triangle's own, or the vertical where its tilt is not significant. Noise in place of a slope
   /// would look like information about plan positions, and on flat ground be all of it.
-  Eigen::Vector3d measuringNormal(const PatchQuality& quality) const;
+  struct Direction {
+    Eigen::Vector3d normal;
+    double variance = 0.0;  ///< rad^2
+  };
+  Direction measuringDirection(const PatchQuality& quality) const;
   bool acceptable(const StripPart& part, const PatchQuality& quality) const;
   /// Triangles with their first vertex inside the area, one for every vertex, by orientation.
   std::vector<std::vector<std::int32_t>> trianglesByClass(const StripPart& part) const;

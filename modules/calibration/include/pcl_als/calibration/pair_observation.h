@@ -14,6 +14,8 @@
 namespace pcl_als {
 
 using SystemRow = Eigen::Matrix<double, 1, kSystemParameterCount>;
+/// Effect of the parameters on a point, ground frame; as small and unaligned as can be.
+using PairDesign = Eigen::Matrix<float, 3, kSystemParameterCount, Eigen::DontAlign>;
 
 /** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs.
  * (11), (12), (34)).
@@ -30,6 +32,9 @@ struct PairObservation {
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
   Eigen::Vector3d normal;               ///< unit, upward, ground frame
+  PairDesign design = PairDesign::Zero();  ///< A: row() = n' A
+  /// Variance of the normal's direction, rad^2; zero where it was not measured.
+  double tilt_variance = 0.0;
   /// n'(X_A - X_B) of the corrected coordinates, brought back to zero biases along the rows,
   /// metres. The rows are those of the corrected geometry, so that the solution is of the model
   /// itself and not of its linearisation at the biased points.
