@@ -144,52 +144,108 @@ TEST(Adjustment, RecoversBiasesFromExactObservations) {
   EXPECT_LT(std::abs(adjustment.residual(areas[3][7], solution)), 1e-9);
 }
 
-/// All unknowns in one dense normal matrix: what the elimination must be equal to.
+/// All unknowns in one dense normal matrix: what the elimination must be equal to. Without its
+/// ranging share, if so wished.
+struct DenseSystem {
+  Eigen::VectorXd solution;  ///< eight parameters, then the shared errors
+  Eigen::MatrixXd covariance;
+  double deviance = 0.0;  ///< -2 ln of the likelihood, whatever the parameters are
+
+  DenseSystem(const SharedErrors& errors, const std::vector<AreaObservations>& areas,
+              bool ranging) {
+    const int unknowns = 8 + errors.unknowns(), instrument = 8 + 6 * errors.instrumentBlock();
+    const Eigen::MatrixXd prior = errors.priorInformation();
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    normal.bottomRightCorner(errors.unknowns(), errors.unknowns()) = prior;
+    for (const AreaObservations& area : areas) {
+      for (const PairObservation& o : area) {
+        Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns);
+        row.head<8>() = o.row().transpose();
+        const auto place = [&](int strip, double time, const SystemRow& design, double sign) {
+          const auto where = errors.placeOf(strip, time);
+          Eigen::Matrix<double, 6, 1> effect;
+          effect << o.normal, design.segment<3>(3).transpose();
+          row.segment<6>(8 + 6 * where.knot) += sign * (1.0 - where.next) * effect;
+          row.segment<6>(8 + 6 * where.next_knot) += sign * where.next * effect;
+        };
+        place(o.a, o.time_a, o.row_a, 1.0);
+        place(o.b, o.time_b, o.row_b, -1.0);
+        row[instrument] = ranging ? o.stretch : 0.0;
+        normal += row * row.transpose() / o.variance;
+        right += row * o.misclosure / o.variance;
+      }
+    }
+    double held = 0.0;
+    for (const P fixed : {P::lever_arm_z, P::range_bias}) {
+      normal(indexOf(fixed), indexOf(fixed)) += 1e20;
+      held += std::log(normal(indexOf(fixed), indexOf(fixed)));
+    }
+    const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+    covariance = scale.asDiagonal() * scaled.inverse() * scale.asDiagonal();
+    solution = covariance * right;
+    deviance = scaled.ldlt().vectorD().array().log().sum() - 2.0 * scale.array().log().sum() -
+               held - prior.ldlt().vectorD().array().log().sum() - right.dot(solution);
+  }
+};
+
 TEST(Adjustment, EqualsTheDenseSolution) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.02, 2);
   const auto weights = unitWeights(areas);
-  const int unknowns = 8 + errors.unknowns();
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
-  normal.bottomRightCorner(errors.unknowns(), errors.unknowns()) =
-      Eigen::MatrixXd(errors.priorInformation());
-  for (const AreaObservations& area : areas) {
-    for (const PairObservation& o : area) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns);
-      row.head<8>() = o.row().transpose();
-      const auto place = [&](int strip, double time, const SystemRow& design, double sign) {
-        const auto where = errors.placeOf(strip, time);
-        Eigen::Matrix<double, 6, 1> effect;
-        effect << o.normal, design.segment<3>(3).transpose();
-        row.segment<6>(8 + 6 * where.knot) += sign * (1.0 - where.next) * effect;
-        row.segment<6>(8 + 6 * where.next_knot) += sign * where.next * effect;
-      };
-      place(o.a, o.time_a, o.row_a, 1.0);
-      place(o.b, o.time_b, o.row_b, -1.0);
-      normal += row * row.transpose() / o.variance;
-      right += row * o.misclosure / o.variance;
-    }
-  }
-  for (const P fixed : {P::lever_arm_z, P::range_bias})
-    normal(indexOf(fixed), indexOf(fixed)) += 1e20;
-  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd inverse = scale.asDiagonal() *
-                                  (scale.asDiagonal() * normal * scale.asDiagonal()).inverse() *
-                                  scale.asDiagonal();
-  const Eigen::VectorXd expected = inverse * right;
+  const DenseSystem dense(errors, areas, true);
   Adjustment adjustment(errors);
   adjustment.accumulate(areas, weights);
   const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
   for (const P p : kSix) {
-    const double std = std::sqrt(inverse(indexOf(p), indexOf(p)));
-    EXPECT_NEAR(solution.biases[indexOf(p)], expected[indexOf(p)],
-                1e-6 * std);  // rounding of two routes
-    EXPECT_GE(std::sqrt(solution.covariance(indexOf(p), indexOf(p))), std * (1.0 - 1e-6));
-    EXPECT_LT(std::sqrt(solution.formal(indexOf(p), indexOf(p))), std);
+    const int i = indexOf(p);
+    const double std = std::sqrt(dense.covariance(i, i));
+    EXPECT_NEAR(solution.biases[i], dense.solution[i], 1e-6 * std);  // rounding of two routes
+    EXPECT_GE(std::sqrt(solution.covariance(i, i)), std * (1.0 - 1e-6));
+    EXPECT_LT(std::sqrt(solution.formal(i, i)), std);
   }
-  EXPECT_LT((solution.shared - expected.tail(errors.unknowns())).norm(),
-            1e-6 * expected.tail(errors.unknowns()).norm());
+  const Eigen::VectorXd shared = dense.solution.tail(errors.unknowns());
+  EXPECT_LT((solution.shared - shared).norm(), 1e-6 * shared.norm());
+}
+
+/// An instrument with and one without a ranging error on slopes, each solved for on its own and
+/// weighed by how likely it makes the observations.
+TEST(Adjustment, BelievesInARangingErrorAsFarAsItIsSeen) {
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  for (const double share : {0.0, 0.03, 0.1}) {
+    auto areas = simulated(someBiases(), 0.02, 3);
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> uniform;
+    for (AreaObservations& area : areas) {
+      for (PairObservation& o : area) {
+        o.stretch = 0.1 * uniform(random) + 1e-4 * o.row()[indexOf(P::scan_angle_scale)];
+        o.misclosure += share * o.stretch;
+      }
+    }
+    const DenseSystem with(errors, areas, true), without(errors, areas, false);
+    const double absent = 1.0 / (1.0 + std::exp(0.5 * (without.deviance - with.deviance)));
+    EXPECT_TRUE(share == 0.0   ? absent > 0.8
+                : share == 0.1 ? absent < 1e-6
+                               : absent > 0.02 && absent < 0.8)
+        << absent;
+    const Eigen::VectorXd expected = absent * without.solution + (1.0 - absent) * with.solution;
+    const auto weights = unitWeights(areas);
+    Adjustment adjustment(errors);
+    adjustment.accumulate(areas, weights);
+    const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+    for (const P p : kSix) {
+      const int i = indexOf(p);
+      const double variance =
+          absent * without.covariance(i, i) + (1.0 - absent) * with.covariance(i, i) +
+          absent * (1.0 - absent) * std::pow(with.solution[i] - without.solution[i], 2);
+      EXPECT_NEAR(solution.biases[i], expected[i], 1e-5 * std::sqrt(variance)) << infoOf(p).name;
+      EXPECT_GE(solution.covariance(i, i), variance * (1.0 - 1e-5)) << infoOf(p).name;
+      EXPECT_LT(solution.covariance(i, i), variance * 2.0) << infoOf(p).name;  // the jackknife's
+    }
+    const int ranging = errors.rangingUnknown();
+    EXPECT_NEAR(solution.shared[ranging], expected[8 + ranging], 1e-6);
+  }
 }
 
 /// Two hundred blocks of white noise: the estimates scatter as the covariance says.

@@ -14,6 +14,7 @@
 
 #include "area_normal.h"
 #include "error_factor.h"
+#include "possibly_absent.h"
 
 namespace pcl_als {
 namespace {
@@ -107,6 +108,7 @@ struct Adjustment::Reduced {
   SystemVector right;
   Eigen::Matrix<double, Eigen::Dynamic, kGlobal> elimination;  ///< N_tt^-1 N_tg
   Eigen::VectorXd eliminated_right;                            ///< N_tt^-1 h_t
+  Eigen::VectorXd with_ranging;  ///< N_tt^-1, the column of the ranging share
   double log_determinant = 0.0;  ///< ln |N_tt| - ln |prior|, shifts included
   double explained = 0.0;        ///< h_t' N_tt^-1 h_t, shifts included
 };
@@ -159,6 +161,8 @@ Adjustment::Reduced Adjustment::reduce(const Normal& normal,
   Reduced reduced;
   reduced.elimination = factor.solve(normal.tg);
   reduced.eliminated_right = factor.solve(normal.right_t);
+  reduced.with_ranging =
+      factor.solve(Eigen::VectorXd::Unit(errors_.unknowns(), errors_.rangingUnknown()));
   reduced.normal = normal.gg - normal.tg.transpose() * reduced.elimination;
   reduced.normal = (0.5 * (reduced.normal + reduced.normal.transpose())).eval();
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
@@ -308,9 +312,25 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
     inflation[i] =
         slopes[static_cast<Eigen::Index>(k)] * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
   }
-  solution.covariance = inflation.asDiagonal() * model * inflation.asDiagonal();
+  const SystemMatrix believed = model + doubtRanging(model, solution);
+  solution.covariance = inflation.asDiagonal() * believed * inflation.asDiagonal();
   solution.solved = true;
   return solution;
+}
+
+SystemMatrix Adjustment::doubtRanging(const SystemMatrix& model,
+                                      AdjustmentSolution& solution) const {
+  const int at = errors_.rangingUnknown();
+  const SystemVector coupling = reduced_->elimination.row(at).transpose();
+  const SystemVector with_biases = -model * coupling;
+  const Eigen::VectorXd with_shared =
+      reduced_->with_ranging - reduced_->elimination * with_biases;
+  const PossiblyAbsent ranging(errors_.model().ranging_absent,
+                               std::pow(errors_.model().ranging_incidence, 2),
+                               solution.shared[at], with_shared[at]);
+  solution.biases += ranging.move(with_biases);
+  solution.shared += ranging.move(with_shared);
+  return ranging.change(with_biases);
 }
 
 AdjustmentSolution Adjustment::solveNearZero(const std::vector<SystemParameter>& estimate,

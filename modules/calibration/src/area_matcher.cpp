@@ -100,15 +100,18 @@ std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const Strip
     const std::int32_t point = triangles[t].vertex[0];
     if (seen[point] || !part.single[point] || !area_.contains(part.biased[point])) continue;
     seen[point] = true;
-    const auto triangle = static_cast<std::int32_t>(t);
-    classes[OrientationClasses::of(part.surface.normal(triangle))].push_back(triangle);
+    const std::int32_t beyond = triangles[t].neighbour[0];
+    if (beyond == Tin::kNone) continue;
+    classes[OrientationClasses::of(part.surface.normal(beyond))].push_back(
+        static_cast<std::int32_t>(t));
   }
   return classes;
 }
 
 void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
-  // is there.
+  // is there. Neither holds the point itself: among points that were looked for because their own
+  // noise made them slope to the west, it would not have a mean of zero.
   constexpr std::size_t kLooks = 4;
   const auto rough = trianglesByClass(part);
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);

@@ -20,6 +20,8 @@ void SharedErrorModel::validate() const {
       {"local shift sigma (m)", local},
       {"ranging share", ranging_incidence},
       {"range scale", range_scale}};
+  if (!(ranging_absent >= 0.0 && ranging_absent < 1.0))
+    throw UsageError("probability of no ranging error must be in [0, 1)");
   for (const auto& [name, value] : values) {
     if (std::isfinite(value) && value > 0.0) continue;
     std::ostringstream text;

@@ -98,6 +98,9 @@ class Adjustment {
   /// By how much the noise of the slopes may have made standard deviations too small.
   Eigen::VectorXd slopeNoise(const Eigen::MatrixXd& independent,
                              const std::vector<SystemParameter>& estimate) const;
+  /// Counts with an instrument that ranges without error on slopes: moves the solution, returns the
+  /// change of its covariance.
+  SystemMatrix doubtRanging(const SystemMatrix& model, AdjustmentSolution& solution) const;
   SystemMatrix jackknife(const AdjustmentSolution& solution,
                          const std::vector<SystemParameter>& estimate) const;
 

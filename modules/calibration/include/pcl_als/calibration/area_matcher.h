@@ -105,7 +105,8 @@ class AreaMatcher {
   };
   Direction measuringDirection(const PatchQuality& quality) const;
   bool acceptable(const StripPart& part, const PatchQuality& quality) const;
-  /// Triangles with their first vertex inside the area, one for every vertex, by orientation.
+  /// Triangles with their first vertex inside the area, one for every vertex, by the orientation of
+  /// the one beyond the opposite edge.
   std::vector<std::vector<std::int32_t>> trianglesByClass(const StripPart& part) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 

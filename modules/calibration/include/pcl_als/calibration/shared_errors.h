@@ -39,6 +39,7 @@ struct SharedErrorModel {
                                                 ///< linear splines used for the trajectory
   double local = 0.01;                          ///< metres, each axis
   double ranging_incidence = 0.1;               ///< share of the stretch d
+  double ranging_absent = 0.5;                  ///< probability that there is no such error
   double range_scale = 5e-6;                    ///< of ranges, common to all points
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
@@ -71,6 +72,8 @@ class SharedErrors {
 
   int knotCount() const { return knot_count_; }
   int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
+  int rangingUnknown() const { return instrumentBlock() * kPerKnot; }
+  const SharedErrorModel& model() const { return model_; }
   int unknowns() const { return (knot_count_ + 1) * kPerKnot; }
 
   /// Where a time lies between two knots of its strip.
