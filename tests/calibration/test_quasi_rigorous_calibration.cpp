@@ -203,6 +203,23 @@ TEST(QuasiRigorousCalibration, RefusesATrajectoryOfAnotherFlight) {
   }
 }
 
+/// What is left of a change of datum that was forgotten.
+TEST(QuasiRigorousCalibration, RefusesATrajectoryBesideItsPlace) {
+  for (const bool rigorous : {false, true}) {
+    SimulatedSurvey survey(block("realistic", false, 10));
+    for (TrajectorySample& sample : survey.trajectory)
+      sample.position += Eigen::Vector3d(-120.0, 90.0, 0.0);
+    try {
+      survey.calibrate(CalibrationSettings(), true, rigorous);
+      FAIL() << "no exception";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("the trajectory lies 1"), std::string::npos)
+          << error.what();
+      std::puts(error.what());
+    }
+  }
+}
+
 TEST(QuasiRigorousCalibration, RefusesASingleStripWithoutControl) {
   SimulatedSurvey survey(block("range", true, 11));
   survey.strips.resize(1);

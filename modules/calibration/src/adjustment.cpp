@@ -323,11 +323,10 @@ SystemMatrix Adjustment::doubtRanging(const SystemMatrix& model,
   const int at = errors_.rangingUnknown();
   const SystemVector coupling = reduced_->elimination.row(at).transpose();
   const SystemVector with_biases = -model * coupling;
-  const Eigen::VectorXd with_shared =
-      reduced_->with_ranging - reduced_->elimination * with_biases;
+  const Eigen::VectorXd with_shared = reduced_->with_ranging - reduced_->elimination * with_biases;
   const PossiblyAbsent ranging(errors_.model().ranging_absent,
-                               std::pow(errors_.model().ranging_incidence, 2),
-                               solution.shared[at], with_shared[at]);
+                               std::pow(errors_.model().ranging_incidence, 2), solution.shared[at],
+                               with_shared[at]);
   solution.biases += ranging.move(with_biases);
   solution.shared += ranging.move(with_shared);
   return ranging.change(with_biases);

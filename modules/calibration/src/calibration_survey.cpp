@@ -77,6 +77,7 @@ void QuasiRigorousCalibration::leaveOutSmallStrips() {
 }
 
 void QuasiRigorousCalibration::checkTrajectory() const {
+  std::vector<LookCheck::Look> looks;
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     if (!used_[strip]) continue;
     const double start = map_.startTime(static_cast<int>(strip)),
@@ -93,6 +94,7 @@ void QuasiRigorousCalibration::checkTrajectory() const {
                        ": give the trajectory of this flight, on the clock and in the coordinates "
                        "of the points");
     }
+    looks.push_back(looks_[strip].look());
     for (const Trajectory::Gap& gap : trajectory_->gaps()) {
       if (gap.from >= end || gap.to <= start) continue;
       throw InputError("the trajectory has a gap at " + seconds(gap.from, gap.to) +
@@ -100,6 +102,13 @@ void QuasiRigorousCalibration::checkTrajectory() const {
                        "): give a complete trajectory or leave the strip out");
     }
   }
+  const Eigen::Vector2d offset = trajectoryOffset(looks, trajectory_->hasAttitude());
+  if (offset.isZero()) return;
+  std::ostringstream text;
+  text << "the trajectory lies " << std::lround(offset.norm()) << " m (east "
+       << std::lround(offset.x()) << ", north " << std::lround(offset.y())
+       << ") beside where its points were measured from: give it in the coordinates of the points";
+  throw InputError(text.str());
 }
 
 int QuasiRigorousCalibration::stripNamed(const std::string& id) const {

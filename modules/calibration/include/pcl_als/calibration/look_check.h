@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/trajectory/trajectory.h>
@@ -29,11 +30,32 @@ class LookCheck {
   /// What is impossible, for a message: "its points lie 412 m ahead of …"; empty when all is well.
   std::string objection() const;
 
+  /// Where a strip's points lie on average, from where they were fired.
+  struct Look {
+    Eigen::Vector2d direction;  ///< of flight, unit
+    double ahead = 0.0;         ///< metres
+    double height = 0.0;        ///< metres, of the sensor
+    bool seen = false;          ///< false: no point
+  };
+  Look look() const;
+
  private:
   std::shared_ptr<const Trajectory> trajectory_;
   std::size_t cursor_ = 0, count_ = 0;
   std::size_t above_ = 0, beside_ = 0, ahead_ = 0;
   double beside_sum_ = 0.0, ahead_sum_ = 0.0;  ///< metres, of those that are too far
+  Eigen::Vector2d direction_sum_ = Eigen::Vector2d::Zero();
+  double mean_ahead_sum_ = 0.0, height_sum_ = 0.0;  ///< metres, of those below the sensor
 };
+
+/** \brief How far the trajectory lies beside its own place, metres, in plan: one in other
+ * coordinates than the points, as after a change of datum.
+ *
+ * Strips flown one way then look ahead and strips flown the other way back, which no mounting of
+ * the scanner explains: ahead = c height - offset . direction, for all strips together. Zero where
+ * it is no more than differences in pitch (5 degrees; one degree where the attitude is known)
+ * may be, and across parallel lines, where nothing shows it.
+ */
+Eigen::Vector2d trajectoryOffset(const std::vector<LookCheck::Look>& looks, bool attitude_known);
 
 }  // namespace pcl_als
