@@ -28,7 +28,7 @@ namespace pcl_als {
  * Ranging: a pulse that meets a surface at incidence theta comes back stretched over d = range *
  * divergence * tan(theta), and what the instrument calls its time shifts with it, by an unknown
  * share of d common to all points. And all ranges are wrong in proportion: the refractive index
- * changes by 1 ppm with a degree or 3 hPa, and is the mean of a column of air nobody measured.
+ * changes by 1 ppm with a degree or 3 hPa, and is the mean of a column of air measured at its ends.
  */
 struct SharedErrorModel {
   double position = 0.02;                       ///< metres, each axis
@@ -40,7 +40,7 @@ struct SharedErrorModel {
   double local = 0.01;                          ///< metres, each axis
   double ranging_incidence = 0.1;               ///< share of the stretch d
   double ranging_absent = 0.5;                  ///< probability that there is no such error
-  double range_scale = 5e-6;                    ///< of ranges, common to all points
+  double range_scale = 3e-6;                    ///< of ranges, common to all points
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
