@@ -23,11 +23,12 @@ void LookCheck::add(const CalibrationPoint& point) {
     return;
   }
   const ScanGeometry geometry = scanGeometry(pose, point.position);
-  direction_sum_ += pose.rotation.col(1).head<2>().normalized();
+  const Eigen::Vector2d direction = pose.rotation.col(1).head<2>().normalized();
+  direction_sum_ += direction;
   mean_ahead_sum_ += pose.rotation.col(1).dot(d);
   height_sum_ -= d.z();
   const double lateral = pose.rotation.col(0).head<2>().normalized().dot(d.head<2>());
-  const double along = pose.rotation.col(1).head<2>().normalized().dot(d.head<2>());
+  const double along = direction.dot(d.head<2>());
   if (std::abs(geometry.beta) > kWidest) {
     ++beside_;
     beside_sum_ += std::abs(lateral);
