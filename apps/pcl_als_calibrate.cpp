@@ -51,6 +51,11 @@ CommandLine commandLine() {
            defaults.max_normal_distance);
   line.add("points", "points used at most, millions",
            1e-6 * static_cast<double>(defaults.selection.point_budget));
+  line.add("candidates", "of them, points that look for a patch in other strips, thousands",
+           1e-3 * static_cast<double>(defaults.candidates));
+  line.add("select",
+           "pairs adjusted at most, thousands: those that determine the parameters; 0: all",
+           1e-3 * static_cast<double>(defaults.pair_budget));
   return line;
 }
 
@@ -78,6 +83,10 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
   settings.selection.point_budget =
       static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
+  settings.candidates =
+      static_cast<std::size_t>(1e3 * line.number("candidates", 1.0, 1e6, "thousands"));
+  settings.pair_budget =
+      static_cast<std::size_t>(1e3 * line.number("select", 0.0, 1e6, "thousands"));
   settings.threads = line.threads();
   return settings;
 }

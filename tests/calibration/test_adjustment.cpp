@@ -285,6 +285,30 @@ TEST(Adjustment, SaysWhatEachAreaContributes) {
   EXPECT_LT(shares.back(), 0.1 * shares.front());
 }
 
+TEST(Adjustment, ReducedRowsMakeUpTheReducedEquations) {
+  // Hardly anything believed of the shared errors: all of N comes from observations.
+  SharedErrorModel loose = model();
+  loose.position = 100.0;
+  loose.roll_pitch = loose.heading = 0.1;
+  loose.ranging_incidence = loose.range_scale = 1e3;
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, loose);
+  const auto areas = simulated(someBiases(), 0.02, 7);
+  const auto weights = unitWeights(areas);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  SystemMatrix sum = SystemMatrix::Zero(), whole = sum;
+  for (const AreaObservations& area : areas) {
+    for (const PairObservation& o : area) {
+      const SystemRow row = adjustment.reducedRow(o);
+      sum += row.transpose() * row / o.variance;
+      whole += o.row().transpose() * o.row() / o.variance;
+    }
+  }
+  const SystemMatrix& normal = adjustment.reducedNormal();
+  EXPECT_LT((sum - normal).norm(), 1e-5 * normal.norm());
+  EXPECT_GT((whole - normal).norm(), 1e-2 * normal.norm());
+}
+
 TEST(Adjustment, HoldsWhatIsNotEstimated) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   const auto areas = simulated(someBiases(), 0.0, 3);

@@ -63,5 +63,25 @@ TEST(CalibrationIntervals, AreNeitherFarTooSmallNorFarTooLarge) {
   EXPECT_GT(formal.rms(), 3.0) << "the blocks would not show what Eq. (26) leaves out";
 }
 
+TEST(PairSelection, ATenthOfThePairsTellsWhatAllOfThemTell) {
+  const test::SimulatedSurvey survey(blockOf(1));
+  CalibrationSettings settings;
+  settings.selection.point_budget = 1'000'000;
+  settings.candidates = 100'000'000;  // all points
+  const CalibrationResult all = survey.calibrate(settings, true, true);
+  const std::size_t pairs = all.iterations.back().correspondences;
+  settings.pair_budget = pairs / 10 - 500;  // of strips: control comes on top
+  const CalibrationResult part = survey.calibrate(settings, true, true);
+  ASSERT_TRUE(all.converged && part.converged);
+  EXPECT_LT(part.iterations.back().correspondences, pairs / 10);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = part[info.parameter];
+    ASSERT_EQ(estimate.status, all[info.parameter].status) << info.name;
+    if (estimate.status != ParameterStatus::estimated) continue;
+    EXPECT_NEAR(estimate.bias, all[info.parameter].bias, 0.3 * estimate.std) << info.name;
+    EXPECT_NEAR(estimate.std, all[info.parameter].std, 0.3 * estimate.std) << info.name;
+  }
+}
+
 }  // namespace
 }  // namespace pcl_als

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
-#include <map>
 #include <random>
 
 #include <Eigen/LU>
@@ -58,72 +57,109 @@ std::vector<AreaObservations> mostlyFlat() {
   return areas;
 }
 
-/// ln of the determinant of N for what such a block shows at its one height: lever_arm_x, pitch and
-/// roll.
-double information(const std::vector<AreaObservations>& areas,
-                   const std::vector<std::vector<std::size_t>>& chosen, double shared) {
-  SystemMatrix normal = SystemMatrix::Zero();
-  for (std::size_t area = 0; area < areas.size(); ++area) {
-    // Pairs of an area share an error: all of its flat ones are one observation, and so on by
-    // orientation; eight aspects here.
-    std::map<int, std::pair<SystemRow, int>> groups;
-    for (const std::size_t i : chosen[area]) {
-      const Eigen::Vector3d& n = areas[area][i].normal;
-      const int key =
-          n.z() > 0.999 ? -1 : static_cast<int>(8.0 * (std::atan2(n.y(), n.x()) + 3.1416) / 6.2832);
-      auto& group = groups.try_emplace(key, SystemRow::Zero(), 0).first->second;
-      group.first += areas[area][i].row();
-      ++group.second;
+/// Two strips, known but for errors far smaller than a pair's noise.
+struct Block {
+  explicit Block(std::vector<AreaObservations> given)
+      : areas(std::move(given)),
+        weights(unitWeights(areas)),
+        errors({{0.0, 1.0}, {10.0, 11.0}, {20.0, 21.0}, {30.0, 31.0}}, model()),
+        adjustment(errors) {
+    for (AreaObservations& area : areas) {
+      for (PairObservation& o : area) o.time_a = 10.0 * std::max(o.a, 0), o.time_b = 10.0 * o.b;
     }
-    for (const auto& [key, group] : groups) {
-      const SystemRow row = group.first / group.second;
-      normal += row.transpose() * row / (shared + 4e-4 / group.second);
+    adjustment.accumulate(areas, weights);
+  }
+  static SharedErrorModel model() {
+    SharedErrorModel model;
+    model.position = model.local = 1e-5;
+    model.roll_pitch = model.heading = 1e-8;
+    model.ranging_incidence = model.range_scale = 1e-8;
+    return model;
+  }
+  AdjustmentSolution solution() const { return adjustment.solve(kShown, SystemVector::Zero()); }
+  PairSelection choose(const PairSelectionSettings& settings) const {
+    return {areas, weights, adjustment, solution(), settings};
+  }
+
+  static const std::vector<SystemParameter> kShown;
+  std::vector<AreaObservations> areas;
+  Weights weights;
+  SharedErrors errors;
+  Adjustment adjustment;
+};
+const std::vector<SystemParameter> Block::kShown = {SystemParameter::lever_arm_x,
+                                                    SystemParameter::boresight_pitch,
+                                                    SystemParameter::boresight_roll};
+
+/// Gives every pair noise of its own.
+std::vector<AreaObservations> withNoise(std::vector<AreaObservations> areas, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0.0, 0.02);
+  for (AreaObservations& area : areas) {
+    for (PairObservation& o : area) o.misclosure = normal(random);
+  }
+  return areas;
+}
+
+/// The chosen pairs as they are adjusted.
+Block chosenOf(const Block& block, const PairSelection& selection, bool offsets) {
+  std::vector<AreaObservations> kept(block.areas.size());
+  for (std::size_t area = 0; area < kept.size(); ++area) {
+    for (const ChosenPair& pair : selection.chosen()[area]) {
+      PairObservation o = block.areas[area][pair.index];
+      o.variance /= pair.stands_for;
+      if (offsets) o.misclosure += pair.offset;
+      kept[area].push_back(o);
     }
   }
-  const int which[] = {0, 3, 4};
-  Eigen::Matrix3d part;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) part(r, c) = normal(which[r], which[c]);
+  return Block(kept);
+}
+
+/// How far estimates from chosen pairs scatter about those from all of them, in deviations of the
+/// latter: the root of the mean over draws of the noise and parameters.
+double scatterAbout(bool offsets) {
+  constexpr unsigned kDraws = 40;
+  double sum = 0.0;
+  for (unsigned draw = 0; draw < kDraws; ++draw) {
+    const Block block(withNoise(mostlyFlat(), draw));
+    const AdjustmentSolution all = block.solution();
+    const AdjustmentSolution part = chosenOf(block, block.choose({800, 0.25}), offsets).solution();
+    for (const SystemParameter p : Block::kShown) {
+      const double difference = part.biases[indexOf(p)] - all.biases[indexOf(p)];
+      sum += difference * difference / all.formal(indexOf(p), indexOf(p)) / (3.0 * kDraws);
+    }
   }
-  return std::log(part.determinant());
+  return std::sqrt(sum);
 }
 
 TEST(PairSelection, KeepsEverythingWithinTheBudget) {
-  const auto areas = mostlyFlat();
-  const PairSelection selection(areas, unitWeights(areas),
-                                PairSelectionSettings{20000, 0.25, 2e-4});
+  const Block block(mostlyFlat());
+  const PairSelection selection = block.choose({20000, 0.25});
   EXPECT_EQ(selection.chosenCount(), 10600U);
+  EXPECT_EQ(selection.chosen()[0][0].stands_for, 1.0);
 }
 
-TEST(PairSelection, SpendsTheBudgetOnWhatDetermines) {
-  const auto areas = mostlyFlat();
-  PairSelectionSettings settings{800, 0.25, 2e-4};
-  const PairSelection selection(areas, unitWeights(areas), settings);
-  EXPECT_NEAR(static_cast<double>(selection.chosenCount()), 800.0, 5.0);
-  std::size_t slopes = 0;
-  for (std::size_t area = 0; area < areas.size(); ++area) {
-    for (const std::size_t i : selection.chosen()[area]) {
-      if (areas[area][i].normal.z() < 0.999) ++slopes;
-    }
+TEST(PairSelection, TellsWhatAllPairsTell) {
+  // 7.5 % of the pairs, evenly thinned, would scatter by sqrt(1 / 0.075 - 1) = 3.5 deviations.
+  EXPECT_LT(scatterAbout(false), 2.5);
+  EXPECT_LT(scatterAbout(true), 0.3);
+}
+
+TEST(PairSelection, WeighsWhatItKeepsAsMuchAsAll) {
+  const Block block(mostlyFlat());
+  const PairSelection selection = block.choose({800, 0.25});
+  double stood_for = 0.0;
+  for (const auto& pairs : selection.chosen()) {
+    for (const ChosenPair& pair : pairs) stood_for += pair.stands_for;
   }
-  EXPECT_GT(slopes, 400U);  // 6 % of what there is
-  // Evenly thinned, the same number is worth far less; all 10,600 pairs hardly more.
-  std::vector<std::vector<std::size_t>> even(areas.size()), all(areas.size());
-  for (std::size_t area = 0; area < areas.size(); ++area) {
-    for (std::size_t i = 0; i < 80; ++i) even[area].push_back(i * areas[area].size() / 80);
-    all[area].resize(areas[area].size());
-    std::iota(all[area].begin(), all[area].end(), std::size_t{0});
-  }
-  const double chosen = information(areas, selection.chosen(), settings.shared_variance);
-  EXPECT_GT(chosen, information(areas, even, settings.shared_variance) + 0.5);
-  EXPECT_GT(chosen, information(areas, all, settings.shared_variance) - 1.0);
+  EXPECT_NEAR(stood_for, 10600.0, 0.03 * 10600.0);  // groups of which no pair was taken are missing
 }
 
 TEST(PairSelection, LeavesNoMeetingOfStripsUnseen) {
   auto areas = mostlyFlat();
   areas.emplace_back();  // an area that tells nothing new
   for (int i = 0; i < 500; ++i) areas.back().push_back(pairAt(0.0, Eigen::Vector3d::UnitZ(), 2, 3));
-  const PairSelection selection(areas, unitWeights(areas), PairSelectionSettings{800, 0.25, 2e-4});
+  const PairSelection selection = Block(areas).choose({800, 0.25});
   EXPECT_GE(selection.chosen().back().size(), 15U);  // 200 pairs over 11 meetings
 }
 
@@ -134,11 +170,12 @@ TEST(PairSelection, NeverTakesOutliersAndAlwaysControl) {
   control.a = PairObservation::kControl;
   control.row_a.setZero();
   areas.back().push_back(control);
-  Weights weights = unitWeights(areas);
-  for (std::size_t i = 0; i < weights[3].size(); i += 2) weights[3][i] = 0.0;
-  const PairSelection selection(areas, weights, PairSelectionSettings{800, 0.25, 2e-4});
-  for (const std::size_t i : selection.chosen()[3]) EXPECT_EQ(i % 2, 1U);
-  EXPECT_EQ(selection.chosen().back().size(), 1U);
+  Block block(areas);
+  for (std::size_t i = 0; i < block.weights[3].size(); i += 2) block.weights[3][i] = 0.0;
+  const PairSelection selection = block.choose({800, 0.25});
+  for (const ChosenPair& pair : selection.chosen()[3]) EXPECT_EQ(pair.index % 2, 1U);
+  ASSERT_EQ(selection.chosen().back().size(), 1U);
+  EXPECT_EQ(selection.chosen().back()[0].stands_for, 1.0);
 }
 
 TEST(PairWeights, FindsHowWellASystemPoints) {
@@ -157,6 +194,7 @@ TEST(PairWeights, FindsHowWellASystemPoints) {
     residuals[0].push_back(0.02 * normal(random));
   }
   PairWeights weights;
+  weights.findScales(areas, residuals);
   weights.update(areas, residuals, true);
   EXPECT_LE(weights.pointingFactor(), 0.1);
   // Weight over the model's variance: slopes count as much as flat ground.
@@ -175,6 +213,7 @@ TEST(PairWeights, RejectsOutliersOnlyWhenAsked) {
     residuals[0].push_back(i % 10 == 0 ? 0.5 : 0.02 * normal(random));
   }
   PairWeights weights;
+  weights.findScales(areas, residuals);
   weights.update(areas, residuals, true);
   EXPECT_EQ(weights.weights()[0][0], 0.0);
   EXPECT_NEAR(static_cast<double>(weights.kept()), 900.0, 1.0);

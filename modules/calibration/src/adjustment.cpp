@@ -192,6 +192,17 @@ const SystemMatrix& Adjustment::reducedNormal() const {
   return reduced_->normal;
 }
 
+SystemRow Adjustment::reducedRow(const PairObservation& observation) const {
+  const TouchedRow touched(observation, errors_);
+  SystemRow row = touched.row.head<kGlobal>();
+  for (int slot = 0; slot < TouchedRow::kSlots; ++slot) {
+    if (touched.knots[slot] < 0) continue;
+    row -= touched.row.segment<kKnot>(TouchedRow::slot(slot)) *
+           reduced_->elimination.middleRows<kKnot>(touched.knots[slot] * kKnot);
+  }
+  return row;
+}
+
 double Adjustment::residual(const PairObservation& observation,
                             const AdjustmentSolution& solution) const {
   const TouchedRow touched(observation, errors_);

@@ -143,11 +143,12 @@ void AreaMatcher::collectRoughness(std::vector<double>& values) const {
 }
 
 void AreaMatcher::keep(const AreaObservations& observations,
-                       const std::vector<std::size_t>& chosen) {
+                       const std::vector<ChosenPair>& chosen) {
   kept_.clear();
-  for (const std::size_t i : chosen) {
-    const PairObservation& o = observations[i];
-    if (o.a != PairObservation::kControl) kept_[{o.a, o.b}].push_back(o.point);
+  for (const ChosenPair& pair : chosen) {
+    const PairObservation& o = observations[pair.index];
+    if (o.a != PairObservation::kControl)
+      kept_[{o.a, o.b}].push_back({o.point, o.sharing / pair.stands_for, pair.offset});
   }
 }
 
@@ -266,7 +267,10 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     if (b.biased.empty()) continue;
     const auto kept = kept_.find({observation.a, observation.b});
     if (seekers == Seekers::kept && kept == kept_.end()) continue;
-    for (const std::int32_t i : seekers == Seekers::kept ? kept->second : a.candidates) {
+    const bool all = seekers == Seekers::candidates;
+    const std::size_t count = all ? a.candidates.size() : kept->second.size();
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::int32_t i = all ? a.candidates[c] : kept->second[c].point;
       const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
       if (!match) continue;
       const PatchQuality quality = b.surface.quality(match->triangle);
@@ -294,10 +298,15 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       shares.add(observation, b.surface.tin().triangles()[match->triangle], match->weights,
                  normalVariance(point.covariance, observation.normal),
                  normalVariance(vertex.covariance, observation.normal));
+      if (!all) {
+        observation.sharing = kept->second[c].sharing;
+        observation.offset = kept->second[c].offset;
+        observation.misclosure += observation.offset;
+      }
       found.push_back(observation);
     }
   }
-  shares.setSharing(found);
+  if (seekers == Seekers::candidates) shares.setSharing(found);
   return found;
 }
 

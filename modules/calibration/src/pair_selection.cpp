@@ -16,84 +16,94 @@ namespace pcl_als {
 
 /// Pairs that are much alike.
 struct PairSelection::Group {
+  struct Member {
+    std::size_t index;
+    Eigen::Vector3d normal;
+    double weight, residual, sign;  ///< residual of the first strip above the second
+  };
   std::size_t area = 0;
   std::array<int, 2> strips{};
-  SystemRow row = SystemRow::Zero();  ///< mean
-  double variance = 0.0;              ///< of one pair, m^2
-  std::vector<std::size_t> members;
+  std::vector<Member> members, taken;
+  double influence = 0.0;            ///< root mean square of what the noise of one moves
   double least = 0.0, number = 0.0;  ///< pairs for the spread alone; pairs in all
-
-  /// Inverse variance of the group with so many pairs.
-  double information(double shared) const {
-    return number > 0.0 ? 1.0 / (shared + variance / number) : 0.0;
-  }
 };
 
 namespace {
 
-/// N^-1 with each parameter in units of its own information, what nothing shows left out.
-template <typename Groups>
-SystemMatrix inverseNormal(const Groups& groups, double shared) {
-  SystemMatrix normal = SystemMatrix::Zero();
-  for (const auto& group : groups) {
-    normal += group.information(shared) * group.row.transpose() * group.row;
-  }
-  SystemVector scale = SystemVector::Zero();
-  for (int i = 0; i < kSystemParameterCount; ++i) {
-    if (normal(i, i) > 0.0) scale[i] = 1.0 / std::sqrt(normal(i, i));
-  }
-  // What the pairs cannot tell apart is not for them to decide: a little belief in each parameter.
-  constexpr double kBelief = 1e-6;
-  SystemMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  scaled.diagonal().array() += kBelief;
-  return scale.asDiagonal() * scaled.ldlt().solve(SystemMatrix::Identity()) * scale.asDiagonal();
+/// C W C: r of it with itself is how far one unit of a pair of row r moves the parameters, each in
+/// its own deviation, squared.
+SystemMatrix worthOf(const SystemMatrix& covariance) {
+  SystemVector importance = SystemVector::Zero();
+  for (int i = 0; i < kSystemParameterCount; ++i)
+    if (covariance(i, i) > 0.0) importance[i] = 1.0 / covariance(i, i);
+  return covariance * importance.asDiagonal() * covariance;
 }
+
+/// What pairs show of a displacement of the first strip against the second: N d = h.
+struct Displacement {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+
+  void add(const Eigen::Vector3d& direction, double weight, double residual) {
+    normal += weight * direction * direction.transpose();
+    right += weight * residual * direction;
+  }
+};
 
 }  // namespace
 
 PairSelection::PairSelection(const std::vector<AreaObservations>& observations,
                              const std::vector<std::vector<double>>& weights,
+                             const Adjustment& adjustment, const AdjustmentSolution& solution,
                              const PairSelectionSettings& settings)
     : settings_(settings), chosen_(observations.size()) {
-  std::vector<Group> groups = groupsOf(observations, weights);
+  std::vector<Group> groups;
+  for (std::size_t area = 0; area < observations.size(); ++area) {
+    for (Group& group : groupsOf(area, observations[area], weights[area], adjustment, solution))
+      groups.push_back(std::move(group));
+  }
   spreadEvenly(groups);
-  spendOnInformation(groups);
+  spendOnInfluence(groups);
   takeMembers(groups);
 }
 
-std::vector<PairSelection::Group> PairSelection::groupsOf(
-    const std::vector<AreaObservations>& observations,
-    const std::vector<std::vector<double>>& weights) {
+std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
+                                                          const AreaObservations& observations,
+                                                          const std::vector<double>& weights,
+                                                          const Adjustment& adjustment,
+                                                          const AdjustmentSolution& solution) {
+  const SystemMatrix worth = worthOf(solution.covariance);
+  std::map<std::array<int, 3>, Group> here;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const PairObservation& o = observations[i];
+    if (o.a == PairObservation::kControl) chosen_[area].push_back({i});
+    if (o.a == PairObservation::kControl || weights[i] == 0.0) continue;
+    const auto orientation = static_cast<int>(OrientationClasses::of(o.normal));
+    Group& group = here[{std::min(o.a, o.b), std::max(o.a, o.b), orientation}];
+    const double weight = weights[i] / o.variance, sign = o.a < o.b ? 1.0 : -1.0;
+    const SystemRow row = adjustment.reducedRow(o);
+    group.influence += weight / o.sharing * (row * worth * row.transpose()).value();  // w^2 v
+    group.members.push_back({i, o.normal, weight, sign * adjustment.residual(o, solution), sign});
+  }
   std::vector<Group> groups;
-  for (std::size_t area = 0; area < observations.size(); ++area) {
-    std::map<std::array<int, 3>, Group> here;
-    for (std::size_t i = 0; i < observations[area].size(); ++i) {
-      const PairObservation& o = observations[area][i];
-      if (o.a == PairObservation::kControl) chosen_[area].push_back(i);
-      if (o.a == PairObservation::kControl || weights[area][i] == 0.0) continue;
-      const auto orientation = static_cast<int>(OrientationClasses::of(o.normal));
-      Group& group = here[{std::min(o.a, o.b), std::max(o.a, o.b), orientation}];
-      group.area = area;
-      group.strips = {std::min(o.a, o.b), std::max(o.a, o.b)};
-      group.row += (o.a < o.b ? 1.0 : -1.0) * o.row();  // of the first strip against the second
-      group.variance += o.variance / (weights[area][i] * o.sharing);  // fewer share less
-      group.members.push_back(i);
-    }
-    for (auto& [key, group] : here) {
-      const auto count = static_cast<double>(group.members.size());
-      group.row /= count;
-      group.variance /= count;
-      groups.push_back(std::move(group));
-    }
+  for (auto& [key, group] : here) {
+    group.area = area;
+    group.strips = {key[0], key[1]};
+    group.influence = std::sqrt(group.influence / static_cast<double>(group.members.size()));
+    groups.push_back(std::move(group));
   }
   return groups;
 }
 
-void PairSelection::spreadEvenly(std::vector<Group>& groups) const {
-  std::map<std::pair<std::size_t, std::array<int, 2>>, std::vector<std::size_t>> meetings;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
+PairSelection::Meetings PairSelection::meetingsOf(const std::vector<Group>& groups) {
+  Meetings meetings;
+  for (std::size_t g = 0; g < groups.size(); ++g)
     meetings[{groups[g].area, groups[g].strips}].push_back(g);
-  }
+  return meetings;
+}
+
+void PairSelection::spreadEvenly(std::vector<Group>& groups) const {
+  const Meetings meetings = meetingsOf(groups);
   const double each = settings_.spread * static_cast<double>(settings_.budget) /
                       std::max<double>(1.0, static_cast<double>(meetings.size()));
   for (const auto& [where, members] : meetings) {
@@ -102,62 +112,79 @@ void PairSelection::spreadEvenly(std::vector<Group>& groups) const {
       sizes.push_back(static_cast<double>(groups[g].members.size()));
     }
     const std::vector<double> shares = evenShares(sizes, each);
-    for (std::size_t i = 0; i < members.size(); ++i) groups[members[i]].least = shares[i];
+    for (std::size_t i = 0; i < members.size(); ++i)
+      groups[members[i]].least = std::max(1.0, static_cast<double>(shares[i]));
   }
 }
 
-void PairSelection::spendOnInformation(std::vector<Group>& groups) const {
+void PairSelection::spendOnInfluence(std::vector<Group>& groups) const {
   double available = 0.0;
-  for (Group& group : groups) {
-    group.number = static_cast<double>(group.members.size());
-    available += group.number;
-  }
+  for (Group& group : groups) available += group.number = static_cast<double>(group.members.size());
   const auto budget = static_cast<double>(settings_.budget);
   if (available <= budget) return;
-  for (Group& group : groups)
-    group.number = std::max(group.least, group.number * budget / available);
-  const double shared = settings_.shared_variance;
-  constexpr int kRounds = 12, kHalvings = 50;
-  for (int round = 0; round < kRounds; ++round) {
-    const SystemMatrix inverse = inverseNormal(groups, shared);
-    std::vector<double> gain;  // v_p r N^-1 r'
-    for (const Group& group : groups) {
-      gain.push_back(group.variance * (group.row * inverse * group.row.transpose()).value());
-    }
-    const auto numberAt = [&](std::size_t g, double lambda) {
-      const Group& group = groups[g];
-      const double number = (std::sqrt(gain[g] / lambda) - group.variance) / shared;
-      return std::clamp(number, group.least, static_cast<double>(group.members.size()));
-    };
-    double low = -80.0, high = 80.0;  // ln lambda: fewer pairs with more
-    for (int halving = 0; halving < kHalvings; ++halving) {
-      const double middle = 0.5 * (low + high);
-      double total = 0.0;
-      for (std::size_t g = 0; g < groups.size(); ++g) total += numberAt(g, std::exp(middle));
-      (total > budget ? low : high) = middle;
-    }
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g].number = numberAt(g, std::exp(high));
+  const auto numberAt = [](const Group& group, double factor) {
+    const auto size = static_cast<double>(group.members.size());
+    return std::clamp(factor * size * group.influence, group.least, size);
+  };
+  double low = -80.0, high = 80.0;  // ln factor
+  constexpr int kHalvings = 60;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const double middle = 0.5 * (low + high);
+    double total = 0.0;
+    for (const Group& group : groups) total += numberAt(group, std::exp(middle));
+    (total > budget ? high : low) = middle;
+  }
+  for (Group& group : groups) group.number = numberAt(group, std::exp(low));
+}
+
+void PairSelection::takeMembers(std::vector<Group>& groups) {
+  double owed = 0.0;  // fractions of pairs carried from group to group, so that the sum holds
+  for (Group& group : groups) {
+    const std::size_t size = group.members.size();
+    const double wanted = std::max(1.0, group.number + owed);
+    const auto taken = std::min(size, static_cast<std::size_t>(wanted));
+    owed = std::clamp(group.number + owed - static_cast<double>(taken), -1.0, 1.0);
+    for (std::size_t k = 0; k < taken; ++k) group.taken.push_back(group.members[k * size / taken]);
+  }
+  for (const auto& [where, members] : meetingsOf(groups)) {
+    std::vector<const Group*> meeting;
+    for (const std::size_t g : members) meeting.push_back(&groups[g]);
+    moveToAll(meeting);
+  }
+  for (auto& pairs : chosen_) {
+    std::sort(pairs.begin(), pairs.end(),
+              [](const ChosenPair& a, const ChosenPair& b) { return a.index < b.index; });
   }
 }
 
-void PairSelection::takeMembers(const std::vector<Group>& groups) {
-  double owed = 0.0;  // fractions of pairs carried from group to group, so that the sum holds
-  for (const Group& group : groups) {
-    const std::size_t size = group.members.size();
-    const double wanted = group.number + owed;
-    const std::size_t taken =
-        std::min(size, static_cast<std::size_t>(std::max(0.0, std::floor(wanted))));
-    owed = std::min(1.0, wanted - static_cast<double>(taken));
-    for (std::size_t k = 0; k < taken; ++k) {
-      chosen_[group.area].push_back(group.members[k * size / taken]);
+void PairSelection::moveToAll(const std::vector<const Group*>& meeting) {
+  Displacement all, part;
+  std::vector<double> factors;
+  for (const Group* group : meeting) {
+    double whole = 0.0, taken = 0.0;
+    for (const Group::Member& member : group->members) {
+      all.add(member.normal, member.weight, member.residual);
+      whole += member.weight;
     }
+    for (const Group::Member& member : group->taken) taken += member.weight;
+    factors.push_back(whole / taken);
+    for (const Group::Member& member : group->taken)
+      part.add(member.normal, factors.back() * member.weight, member.residual);
   }
-  for (auto& indices : chosen_) std::sort(indices.begin(), indices.end());
+  // Level ground shows no horizontal displacement, and needs none.
+  constexpr double kNothing = 1e-9;
+  part.normal.diagonal().array() += kNothing * part.normal.trace();
+  const Eigen::Vector3d move = part.normal.ldlt().solve(all.right - part.right);
+  for (std::size_t g = 0; g < meeting.size(); ++g) {
+    for (const Group::Member& member : meeting[g]->taken)
+      chosen_[meeting[g]->area].push_back(
+          {member.index, factors[g], member.sign * member.normal.dot(move)});
+  }
 }
 
 std::size_t PairSelection::chosenCount() const {
   std::size_t count = 0;
-  for (const auto& indices : chosen_) count += indices.size();
+  for (const auto& pairs : chosen_) count += pairs.size();
   return count;
 }
 

@@ -67,9 +67,8 @@ PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
   return {std::min(o.a, o.b), std::max(o.a, o.b)};
 }
 
-void PairWeights::update(const std::vector<AreaObservations>& observations,
-                         const std::vector<std::vector<double>>& residuals, bool reject,
-                         int threads) {
+void PairWeights::findScales(const std::vector<AreaObservations>& observations,
+                             const std::vector<std::vector<double>>& residuals, int threads) {
   std::map<Group, Values> groups;
   for (std::size_t area = 0; area < observations.size(); ++area) {
     for (std::size_t i = 0; i < observations[area].size(); ++i) {
@@ -88,13 +87,18 @@ void PairWeights::update(const std::vector<AreaObservations>& observations,
   pointing_ = kFactors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
                                                 costs.begin())];
   for (const auto& [group, values] : groups) scales_[group] = scatterOf(values, pointing_);
+}
+
+void PairWeights::update(const std::vector<AreaObservations>& observations,
+                         const std::vector<std::vector<double>>& residuals, bool reject) {
   double squares = 0.0;
   kept_ = 0;
   weights_.assign(observations.size(), {});
   for (std::size_t area = 0; area < observations.size(); ++area) {
     for (std::size_t i = 0; i < observations[area].size(); ++i) {
       const PairObservation& o = observations[area][i];
-      const double scale = scales_[groupOf(o)];
+      const auto found = scales_.find(groupOf(o));
+      const double scale = found == scales_.end() ? 1.0 : found->second;
       const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
       const double residual = residuals[area][i];
       const double robust = robustWeight(residual / std::sqrt(variance), reject);

@@ -58,6 +58,8 @@ struct QuasiRigorousCalibration::State {
   int looks = 0;             ///< how often it was looked for
   bool levels_rest = false;  ///< whether the last look left them as they were
   AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
+  bool choose_again = false;   ///< of all pairs, in the next iteration
+  bool chosen_at_end = false;  ///< whether that was done where all had come to rest
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;
@@ -121,9 +123,8 @@ void QuasiRigorousCalibration::lookAtControl(const State& state) {
 void QuasiRigorousCalibration::selectPairs(State& state) {
   PairSelectionSettings settings;
   settings.budget = settings_.pair_budget;
-  const double local = settings_.shared_errors.local;
-  settings.shared_variance = 2.0 * local * local;  // of either strip
-  const PairSelection selection(state.observations, state.weights.weights(), settings);
+  const PairSelection selection(state.observations, state.weights.weights(), state.adjustment,
+                                state.choice.solution, settings);
   parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
     matchers_[i].keep(state.observations[i], selection.chosen()[i]);
   });
@@ -134,10 +135,14 @@ void QuasiRigorousCalibration::weigh(State& state) const {
   std::vector<std::vector<double>> residuals(state.observations.size());
   parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
     for (const PairObservation& o : state.observations[area]) {
-      residuals[area].push_back(state.adjustment.residual(o, state.choice.solution));
+      residuals[area].push_back(state.adjustment.residual(o, state.choice.solution) - o.offset);
     }
   });
-  state.weights.update(state.observations, residuals, state.solved, settings_.threads);
+  // Chosen pairs are not like all: mostly slopes, far from the line of flight.
+  if (state.seekers == AreaMatcher::Seekers::candidates) {
+    state.weights.findScales(state.observations, residuals, settings_.threads);
+  }
+  state.weights.update(state.observations, residuals, state.solved);
 }
 
 void QuasiRigorousCalibration::choose(State& state) const {
@@ -232,12 +237,13 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   constexpr std::size_t kCoarseAtMost = 12;
   const std::size_t done = result.iterations.size();
   const bool rests = done > 0 && result.iterations.back().largest_update < kNearlyAtRest;
-  if (state.coarse && (rests || done >= kCoarseAtMost)) {
-    state.coarse = false;
-    if (state.seekers == AreaMatcher::Seekers::kept) {  // choose again, seen at their places
-      state.seekers = AreaMatcher::Seekers::candidates;
-      pairUp(state);
-    }
+  const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
+  if (arrives) state.coarse = false;
+  // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
+  if ((arrives || state.choose_again) && state.seekers == AreaMatcher::Seekers::kept) {
+    state.seekers = AreaMatcher::Seekers::candidates;
+    state.choose_again = false;
+    pairUp(state);
   }
   state.levels_open = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
   if (state.levels_open) ++state.looks;
@@ -251,6 +257,10 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   if (progress_) progress_(result.iterations.back());
   result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
                      (effect < settings_.convergence || restsWithin(state, before));
+  if (result.converged && settings_.pair_budget > 0 && !state.chosen_at_end) {
+    state.choose_again = state.chosen_at_end = true;
+    result.converged = false;
+  }
   const BiasEvaluator correction(trajectory_, biases);
   parallelFor(matchers_.size(), settings_.threads,
               [&](std::size_t i) { matchers_[i].correct(correction); });

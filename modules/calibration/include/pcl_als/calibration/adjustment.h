@@ -76,6 +76,10 @@ class Adjustment {
   /// determine.
   const SystemMatrix& reducedNormal() const;
 
+  /// An observation's row of the reduced equations: what it shows of the parameters where the
+  /// shared errors take over what they can (local shifts excepted).
+  SystemRow reducedRow(const PairObservation& observation) const;
+
   /// What each area contributes to the determination of these parameters: its part of the trace of
   /// N^-1 N, in [0, 1].
   std::vector<double> informationShares(const std::vector<SystemParameter>& estimate) const;

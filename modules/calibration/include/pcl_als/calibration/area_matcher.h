@@ -14,6 +14,7 @@
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/calibration/pair_selection.h>
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/tin/patch_surface.h>
@@ -63,8 +64,9 @@ class AreaMatcher {
 
   /// Which points look for patches: all candidates, or those of the observations last kept.
   enum class Seekers { candidates, kept };
-  /// Keeps the points of these observations (of match()) as seekers of the same patches.
-  void keep(const AreaObservations& observations, const std::vector<std::size_t>& chosen);
+  /// Keeps the points of these observations (of match()) as seekers of the same patches; their
+  /// pairs weigh as much as those they stand for.
+  void keep(const AreaObservations& observations, const std::vector<ChosenPair>& chosen);
 
   /// The TIN of a strip, as corrected last; empty where the strip has hardly a point here.
   const PatchSurface& surfaceOf(int strip) const {
@@ -112,7 +114,11 @@ class AreaMatcher {
 
   SurveyArea area_;
   std::vector<StripPart> strips_;
-  std::map<std::pair<int, int>, std::vector<std::int32_t>> kept_;  ///< points of the first strip
+  struct Seeker {
+    std::int32_t point = 0;
+    double sharing = 1.0, offset = 0.0;  ///< of its pair, see ChosenPair
+  };
+  std::map<std::pair<int, int>, std::vector<Seeker>> kept_;  ///< points of the first strip
   PatchLimits limits_;
   SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
 };

@@ -39,6 +39,7 @@ struct PairObservation {
   /// metres. The rows are those of the corrected geometry, so that the solution is of the model
   /// itself and not of its linearisation at the biased points.
   double misclosure = 0.0;
+  double offset = 0.0;    ///< part of the misclosure that is of other pairs, see ChosenPair, metres
   double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
   double pointing = 0.0;  ///< part of it that comes from pointing and footprint, m^2
   /// Variance and the covariances with all other pairs of the area, over the variance: a point

@@ -25,11 +25,15 @@ class PairWeights {
   using Group = std::pair<int, int>;
   static Group groupOf(const PairObservation& observation);
 
-  /// \param residuals by area and observation, metres
+  /// Finds how noisy pairs are. \param residuals by area and observation, metres
+  void findScales(const std::vector<AreaObservations>& observations,
+                  const std::vector<std::vector<double>>& residuals, int threads = 0);
+
+  /// Weighs by the scales found last.
   /// \param reject whether residuals may be called outliers: not while they are full of what is
   /// sought
   void update(const std::vector<AreaObservations>& observations,
-              const std::vector<std::vector<double>>& residuals, bool reject, int threads = 0);
+              const std::vector<std::vector<double>>& residuals, bool reject);
 
   /// Robust weight times the model's variance over the scatter found, over what the pair shares
   /// with others, for Adjustment::accumulate.
