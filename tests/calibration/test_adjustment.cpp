@@ -7,63 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/errors.h>
+
+#include "simulated_observations.h"
 
 namespace pcl_als {
 namespace {
-
-using P = SystemParameter;
-const std::vector<P> kSix{P::lever_arm_x,    P::lever_arm_y,       P::boresight_pitch,
-                          P::boresight_roll, P::boresight_heading, P::scan_angle_scale};
-
-SharedErrorModel model(double correlation_time = 30.0) {
-  SharedErrorModel errors;
-  errors.correlation_time = correlation_time;
-  errors.knot_spacing = 10.0;
-  errors.local = 1e-7;
-  return errors;
-}
-
-/// Rows with the sizes that real ones have, two strips of 25 s, misclosures of given biases plus
-/// noise.
-std::vector<AreaObservations> simulated(const SystemVector& biases, double noise, unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform;
-  std::vector<AreaObservations> areas(20);
-  for (AreaObservations& area : areas) {
-    for (int i = 0; i < 50; ++i) {
-      PairObservation o;
-      o.a = i % 2, o.b = 1 - o.a;
-      o.time_a = 25.0 * uniform(random), o.time_b = 100.0 + 25.0 * uniform(random);
-      if (o.a == 1) std::swap(o.time_a, o.time_b);
-      o.normal = Eigen::Vector3d(0.3 * normal(random), 0.3 * normal(random), 1.0).normalized();
-      for (int p = 0; p < kSystemParameterCount; ++p) {
-        const bool angle = p >= 3 && p <= 5;
-        o.row_a[p] = (angle || p == 7 ? 300.0 : 0.3) * normal(random);
-        o.row_b[p] = (angle || p == 7 ? 300.0 : 0.3) * normal(random);
-      }
-      o.row_a[indexOf(P::lever_arm_z)] = o.row_b[indexOf(P::lever_arm_z)] = o.normal.z();
-      o.variance = 0.0004;
-      o.misclosure = o.row() * biases + noise * normal(random);
-      area.push_back(o);
-    }
-  }
-  return areas;
-}
-
-std::vector<std::vector<double>> unitWeights(const std::vector<AreaObservations>& areas) {
-  std::vector<std::vector<double>> weights;
-  for (const AreaObservations& area : areas) weights.emplace_back(area.size(), 1.0);
-  return weights;
-}
-
-SystemVector someBiases() {
-  SystemVector biases;
-  biases << 0.03, -0.05, 0.0, -1.4e-4, 4.3e-4, 2e-5, 0.0, 1e-4;
-  return biases;
-}
 
 TEST(SharedErrors, PriorIsTheGaussMarkovCovariance) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 105.0}}, model());
@@ -336,68 +285,6 @@ TEST(Adjustment, DoesNotDependOnTheNumberOfThreads) {
   eight.accumulate(areas, weights);
   EXPECT_EQ(one.solve(kSix, SystemVector::Zero()).biases,
             eight.solve(kSix, SystemVector::Zero()).biases);
-}
-
-TEST(ParameterChoice, DropsWhatTheObservationsDoNotSee) {
-  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
-  auto areas = simulated(someBiases(), 0.0, 5);
-  for (AreaObservations& area : areas) {
-    for (PairObservation& o : area)
-      o.row_a[indexOf(P::lever_arm_x)] = o.row_b[indexOf(P::lever_arm_x)] = 0.0;
-  }
-  const auto weights = unitWeights(areas);
-  Adjustment adjustment(errors);
-  adjustment.accumulate(areas, weights);
-  const ParameterChoice choice =
-      chooseParameters(adjustment, kSix, SystemVector::Zero(), DeterminationLimits(), 1.0);
-  EXPECT_EQ(choice.status[indexOf(P::lever_arm_x)], ParameterStatus::not_estimable);
-  EXPECT_EQ(choice.reason[indexOf(P::lever_arm_x)], "the observations do not depend on it");
-  EXPECT_EQ(choice.estimate.size(), 5U);
-  EXPECT_EQ(choice.status[indexOf(P::range_bias)], ParameterStatus::fixed);  // was not wanted
-}
-
-TEST(ParameterChoice, OfTwoThatLookAlikeTheLeverArmGoes) {
-  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
-  auto areas = simulated(someBiases(), 0.02, 6);
-  for (AreaObservations& area : areas) {
-    for (PairObservation& o :
-         area) {  // a single flying height: pitch moves points as a lever arm does
-      o.row_a[indexOf(P::lever_arm_y)] = o.row_a[indexOf(P::boresight_pitch)] / 1000.0;
-      o.row_b[indexOf(P::lever_arm_y)] = o.row_b[indexOf(P::boresight_pitch)] / 1000.0;
-    }
-  }
-  const auto weights = unitWeights(areas);
-  Adjustment adjustment(errors);
-  adjustment.accumulate(areas, weights);
-  const ParameterChoice choice =
-      chooseParameters(adjustment, kSix, SystemVector::Zero(), DeterminationLimits(), 1.0);
-  EXPECT_EQ(choice.status[indexOf(P::lever_arm_y)], ParameterStatus::not_estimable);
-  EXPECT_NE(choice.reason[indexOf(P::lever_arm_y)].find("boresight_pitch"), std::string::npos);
-  EXPECT_EQ(choice.status[indexOf(P::boresight_pitch)], ParameterStatus::estimated);
-}
-
-/// 2026-11-21: with every parameter dropped the solution had no shared errors, and residuals read
-/// past their end.
-TEST(ParameterChoice, WithNothingLeftResidualsAreTheMisclosures) {
-  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
-  auto areas = simulated(someBiases(), 0.02, 7);
-  for (AreaObservations& area : areas) {
-    for (PairObservation& o : area) o.row_a.setZero(), o.row_b.setZero();
-  }
-  const auto weights = unitWeights(areas);
-  Adjustment adjustment(errors);
-  adjustment.accumulate(areas, weights);
-  const ParameterChoice choice =
-      chooseParameters(adjustment, kSix, SystemVector::Zero(), DeterminationLimits(), 1.0);
-  EXPECT_TRUE(choice.estimate.empty());
-  ASSERT_EQ(choice.solution.shared.size(), errors.unknowns());
-  EXPECT_EQ(adjustment.residual(areas[0][0], choice.solution), areas[0][0].misclosure);
-}
-
-TEST(ParameterChoice, WritesValuesInTheirUnit) {
-  EXPECT_EQ(inUnit(P::lever_arm_x, 0.1234), "0.123 m");
-  EXPECT_EQ(inUnit(P::boresight_roll, 10.0 * kRadiansPerArcsec), "10 arcsec");
-  EXPECT_EQ(inUnit(P::scan_angle_scale, 3e-4), "0.0003");
 }
 
 }  // namespace
