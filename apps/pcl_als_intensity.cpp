@@ -115,13 +115,13 @@ bool reliable(const CommandLine& line, const app::IntensityReport& report) {
 }
 
 void writeReport(const CommandLine& line, const app::IntensityReport& report,
-                 const app::IntensityPage& page, bool reliable) {
+                 const app::IntensityPage* page, bool reliable) {
   const std::filesystem::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
   app::writeIntensityReport(folder, report);
-  page.write(line, report, reliable);
-  step.done(app::IntensityPage::draws() ? "report.html with pictures, report.md, CSV"
-                                        : "report.md, CSV; no report.html: built without VTK");
+  if (page != nullptr) page->write(line, report, reliable);
+  step.done(page != nullptr ? "report.html with pictures, report.md, CSV"
+                            : "report.md, CSV; no report.html: built without VTK");
 }
 
 void checkCombinations(const CommandLine& line) {
@@ -151,7 +151,7 @@ int intensity(int argc, const char* const* argv) {
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
 
   app::IntensityOutcome outcome(run.strips().size());
-  app::IntensityPage page(run, line.has("report"), outcome);
+  const auto page = line.has("report") ? app::loadIntensityPage(run, outcome) : nullptr;
   app::IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
@@ -164,7 +164,7 @@ int intensity(int argc, const char* const* argv) {
   }
   if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
   const bool answered = reliable(line, report);
-  if (line.has("report")) writeReport(line, report, page, answered);
+  if (line.has("report")) writeReport(line, report, page.get(), answered);
   return answered ? app::kDone : app::kNoReliableAnswer;
 }
 

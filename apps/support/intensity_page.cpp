@@ -194,14 +194,7 @@ void addPoints(const IntensityReport& intensity, HtmlReport& report) {
   }
 }
 
-}  // namespace
-
-struct IntensityPage::State {
-  StripCoverage coverage;
-};
-
-IntensityPage::IntensityPage(const IntensityRun& run, bool wanted, IntensityOutcome& outcome) {
-  if (!wanted) return;
+StripCoverage emptyCoverage(const IntensityRun& run) {
   Eigen::AlignedBox2d box;
   for (std::size_t i = 0; i < run.files(); ++i) {
     for (const PointSource& source : run.input(i).survey().sources.sources) {
@@ -210,21 +203,26 @@ IntensityPage::IntensityPage(const IntensityRun& run, bool wanted, IntensityOutc
     }
   }
   if (box.isEmpty() || run.strips().empty()) box.extend(Eigen::Vector2d(Eigen::Vector2d::Zero()));
-  state_ = std::make_unique<State>(
-      State{{box.min(), box.max(), std::max<std::size_t>(1, run.strips().size())}});
-  outcome.seen = [this](int strip, const Eigen::Vector3d& place) {
-    state_->coverage.add(place, static_cast<std::size_t>(strip));
-  };
+  return {box.min(), box.max(), std::max<std::size_t>(1, run.strips().size())};
 }
 
-IntensityPage::~IntensityPage() = default;
+class DrawnIntensityPage : public IntensityPage {
+ public:
+  DrawnIntensityPage(const IntensityRun& run, IntensityOutcome& outcome)
+      : coverage_(emptyCoverage(run)) {
+    outcome.seen = [this](int strip, const Eigen::Vector3d& place) {
+      coverage_.add(place, static_cast<std::size_t>(strip));
+    };
+  }
+  void write(const CommandLine& line, const IntensityReport& intensity,
+             bool reliable) const override;
 
-bool IntensityPage::draws() {
-  return true;
-}
+ private:
+  StripCoverage coverage_;
+};
 
-void IntensityPage::write(const CommandLine& line, const IntensityReport& intensity,
-                          bool reliable) const {
+void DrawnIntensityPage::write(const CommandLine& line, const IntensityReport& intensity,
+                               bool reliable) const {
   const IntensityRun& run = *intensity.run;
   HtmlReport report("Intensity of " + std::to_string(run.strips().size()) + " strips",
                     line.toolAndVersion());
@@ -235,7 +233,7 @@ void IntensityPage::write(const CommandLine& line, const IntensityReport& intens
   addClasses(intensity, report);
   addEstimates(intensity, report);
   addPoints(intensity, report);
-  if (!run.strips().empty()) addMap(line, state_->coverage, run.strips(), {}, report);
+  if (!run.strips().empty()) addMap(line, coverage_, run.strips(), {}, report);
   std::vector<std::string> inputs;
   for (std::size_t i = 0; i < run.files(); ++i) inputs.push_back(run.input(i).path());
   for (const char* option : {"trajectory", "targets", "radiometry"})
@@ -244,4 +242,12 @@ void IntensityPage::write(const CommandLine& line, const IntensityReport& intens
   report.write(line.text("report"));
 }
 
+}  // namespace
 }  // namespace pcl_als::app
+
+/// What loadIntensityPage() looks for.
+extern "C" __attribute__((visibility("default"))) pcl_als::app::IntensityPage*
+pcl_als_make_intensity_page(const pcl_als::app::IntensityRun& run,
+                            pcl_als::app::IntensityOutcome& outcome) {
+  return new pcl_als::app::DrawnIntensityPage(run, outcome);
+}

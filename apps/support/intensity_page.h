@@ -17,19 +17,19 @@ namespace pcl_als::app {
  */
 class IntensityPage {
  public:
-  /// \a outcome: has to live as long as files are written; tells where their points are.
-  IntensityPage(const IntensityRun& run, bool wanted, IntensityOutcome& outcome);
-  ~IntensityPage();
-  IntensityPage(const IntensityPage&) = delete;
-  IntensityPage& operator=(const IntensityPage&) = delete;
-
-  static bool draws();
+  virtual ~IntensityPage() = default;
   /// Writes into the folder of option -report.
-  void write(const CommandLine& line, const IntensityReport& report, bool reliable) const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+  virtual void write(const CommandLine& line, const IntensityReport& report,
+                     bool reliable) const = 0;
 };
+
+/** \brief A page that sees where the points are that go into \a outcome; null without VTK.
+ *
+ * The page is a library of its own, loaded here: those of its pictures take longer to load than a
+ * million points take to correct, and few runs write a report.
+ * \throw InputError when it is not where it was installed
+ */
+std::unique_ptr<IntensityPage> loadIntensityPage(const IntensityRun& run,
+                                                 IntensityOutcome& outcome);
 
 }  // namespace pcl_als::app

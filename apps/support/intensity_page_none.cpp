@@ -4,17 +4,9 @@
 
 namespace pcl_als::app {
 
-struct IntensityPage::State {};
-
-IntensityPage::IntensityPage(const IntensityRun& /*run*/, bool /*wanted*/,
-                             IntensityOutcome& /*outcome*/) {}
-IntensityPage::~IntensityPage() = default;
-
-bool IntensityPage::draws() {
-  return false;
+std::unique_ptr<IntensityPage> loadIntensityPage(const IntensityRun& /*run*/,
+                                                 IntensityOutcome& /*outcome*/) {
+  return nullptr;
 }
-
-void IntensityPage::write(const CommandLine& /*line*/, const IntensityReport& /*report*/,
-                          bool /*reliable*/) const {}
 
 }  // namespace pcl_als::app
