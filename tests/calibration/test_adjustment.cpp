@@ -274,6 +274,8 @@ TEST(Adjustment, HoldsWhatIsNotEstimated) {
   EXPECT_DOUBLE_EQ(solution.biases[indexOf(P::lever_arm_x)], 0.03);
   EXPECT_NEAR(solution.biases[indexOf(P::boresight_pitch)], -1.4e-4, 1e-10);
   EXPECT_NEAR(solution.biases[indexOf(P::boresight_roll)], 4.3e-4, 1e-10);
+  EXPECT_FALSE(adjustment.solve({}, held).solved);
+  EXPECT_EQ(adjustment.solve({}, held).biases, held);
 }
 
 TEST(Adjustment, DoesNotDependOnTheNumberOfThreads) {

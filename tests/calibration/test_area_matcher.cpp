@@ -117,6 +117,22 @@ TEST(AreaMatcher, TakesNothingFromTrees) {
   }
 }
 
+TEST(AreaMatcher, AControlPointsErrorIsOneInAllStrips) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(1, -8.0, 58.0, {0, 0, 0}), b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
+  const AreaMatcher matcher = matcherOf(a, b);
+  const std::vector<ControlPoint> control{{"1", {5.0, 45.0, height(5.0, 45.0)}, 0.03}};
+  const AreaObservations found = matcher.matchControl(control, 0.5, trajectory, NoiseModel(), 0.01);
+  ASSERT_EQ(found.size(), 2U);
+  for (const PairObservation& o : found) {
+    EXPECT_EQ(o.a, PairObservation::kControl);
+    EXPECT_NEAR(o.distance(SystemVector::Zero()), o.b == 0 ? 0.0 : 0.05 * o.normal.z(), 0.01);
+    const double own = found[0].normal.z() * found[1].normal.z() * 0.03 * 0.03;
+    EXPECT_NEAR(o.sharing, 1.0 + own / o.variance, 1e-12);
+    EXPECT_GT(o.variance, 0.9 * own);
+  }
+}
+
 TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   const Trajectory trajectory = flight();
   const auto a = sampled(8, -8.0, 58.0, {0, 0, 0}), b = sampled(9, -60.0, 110.0, {0, 0, -0.05});

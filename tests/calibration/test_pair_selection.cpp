@@ -21,6 +21,8 @@ PairObservation pairAt(double x, const Eigen::Vector3d& normal, int a = 0, int b
   PairObservation o;
   o.a = a;
   o.b = b;
+  o.time_a = 10.0 * a;
+  o.time_b = 10.0 * b;
   o.normal = normal;
   o.variance = 4e-4;
   for (const bool second : {false, true}) {
@@ -64,9 +66,6 @@ struct Block {
         weights(unitWeights(areas)),
         errors({{0.0, 1.0}, {10.0, 11.0}, {20.0, 21.0}, {30.0, 31.0}}, model()),
         adjustment(errors) {
-    for (AreaObservations& area : areas) {
-      for (PairObservation& o : area) o.time_a = 10.0 * std::max(o.a, 0), o.time_b = 10.0 * o.b;
-    }
     adjustment.accumulate(areas, weights);
   }
   static SharedErrorModel model() {
@@ -143,6 +142,42 @@ TEST(PairSelection, TellsWhatAllPairsTell) {
   // 7.5 % of the pairs, evenly thinned, would scatter by sqrt(1 / 0.075 - 1) = 3.5 deviations.
   EXPECT_LT(scatterAbout(false), 2.5);
   EXPECT_LT(scatterAbout(true), 0.3);
+}
+
+/// Sums over pairs of what residuals show of a displacement, its changes with either strip's time,
+/// and a ranging share.
+using Shown = Eigen::Matrix<double, 10, 1>;
+Shown shownBy(const Block& block) {
+  const AdjustmentSolution zero = block.adjustment.unsolved(SystemVector::Zero());
+  Shown sum = Shown::Zero();
+  for (const PairObservation& o : block.areas[0]) {
+    Shown row;
+    row << o.normal, o.time_a * o.normal, o.time_b * o.normal, o.stretch;
+    sum += row * block.adjustment.residual(o, zero) / o.variance;
+  }
+  return sum;
+}
+
+TEST(PairSelection, ChosenResidualsSumToThoseOfAll) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  std::vector<AreaObservations> areas(1);
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Vector3d up(0.4 * normal(random), 0.4 * normal(random), 1.0);
+    PairObservation o = pairAt(100.0, up.normalized());
+    o.time_a = uniform(random), o.time_b = 10.0 + uniform(random);
+    o.stretch = 0.1 * normal(random);
+    o.misclosure = 0.02 * normal(random);
+    areas[0].push_back(o);
+  }
+  const Block block(areas);
+  const AdjustmentSolution zero = block.adjustment.unsolved(SystemVector::Zero());
+  const PairSelection selection(block.areas, block.weights, block.adjustment, zero, {500, 0.25});
+  const Shown all = shownBy(block), part = shownBy(chosenOf(block, selection, true)),
+              alone = shownBy(chosenOf(block, selection, false));
+  EXPECT_LT((part - all).norm(), 0.02 * (alone - all).norm());
+  EXPECT_LT((part - all).head<3>().norm(), 1e-5 * (alone - all).head<3>().norm());
 }
 
 TEST(PairSelection, WeighsWhatItKeepsAsMuchAsAll) {

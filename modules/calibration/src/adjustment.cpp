@@ -43,7 +43,8 @@ SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParam
 /// Inverse of a symmetric matrix whose parameters have different units, and the logarithm of its
 /// determinant; false when it is numerically singular.
 bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log_determinant) {
-  if (!matrix.allFinite() || (matrix.diagonal().array() <= 0.0).any()) return false;
+  if (matrix.size() == 0 || !matrix.allFinite()) return false;
+  if ((matrix.diagonal().array() <= 0.0).any()) return false;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
   constexpr double kSingular = 1e-11;  // of a matrix with a unit diagonal

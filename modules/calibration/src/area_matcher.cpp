@@ -310,6 +310,22 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
   return found;
 }
 
+namespace {
+
+/// What pairs of one control point share with each other: the point's own error, in every strip
+/// that passes over it. \a first: the first of them; the rest are the last of \a found.
+void shareControlError(double sigma, std::size_t first, AreaObservations& found) {
+  double up = 0.0;
+  for (std::size_t i = first; i < found.size(); ++i) up += found[i].normal.z();
+  for (std::size_t i = first; i < found.size(); ++i) {
+    PairObservation& o = found[i];
+    const double others = o.normal.z() * (up - o.normal.z()) * sigma * sigma;
+    o.sharing = 1.0 + others / o.variance;
+  }
+}
+
+}  // namespace
+
 AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& control,
                                            double threshold, const Trajectory& trajectory,
                                            const NoiseModel& noise, double default_sigma) const {
@@ -317,6 +333,8 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
   PointGeometry foot(trajectory, noise), vertex(trajectory, noise);
   for (const ControlPoint& point : control) {
     if (!area_.contains(point.position)) continue;
+    const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
+    const std::size_t first = found.size();
     for (std::size_t b = 0; b < strips_.size(); ++b) {
       if (strips_[b].biased.empty()) continue;
       const auto match = strips_[b].surface.vertical(point.position);
@@ -338,13 +356,13 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
                                observation.row() * corrected_for_;
       observation.stretch = -foot.stretch(observation.normal);
       observation.ranges = -foot.range * observation.normal.dot(foot.beam);
-      const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
       const double up = observation.normal.z();
       observation.variance =
           normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;
       observation.pointing = normalVariance(foot.pointing, observation.normal);
       found.push_back(observation);
     }
+    shareControlError(sigma, first, found);
   }
   return found;
 }

@@ -19,7 +19,9 @@ struct PairSelection::Group {
   struct Member {
     std::size_t index;
     Eigen::Vector3d normal;
-    double weight, residual, sign;  ///< residual of the first strip above the second
+    double stretch, weight, residual;  ///< of the first strip above the second, as below
+    Eigen::Array2d times;              ///< of the first strip and the second
+    double sign;
   };
   std::size_t area = 0;
   std::array<int, 2> strips{};
@@ -39,16 +41,31 @@ SystemMatrix worthOf(const SystemMatrix& covariance) {
   return covariance * importance.asDiagonal() * covariance;
 }
 
-/// What pairs show of a displacement of the first strip against the second: N d = h.
-struct Displacement {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+/// Coefficients of what moves the first of two strips against the second: a displacement (3), its
+/// changes with either strip's time (3 each), and the ranging share.
+using Movement = Eigen::Matrix<double, 10, 1>;
 
-  void add(const Eigen::Vector3d& direction, double weight, double residual) {
-    normal += weight * direction * direction.transpose();
-    right += weight * residual * direction;
+/// What pairs show of a movement: N d = h.
+struct MovementEquations {
+  Eigen::Matrix<double, 10, 10> normal = Eigen::Matrix<double, 10, 10>::Zero();
+  Movement right = Movement::Zero();
+
+  void add(const Movement& row, double weight, double residual) {
+    normal += weight * row * row.transpose();
+    right += weight * residual * row;
   }
 };
+
+/// The movement by which \a part shows what \a all show.
+Movement missing(const MovementEquations& all, MovementEquations part) {
+  // Level ground shows no horizontal displacement, and needs none; a few pairs show their noise as
+  // changes with time, which should not be spread over the meeting.
+  constexpr double kNothing = 1e-9, kLittle = 1e-3;
+  const double trace = part.normal.topLeftCorner<3, 3>().trace();
+  part.normal.diagonal().array() += kNothing * trace;
+  part.normal.diagonal().segment<6>(3).array() += kLittle * trace;
+  return part.normal.ldlt().solve(all.right - part.right);
+}
 
 }  // namespace
 
@@ -83,7 +100,9 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
     const double weight = weights[i] / o.variance, sign = o.a < o.b ? 1.0 : -1.0;
     const SystemRow row = adjustment.reducedRow(o);
     group.influence += weight / o.sharing * (row * worth * row.transpose()).value();  // w^2 v
-    group.members.push_back({i, o.normal, weight, sign * adjustment.residual(o, solution), sign});
+    const Eigen::Array2d times(sign > 0.0 ? o.time_a : o.time_b, sign > 0.0 ? o.time_b : o.time_a);
+    group.members.push_back({i, o.normal, sign * o.stretch, weight,
+                             sign * adjustment.residual(o, solution), times, sign});
   }
   std::vector<Group> groups;
   for (auto& [key, group] : here) {
@@ -158,27 +177,31 @@ void PairSelection::takeMembers(std::vector<Group>& groups) {
 }
 
 void PairSelection::moveToAll(const std::vector<const Group*>& meeting) {
-  Displacement all, part;
+  const Eigen::Array2d start = meeting.front()->members.front().times;
+  const auto rowOf = [&start](const Group::Member& member) {
+    const Eigen::Array2d time = member.times - start;
+    Movement row;
+    row << member.normal, time[0] * member.normal, time[1] * member.normal, member.stretch;
+    return row;
+  };
+  MovementEquations all, part;
   std::vector<double> factors;
   for (const Group* group : meeting) {
     double whole = 0.0, taken = 0.0;
     for (const Group::Member& member : group->members) {
-      all.add(member.normal, member.weight, member.residual);
+      all.add(rowOf(member), member.weight, member.residual);
       whole += member.weight;
     }
     for (const Group::Member& member : group->taken) taken += member.weight;
     factors.push_back(whole / taken);
     for (const Group::Member& member : group->taken)
-      part.add(member.normal, factors.back() * member.weight, member.residual);
+      part.add(rowOf(member), factors.back() * member.weight, member.residual);
   }
-  // Level ground shows no horizontal displacement, and needs none.
-  constexpr double kNothing = 1e-9;
-  part.normal.diagonal().array() += kNothing * part.normal.trace();
-  const Eigen::Vector3d move = part.normal.ldlt().solve(all.right - part.right);
+  const Movement move = missing(all, part);
   for (std::size_t g = 0; g < meeting.size(); ++g) {
     for (const Group::Member& member : meeting[g]->taken)
       chosen_[meeting[g]->area].push_back(
-          {member.index, factors[g], member.sign * member.normal.dot(move)});
+          {member.index, factors[g], member.sign * rowOf(member).dot(move)});
   }
 }
 

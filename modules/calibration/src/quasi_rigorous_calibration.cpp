@@ -59,7 +59,7 @@ struct QuasiRigorousCalibration::State {
   bool levels_rest = false;  ///< whether the last look left them as they were
   AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
   bool choose_again = false;   ///< of all pairs, in the next iteration
-  bool chosen_at_end = false;  ///< whether that was done where all had come to rest
+  bool chosen_at_end = false;  ///< whether that was done where all had come to rest, levels too
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;
@@ -239,16 +239,23 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   const bool rests = done > 0 && result.iterations.back().largest_update < kNearlyAtRest;
   const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
   if (arrives) state.coarse = false;
+  const bool look_due = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
   // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
-  if ((arrives || state.choose_again) && state.seekers == AreaMatcher::Seekers::kept) {
+  // The noise of the few is no measure of the levels.
+  const bool first_look = look_due && state.looks == 0;
+  if ((arrives || first_look || state.choose_again) &&
+      state.seekers == AreaMatcher::Seekers::kept) {
     state.seekers = AreaMatcher::Seekers::candidates;
-    state.choose_again = false;
     pairUp(state);
   }
-  state.levels_open = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
+  const bool all = state.seekers == AreaMatcher::Seekers::candidates;
+  state.levels_open = look_due && all;
   if (state.levels_open) ++state.looks;
   adjust(state);
-  if (settings_.pair_budget > 0 && state.seekers == AreaMatcher::Seekers::candidates) {
+  state.chosen_at_end =
+      state.chosen_at_end || (state.choose_again && (state.levels_rest || state.looks >= kLooks));
+  state.choose_again = false;
+  if (settings_.pair_budget > 0 && all) {
     selectPairs(state);
   }
   const SystemVector& biases = state.choice.solution.biases;
@@ -258,7 +265,7 @@ void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) 
   result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
                      (effect < settings_.convergence || restsWithin(state, before));
   if (result.converged && settings_.pair_budget > 0 && !state.chosen_at_end) {
-    state.choose_again = state.chosen_at_end = true;
+    state.choose_again = true;
     result.converged = false;
   }
   const BiasEvaluator correction(trajectory_, biases);

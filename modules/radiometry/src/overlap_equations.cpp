@@ -27,6 +27,16 @@ double weightOf(double points) {
   return 2.0 * points / (points + kPointsOfTexture);
 }
 
+/// By how much deviations have to grow because they are found from scatter themselves: a variance
+/// of n contributions m is known like one of 3 (sum m^2)^2 / sum m^4 - 2 degrees of freedom f, and
+/// (x - true) / deviation then has the variance f / (f - 2) of Student's t.
+/// \param squares, fourths sums of m^2 and m^4
+Eigen::VectorXd scatterDoubt(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& fourths) {
+  constexpr double kLeast = 4.0;
+  const Eigen::ArrayXd freedom = (3.0 * squares.square() / fourths.max(1e-300) - 2.0).max(kLeast);
+  return (freedom / (freedom - 2.0)).sqrt().matrix();
+}
+
 }  // namespace
 
 struct OverlapEquations::Reduced {
@@ -175,6 +185,7 @@ void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighi
   solution.formal =
       weighing.scale * weighing.scale * all.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   solution.covariance = Eigen::MatrixXd::Zero(n, n);
+  Eigen::ArrayXd fourths = Eigen::ArrayXd::Zero(n);
   for (std::size_t at = 0; at < by_cluster_.size();) {
     const std::uint32_t cluster = cluster_[by_cluster_[at]];
     Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
@@ -185,9 +196,12 @@ void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighi
     // An unknown that stands on this cluster alone has no other witness.
     if (!moved.allFinite()) moved.setConstant(kNoWitness);
     solution.covariance += moved * moved.transpose();
+    fourths += moved.array().pow(4);
   }
   const auto clusters = static_cast<double>(clusters_);
+  const Eigen::VectorXd doubt = scatterDoubt(solution.covariance.diagonal(), fourths);
   solution.covariance *= (clusters - 1.0) / clusters;
+  solution.covariance = doubt.asDiagonal() * solution.covariance * doubt.asDiagonal();
 }
 
 OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {

@@ -30,11 +30,12 @@ struct ChosenPair {
  *
  * Pairs of the same area, strips, and class of slope and aspect are a group of much the same rows.
  * Of N in it n are kept, each weighing as much as N / n, so that the equations stay what they were.
- * And where two strips meet in an area the chosen pairs are moved by one displacement s (o.offset =
- * n's), such that sum w n v is that of all pairs there, v their residuals and n their normals: the
- * noise of pairs that were left out still averages out, for rows there are n'A with an A that
- * hardly changes over 50 m. What the chosen ones follow by themselves is how the geometry changes
- * from then on.
+ * And where two strips meet in an area the chosen pairs get offsets n's(t) + c d: a displacement
+ * that changes with the strips' times, and a ranging share. They are such that sum w v n,
+ * sum w v n t and sum w v d are those of all pairs there, v their residuals, n their normals, d
+ * what a ranging share does: the noise of pairs that were left out still averages out, for rows
+ * there are n'A with an A that hardly changes over 50 m but for the time. What the chosen ones
+ * follow by themselves is how the geometry changes from then on.
  *
  * n is in proportion to N q, at most N, at least one: q^2 is the group's mean of w^2 v r C W C r',
  * what the noise of one of its pairs moves the parameters by (w its weight, r its row with the

@@ -68,8 +68,8 @@ struct OverlapResult {
  * ln I_cs = ln rho_c + ln g_s - m ln(r / r0) + k ln cos(theta) - 2 a (r - r0) + e: reflectances of
  * the cells are eliminated, the rest is least squares with Huber's weights. The covariance is a
  * jackknife over clusters of cells (Bell and McCaffrey 2002, CR3), since cells of one roof or field
- * share errors. What all cells share (a receiver that is not linear, a wrong trajectory) no
- * residual shows.
+ * share errors; it counts that the scatter of few clusters is itself uncertain. What all cells
+ * share (a receiver that is not linear, a wrong trajectory) no residual shows.
  *
  * Observability: strips of one height differ little in range, so m and a come apart only in blocks
  * of two heights, and there only where gains are fixed or known; on level ground cos(theta) and r
