@@ -11,39 +11,13 @@
 #include <vector>
 
 #include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/calibration_settings.h>
 #include <pcl_als/calibration/look_check.h>
-#include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 
 namespace pcl_als {
-
-/// Everything a calibration can be told. The defaults suit post-processed survey flights of
-/// 500-3000 m height.
-struct CalibrationSettings {
-  std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
-  NoiseModel noise;
-  SharedErrorModel shared_errors;
-  DeterminationLimits limits;
-  PatchLimits patches;
-  SurveyMap::Selection selection;
-  std::size_t candidates = 100'000;   ///< points that look for patches, all areas
-  std::size_t pair_budget = 0;        ///< pairs that are adjusted, chosen by information; 0: all
-  double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
-  double control_sigma = 0.02;        ///< metres, for control points whose file gives none
-  double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
-  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
-  /// Without attitude in the trajectory: take pitch and crab from the points (AttitudeRecovery);
-  /// false: a vertical system that looks along the line of flight, as in the paper.
-  bool recover_attitude = true;
-  double resolution = 0.001;  ///< metres, coordinate step of the files
-  int max_iterations = 20;
-  double convergence =
-      2e-4;  ///< metres: an update moves no point by more, or no parameter by 1/20 std
-  int threads = 0;
-};
 
 /** \brief Geometric calibration of a LiDAR system (Habib et al. 2011, section 2).
  *
@@ -52,15 +26,20 @@ struct CalibrationSettings {
  * squares, reconstructing the points with Eq. (13) and pairing anew until the corrections vanish.
  *
  * The points are looked at twice, in any order, so that memory depends on the areas chosen and not
- * on the survey: \code QuasiRigorousCalibration calibration(trajectory, settings, anchor); const
- * int strip = calibration.addStrip("1");       // for every strip calibration.survey(strip, points,
- * count);          // first look, all points calibration.chooseAreas(); calibration.load(strip,
- * points, count);            // second look, all points again const CalibrationResult result =
- * calibration.calibrate(); \endcode survey() and load() may run on several threads for different
- * strips. With attitude in the trajectory (Trajectory::Options::use_attitude) the model is the
- * rigorous one of Eq. (1); without, the quasi-rigorous one, in which pitch and crab are those that
- * the points show and roll is zero. Assumes a linear scanner. Memory: 48 bytes per 10 m cell a
- * strip touches, 150 per point in an area, 250 per pair.
+ * on the survey:
+ * \code
+ * QuasiRigorousCalibration calibration(trajectory, settings, anchor);
+ * const int strip = calibration.addStrip("1");   // for every strip
+ * calibration.survey(strip, points, count);      // first look, all points
+ * calibration.chooseAreas();
+ * calibration.load(strip, points, count);        // second look, all points again
+ * const CalibrationResult result = calibration.calibrate();
+ * \endcode
+ * survey() and load() may run on several threads for different strips. With attitude in the
+ * trajectory (Trajectory::Options::use_attitude) the model is the rigorous one of Eq. (1); without,
+ * the quasi-rigorous one, in which pitch and crab are those that the points show and roll is zero.
+ * Assumes a linear scanner. Memory: 48 bytes per 10 m cell a strip touches, about 200 per point in
+ * an area, 400 per pair.
  */
 class QuasiRigorousCalibration {
  public:

@@ -58,7 +58,9 @@ constexpr bool isNoise(std::uint8_t code) {
  * A point that is not classified (beside the raster, rejected, not finite) keeps its code, and so
  * does one of noise (7, 18). Every other field and the order stay; the input is not changed. For a
  * point type of one's own with x, y, z, intensity and classification include
- * impl/land_cover_filter.hpp. \code pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
+ * impl/land_cover_filter.hpp.
+ * \code
+ * pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
  * filter.setClassifier(std::make_shared<pcl_als::PointClassifier>(likelihood, raster));
  * filter.setLocalFrame(strip.frame);
  * filter.setInputCloud(strip.cloud);

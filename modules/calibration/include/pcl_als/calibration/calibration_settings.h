@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/calibration/shared_errors.h>
+#include <pcl_als/calibration/survey_map.h>
+
+namespace pcl_als {
+
+/// Everything a calibration can be told. The defaults suit post-processed survey flights of
+/// 500-3000 m height.
+struct CalibrationSettings {
+  std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
+  NoiseModel noise;
+  SharedErrorModel shared_errors;
+  DeterminationLimits limits;
+  PatchLimits patches;
+  SurveyMap::Selection selection;
+  std::size_t candidates = 100'000;   ///< points that look for patches, all areas
+  std::size_t pair_budget = 0;        ///< pairs that are adjusted (PairSelection); 0: all
+  double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
+  double control_sigma = 0.02;        ///< metres, for control points whose file gives none
+  double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
+  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
+  /// Without attitude in the trajectory: take pitch and crab from the points (AttitudeRecovery);
+  /// false: a vertical system that looks along the line of flight, as in the paper.
+  bool recover_attitude = true;
+  double resolution = 0.001;  ///< metres, coordinate step of the files
+  int max_iterations = 20;
+  /// Metres: an update moves no point by more, or no parameter by 1/20 of its deviation.
+  double convergence = 2e-4;
+  int threads = 0;
+};
+
+}  // namespace pcl_als
