@@ -46,6 +46,13 @@ struct QuasiRigorousCalibration::State {
   long redundancy() const {
     return static_cast<long>(weights.kept()) - static_cast<long>(choice.estimate.size());
   }
+  /// Whether all pairs are adjusted, not a chosen part of them.
+  bool all() const { return seekers == AreaMatcher::Seekers::candidates; }
+  /// Whether the levels need no further look.
+  bool looked() const {
+    constexpr int kLooks = 8;
+    return levels_rest || looks >= kLooks;
+  }
 
   Adjustment adjustment;
   ParameterChoice choice;
@@ -139,7 +146,7 @@ void QuasiRigorousCalibration::weigh(State& state) const {
     }
   });
   // Chosen pairs are not like all: mostly slopes, far from the line of flight.
-  if (state.seekers == AreaMatcher::Seekers::candidates) {
+  if (state.all()) {
     state.weights.findScales(state.observations, residuals, settings_.threads);
   }
   state.weights.update(state.observations, residuals, state.solved);
@@ -228,36 +235,36 @@ bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVecto
                      });
 }
 
-void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
-  const SystemVector before = state.choice.solution.biases;
-  // The levels are looked for where the geometry has come to rest, for what is left of the biases
-  // looks like errors of the trajectory; and they must rest for the iteration to converge.
-  constexpr int kLooks = 8;
+void QuasiRigorousCalibration::openIteration(State& state, const CalibrationResult& result) const {
   constexpr double kNearlyAtRest = 0.005;  // metres
   constexpr std::size_t kCoarseAtMost = 12;
   const std::size_t done = result.iterations.size();
-  const bool rests = done > 0 && result.iterations.back().largest_update < kNearlyAtRest;
+  const bool rests =
+      done > 0 && (state.choose_again || result.iterations.back().largest_update < kNearlyAtRest);
   const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
   if (arrives) state.coarse = false;
-  const bool look_due = !state.coarse && rests && state.looks < kLooks && !state.levels_rest;
+  // The levels are looked for where the geometry has come to rest, for what is left of the biases
+  // looks like errors of the trajectory; and they must rest for the iteration to converge.
+  const bool look_due = !state.coarse && rests && !state.looked();
   // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
   // The noise of the few is no measure of the levels.
   const bool first_look = look_due && state.looks == 0;
-  if ((arrives || first_look || state.choose_again) &&
-      state.seekers == AreaMatcher::Seekers::kept) {
+  if ((arrives || first_look || state.choose_again) && !state.all()) {
     state.seekers = AreaMatcher::Seekers::candidates;
     pairUp(state);
   }
-  const bool all = state.seekers == AreaMatcher::Seekers::candidates;
-  state.levels_open = look_due && all;
+  state.levels_open = look_due && state.all();
   if (state.levels_open) ++state.looks;
+}
+
+void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
+  const SystemVector before = state.choice.solution.biases;
+  const std::size_t done = result.iterations.size();
+  openIteration(state, result);
   adjust(state);
-  state.chosen_at_end =
-      state.chosen_at_end || (state.choose_again && (state.levels_rest || state.looks >= kLooks));
+  state.chosen_at_end = state.chosen_at_end || (state.choose_again && state.looked());
   state.choose_again = false;
-  if (settings_.pair_budget > 0 && all) {
-    selectPairs(state);
-  }
+  if (settings_.pair_budget > 0 && state.all()) selectPairs(state);
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});

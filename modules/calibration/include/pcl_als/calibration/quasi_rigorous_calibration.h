@@ -95,6 +95,8 @@ class QuasiRigorousCalibration {
   void shrinkThreshold(State& state) const;
   /// Whether no parameter moved by more than a small part of its standard deviation.
   static bool restsWithin(const State& state, const SystemVector& before);
+  /// Decides whether levels are looked for, and whether all pairs are adjusted or those chosen.
+  void openIteration(State& state, const CalibrationResult& result) const;
   void iterate(State& state, CalibrationResult& result);
   std::vector<std::string> observability(const State& state,
                                          const std::vector<std::pair<double, double>>& spans,
