@@ -142,7 +142,7 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   for (const CalibrationPoint& p : b) whole.add(1, p);
   whole.prepare(PatchLimits(), 500, 0.001);
   ASSERT_GT(whole.pointCount(), 2 * part.pointCount());
-  const PatchSurface tin_of_part = part.surfaceOf(1), tin_of_whole = whole.surfaceOf(1);
+  const PatchSurface &tin_of_part = part.surfaceOf(1), &tin_of_whole = whole.surfaceOf(1);
   for (const CalibrationPoint& p : a) {
     if (!kArea.contains(p.position)) continue;
     const auto in_part = tin_of_part.closest(p.position, 0.5),

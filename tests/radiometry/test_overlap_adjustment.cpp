@@ -76,6 +76,7 @@ OverlapSettings asked(bool range, bool incidence, bool extinction, bool gains) {
 TEST(OverlapAdjustment, GainsOfTwoStripsByHand) {
   // One strip sees 200, the other 50 in every cell, same range, same angle: gains 2 and 1/2.
   std::vector<SharedCell> cells;
+  cells.reserve(60);
   for (std::int32_t i = 0; i < 60; ++i)
     cells.push_back({i, 0, {{0, 5.0, 200.0, 1000.0, 1.0}, {1, 5.0, 50.0, 1000.0, 1.0}}});
   const OverlapResult result =
@@ -257,7 +258,8 @@ TEST(RadiometricCells, KeepsTheSameShareOfCellsForAllStrips) {
   const RadiometricCells all(2.0), some(2.0, 10);
   int kept = 0;
   for (int i = 0; i < 20000; ++i) {
-    const double x = 700000.0 + 2.0 * (i % 200), y = 5660000.0 + 2.0 * (i / 200);
+    const int column = i % 200, row = i / 200;
+    const double x = 700000.0 + 2.0 * column, y = 5660000.0 + 2.0 * row;
     EXPECT_TRUE(all.wants(x, y));
     kept += some.wants(x, y);
     EXPECT_EQ(some.wants(x, y), some.wants(x + 1.9, y + 1.9));

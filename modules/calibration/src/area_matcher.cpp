@@ -22,6 +22,7 @@ constexpr double kGentle =
 std::vector<std::size_t> sharesOf(const std::vector<std::vector<std::int32_t>>& classes,
                                   std::size_t total) {
   std::vector<std::size_t> sizes;
+  sizes.reserve(classes.size());
   for (const auto& members : classes) sizes.push_back(members.size());
   return evenShares(sizes, total);
 }
