@@ -167,6 +167,15 @@ void writeReport(const CommandLine& line, const CalibrationResult& result,
                                           : "report.md; no report.html: built without VTK");
 }
 
+/// What is not determined is a reason only where it was asked for, or where nothing else is.
+std::string whyNot(const CalibrationResult& result, const CalibrationSettings& settings) {
+  const bool asked = !settings.estimate.empty() || result.correlation_order.empty();
+  const std::string missing = asked ? app::notDetermined(result, "is not") : "";
+  if (!missing.empty()) return missing;
+  return "the adjustment did not come to rest in " + std::to_string(result.iterations.size()) +
+         " iterations" + (settings.pair_budget > 0 ? "; let -select keep more pairs" : "");
+}
+
 int calibrate(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -197,9 +206,7 @@ int calibrate(int argc, char** argv) {
   if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
   if (line.has("report")) writeReport(line, result, calibration, page);
   if (!result.converged) {
-    const std::string why = app::notDetermined(result, "is not");
-    std::cerr << "pcl_als_calibrate: no reliable answer: "
-              << (why.empty() ? "the adjustment did not converge" : why) << std::endl;
+    std::cerr << "pcl_als_calibrate: no reliable answer: " << whyNot(result, settings) << std::endl;
     return app::kNoReliableAnswer;
   }
   if (line.has("corrected")) writeCorrected(line, files, calibration.trajectory(), result);

@@ -47,6 +47,14 @@ for name in lever_arm_y range_bias; do
   checks=$((checks + 1))
   [[ $(value base.json $name status) == not_estimable ]] || failed "Delft: $name is $(value base.json $name status)"
 done
+# Chosen pairs tell what all of them tell.
+expect 0 converged calibrate ahn3_cropped_?.las -trajectory "$flight" -select 20 -output chosen.json
+for name in lever_arm_x boresight_pitch boresight_roll boresight_heading scan_angle_scale; do
+  checks=$((checks + 1))
+  within "$(value chosen.json $name bias)" "$(value base.json $name bias)" \
+    "$(awk -v s="$(value base.json $name std)" 'BEGIN { print 0.3 * s }')" ||
+    failed "Delft: of chosen pairs $name is $(value chosen.json $name bias), of all $(value base.json $name bias)"
+done
 # The northern and the southern half agree within their intervals; what only one of them determines is no matter.
 while read -r half from to; do
   for tile in 1 2; do "$damage" ahn3_cropped_$tile.las $half$tile.las crop_y "$from" "$to"; done

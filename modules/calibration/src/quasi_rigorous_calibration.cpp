@@ -336,8 +336,8 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   lookAtControl(state);
   const CalibrationReport report(ids_, !control_seen_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
-  for (int i = 0; i < settings_.max_iterations && !result.converged && state.observationCount() > 0;
-       ++i) {
+  const int most = (settings_.pair_budget > 0 ? 2 : 1) * settings_.max_iterations;
+  for (int i = 0; i < most && !result.converged && state.observationCount() > 0; ++i) {
     iterate(state, result);
     if (!result.converged) pairUp(state);
   }

@@ -31,7 +31,7 @@ struct CalibrationSettings {
   /// false: a vertical system that looks along the line of flight, as in the paper.
   bool recover_attitude = true;
   double resolution = 0.001;  ///< metres, coordinate step of the files
-  int max_iterations = 20;
+  int max_iterations = 20;    ///< twice as many with a pair_budget: most are of few pairs
   /// Metres: an update moves no point by more, or no parameter by 1/20 of its deviation.
   double convergence = 2e-4;
   int threads = 0;
