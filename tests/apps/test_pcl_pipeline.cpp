@@ -172,7 +172,8 @@ TEST(PclPipeline, BackToPcdWithEveryTimeToTheLastBit) {
 
 TEST(PclPipeline, AUsersOwnPointTypeKeepsItsFields) {
   pcl::PointCloud<UserPoint>::Ptr cloud(new pcl::PointCloud<UserPoint>);
-  for (const PointLidar& p : *makeStrip()) {
+  const Cloud::Ptr strip = makeStrip();
+  for (const PointLidar& p : *strip) {
     UserPoint own{};
     own.getVector4fMap() = p.getVector4fMap();
     own.gps_time = p.gps_time;

@@ -152,7 +152,8 @@ TEST(IntensityCorrection, EmptyAndLonePoints) {
 
 TEST(IntensityCorrection, TakesAUsersPoint) {
   pcl::PointCloud<UserPoint>::Ptr cloud(new pcl::PointCloud<UserPoint>);
-  for (const PointLidar& p : *ground()) {
+  const Cloud::ConstPtr level = ground();
+  for (const PointLidar& p : *level) {
     UserPoint point;
     point.x = p.x, point.y = p.y, point.z = p.z;
     point.intensity = 100.0F;

@@ -12,12 +12,12 @@
 #include "swath.h"
 
 /// A user's own point type: nothing but what the filter needs and one field more.
-struct UserPoint {
+struct EIGEN_ALIGN16 UserPoint {
   PCL_ADD_POINT4D;
   double gps_time;
   std::uint16_t label;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
-} EIGEN_ALIGN16;
+};
 POINT_CLOUD_REGISTER_POINT_STRUCT(UserPoint,
                                   (float, x, x)(float, y, y)(float, z, z)(double, gps_time,
                                                                           gps_time)(std::uint16_t,
