@@ -44,6 +44,13 @@ expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv
 near quasi.json boresight_roll -90 3
 check "attitude from points is told" grep -q '"attitude": "points"' quasi.json
 expect 0 "from the points" apply block/strip1.las quasi.las -trajectory block/trajectory.csv -calibration quasi.json
+# The method as published takes the sensor as vertical: here it is, in the other block it is not.
+expect 0 "converged" calibrate block/strip*.las -trajectory block/trajectory.csv -control block/control.csv \
+  -model quasi_rigorous -vertical -output vertical.json
+near vertical.json boresight_roll -90 3
+check "a vertical sensor is no matter" test "$(grep -c 'is taken as vertical' vertical.json)" = 0
+run calibrate "$block"/strip[12].las -trajectory "$block/trajectory.csv" -model quasi_rigorous -vertical -output tilted.json
+check "a tilted one is" grep -q 'is taken as vertical.*it was not: from the points: pitch' tilted.json
 cut -d, -f1-4 block/trajectory.csv >positions.csv
 expect 2 "roll, pitch and heading" calibrate block/strip*.las -trajectory positions.csv -model rigorous -output no.json
 absent no.json

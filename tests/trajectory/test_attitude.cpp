@@ -193,15 +193,20 @@ TEST(AttitudeRecovery, FindsPitchAndCrab) {
   const AttitudeRecovery::Outcome outcome = even.recover();
   ASSERT_TRUE(outcome.found) << outcome.remark;
   EXPECT_LT(outcome.off_plane, 1e-3);  // 0.03 rad/s over 0.1 s / sqrt(12)
-  std::size_t a = 0, b = 0;
+  std::size_t a = 0, b = 0, c = 0, times = 0;
+  double aside = 0.0;  // squares of what turns the axis out of the line of flight
   for (double time = 0.2; time < 19.8; time += 0.137) {
-    SensorPose found, exact;
+    SensorPose found, exact, level;
     ASSERT_TRUE(outcome.flight->poseAt(time, found, a));
     ASSERT_TRUE(truth.poseAt(time, exact, b));
+    ASSERT_TRUE(flight->poseAt(time, level, c));
+    aside += (exact.rotation.col(1) - level.rotation.col(1)).squaredNorm();
+    ++times;
     // The plane's normal, which roll does not move. Linear motion does not matter; what does is
     // where in the window the pulses happened to be: 0.03 rad/s * 0.1 s / sqrt(200 pulses).
     EXPECT_LT((found.rotation.col(1) - exact.rotation.col(1)).norm(), 1e-3) << time;
   }
+  EXPECT_NEAR(outcome.size, std::sqrt(aside / static_cast<double>(times)), 1e-3);
 }
 
 TEST(AttitudeRecovery, LeavesAScannerWithoutAPlaneAlone) {

@@ -13,6 +13,9 @@ namespace pcl_als {
 namespace {
 
 constexpr double kControlAreaSize = 4.0;  // metres: a control point needs the patch around it only
+// Radians (half a degree): what a tilted or crabbing sensor does to a vertical model's biases of a
+// hundred arc-seconds is then an arc-second.
+constexpr double kVertical = 0.0087;
 
 std::string seconds(double from, double to) {
   std::ostringstream text;
@@ -27,9 +30,7 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
   looks_.emplace_back(trajectory_);
-  if (settings_.recover_attitude && attitude_ == AttitudeSource::none) {
-    recoveries_.emplace_back(trajectory_);
-  }
+  if (attitude_ == AttitudeSource::none) recoveries_.emplace_back(trajectory_);
   return map_.addStrip();
 }
 
@@ -53,6 +54,15 @@ void QuasiRigorousCalibration::recoverAttitude() {
   }
   const AttitudeRecovery::Outcome outcome = recoveries_[0].recover();
   recoveries_.clear();
+  if (!settings_.recover_attitude) {
+    if (outcome.found && outcome.size > kVertical) {
+      warnings_.push_back(
+          "the sensor is taken as vertical and looking along the line of flight, "
+          "it was not: " +
+          outcome.remark + "; deviations do not count that");
+    }
+    return;
+  }
   trajectory_ = outcome.flight;
   if (outcome.found) {
     attitude_ = AttitudeSource::points;

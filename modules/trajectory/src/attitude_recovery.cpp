@@ -142,6 +142,10 @@ AttitudeRecovery::Outcome AttitudeRecovery::recover() const {
     return outcome;
   }
   outcome.found = true;
+  for (const auto& [time, angles] : known) {
+    outcome.size += angles.pitch * angles.pitch + angles.crab * angles.crab;
+  }
+  outcome.size = std::sqrt(outcome.size / static_cast<double>(known.size()));
   outcome.remark = found(known, outcome.off_plane);
   outcome.flight = std::make_shared<const Trajectory>(
       flight_->withAttitude([&](double time) { return interpolated(known, time); }));

@@ -45,6 +45,7 @@ class AttitudeRecovery {
     /// Radians, RMS angle of a bin's pulses with their plane, median over time: mostly motion
     /// within the tenth of a second.
     double off_plane = 0.0;
+    double size = 0.0;   ///< radians, RMS over time of pitch and crab together
     std::string remark;  ///< what was found, or why nothing was
   };
   Outcome recover() const;
