@@ -114,6 +114,16 @@ bool reliable(const CommandLine& line, const app::IntensityReport& report) {
   return !report.reference || report.reference->constant > 0.0;
 }
 
+/// In one line; the reasons of each are in the tables.
+std::string whyNot(const app::IntensityReport& report) {
+  if (report.reference && !(report.reference->constant > 0.0)) {
+    return "no reference target was seen: intensities are relative";
+  }
+  return "not all that -estimate asks for is determined by the overlaps (" +
+         app::notEstimable(*report.overlaps, report.run->strips()) +
+         "): the given values were kept";
+}
+
 void writeReport(const CommandLine& line, const app::IntensityReport& report,
                  const app::IntensityPage* page, bool reliable) {
   const std::filesystem::path folder = line.text("report");
@@ -165,7 +175,9 @@ int intensity(int argc, const char* const* argv) {
   if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
   const bool answered = reliable(line, report);
   if (line.has("report")) writeReport(line, report, page.get(), answered);
-  return answered ? app::kDone : app::kNoReliableAnswer;
+  if (answered) return app::kDone;
+  std::cerr << "pcl_als_intensity: no reliable answer: " << whyNot(report) << std::endl;
+  return app::kNoReliableAnswer;
 }
 
 }  // namespace

@@ -108,6 +108,21 @@ double meanScale(const BeforeAfter& all) {
   return all.after.mean() > 0.0 ? all.before.mean() / all.after.mean() : 1.0;
 }
 
+std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
+  std::string names;
+  const auto add = [&names](const EstimatedTerm& term, const std::string& name) {
+    if (term.status != TermStatus::not_estimable) return;
+    names += (names.empty() ? "" : ", ") + name;
+  };
+  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
+    add(overlaps.terms[t], nameOf(static_cast<RadiometricTerm>(t)));
+  }
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    add(overlaps.gains[i], "gain of strip " + strips[i]);
+  }
+  return names.empty() ? "the adjustment did not come to rest" : names;
+}
+
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
   std::ostringstream out;
   for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {

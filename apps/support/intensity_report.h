@@ -27,6 +27,8 @@ struct IntensityReport {
 
 /// What estimation and targets found, as lines for a user.
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips);
+/// The names of what was asked for and is not estimable, or that nothing came to rest.
+std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips);
 std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
 

@@ -55,7 +55,15 @@ expect 0 'a single target' intensity block/strip*.las -corrected out2 "${flight[
   -target_radius 3 -json targets.json
 check "the constant is written" awk "BEGIN { exit !($(value targets.json 'reflectance constant') > 1000) }"
 run intensity block/strip1.las far.las "${flight[@]}" -targets <(printf 'x,y,reflectance\n0,0,0.5\n')
+said=$(<err.txt)
 check "no target in reach: status $status" test "$status" = 3 -a -s far.las
+check "and says so in one line" test "$said" = "pcl_als_intensity: no reliable answer: no reference target was seen: intensities are relative"
+# One strip has no overlaps to estimate from.
+run intensity block/strip1.las lone.las "${flight[@]}" -estimate strip_gains,range_exponent -quiet
+said=$(<err.txt)
+check "no overlaps: status $status" test "$status" = 3 -a -s lone.las
+check "and names what is missing: $said" \
+  test "${said#pcl_als_intensity: no reliable answer: *(range_exponent, gain of strip}" != "$said"
 expect 2 "line 2, column 'reflectance'" intensity block/strip1.las x.las "${flight[@]}" \
   -targets <(printf 'x,y,reflectance\n0,0,50\n')
 
