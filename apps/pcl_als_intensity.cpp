@@ -109,16 +109,12 @@ void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport
   for (const std::string& warning : report.warnings) app::remark(line, warning);
 }
 
-bool reliable(const CommandLine& line, const app::IntensityReport& report) {
-  if (line.has("estimate") && !report.overlaps->reliable()) return false;
-  return !report.reference || report.reference->constant > 0.0;
-}
-
-/// In one line; the reasons of each are in the tables.
-std::string whyNot(const app::IntensityReport& report) {
+/// In one line, the reasons of each are in the tables; empty where all asked for is answered.
+std::string whyNot(const CommandLine& line, const app::IntensityReport& report) {
   if (report.reference && !(report.reference->constant > 0.0)) {
     return "no reference target was seen: intensities are relative";
   }
+  if (!line.has("estimate") || report.overlaps->reliable()) return "";
   return "not all that -estimate asks for is determined by the overlaps (" +
          app::notEstimable(*report.overlaps, report.run->strips()) +
          "): the given values were kept";
@@ -173,10 +169,10 @@ int intensity(int argc, const char* const* argv) {
     if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
   }
   if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
-  const bool answered = reliable(line, report);
-  if (line.has("report")) writeReport(line, report, page.get(), answered);
-  if (answered) return app::kDone;
-  std::cerr << "pcl_als_intensity: no reliable answer: " << whyNot(report) << std::endl;
+  const std::string missing = whyNot(line, report);
+  if (line.has("report")) writeReport(line, report, page.get(), missing.empty());
+  if (missing.empty()) return app::kDone;
+  std::cerr << "pcl_als_intensity: no reliable answer: " << missing << std::endl;
   return app::kNoReliableAnswer;
 }
 

@@ -95,6 +95,18 @@ void termLine(const std::string& name, const EstimatedTerm& term, std::ostream& 
   out << '\n';
 }
 
+/// \a each(name, term) of the terms, then of the strips' gains.
+template <typename Function>
+void forEachTerm(const OverlapResult& overlaps, const std::vector<std::string>& strips,
+                 const Function& each) {
+  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
+    each(std::string(nameOf(static_cast<RadiometricTerm>(t))), overlaps.terms[t]);
+  }
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    each("gain of strip " + strips[i], overlaps.gains[i]);
+  }
+}
+
 }  // namespace
 
 std::string slopeName(std::size_t bin) {
@@ -110,30 +122,18 @@ double meanScale(const BeforeAfter& all) {
 
 std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
   std::string names;
-  const auto add = [&names](const EstimatedTerm& term, const std::string& name) {
+  forEachTerm(overlaps, strips, [&names](const std::string& name, const EstimatedTerm& term) {
     if (term.status != TermStatus::not_estimable) return;
     names += (names.empty() ? "" : ", ") + name;
-  };
-  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
-    add(overlaps.terms[t], nameOf(static_cast<RadiometricTerm>(t)));
-  }
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    add(overlaps.gains[i], "gain of strip " + strips[i]);
-  }
+  });
   return names.empty() ? "the adjustment did not come to rest" : names;
 }
 
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
   std::ostringstream out;
-  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
-    const auto term = static_cast<RadiometricTerm>(t);
-    if (overlaps.terms[t].status != TermStatus::fixed)
-      termLine(nameOf(term), overlaps.terms[t], out);
-  }
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    if (overlaps.gains[i].status != TermStatus::fixed)
-      termLine("gain of strip " + strips[i], overlaps.gains[i], out);
-  }
+  forEachTerm(overlaps, strips, [&out](const std::string& name, const EstimatedTerm& term) {
+    if (term.status != TermStatus::fixed) termLine(name, term, out);
+  });
   if (overlaps.cells == 0) return out.str();
   out << "Differences of strips in " << overlaps.cells
       << " smooth cells (standard deviation over mean of a cell)\n";
