@@ -43,6 +43,11 @@ CommandLine declare() {
                         "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
                         "control and slowly drifting trajectory errors",
                         "none");
+  line.add<std::string>("error_process",
+                        "of the trajectory errors of -noise realistic: gauss_markov (correlation "
+                        "time 20 s), band_limited (smooth, periods of 12 to 100 s), random_walk, "
+                        "drift (a constant and a linear change in each line), white, jumps",
+                        "gauss_markov");
   line.addOptional("bias",
                    "NAME=VALUE,…: assumed - true in m, arcsec or 1, names as in calibration.json; "
                    "replaces the preset's lever_arm_x=0.05, lever_arm_y=-0.05, "
@@ -123,6 +128,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
                                 line.number("fov", 10.0, 60.0, "degrees") * kRadiansPerDegree);
   options.seed = line.get<std::uint64_t>("seed");
   options.noise = NoiseOptions::named(line.text("noise"));
+  options.noise.process = simulation::errorProcessNamed(line.text("error_process"));
   if (line.has("bias")) simulation::setBiases(line.text("bias"), options.bias);
   options.vertical = line.has("vertical");
   if (line.has("origin")) options.origin = parseOrigin(line.text("origin"));

@@ -142,7 +142,8 @@ nlohmann::ordered_json noiseJson(const simulation::NoiseOptions& noise, const st
     json["trajectory"] = "none";
     return json;
   }
-  json["trajectory"] = {{"process", "first-order Gauss-Markov"},
+  const bool standard = noise.process == simulation::ErrorProcess::gauss_markov;
+  json["trajectory"] = {{"process", standard ? "first-order Gauss-Markov" : nameOf(noise.process)},
                         {"correlation_time_s", noise.correlation_time},
                         {"position_m", noise.position},
                         {"roll_pitch_arcsec", noise.roll_pitch / kRadiansPerArcsec},

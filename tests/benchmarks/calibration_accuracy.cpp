@@ -3,17 +3,19 @@
 //
 // calibration_accuracy [-preset P] [-noise N] [-model rigorous|quasi_rigorous|vertical] [-vertical]
 // [-random] [-seeds FROM:TO] [-density F] [-motion DEG] [-pitch DEG] [-crab DEG] [-bound]
-// [-known_ranging] [-candidates N] [-budget N] [-against N]
+// [-known_ranging] [-candidates N] [-budget N] [-against N] [-error_process NAME] [-scale F]
+// [-lever_arm M]
 //
 // Simulates a block for every seed (-vertical: without attitude motion; -motion, -pitch, -crab:
-// largest roll, mean pitch, largest crab; -random: with biases of its own), calibrates it and
-// prints, as Markdown, what is wrong with each parameter beside what is said to be, how often the
-// truth was inside the 68 % and 95 % intervals, what is left in the corrected points, and the time;
-// with -bound also what the range noise alone would leave (FisherBound); with -known_ranging the
-// instrument's range scale and its error on slopes are known to be zero. -candidates: points that
-// look for patches; -budget: pairs that are adjusted; -against: calibrates each block again with
-// that many candidates and no budget, and prints by how much the estimates differ. It judges
-// nothing.
+// largest roll, mean pitch, largest crab; -random: with biases of its own, -lever_arm: their
+// standard deviation; -scale: factor on the lengths of lines; -error_process: of the trajectory,
+// see pcl_als_simulate), calibrates it and prints, as Markdown, what is wrong with each parameter
+// beside what is said to be, how often the truth was inside the 68 % and 95 % intervals, what is
+// left in the corrected points, and the time; with -bound also what the range noise alone would
+// leave (FisherBound); with -known_ranging the instrument's range scale and its error on slopes are
+// known to be zero. -candidates: points that look for patches; -budget: pairs that are adjusted;
+// -against: calibrates each block again with that many candidates and no budget, and prints by how
+// much the estimates differ. It judges nothing.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -32,10 +34,11 @@ using namespace pcl_als;
 using simulation::SimulationOptions;
 
 struct Options {
-  std::string preset = "paper", noise = "range", model = "quasi_rigorous";
+  std::string preset = "paper", noise = "range", model = "quasi_rigorous", process = "gauss_markov";
   bool vertical = false, random = false, bound = false, known_ranging = false;
   int from = 1, to = 10;
-  double density = 1.0;
+  double density = 1.0, scale = 1.0;
+  double lever_arm = 0.05;  ///< metres
   double candidates = 0, budget = 0, against = 0;
   double motion = 0.5, pitch = 1.0, crab = 3.0;  ///< degrees
 
@@ -51,11 +54,14 @@ struct Options {
       return 1;
     }
     if (value == nullptr) return 0;
-    std::string* const text = name == "-preset"  ? &preset
-                              : name == "-noise" ? &noise
-                              : name == "-model" ? &model
-                                                 : nullptr;
+    std::string* const text = name == "-preset"          ? &preset
+                              : name == "-noise"         ? &noise
+                              : name == "-model"         ? &model
+                              : name == "-error_process" ? &process
+                                                         : nullptr;
     double* const number = name == "-density"      ? &density
+                           : name == "-scale"      ? &scale
+                           : name == "-lever_arm"  ? &lever_arm
                            : name == "-motion"     ? &motion
                            : name == "-pitch"      ? &pitch
                            : name == "-crab"       ? &crab
@@ -95,11 +101,11 @@ std::pair<double, double> systematicError(const simulation::Simulator& simulator
 }
 
 /// Biases of a freshly mounted system, different for every seed.
-SystemVector randomBiases(std::uint64_t seed) {
+SystemVector randomBiases(std::uint64_t seed, double lever_arm) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  const double sigma[kSystemParameterCount] = {0.05,
-                                               0.05,
+  const double sigma[kSystemParameterCount] = {lever_arm,
+                                               lever_arm,
                                                0.0,
                                                100.0 * kRadiansPerArcsec,
                                                100.0 * kRadiansPerArcsec,
@@ -112,14 +118,15 @@ SystemVector randomBiases(std::uint64_t seed) {
 }
 
 SimulationOptions blockOf(const Options& given, int seed) {
-  SimulationOptions options = SimulationOptions::preset(given.preset, 1.0, given.density);
+  SimulationOptions options = SimulationOptions::preset(given.preset, given.scale, given.density);
   options.seed = static_cast<std::uint64_t>(seed);
   options.noise = simulation::NoiseOptions::named(given.noise);
+  options.noise.process = simulation::errorProcessNamed(given.process);
   options.vertical = given.vertical;
   options.attitude_amplitude = given.motion * kRadiansPerDegree;
   options.mean_pitch = given.pitch * kRadiansPerDegree;
   options.largest_crab = given.crab * kRadiansPerDegree;
-  if (given.random) options.bias = randomBiases(options.seed);
+  if (given.random) options.bias = randomBiases(options.seed, given.lever_arm);
   return options;
 }
 
@@ -177,8 +184,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "unknown option %s\n", argv[i]);
     return 1;
   }
-  std::printf("%s block, %s noise, %s, model %s, seeds %d to %d: error (std)\n\n",
-              options.preset.c_str(), options.noise.c_str(),
+  std::printf("%s block, %s noise, %s, %s, model %s, seeds %d to %d: error (std)\n\n",
+              options.preset.c_str(), options.noise.c_str(), options.process.c_str(),
               options.vertical ? "flown vertically" : "attitude motion and crab",
               options.model.c_str(), options.from, options.to);
   bench::AccuracyTable::printHeader();

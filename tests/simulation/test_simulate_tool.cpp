@@ -169,6 +169,7 @@ TEST(SimulateTool, WrongUseIsNamed) {
   expectRefusal("-preset small", "-output");
   expectRefusal(out + " -preset huge", "'huge'");
   expectRefusal(out + " -noise loud", "'loud'");
+  expectRefusal(out + " -error_process loud", "'loud'");
   expectRefusal(out + " -bias roll=3", "'roll'");
   expectRefusal(out + " -bias boresight_roll=1,boresight_roll=2", "twice");
   expectRefusal(out + " -bias boresight_roll=1e9", "boresight_roll");
@@ -205,7 +206,7 @@ TEST(SimulateTool, HelpNamesEveryOption) {
   const ToolRun run = simulate("-h");
   EXPECT_EQ(run.status, 0);
   for (const char* option : {"output", "preset", "scale", "density", "seed", "noise", "bias",
-                             "vertical", "fov", "origin", "truth_points", "time"})
+                             "vertical", "fov", "origin", "truth_points", "time", "error_process"})
     EXPECT_NE(run.output.find("--" + std::string(option)), std::string::npos) << option;
 }
 

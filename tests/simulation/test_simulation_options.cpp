@@ -113,4 +113,13 @@ TEST(SimulationOptions, ImpossibleValuesAreNamed) {
   EXPECT_NE(messageOf([&] { options.check(); }).find("no flight line"), std::string::npos);
 }
 
+TEST(SimulationOptions, ErrorProcessesAreNamed) {
+  for (const char* name :
+       {"gauss_markov", "band_limited", "random_walk", "drift", "white", "jumps"})
+    EXPECT_EQ(nameOf(errorProcessNamed(name)), name);
+  const std::string message = messageOf([] { errorProcessNamed("brownian"); });
+  EXPECT_NE(message.find("'brownian'"), std::string::npos) << message;
+  EXPECT_NE(message.find("band_limited"), std::string::npos) << message;
+}
+
 }  // namespace

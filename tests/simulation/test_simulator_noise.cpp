@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 // The noise that is put in has the size and the correlation that the options state.
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +87,76 @@ TEST(SimulatorNoise, TrajectoryErrorsDriftOverTwentySeconds) {
   EXPECT_GT(correlation(200), 0.93);                     // 1 s: exp(-1/20) = 0.951
   EXPECT_NEAR(correlation(4000), std::exp(-1.0), 0.15);  // 20 s; known to 0.05
   EXPECT_LT(std::abs(correlation(20000)), 0.25);         // 100 s
+}
+
+/// Position errors of forty lines of 106 s each, in standard deviations, one vector per line and
+/// axis; twenty samples per second.
+std::vector<std::vector<double>> errorsOf(ErrorProcess process) {
+  SimulationOptions options = longLine(1000.0);
+  options.lines[0].speed = 10.0;  // 100 s and 3 s before and after
+  for (std::uint16_t id = 2; id <= 40; ++id) {
+    options.lines.push_back(options.lines[0]);
+    options.lines.back().id = id;
+  }
+  options.trajectory_rate = 20.0;
+  options.noise.process = process;
+  const Simulator simulator(options);
+  const auto written = simulator.trajectory(), exact = simulator.trueTrajectory();
+  const std::size_t samples = written.size() / options.lines.size();
+  std::vector<std::vector<double>> errors(3 * options.lines.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const Eigen::Vector3d error = (written[i].position - exact[i].position) / 0.015;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      errors[3 * (i / samples) + axis].push_back(error[static_cast<Eigen::Index>(axis)]);
+  }
+  return errors;
+}
+
+/// Root mean square of the errors and of their changes within one second; share of no change.
+struct ProcessFigures {
+  RunningStatistics size, change;
+  double unchanged = 0.0;
+
+  explicit ProcessFigures(ErrorProcess process) {
+    for (const std::vector<double>& errors : errorsOf(process)) {
+      for (const double error : errors) size.add(error);
+      for (std::size_t i = 20; i < errors.size(); ++i) {
+        change.add(errors[i] - errors[i - 20]);
+        unchanged += std::abs(errors[i] - errors[i - 20]) < 1e-6 ? 1.0 : 0.0;
+      }
+    }
+    unchanged /= static_cast<double>(change.count());
+  }
+};
+
+TEST(SimulatorNoise, EveryErrorProcessHasItsSizeAndItsChangeInOneSecond) {
+  // Worked by hand: sqrt(2 (1 - e^-0.05)); the mean of 2 (1 - cos(2 pi / P)) over periods P whose
+  // logarithms are uniform from 12 to 100 s; sqrt(1/106); 2 sqrt(1.5) / 106; sqrt(2).
+  const std::vector<std::pair<ErrorProcess, double>> expected = {
+      {ErrorProcess::gauss_markov, 0.312}, {ErrorProcess::band_limited, 0.249},
+      {ErrorProcess::random_walk, 0.097},  {ErrorProcess::drift, 0.0231},
+      {ErrorProcess::white, 1.414},        {ErrorProcess::jumps, 0.312}};
+  for (const auto& [process, change] : expected) {
+    const ProcessFigures figures(process);
+    // 120 independent values at least: a root mean square is known to 1 / sqrt(240) = 6.5 %.
+    EXPECT_NEAR(figures.size.rms(), 1.0, 0.2) << nameOf(process);
+    EXPECT_NEAR(figures.change.rms(), change, 0.2 * change) << nameOf(process);
+  }
+}
+
+TEST(SimulatorNoise, JumpsLeaveTheErrorsConstantInBetween) {
+  // No jump within one second: e^(-1/20) = 0.951; 600 jumps in all scatter by 4 %.
+  EXPECT_NEAR(ProcessFigures(ErrorProcess::jumps).unchanged, 0.951, 0.01);
+  EXPECT_LT(ProcessFigures(ErrorProcess::gauss_markov).unchanged, 0.01);
+}
+
+TEST(SimulatorNoise, BandLimitedErrorsAreSmooth) {
+  // Second differences over 0.05 s of the shortest period: at most (2 pi 0.05 / 12)^2 = 7e-4 of
+  // the amplitude, which is below 5 standard deviations; a Gauss-Markov process has 0.1.
+  for (const std::vector<double>& errors : errorsOf(ErrorProcess::band_limited)) {
+    for (std::size_t i = 2; i < errors.size(); ++i)
+      ASSERT_LT(std::abs(errors[i] - 2.0 * errors[i - 1] + errors[i - 2]), 3.5e-3);
+  }
 }
 
 TEST(SimulatorNoise, PointsFollowTheWrittenTrajectory) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "random.h"
+#include "trajectory_errors.h"
 
 namespace pcl_als::simulation {
 
@@ -37,23 +39,6 @@ class Sway {
     double amplitude, rate, phase;
   };
   std::array<Wave, 3> waves_{};
-};
-
-/// First-order Gauss-Markov: exponentially correlated, stationary from the first value.
-class GaussMarkov {
- public:
-  GaussMarkov(double sigma, double step, double correlation_time, Random& random)
-      : keep_(std::exp(-step / correlation_time)),
-        drive_(sigma * std::sqrt(1.0 - keep_ * keep_)),
-        value_(sigma * random.normal()) {}
-  double next(Random& random) {
-    const double value = value_;
-    value_ = keep_ * value_ + drive_ * random.normal();
-    return value;
-  }
-
- private:
-  double keep_, drive_, value_;
 };
 
 /// How the pilot and the air move the aircraft along a line.
@@ -127,17 +112,18 @@ FlownLine::FlownLine(const PlannedLine& plan, const SimulationOptions& options, 
 
 void FlownLine::addErrors(const NoiseOptions& noise, std::uint64_t key) {
   Random random(key);
-  const auto process = [&](double sigma) {
-    return GaussMarkov(sigma, 1.0 / rate_, noise.correlation_time, random);
-  };
-  std::array<GaussMarkov, 6> errors = {process(noise.position),   process(noise.position),
-                                       process(noise.position),   process(noise.roll_pitch),
-                                       process(noise.roll_pitch), process(noise.heading)};
+  const ErrorTiming timing{1.0 / rate_, static_cast<double>(written_.size()) / rate_,
+                           noise.correlation_time};
+  std::array<std::unique_ptr<TrajectoryError>, 6> errors;
+  const std::array<double, 6> sigma = {noise.position,   noise.position,   noise.position,
+                                       noise.roll_pitch, noise.roll_pitch, noise.heading};
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    errors[i] = makeTrajectoryError(noise.process, sigma[i], timing, random);
   for (Pose& pose : written_) {
-    for (int axis = 0; axis < 3; ++axis) pose.position[axis] += errors[axis].next(random);
-    pose.roll += errors[3].next(random);
-    pose.pitch += errors[4].next(random);
-    pose.heading += errors[5].next(random);
+    for (int axis = 0; axis < 3; ++axis) pose.position[axis] += errors[axis]->next(random);
+    pose.roll += errors[3]->next(random);
+    pose.pitch += errors[4]->next(random);
+    pose.heading += errors[5]->next(random);
   }
 }
 

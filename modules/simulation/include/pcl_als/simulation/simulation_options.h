@@ -11,19 +11,21 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/simulation/error_process.h>
 
 namespace pcl_als::simulation {
 
 /// Standard deviations of the errors that are put into the measurements; all zero: none.
 struct NoiseOptions {
-  double range = 0.0;              ///< metres, white, one value per return
-  double scan_angle = 0.0;         ///< radians, white, error of the mirror encoder per pulse
-  double position = 0.0;           ///< metres per axis, trajectory, first-order Gauss-Markov
-  double roll_pitch = 0.0;         ///< radians, trajectory, first-order Gauss-Markov
-  double heading = 0.0;            ///< radians, trajectory, first-order Gauss-Markov
-  double correlation_time = 20.0;  ///< seconds, of the trajectory errors
-  double intensity = 0.0;          ///< relative, white, one value per return
-  double control = 0.0;            ///< metres, heights of the control points
+  double range = 0.0;       ///< metres, white, one value per return
+  double scan_angle = 0.0;  ///< radians, white, error of the mirror encoder per pulse
+  double position = 0.0;    ///< metres per axis, trajectory
+  double roll_pitch = 0.0;  ///< radians, trajectory
+  double heading = 0.0;     ///< radians, trajectory
+  ErrorProcess process = ErrorProcess::gauss_markov;  ///< of the trajectory errors
+  double correlation_time = 20.0;                     ///< seconds, of the trajectory errors
+  double intensity = 0.0;                             ///< relative, white, one value per return
+  double control = 0.0;                               ///< metres, heights of the control points
   bool footprint = false;  ///< returns are formed over the beam's footprint, not along its axis
 
   bool trajectory() const { return position > 0.0 || roll_pitch > 0.0 || heading > 0.0; }
