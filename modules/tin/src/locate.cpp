@@ -75,36 +75,66 @@ std::int32_t Tin::startNear(double x, double y, std::int32_t hint) const {
   return cells < kHintCells ? hint : start_.triangle[start_.cellOf(x, y)];
 }
 
+/// One step of a walk: the side of the position at each edge, and the triangle across an edge that
+/// separates it from the position.
+struct Tin::Step {
+  std::array<double, 3> side{};
+  std::int32_t to = kNone;
+  bool separated = false;  ///< by an edge, possibly one of the hull
+};
+
+/// The edges are tried from \a first on; the edge to the triangle \a from, where the walk came
+/// from, is not tried.
+Tin::Step Tin::stepFrom(std::int32_t at, std::int32_t from, int first, double x, double y) const {
+  const Triangle& t = triangles_[at];
+  Step step;
+  for (int k = 0; k < 3 && step.to == kNone; ++k) {
+    const int i = (first + k) % 3;
+    if (t.neighbour[i] == from && from != kNone) {
+      step.side[i] = 1.0;
+      continue;
+    }
+    const Eigen::Vector3d &a = points_[t.vertex[(i + 1) % 3]], &b = points_[t.vertex[(i + 2) % 3]];
+    step.side[i] = tin::orientation(a.x(), a.y(), b.x(), b.y(), x, y);
+    if (step.side[i] >= 0.0) continue;
+    step.to = t.neighbour[i];
+    step.separated = true;
+  }
+  return step;
+}
+
 Tin::Location Tin::walk(double x, double y, std::int32_t hint) const {
   if (triangles_.empty() || !std::isfinite(x) || !std::isfinite(y)) return {};
   std::int32_t at = startNear(x, y, hint), from = kNone;
-  // In a Delaunay triangulation such a walk never comes back to a triangle. The limit is for points
-  // that were moved and for hints from far away.
-  const auto limit =
-      64 + static_cast<std::size_t>(16.0 * std::sqrt(static_cast<double>(triangles_.size())));
-  for (std::size_t steps = 0; steps < limit; ++steps) {
-    const Triangle& t = triangles_[at];
-    const Eigen::Vector3d* v[3] = {&points_[t.vertex[0]], &points_[t.vertex[1]],
-                                   &points_[t.vertex[2]]};
-    std::array<double, 3> side{};
-    std::int32_t to = kNone;
-    bool outside = false;
-    for (int i = 0; i < 3 && to == kNone; ++i) {
-      if (t.neighbour[i] == from && from != kNone) {
-        side[i] = 1.0;  // the walk came in across this edge
-        continue;
-      }
-      const Eigen::Vector3d &a = *v[(i + 1) % 3], &b = *v[(i + 2) % 3];
-      side[i] = tin::orientation(a.x(), a.y(), b.x(), b.y(), x, y);
-      if (side[i] >= 0.0) continue;
-      to = t.neighbour[i];
-      outside = outside || to == kNone;
-    }
-    if (to == kNone) return outside ? Location{at, false} : Location{lowestHolder(at, side), true};
+  // In a Delaunay triangulation a walk never returns to a triangle; among moved points it may. One
+  // triangle is remembered, a later one after each doubling of the number of steps (Brent, 1980).
+  std::int32_t remembered = kNone;
+  for (std::size_t steps = 0; at != remembered; ++steps) {
+    if ((steps & (steps + 1)) == 0) remembered = at;
+    const Step step = stepFrom(at, from, 0, x, y);
+    if (step.to == kNone)
+      return step.separated ? Location{at, false} : Location{lowestHolder(at, step.side), true};
     from = at;
-    at = to;
+    at = step.to;
   }
-  return searchAll(x, y);
+  return wander(x, y, at);
+}
+
+/// A walk that tries the edges of each triangle in another order, which leaves the cycles that
+/// inverted triangles cause (Devillers, Pion and Teillaud, 2002). The order is a function of the
+/// number of steps, so the result is reproducible. Bounded: beyond the limit the position counts as
+/// in no triangle.
+Tin::Location Tin::wander(double x, double y, std::int32_t at) const {
+  constexpr std::uint32_t kMultiplier = 2654435769U;  // Knuth's multiplicative hash
+  const auto limit =
+      64 + static_cast<std::uint32_t>(4.0 * std::sqrt(static_cast<double>(triangles_.size())));
+  for (std::uint32_t steps = 1; steps < limit; ++steps) {
+    const int first = static_cast<int>(((steps * kMultiplier) >> 16U) % 3U);
+    const Step step = stepFrom(at, kNone, first, x, y);
+    if (step.to == kNone) return {at, !step.separated};
+    at = step.to;
+  }
+  return {at, false};
 }
 
 /// Of the triangles that share the edge or vertex on which a position lies, the lowest index.
@@ -130,19 +160,6 @@ std::int32_t Tin::lowestHolder(std::int32_t triangle, const std::array<double, 3
     }
   }
   return lowest;
-}
-
-Tin::Location Tin::searchAll(double x, double y) const {
-  for (std::size_t k = 0; k < triangles_.size(); ++k) {
-    const auto& v = triangles_[k].vertex;
-    bool holds = true;
-    for (int i = 0; i < 3 && holds; ++i) {
-      const Eigen::Vector3d &a = points_[v[i]], &b = points_[v[(i + 1) % 3]];
-      holds = tin::orientation(a.x(), a.y(), b.x(), b.y(), x, y) >= 0.0;
-    }
-    if (holds) return {static_cast<std::int32_t>(k), true};
-  }
-  return {startNear(x, y, kNone), false};
 }
 
 std::int32_t Tin::locate(double x, double y, std::int32_t hint) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include <pcl_als/tin/tin.h>
 
 #include "delaunay.h"
+#include "exact_orientation.h"
 
 namespace pcl_als {
 namespace {
@@ -90,6 +92,23 @@ void Tin::movePoints(std::vector<Eigen::Vector3d> points) {
     throw UsageError("TIN: cannot move " + std::to_string(points_.size()) + " points to " +
                      std::to_string(points.size()) + " positions");
   points_ = std::move(points);
+  // Few inverted triangles do no harm: walks and searches get past them. Many mean that measured
+  // points have passed each other, as those of the two looks of a conical scanner do.
+  constexpr std::size_t kTrianglesPerInverted = 1000;
+  if (invertedTriangles() * kTrianglesPerInverted > triangles_.size())
+    *this = Tin(std::move(points_), resolution_);
+}
+
+/// Triangles inside the hull that are no longer counter-clockwise. Those along the hull are thin,
+/// turn over for any movement, and are not used to measure on.
+std::size_t Tin::invertedTriangles() const {
+  return static_cast<std::size_t>(
+      std::count_if(triangles_.begin(), triangles_.end(), [this](const Triangle& t) {
+        if (std::count(t.neighbour.begin(), t.neighbour.end(), kNone) > 0) return false;
+        const Eigen::Vector3d &a = points_[t.vertex[0]], &b = points_[t.vertex[1]],
+                              &c = points_[t.vertex[2]];
+        return tin::orientation(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) <= 0.0;
+      }));
 }
 
 bool Tin::certain(std::int32_t triangle, const Eigen::AlignedBox2d& covered) const {

@@ -60,9 +60,11 @@ class Tin {
   std::size_t mergedPoints() const { return merged_; }  ///< points that fell on an earlier one
   double resolution() const { return resolution_; }     ///< metres
 
-  /// Moves the points without changing the topology; for corrections far below the point spacing.
-  /// Same count (else UsageError). locate() and the search follow; certain() speaks of the original
-  /// positions and is to be asked before.
+  /// Moves the points. The topology is kept where it remains a triangulation, which holds for
+  /// corrections far below the point spacing; where more than one in a thousand of the triangles
+  /// inside the hull would be inverted, the points are triangulated again (at the cost of the
+  /// constructor), and triangles are numbered anew. Same count (else UsageError). locate() and the
+  /// search follow; certain() refers to the original positions and is to be asked before.
   void movePoints(std::vector<Eigen::Vector3d> points);
 
   /// The triangle whose plan projection holds (x, y), edges included; of several (on an edge or
@@ -97,7 +99,10 @@ class Tin {
   void buildStartGrid(const Eigen::AlignedBox2d& extent);
   std::int32_t startNear(double x, double y, std::int32_t hint) const;
   std::int32_t lowestHolder(std::int32_t triangle, const std::array<double, 3>& sides) const;
-  Location searchAll(double x, double y) const;
+  struct Step;
+  Step stepFrom(std::int32_t at, std::int32_t from, int first, double x, double y) const;
+  Location wander(double x, double y, std::int32_t at) const;
+  std::size_t invertedTriangles() const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<Triangle> triangles_;
