@@ -85,7 +85,8 @@ struct Tin::Step {
 
 /// The edges are tried from \a first on; the edge to the triangle \a from, where the walk came
 /// from, is not tried.
-Tin::Step Tin::stepFrom(std::int32_t at, std::int32_t from, int first, double x, double y) const {
+inline Tin::Step Tin::stepFrom(std::int32_t at, std::int32_t from, int first, double x,
+                               double y) const {
   const Triangle& t = triangles_[at];
   Step step;
   for (int k = 0; k < 3 && step.to == kNone; ++k) {
