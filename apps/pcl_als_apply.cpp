@@ -36,6 +36,7 @@ CommandLine commandLine() {
   line.addFlag("invert", "put the biases in instead of taking them out");
   line.addFlag("strip_corrections",
                "with -calibration: take out what it found wrong with each strip's trajectory, too");
+  line.addFlag("force", "apply a calibration even if its verdict is not \"usable\"");
   line.addFlag("keep_uncovered",
                "leave points without a trajectory as they are (default: refuse the file)");
   return line;
@@ -60,12 +61,26 @@ SystemVector parseBiases(const std::string& list) {
   return biases;
 }
 
+/// The calibration of -calibration; one that should not be applied only with -force.
+CalibrationResult usableCalibration(const CommandLine& line) {
+  const std::string file = line.text("calibration");
+  CalibrationResult calibration = readCalibration(file);
+  const CalibrationVerdict& verdict = calibration.verdict;
+  if (verdict.usable()) return calibration;
+  if (!line.has("force")) {
+    throw InputError(file + ": this calibration should not be applied, " + verdict.text() +
+                     "; -force applies it all the same");
+  }
+  std::cerr << "pcl_als_apply: warning: " << file << ": " << verdict.text() << std::endl;
+  return calibration;
+}
+
 /// Biases and the trajectory window they belong to; 0 where the file does not say.
 CalibrationResult biasesOf(const CommandLine& line) {
   if (line.has("calibration") == line.has("biases")) {
     throw UsageError("give one of -calibration and -biases (see pcl_als_apply -h)");
   }
-  if (line.has("calibration")) return readCalibration(line.text("calibration"));
+  if (line.has("calibration")) return usableCalibration(line);
   CalibrationResult result;
   const SystemVector biases = parseBiases(line.text("biases"));
   for (int i = 0; i < kSystemParameterCount; ++i) result.parameters[i].bias = biases[i];
@@ -109,7 +124,6 @@ int apply(int argc, char** argv) {
     }
     correction.trajectory_errors = std::make_shared<TrajectoryErrors>(calibration.strip_errors);
   }
-  if (!calibration.converged) app::remark(line, "the calibration did not converge");
   correction.trajectory =
       app::readFlight(line, PointReader::open(files[0])->info().crs,
                       calibration.line_fit_half_width, attitudeUse(line, calibration));

@@ -44,6 +44,8 @@ CommandLine commandLine() {
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
                "with -corrected: take out what was found wrong with each strip's trajectory, too");
+  line.addFlag("force",
+               "with -corrected: write the copies even if the result should not be applied");
   line.addOptional("report",
                    "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
@@ -167,15 +169,6 @@ void writeReport(const CommandLine& line, const CalibrationResult& result,
                                           : "report.md; no report.html: built without VTK");
 }
 
-/// What is not determined is a reason only where it was asked for, or where nothing else is.
-std::string whyNot(const CalibrationResult& result, const CalibrationSettings& settings) {
-  const bool asked = !settings.estimate.empty() || result.correlation_order.empty();
-  const std::string missing = asked ? app::notDetermined(result, "is not") : "";
-  if (!missing.empty()) return missing;
-  return "the adjustment did not come to rest in " + std::to_string(result.iterations.size()) +
-         " iterations" + (settings.pair_budget > 0 ? "; let -select keep more pairs" : "");
-}
-
 int calibrate(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -205,12 +198,17 @@ int calibrate(int argc, char** argv) {
   writeCalibration(line.text("output"), result);
   if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
   if (line.has("report")) writeReport(line, result, calibration, page);
-  if (!result.converged) {
-    std::cerr << "pcl_als_calibrate: no reliable answer: " << whyNot(result, settings) << std::endl;
-    return app::kNoReliableAnswer;
+  const bool usable = result.verdict.usable();
+  if (!usable) {
+    std::cerr << "pcl_als_calibrate: no reliable answer: " << result.verdict.text() << std::endl;
   }
-  if (line.has("corrected")) writeCorrected(line, files, calibration.trajectory(), result);
-  return app::kDone;
+  if (line.has("corrected") && !usable && !line.has("force")) {
+    std::cerr << "pcl_als_calibrate: no corrected files are written; -force writes them"
+              << std::endl;
+  } else if (line.has("corrected")) {
+    writeCorrected(line, files, calibration.trajectory(), result);
+  }
+  return usable ? app::kDone : app::kNoReliableAnswer;
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ void addSummary(HtmlReport& report, const CalibrationResult& result) {
                  std::to_string(result.iterations.size()) + " iterations, model " +
                  std::string(modelName(result.attitude)) + ", " +
                  (result.converged ? "converged." : "not converged."));
+  report.addText("Verdict: " + result.verdict.text() + ".");
   addWarnings(result.warnings, report);
 }
 

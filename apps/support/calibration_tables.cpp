@@ -146,7 +146,8 @@ std::string calibrationTables(const CalibrationResult& result) {
   for (const std::string& text : result.observability) out << "- " << text << '\n';
   out << "\nsigma0 " << std::setprecision(3) << result.sigma0 << ", redundancy "
       << result.redundancy << ", " << result.iterations.size() << " iterations, "
-      << (result.converged ? "converged" : "NOT converged") << '\n';
+      << (result.converged ? "converged" : "NOT converged")
+      << "\nverdict: " << result.verdict.text() << '\n';
   for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
   return out.str();
 }

@@ -90,14 +90,18 @@ void addControl(const CalibrationResult& result, std::vector<std::string>& sente
 
 Verdict verdictOf(const CalibrationResult& result) {
   Verdict verdict;
-  const double before = rmsOf(result.pairs, &PairFit::rms_before);
-  const double after = rmsOf(result.pairs, &PairFit::rms_after);
+  const bool compared = result.misfit.points > 0;
+  const double before =
+      compared ? result.misfit.rms_before : rmsOf(result.pairs, &PairFit::rms_before);
+  const double after =
+      compared ? result.misfit.rms_after : rmsOf(result.pairs, &PairFit::rms_after);
   const bool complete = std::none_of(
       result.parameters.begin(), result.parameters.end(),
       [](const ParameterEstimate& e) { return e.status == ParameterStatus::not_estimable; });
-  if (!result.converged) {
+  if (!result.verdict.usable()) {
     verdict.grade = VerdictGrade::bad;
-    verdict.headline = "No reliable answer: do not apply this result.";
+    verdict.headline =
+        "No reliable answer: do not apply this result (" + result.verdict.text() + ").";
   } else {
     verdict.grade = complete ? VerdictGrade::good : VerdictGrade::attention;
     verdict.headline = "The strips agree to " + centimetres(after) + " after calibration (" +
@@ -105,7 +109,7 @@ Verdict verdictOf(const CalibrationResult& result) {
     if (!complete) verdict.headline += " Not every parameter is determined.";
   }
   addParameters(result, verdict.sentences);
-  if (result.converged && !result.pairs.empty()) {
+  if (result.verdict.usable() && !result.pairs.empty()) {
     verdict.sentences.push_back(againstSpecification(after));
   }
   addControl(result, verdict.sentences);

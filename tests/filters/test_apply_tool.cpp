@@ -255,6 +255,25 @@ TEST(ApplyTool, ACalibrationFileAndAPcdGiveTheSameCorrection) {
   }
 }
 
+TEST(ApplyTool, ACalibrationWithAnAdverseVerdictNeedsForce) {
+  Flight flight("verdict");
+  CalibrationResult calibration;
+  calibration[SystemParameter::boresight_roll].bias = 90.0 * kRadiansPerArcsec;
+  calibration.verdict.object(CalibrationStatus::not_converged, "it did not converge");
+  writeCalibration(flight.path("calibration.json"), calibration);
+  const std::string arguments =
+      "strip.las out.las -trajectory trajectory.csv -calibration calibration.json";
+  EXPECT_EQ(flight.run(arguments), 2);
+  EXPECT_EQ(flight.message(),
+            "pcl_als_apply: calibration.json: this calibration should not be applied, not "
+            "converged: it did not converge; -force applies it all the same\n");
+  EXPECT_FALSE(std::filesystem::exists(flight.path("out.las")));
+  EXPECT_EQ(flight.run(arguments + " -force"), 0);
+  EXPECT_NE(flight.message().find("warning: calibration.json: not converged"), std::string::npos)
+      << flight.message();
+  EXPECT_GT(largestStep(flight.path("strip.las"), flight.path("out.las")), 100);
+}
+
 TEST(ApplyTool, PointsOutsideTheTrajectoryAreRefusedOrKept) {
   Flight flight("uncovered");
   // Half of the flight.

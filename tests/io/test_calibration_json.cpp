@@ -143,6 +143,38 @@ TEST(CalibrationJson, UsesTheInterfacesNamesAndUnits) {
   EXPECT_NEAR(std::stod(text.substr(bias + 8)), 90.0, 1e-12);
 }
 
+TEST(CalibrationJson, KeepsTheVerdictAndTheMisfit) {
+  const auto path = test::scratch("calibration_json") / "verdict.json";
+  CalibrationResult written = example();
+  written.verdict.object(CalibrationStatus::no_improvement, "the misfit is larger");
+  written.misfit = {5310, 42, 0.031, 0.033, 0.2, 0.0005};
+  writeCalibration(path, written);
+  EXPECT_NE(textOf(path).find("\"status\": \"no_improvement\""), std::string::npos);
+  const CalibrationResult read = readCalibration(path);
+  EXPECT_EQ(read.verdict.status, CalibrationStatus::no_improvement);
+  EXPECT_EQ(read.verdict.reason, "the misfit is larger");
+  EXPECT_EQ(read.misfit.points, 5310U);
+  EXPECT_EQ(read.misfit.areas, 42U);
+  EXPECT_EQ(read.misfit.rms_before, 0.031);
+  EXPECT_EQ(read.misfit.rms_after, 0.033);
+  EXPECT_EQ(read.misfit.limit, 0.2);
+  EXPECT_EQ(read.misfit.change_std, 0.0005);
+  EXPECT_NE(refusal("\"status\": \"usable\"", "\"status\": \"splendid\"").find("splendid"),
+            std::string::npos);
+}
+
+TEST(CalibrationJson, FilesWithoutAVerdictHaveOneByTheirConvergence) {
+  std::string text = exampleText();
+  const std::size_t from = text.find("\"verdict\""), to = text.find("\"model\"");
+  text.erase(from, to - from);
+  const auto path = test::scratch("calibration_json") / "old.json";
+  std::ofstream(path) << text;
+  EXPECT_TRUE(readCalibration(path).verdict.usable());
+  text.replace(text.find("\"converged\": true"), 17, "\"converged\": false");
+  std::ofstream(path) << text;
+  EXPECT_EQ(readCalibration(path).verdict.status, CalibrationStatus::not_converged);
+}
+
 TEST(CalibrationJson, UnknownStandardDeviationsAreNull) {
   CalibrationResult result = example();
   result[P::lever_arm_z].std = std::nan("");

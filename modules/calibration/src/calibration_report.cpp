@@ -186,9 +186,6 @@ void CalibrationReport::addParameters(const ParameterChoice& choice,
   if (choice.estimate.empty()) {
     result.converged = false;
     result.warnings.push_back("no parameter can be determined from this block");
-  } else if (!result.converged) {
-    result.warnings.push_back(
-        "the adjustment did not reach a trustworthy end: do not apply this result");
   }
   if (without_control_)
     result.warnings.push_back("without control the absolute height of the block is not checked");

@@ -5,7 +5,9 @@
 #include <map>
 
 #include <pcl_als/calibration/block_advice.h>
+#include <pcl_als/calibration/calibration_judgement.h>
 #include <pcl_als/calibration/calibration_report.h>
+#include <pcl_als/calibration/misfit_comparison.h>
 #include <pcl_als/calibration/pair_selection.h>
 #include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
@@ -319,6 +321,11 @@ std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() con
   return times;
 }
 
+std::string QuasiRigorousCalibration::whyOpen(const CalibrationResult& result) const {
+  return "the adjustment did not converge in " + std::to_string(result.iterations.size()) +
+         " iterations" + (settings_.pair_budget > 0 ? "; let -select keep more pairs" : "");
+}
+
 CalibrationResult QuasiRigorousCalibration::calibrate() {
   prepare();
   std::vector<std::pair<double, double>> spans;
@@ -336,11 +343,13 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   lookAtControl(state);
   const CalibrationReport report(ids_, !control_seen_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
+  const MisfitComparison misfit(state.observations);
   const int most = (settings_.pair_budget > 0 ? 2 : 1) * settings_.max_iterations;
   for (int i = 0; i < most && !result.converged && state.observationCount() > 0; ++i) {
     iterate(state, result);
     if (!result.converged) pairUp(state);
   }
+  const bool open = !result.converged;
   result.sigma0 = state.weights.sigma0();
   result.redundancy = state.redundancy();
   result.warnings = warnings_;
@@ -357,6 +366,8 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   pairUp(state);
   report.addFit(state.observations, result.biases(), true, result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
+  result.misfit = misfit.change(state.observations, result.biases());
+  judgeCalibration(settings_.estimate, open ? whyOpen(result) : "", result);
   return result;
 }
 

@@ -177,6 +177,37 @@ void readResiduals(const Node& residuals, ResidualHistogram& histogram) {
   }
 }
 
+/// Files of versions that gave no verdict have one by whether the adjustment converged; a file made
+/// by hand, with neither, is usable.
+CalibrationVerdict verdictOf(const Node& root) {
+  CalibrationVerdict verdict;
+  if (root.has("verdict")) {
+    const Node status = root["verdict"]["status"];
+    const auto known = calibrationStatusNamed(status.text());
+    if (!known) {
+      status.refuse("is '" + status.text() +
+                    "'; it must be usable, parameters_affected, no_improvement, not_determined or "
+                    "not_converged");
+    }
+    verdict.status = *known;
+    verdict.reason = root["verdict"]["reason"].text();
+  } else if (root.has("converged") && !root["converged"].truth()) {
+    verdict.object(CalibrationStatus::not_converged, "the adjustment did not converge");
+  }
+  return verdict;
+}
+
+MisfitChange misfitOf(const Node& node) {
+  MisfitChange misfit;
+  misfit.points = node["points"].count();
+  misfit.areas = node["areas"].count();
+  misfit.rms_before = node["rms_before_m"].numberOrNan();
+  misfit.rms_after = node["rms_after_m"].numberOrNan();
+  misfit.limit = node["limit_m"].numberOrNan();
+  misfit.change_std = node["change_std_m"].numberOrNan();
+  return misfit;
+}
+
 void readControlFits(const Node& control, CalibrationResult& result) {
   for (const Node& node : control.items()) {
     ControlFit fit;
@@ -246,6 +277,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   readParameters(root["parameters"], result);
   // Applying a calibration takes the parameters only: a file made by hand may stop here.
   result.attitude = attitudeOf(root);
+  result.verdict = verdictOf(root);
   if (root.has("correlation")) readCorrelation(root["correlation"], result);
   if (root.has("sigma0")) result.sigma0 = root["sigma0"].numberOrNan();
   if (root.has("redundancy")) result.redundancy = root["redundancy"].whole();
@@ -257,6 +289,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   }
   if (root.has("iterations")) readIterations(root["iterations"], result);
   if (root.has("pairs")) readPairs(root["pairs"], result);
+  if (root.has("misfit")) result.misfit = misfitOf(root["misfit"]);
   if (root.has("residuals")) readResiduals(root["residuals"], result.residuals);
   if (root.has("control")) readControlFits(root["control"], result);
   if (root.has("strip_corrections")) readStripErrors(root["strip_corrections"], result);

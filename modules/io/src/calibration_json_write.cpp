@@ -106,6 +106,19 @@ Json stripErrorsOf(const CalibrationResult& result) {
   return strips;
 }
 
+Json verdictOf(const CalibrationVerdict& verdict) {
+  return Json{{"status", toString(verdict.status)}, {"reason", verdict.reason}};
+}
+
+Json misfitOf(const MisfitChange& misfit) {
+  return Json{{"points", misfit.points},
+              {"areas", misfit.areas},
+              {"rms_before_m", number(misfit.rms_before)},
+              {"rms_after_m", number(misfit.rms_after)},
+              {"limit_m", number(misfit.limit)},
+              {"change_std_m", number(misfit.change_std)}};
+}
+
 Json controlOf(const CalibrationResult& result) {
   Json control = Json::array();
   for (const ControlFit& fit : result.control) {
@@ -125,6 +138,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   Json root;
   root["format"] = kCalibrationFormat;
   root["version"] = kCalibrationVersion;
+  root["verdict"] = verdictOf(result.verdict);
   root["model"] = modelName(result.attitude);
   root["attitude"] = toString(result.attitude);
   root["parameters"] = parametersOf(result);
@@ -135,6 +149,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["line_fit_half_width_s"] = number(result.line_fit_half_width);
   root["iterations"] = iterationsOf(result);
   root["pairs"] = pairsOf(result);
+  root["misfit"] = misfitOf(result.misfit);
   if (!result.residuals.edges.empty()) root["residuals"] = histogramOf(result.residuals);
   root["control"] = controlOf(result);
   root["strip_corrections"] = stripErrorsOf(result);

@@ -63,7 +63,7 @@ class QuasiRigorousCalibration {
   void setProgress(std::function<void(const CalibrationIteration&)> progress) {
     progress_ = std::move(progress);
   }
-  /// result.converged tells whether to trust it; warnings say why not.
+  /// result.verdict tells whether to apply it, and why not.
   CalibrationResult calibrate();
 
   const std::vector<SurveyArea>& areas() const { return areas_; }
@@ -98,6 +98,8 @@ class QuasiRigorousCalibration {
   /// Decides whether levels are looked for, and whether all pairs are adjusted or those chosen.
   void openIteration(State& state, const CalibrationResult& result) const;
   void iterate(State& state, CalibrationResult& result);
+  /// Why the iteration did not converge, for the verdict.
+  std::string whyOpen(const CalibrationResult& result) const;
   std::vector<std::string> observability(const State& state,
                                          const std::vector<std::pair<double, double>>& spans,
                                          const CalibrationResult& result) const;

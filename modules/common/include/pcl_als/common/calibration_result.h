@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/calibration_verdict.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -77,6 +78,7 @@ struct StripErrors {
 
 /// The content of calibration.json.
 struct CalibrationResult {
+  CalibrationVerdict verdict;  ///< whether to apply it
   AttitudeSource attitude = AttitudeSource::none;
   std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
   std::vector<SystemParameter> correlation_order;                   ///< the estimated ones
@@ -88,6 +90,7 @@ struct CalibrationResult {
       0.0;  ///< seconds: the trajectory window the design used; apply uses the same
   std::vector<CalibrationIteration> iterations;
   std::vector<PairFit> pairs;
+  MisfitChange misfit;  ///< of all pairs together
   ResidualHistogram residuals;
   std::vector<ControlFit> control;
   std::vector<StripErrors> strip_errors;   ///< of the strips that were calibrated with

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Cholesky>
+
+#include <pcl_als/calibration/calibration_judgement.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr double kSignificant = 2.0;  // standard deviations of the change of the misfit
+constexpr double kRelevant = 0.01;    // of the misfit as delivered: less is no change
+
+std::string centimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f cm", 100.0 * metres);
+  return text;
+}
+
+/// "3.34 cm after the calibration, 3.10 cm as delivered (change +0.24 +- 0.05 cm at 5310 points)"
+std::string describe(const MisfitChange& misfit) {
+  char change[96];
+  std::snprintf(change, sizeof change, "%+.2f +- %.2f cm at %zu points", 100.0 * misfit.change(),
+                100.0 * misfit.change_std, misfit.points);
+  return centimetres(misfit.rms_after) + " after the calibration, " +
+         centimetres(misfit.rms_before) + " as delivered (change " + change + ")";
+}
+
+/// 99 % quantile of the chi-squared distribution (Wilson and Hilferty 1931; to 1 % for 1 and more).
+double chiSquared99(double degrees) {
+  constexpr double kNormal99 = 2.3263;
+  const double ninth = 2.0 / (9.0 * degrees);
+  return degrees * std::pow(1.0 - ninth + kNormal99 * std::sqrt(ninth), 3);
+}
+
+void judgeDetermination(const std::vector<SystemParameter>& requested, CalibrationResult& result) {
+  if (result.correlation_order.empty()) {
+    result.verdict.object(CalibrationStatus::not_determined,
+                          "no parameter can be determined from this block");
+    return;
+  }
+  for (const SystemParameter p : requested) {
+    const ParameterEstimate& estimate = result[p];
+    if (estimate.status != ParameterStatus::not_estimable) continue;
+    result.verdict.object(
+        CalibrationStatus::not_determined,
+        std::string(infoOf(p).name) + " is not determined (" + estimate.reason + ")");
+  }
+}
+
+void judgeMisfit(CalibrationResult& result) {
+  const MisfitChange& misfit = result.misfit;
+  if (misfit.points == 0 || result.correlation_order.empty()) return;
+  const double change = misfit.change();
+  const bool relevant = change > kRelevant * misfit.rms_before;
+  if (relevant && change > kSignificant * misfit.change_std) {
+    result.verdict.object(
+        CalibrationStatus::no_improvement,
+        "the misfit between the strips is larger after the calibration: " + describe(misfit));
+  } else if (relevant && biasesAreSignificant(result)) {
+    result.verdict.object(
+        CalibrationStatus::no_improvement,
+        "the biases differ from zero, but the misfit between the strips is no smaller: " +
+            describe(misfit));
+  }
+}
+
+}  // namespace
+
+bool biasesAreSignificant(const CalibrationResult& result) {
+  const auto size = static_cast<Eigen::Index>(result.correlation_order.size());
+  if (size == 0) return false;
+  Eigen::VectorXd standardised(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const ParameterEstimate& p = result[result.correlation_order[static_cast<std::size_t>(i)]];
+    standardised[i] = p.std > 0.0 ? p.bias / p.std : 0.0;
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(result.correlation);
+  const double chi_squared = standardised.dot(ldlt.solve(standardised));
+  return chi_squared > chiSquared99(static_cast<double>(size));
+}
+
+void judgeCalibration(const std::vector<SystemParameter>& requested,
+                      const std::string& not_converged, CalibrationResult& result) {
+  judgeDetermination(requested, result);
+  if (!not_converged.empty()) {
+    result.verdict.object(CalibrationStatus::not_converged, not_converged);
+  }
+  judgeMisfit(result);
+  if (!result.verdict.usable() || !result.verdict.reason.empty()) return;
+  result.verdict.reason = result.misfit.points == 0
+                              ? "the adjustment converged"
+                              : "misfit between the strips " + describe(result.misfit);
+}
+
+}  // namespace pcl_als
