@@ -81,7 +81,7 @@ std::string pairsCsv(const QualityReport& report) {
          "scan_angle_mm_per_deg,scan_angle_std,roll_arcsec,roll_std,roll_b_arcsec,roll_b_std,"
          "icpatch,XT_m,XT_std,YT_m,YT_std,ZT_m,ZT_std,omega_deg,omega_std,phi_deg,phi_std,"
          "kappa_deg,kappa_std,centroid_x,centroid_y,centroid_z,sigma0_m,"
-         "milliseconds,memory_mb\n";
+         "memory_mb\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const PairAssessment& p = pair.assessment;
     out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << toString(p.status) << ','
@@ -105,7 +105,7 @@ std::string pairsCsv(const QualityReport& report) {
       out << ',' << (roll.determined ? number(roll.value / kRadiansPerArcsec, 2) : "") << ','
           << (roll.determined ? number(roll.std / kRadiansPerArcsec, 2) : "");
     alignmentCells(pair.alignment, out);
-    out << ',' << number(pair.milliseconds, 1) << ',' << number(pair.memory_mb, 1) << '\n';
+    out << ',' << number(pair.memory_mb, 1) << '\n';
   });
   return out.str();
 }
@@ -180,6 +180,18 @@ std::string controlCsv(const QualityReport& report) {
   return out.str();
 }
 
+/// What differs from run to run, apart from the results.
+std::string runCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,a,b,milliseconds,peak_memory_mb\n";
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ','
+        << number(pair.milliseconds, 1) << ",\n";
+  });
+  out << "all,,,," << number(report.peak_memory_mb, 1) << '\n';
+  return out.str();
+}
+
 }  // namespace
 
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report) {
@@ -188,6 +200,7 @@ void writeQualityTables(const std::filesystem::path& folder, const QualityReport
   writeFile(folder / "slope_aspect.csv", slopeAspectCsv(report));
   writeFile(folder / "profiles.csv", profilesCsv(report));
   writeFile(folder / "offsets.csv", offsetsCsv(report));
+  writeFile(folder / "run.csv", runCsv(report));
   if (report.block.control) writeFile(folder / "control.csv", controlCsv(report));
 }
 

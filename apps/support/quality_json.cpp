@@ -142,7 +142,6 @@ Json pairJson(const CheckedPair& pair) {
   json["work"] = {{"areas", pair.areas},
                   {"points_a", pair.points_a},
                   {"points_b", pair.points_b},
-                  {"milliseconds", pair.milliseconds},
                   {"memory_mb", pair.memory_mb}};
   return json;
 }
@@ -238,7 +237,6 @@ std::string qualityJson(const QualityReport& report) {
                {"limits", limitsJson(report.quality_level)}};
   json.update(blockJson(report.block));
   if (report.before) json["before"] = blockJson(*report.before);
-  json["peak_memory_mb"] = report.peak_memory_mb;
   return json.dump(1) + '\n';
 }
 

@@ -34,8 +34,8 @@ std::string qualityText(const QualityReport& report);
 /// quality.json; its keys are in the README of module quality.
 std::string qualityJson(const QualityReport& report);
 
-/// Writes quality.md, pairs.csv, control.csv, slope_aspect.csv, profiles.csv, offsets.csv, each
-/// complete or not at all.
+/// Writes quality.md, pairs.csv, control.csv, slope_aspect.csv, profiles.csv, offsets.csv and
+/// run.csv (times and memory, which differ from run to run), each complete or not at all.
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report);
 
 /// Whether there is any number to rely on: a judged pair, or a control point.

@@ -4,7 +4,7 @@
 // las_damage IN OUT CHANGE…: a copy of a LAS file with lies in it, for tests.
 //   set FIELD VALUE   a field of the header, see kFields
 //   zero_times        the GPS time of every point (formats 6-10)
-//   class CODE        of every point (formats 6-10)
+//   class CODE        of every point
 //   keep BYTES        only the first bytes
 //   crop_y FROM TO    only the points in that range of northings (no lie; LAS 1.2, 1.3)
 #include <algorithm>
@@ -60,6 +60,16 @@ void fillRecords(std::vector<char>& bytes, std::size_t at, std::size_t size, int
     std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + at, value, size);
 }
 
+/// Sets the class of every record, of any point format.
+void setClasses(std::vector<char>& bytes, int code) {
+  const bool old = (bytes[104] & 0x3f) < 6;
+  const std::size_t length = load<std::uint16_t>(bytes, 105), at = old ? 15 : 16;
+  const std::uint64_t count =
+      old ? load<std::uint32_t>(bytes, 107) : load<std::uint64_t>(bytes, 247);
+  for (std::size_t i = 0; i < count; ++i)
+    bytes[load<std::uint32_t>(bytes, 96) + i * length + at] = static_cast<char>(code);
+}
+
 void cropNorthings(std::vector<char>& bytes, double from, double to) {
   const std::size_t length = load<std::uint16_t>(bytes, 105);
   const auto count = load<std::uint32_t>(bytes, 107);
@@ -97,7 +107,7 @@ int main(int argc, char** argv) {
       cropNorthings(bytes, std::stod(words[i + 1]), std::stod(words[i + 2]));
       i += 2;
     } else if (words[i] == "class" && i + 1 < words.size()) {
-      fillRecords(bytes, 16, 1, std::stoi(words[++i]));
+      setClasses(bytes, std::stoi(words[++i]));
     } else if (words[i] == "keep" && i + 1 < words.size()) {
       bytes.resize(std::min<std::size_t>(bytes.size(), std::stoul(words[++i])));
     } else {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -90,7 +95,7 @@ TEST(AreaOffsets, TreesAndEavesAreNoSurface) {
   }
 }
 
-TEST(AreaOffsets, OnlySinglesStartAndClassesCount) {
+TEST(AreaOffsets, PlacesAreThoseOfSingleReturns) {
   Flight other;
   other.seed = 2;
   auto a = fly(plane, {}, kOrigin), b = fly(plane, other, kOrigin);
@@ -99,23 +104,84 @@ TEST(AreaOffsets, OnlySinglesStartAndClassesCount) {
   EXPECT_TRUE(areaOf(a, b).offsets(0, 1).empty());
   for (SwathPoint& point : a) point.number_of_returns = 1, point.return_number = 1;
   EXPECT_FALSE(areaOf(a, b).offsets(0, 1).empty());
-  // Where ground is marked, only ground counts for heights.
-  for (SwathPoint& point : a) point.classification = point.position.x() < kOrigin.x() + 30 ? 2 : 6;
-  std::size_t level = 0;
-  for (const OffsetSample& s : areaOf(a, b).offsets(0, 1)) {
-    if (!s.level) continue;
-    ++level;
-    EXPECT_LT(s.position.x(), kOrigin.x() + 30.0);
-  }
-  EXPECT_GT(level, 100U);
 }
 
-TEST(AreaOffsets, WithheldNoiseAndVegetationAreLeftOut) {
+/// A filter that found the ground in both strips together: within 2 cm of the lowest point of each
+/// cell of 1 m it is \a ground, what lies higher is \a above.
+void classifyTogether(std::uint8_t ground, std::uint8_t above, std::vector<SwathPoint>& a,
+                      std::vector<SwathPoint>& b) {
+  const auto cell = [](const SwathPoint& point) {
+    return std::make_pair(std::floor(point.position.x()), std::floor(point.position.y()));
+  };
+  std::map<std::pair<double, double>, double> lowest;
+  for (const auto* strip : {&a, &b})
+    for (const SwathPoint& point : *strip) {
+      double& z = lowest.emplace(cell(point), point.position.z()).first->second;
+      z = std::min(z, point.position.z());
+    }
+  for (auto* strip : {&a, &b})
+    for (SwathPoint& point : *strip)
+      point.classification = point.position.z() < lowest[cell(point)] + 0.02 ? ground : above;
+}
+
+double meanHeight(const std::vector<OffsetSample>& samples) {
+  double sum = 0.0, count = 0.0;
+  for (const OffsetSample& s : samples)
+    if (s.level) sum += s.vertical, count += 1.0;
+  return sum / count;
+}
+
+// Two strips 4 cm apart with 3 cm of noise. Ground found in both together holds the low points of
+// each; of 1600 places per strip the mean of the differences has a standard deviation of 3 cm x
+// sqrt(2 / 9) / sqrt(1600) = 0.4 mm, times two for places that share points.
+TEST(AreaOffsets, ClassesThatDependOnHeightDoNotMoveTheOffset) {
+  Flight first, other;
+  first.noise = other.noise = 0.03;
+  other.seed = 2;
+  other.shift.z() = 0.04;
+  SurfaceLimits limits;
+  limits.candidates = 1600;
+  const auto flat = [](double, double) { return 0.0; };
+  auto a = fly(flat, first, kOrigin), b = fly(flat, other, kOrigin);
+  const double unclassified = meanHeight(areaOf(a, b, limits).offsets(0, 1));
+  EXPECT_NEAR(unclassified, -0.04, 0.003);
+  for (const std::uint8_t above : {1, 3, 5}) {
+    classifyTogether(2, above, a, b);
+    EXPECT_NEAR(meanHeight(areaOf(a, b, limits).offsets(0, 1)), unclassified, 1e-12)
+        << "class " << static_cast<int>(above) << " above the ground";
+  }
+}
+
+// Strips of different noise: the places of either have to show the same offset.
+TEST(AreaOffsets, PlacesOfBothStripsShowTheSameOffset) {
+  Flight first, other;
+  first.noise = 0.05;
+  other.noise = 0.01;
+  other.seed = 2;
+  const auto flat = [](double, double) { return 0.0; };
+  const auto a = fly(flat, first, kOrigin), b = fly(flat, other, kOrigin);
+  const AreaOffsets area = areaOf(a, b);
+  std::set<std::pair<double, double>> of_a;
+  for (const SwathPoint& point : a) of_a.emplace(point.position.x(), point.position.y());
+  double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
+  for (const OffsetSample& s : area.offsets(0, 1)) {
+    if (!s.level) continue;
+    const int side = of_a.count({s.position.x(), s.position.y()}) > 0 ? 0 : 1;
+    sums[side] += s.vertical;
+    counts[side] += 1.0;
+  }
+  ASSERT_GT(std::min(counts[0], counts[1]), 100.0);
+  // 400 places a strip whose planes share points: 5 cm / 3 / sqrt(400) = 0.8 mm, times two.
+  EXPECT_NEAR(sums[0] / counts[0], 0.0, 0.005);
+  EXPECT_NEAR(sums[1] / counts[1], 0.0, 0.005);
+}
+
+TEST(AreaOffsets, WithheldNoiseAndWaterAreLeftOut) {
   AreaOffsets area({kOrigin.head<2>(), 50.0, 5.0}, 1);
   SwathPoint point;
   point.position = kOrigin + Eigen::Vector3d(1.0, 1.0, 0.0);
   area.add(0, point);
-  for (const int code : {3, 4, 5, 7, 18}) {
+  for (const int code : {7, 9, 18}) {
     point.classification = static_cast<std::uint8_t>(code);
     area.add(0, point);
   }
@@ -128,6 +194,22 @@ TEST(AreaOffsets, WithheldNoiseAndVegetationAreLeftOut) {
   point.position = kOrigin + Eigen::Vector3d(80.0, 1.0, 0.0);  // beside the margin
   area.add(0, point);
   EXPECT_EQ(area.pointCount(), 1U);
+}
+
+TEST(AreaOffsets, VegetationIsLeftOutWhereItIsHigh) {
+  std::vector<SwathPoint> points(5);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].position = kOrigin + Eigen::Vector3d(0.2 * static_cast<double>(i), 0.0, 0.0);
+  for (const int i : {1, 2, 3}) points[static_cast<std::size_t>(i)].classification = 5;
+  points[1].position.z() += 12.0;
+  points[2].position.z() += 1.1;
+  points[3].position.z() += 0.9;  // as likely ground as vegetation
+  points[4].position.z() += 7.0;  // a roof
+  dropHighVegetation(points);
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[1].classification, 5);
+  EXPECT_NEAR(points[1].position.z() - kOrigin.z(), 0.9, 1e-9);
+  EXPECT_EQ(points[2].classification, 0);
 }
 
 TEST(AreaOffsets, RepeatedAndCopiedPointsAreSeen) {

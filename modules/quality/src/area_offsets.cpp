@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kTooFew = 12;  // points that are not worth a TIN
 constexpr std::size_t kLooks = 300;  // for the roughness of plain ground
 constexpr double kGentle = 0.26;     // radians (15 degrees): where it is measured
-constexpr std::uint8_t kGround = 2;  // ASPRS class
 constexpr double kSteepest = 0.8;    // radians: a height beside a wall says nothing
+constexpr double kWall = 0.2;        // cosine: a plane so steep has no height at a position
 
 double medianEdge(const std::vector<SwathPoint>& points, const Tin& tin) {
   std::vector<double> lengths;
@@ -29,11 +29,19 @@ double medianEdge(const std::vector<SwathPoint>& points, const Tin& tin) {
 }
 
 /// Every so manyth, so that at most \a count are left.
-std::vector<std::int32_t> thinned(const std::vector<std::int32_t>& all, std::size_t count) {
+template <typename T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t count) {
   if (all.size() <= count) return all;
-  std::vector<std::int32_t> some;
+  std::vector<T> some;
+  some.reserve(count);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
+}
+
+/// Height of a plane at a plan position.
+double heightOf(const PatchQuality& plane, const Eigen::Vector3d& at) {
+  const Eigen::Vector2d from = at.head<2>() - plane.plane_centre.head<2>();
+  return plane.plane_centre.z() - plane.plane_normal.head<2>().dot(from) / plane.plane_normal.z();
 }
 
 std::int32_t nearestVertex(const Tin::Triangle& triangle, const Eigen::Vector3d& weights) {
@@ -58,24 +66,22 @@ std::size_t AreaOffsets::pointCount() const {
 void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
   limits_ = limits;
   for (StripPart& part : strips_) {
-    part.candidates.clear();
+    part.places.clear();
+    dropHighVegetation(part.points);
     if (part.points.size() < kTooFew) continue;
     std::vector<Eigen::Vector3d> positions;
     positions.reserve(part.points.size());
-    for (const SwathPoint& point : part.points) {
-      positions.push_back(point.position);
-      part.classified = part.classified || point.classification == kGround;
-    }
+    for (const SwathPoint& point : part.points) positions.push_back(point.position);
     part.surface = PatchSurface(Tin(std::move(positions), resolution));
     part.longest_edge = limits.edge_factor * medianEdge(part.points, part.surface.tin());
-    chooseCandidates(part);
+    choosePlaces(part);
   }
 }
 
 void AreaOffsets::release() {
   for (StripPart& part : strips_) {
     part.surface = PatchSurface();
-    part.candidates = {};
+    part.places = {};
   }
 }
 
@@ -104,19 +110,22 @@ std::vector<std::int32_t> AreaOffsets::looks(const StripPart& part, std::size_t 
   return thinned(triangles, count);
 }
 
-void AreaOffsets::chooseCandidates(StripPart& part) const {
-  constexpr std::size_t kLooksPerCandidate = 4;
-  std::vector<std::int32_t> level, steep;
-  for (const std::int32_t triangle : looks(part, kLooksPerCandidate * limits_.candidates)) {
+void AreaOffsets::choosePlaces(StripPart& part) const {
+  constexpr std::size_t kLooksPerPlace = 4;
+  std::vector<Place> level, steep;
+  for (const std::int32_t triangle : looks(part, kLooksPerPlace * limits_.candidates)) {
     const PatchQuality quality = part.surface.quality(triangle);
-    if (!smooth(part, quality)) continue;
-    const std::int32_t point = part.surface.tin().triangles()[triangle].vertex[0];
-    const double slope = std::acos(std::min(1.0, quality.plane_normal.z()));
-    (slope < limits_.level_slope ? level : steep).push_back(point);
+    if (!smooth(part, quality) || quality.plane_normal.z() < kWall) continue;
+    Place place;
+    place.point = part.surface.tin().triangles()[triangle].vertex[0];
+    place.position = part.points[place.point].position;
+    place.position.z() = heightOf(quality, place.position);
+    place.normal = quality.plane_normal;
+    (place.normal.z() > std::cos(limits_.level_slope) ? level : steep).push_back(place);
   }
-  part.candidates = thinned(level, limits_.candidates);
-  const std::vector<std::int32_t> more = thinned(steep, limits_.candidates);
-  part.candidates.insert(part.candidates.end(), more.begin(), more.end());
+  part.places = thinned(level, limits_.candidates);
+  const std::vector<Place> more = thinned(steep, limits_.candidates);
+  part.places.insert(part.places.end(), more.begin(), more.end());
 }
 
 std::vector<double> AreaOffsets::roughness() const {
@@ -148,47 +157,53 @@ std::vector<OffsetSample> AreaOffsets::offsets(int a, int b) const {
 void AreaOffsets::measure(const StripPart& from, const StripPart& to, double sign,
                           std::vector<OffsetSample>& found) const {
   if (from.surface.tin().triangles().empty() || to.surface.tin().triangles().empty()) return;
-  for (const std::int32_t point : from.candidates) {
+  for (const Place& place : from.places) {
     OffsetSample sample;
-    if (measureAt(from, point, to, sign, sample)) found.push_back(sample);
+    if (measureAt(from, place, to, sign, sample)) found.push_back(sample);
   }
 }
 
-bool AreaOffsets::measureAt(const StripPart& from, std::int32_t index, const StripPart& to,
+bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const StripPart& to,
                             double sign, OffsetSample& sample) const {
-  const SwathPoint& point = from.points[index];
-  sample.position = point.position;
-  const auto describe = [&](const PatchMatch& match, const PatchQuality& quality) {
+  const SwathPoint& point = from.points[place.point];
+  sample.position = place.position;
+  // How far the surface of the strip lies above that of the other one around a patch.
+  const auto compare = [&](const PatchMatch& match, const PatchQuality& quality) {
     const Tin::Triangle& triangle = to.surface.tin().triangles()[match.triangle];
     const SwathPoint& other = to.points[nearestVertex(triangle, match.weights)];
     const bool forward = sign > 0.0;
-    sample.normal = quality.plane_normal;
-    sample.slope = static_cast<float>(std::acos(std::min(1.0, quality.plane_normal.z())));
+    sample.normal = (place.normal + quality.plane_normal).normalized();
+    sample.slope = static_cast<float>(std::acos(std::min(1.0, sample.normal.z())));
     sample.time_a = forward ? point.time : other.time;
     sample.time_b = forward ? other.time : point.time;
     sample.scan_angle_a = forward ? point.scan_angle : other.scan_angle;
     sample.scan_angle_b = forward ? other.scan_angle : point.scan_angle;
     sample.identical = other.position == point.position && other.time == point.time;
+    return sign * (place.position.z() - heightOf(quality, place.position));
   };
-  const auto closest = to.surface.closest(point.position, limits_.maximum_distance);
+  const auto usable = [&](const PatchQuality& quality) {
+    return smooth(to, quality) && quality.plane_normal.z() >= kWall;
+  };
+  const auto closest = to.surface.closest(place.position, limits_.maximum_distance);
+  PatchQuality quality;
   if (closest) {
-    const PatchQuality quality = to.surface.quality(closest->triangle);
-    if (smooth(to, quality)) {
-      describe(*closest, quality);
-      sample.conjugate = true;
-      sample.normal_distance = sign * sample.normal.dot(point.position - closest->foot);
+    quality = to.surface.quality(closest->triangle);
+    if (usable(quality)) {
+      sample.normal_distance = compare(*closest, quality) * sample.normal.z();
+      sample.conjugate = std::abs(sample.normal_distance) <= limits_.maximum_distance;
     }
   }
-  const auto below = to.surface.vertical(point.position);
-  if (below && (!from.classified || point.classification == kGround)) {
-    const PatchQuality quality = to.surface.quality(below->triangle);
-    const double above =
-        below->normal.z() > 0.0 ? below->signed_normal_distance / below->normal.z() : 0.0;
-    if (smooth(to, quality) && quality.plane_normal.z() > std::cos(limits_.level_slope) &&
-        std::abs(above) <= limits_.maximum_distance) {
-      describe(*below, quality);
+  const auto below = to.surface.vertical(place.position);
+  if (!below) return sample.conjugate;
+  if (!closest || closest->triangle != below->triangle)
+    quality = to.surface.quality(below->triangle);
+  if (!usable(quality)) return sample.conjugate;
+  const Eigen::Vector3d normal = (place.normal + quality.plane_normal).normalized();
+  if (normal.z() > std::cos(limits_.level_slope)) {
+    const double above = compare(*below, quality);
+    if (std::abs(above) <= limits_.maximum_distance) {
       sample.level = true;
-      sample.vertical = sign * above;
+      sample.vertical = above;
     }
   }
   return sample.level || sample.conjugate;

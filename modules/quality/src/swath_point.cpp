@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <unordered_map>
 
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/quality/swath_point.h>
 
 namespace pcl_als {
+namespace {
+
+constexpr int kWater = 9;            // ASPRS class
+constexpr double kCell = 5.0;        // metres: canopies have openings of that size
+constexpr double kVegetation = 1.0;  // metres: far beyond noise, far below a canopy
+
+bool isVegetation(const SwathPoint& point) {
+  return point.classification >= 3 && point.classification <= 5;
+}
+
+std::int64_t cellOf(const SwathPoint& point) {
+  const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kCell)); };
+  return (cell(point.position.y()) << 32) + cell(point.position.x());
+}
+
+}  // namespace
 
 bool isCheckable(const SwathPoint& point) {
   const int code = point.classification;
@@ -14,8 +33,20 @@ bool isCheckable(const SwathPoint& point) {
 }
 
 bool isSolid(const SwathPoint& point) {
-  const int code = point.classification;
-  return isCheckable(point) && point.isLast() && (code < 3 || code > 5);
+  return isCheckable(point) && point.isLast() && point.classification != kWater;
+}
+
+void dropHighVegetation(std::vector<SwathPoint>& points) {
+  if (std::none_of(points.begin(), points.end(), isVegetation)) return;
+  std::unordered_map<std::int64_t, double> lowest;
+  for (const SwathPoint& point : points) {
+    const auto [place, added] = lowest.try_emplace(cellOf(point), point.position.z());
+    if (!added) place->second = std::min(place->second, point.position.z());
+  }
+  const auto high = [&](const SwathPoint& point) {
+    return isVegetation(point) && point.position.z() > lowest.at(cellOf(point)) + kVegetation;
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), high), points.end());
 }
 
 }  // namespace pcl_als

@@ -24,7 +24,7 @@ struct SurfaceLimits {
   double edge_factor = 3.0;       ///< longest edge against the median edge of the strip's TIN here
   int minimum_vertices = 7;       ///< in the neighbourhood
   double maximum_distance = 1.0;  ///< metres: more is another object, not an offset
-  std::size_t candidates = 400;   ///< points of a strip and area: so many level, so many steep
+  std::size_t candidates = 400;   ///< places of a strip and area: so many level, so many steep
 };
 
 /** \brief The points of one area by strip, and the offsets between the strips there.
@@ -37,13 +37,14 @@ class AreaOffsets {
  public:
   AreaOffsets(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
 
-  /// Keeps solid points (isSolid) inside the area or its margin.
+  /// Keeps points that may be part of a surface (isSolid) inside the area or its margin.
   void add(int strip, const SwathPoint& point);
   const SurveyArea& area() const { return area_; }
   const std::vector<SwathPoint>& points(int strip) const { return part(strip).points; }
   std::size_t pointCount() const;
 
-  /// Builds the TIN of every strip with enough points. \a resolution: metres, coordinate step.
+  /// Drops points high in the vegetation (dropHighVegetation()) and builds the TIN of every strip
+  /// with enough points. \a resolution: metres, coordinate step.
   void build(const SurfaceLimits& limits, double resolution);
   void release();  ///< forgets the TINs, keeps the points
 
@@ -53,7 +54,14 @@ class AreaOffsets {
   /// Share of a strip's points that lie on another of its own, to the last digit.
   double repeatedShare(int strip) const;
 
-  /// Offsets a - b at points of a against b and of b against a.
+  /** \brief Offsets a - b at places of a and of b.
+   *
+   * A place is the plan position of a single return of one strip. The surface of each strip there
+   * is the plane of the vertices around the triangle at that position, without the triangle's own:
+   * neither the point that gave the place nor its noise is in what is measured, and both strips are
+   * treated alike. Classes do not choose points: a class that depends on height (ground found in
+   * all strips together) would keep the low points of each strip.
+   */
   std::vector<OffsetSample> offsets(int a, int b) const;
 
   /// A strip against a point of known height.
@@ -66,22 +74,27 @@ class AreaOffsets {
   std::optional<Height> heightAt(int strip, const Eigen::Vector3d& point) const;
 
  private:
+  /// Where to measure: the plan position of a point, on the surface around it.
+  struct Place {
+    std::int32_t point = 0;
+    Eigen::Vector3d position;  ///< metres; the height is that of the surface
+    Eigen::Vector3d normal;    ///< of the surface, unit, upward
+  };
   struct StripPart {
     std::vector<SwathPoint> points;
     PatchSurface surface;
     double longest_edge = 0.0;  ///< metres, limit
-    bool classified = false;    ///< ground points are marked
-    std::vector<std::int32_t> candidates;
+    std::vector<Place> places;
   };
   const StripPart& part(int strip) const { return strips_[static_cast<std::size_t>(strip)]; }
   bool sound(const StripPart& part, const PatchQuality& quality) const;
   bool smooth(const StripPart& part, const PatchQuality& quality) const;
   /// One triangle for each single-return vertex inside the area, every so manyth.
   std::vector<std::int32_t> looks(const StripPart& part, std::size_t count) const;
-  void chooseCandidates(StripPart& part) const;
+  void choosePlaces(StripPart& part) const;
   void measure(const StripPart& from, const StripPart& to, double sign,
                std::vector<OffsetSample>& found) const;
-  bool measureAt(const StripPart& from, std::int32_t point, const StripPart& to, double sign,
+  bool measureAt(const StripPart& from, const Place& place, const StripPart& to, double sign,
                  OffsetSample& sample) const;
 
   SurveyArea area_;

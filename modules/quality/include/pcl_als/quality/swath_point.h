@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -28,8 +29,17 @@ struct SwathPoint {
 /// False for points that no check looks at: withheld, noise (7, 18), not finite.
 bool isCheckable(const SwathPoint& point);
 
-/// True for a checkable point that may be part of a solid surface: a last return, no vegetation
-/// (3-5).
+/// True for a checkable point that may be part of a solid surface: a last return, not on water (9).
+/// Vegetation is a matter of dropHighVegetation().
 bool isSolid(const SwathPoint& point);
+
+/** \brief Drops the points of one strip that are classified as vegetation (3-5) and lie more than
+ * one metre above the lowest point of their cell of 5 m.
+ *
+ * Vegetation nearer to the ground stays: many classifications call vegetation whatever lies some
+ * centimetres or decimetres above a ground that was found in all strips together. Leaving that out
+ * would keep the low points of every strip and move the higher strip down.
+ */
+void dropHighVegetation(std::vector<SwathPoint>& points);
 
 }  // namespace pcl_als
