@@ -75,7 +75,7 @@ CommandLine declare() {
   line.add<double>("range_exponent", "power of range that intensity falls with", 2.0);
   line.add<double>("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0);
   line.add<double>("visibility", "of the air, km", 48.3);
-  line.add<std::string>("format", "of the strips: las, or laz where built with LASzip", "las");
+  line.add<std::string>("format", "of the strips: las or laz", "las");
   return line;
 }
 

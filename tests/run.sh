@@ -18,7 +18,7 @@ pcl_als_step "Testing"
 cd -- "$pcl_als_build"
 status=0
 ctest --output-on-failure --timeout 900 -j "$(nproc)" "$@" </dev/null || status=$?
-# Inside a program, a test that lacks something (real data, LASzip, root) is skipped: say which.
+# Inside a program, a test that lacks something (real data, root) is skipped: say which.
 skipped=$(awk '/^SKIPPED: / { print "  " $0 }
   /^\[  SKIPPED \] .*\([0-9]+ ms\)$/ { sub(/\..*/, "", $4); count[$4]++ }
   END { for (suite in count) print "  " suite ": " count[suite] }' Testing/Temporary/LastTest.log)

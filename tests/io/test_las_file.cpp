@@ -265,7 +265,7 @@ const Corruption kCorruptions[] = {
     {"EvlrCount", "extended VLR 2 of 9 lies past", set<std::uint32_t>(243, 9)},
     {"EvlrLength", "reaches past the end of the file", set(599 + 20, ~std::uint64_t{0})},
     {"EvlrCut", "reaches past the end of the file", cut(599 + 60 + 7)},
-    {"Compressed", "LASzip", set<std::uint8_t>(104, 6 | 0x80)},
+    {"Compressed", "\"laszip encoded\" that says how is missing", set<std::uint8_t>(104, 6 | 0x80)},
 };
 
 class LasFileCorrupt : public testing::TestWithParam<Corruption> {};

@@ -20,7 +20,7 @@ struct LasFile::State {
   LasRecordLayout layout;
   std::vector<LasVlrEntry> vlrs;
   std::vector<LasExtraField> extra_fields;
-  std::unique_ptr<detail::LazReader> laz;
+  std::unique_ptr<LazPointReader> laz;
 
   explicit State(std::filesystem::path p) : path(std::move(p)), file(path) {}
 };
@@ -88,6 +88,15 @@ bool isRecord(const LasVlrEntry& entry, const char* user, std::uint16_t id) {
   return entry.user_id == user && entry.record_id == id;
 }
 
+std::vector<std::byte> lazPayload(const LasFile& file) {
+  for (const LasVlrEntry& vlr : file.vlrs())
+    if (isRecord(vlr, kLazUser, kLazRecord)) return file.payload(vlr);
+  throw InputError(
+      file.path().string() +
+      ": the points are compressed, but the record \"laszip encoded\" that says how is "
+      "missing");
+}
+
 }  // namespace
 
 LasFile::LasFile(std::filesystem::path path) : state_(std::make_unique<State>(std::move(path))) {
@@ -97,7 +106,7 @@ LasFile::LasFile(std::filesystem::path path) : state_(std::make_unique<State>(st
   readEntries(s.file, false, s.header.header_size, s.header.vlr_count, s.header.offset_to_points,
               s.vlrs);
   readExtendedEntries(s.file, s.header, s.vlrs);
-  if (s.header.compressed) s.laz = detail::openLazReader(s.path.string(), s.header, s.file.name());
+  if (s.header.compressed) s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this));
   const auto extra = std::find_if(s.vlrs.begin(), s.vlrs.end(), [](const LasVlrEntry& entry) {
     return isRecord(entry, "LASF_Spec", 4) && entry.length <= kLargestExtraRecord;
   });

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kOffsetToPoints = 96, kVlrCount = 100, kFormat = 104;
 constexpr std::uint8_t kCompressed = 0x80;
 
-/// Stores the fields of the header that the LASzip record changes.
+/// Stores the fields of the header that the record of the compression changes.
 void storeChanged(LasHead& head, bool compressed) {
   const LasHeader& h = head.header;
   storeLas(&head.bytes[kOffsetToPoints], h.offset_to_points);
@@ -23,7 +23,7 @@ void storeChanged(LasHead& head, bool compressed) {
   storeLas(&head.bytes[kFormat], format);
 }
 
-void insertLaszipRecord(LasHead& head, const std::vector<std::byte>& vlr) {
+void insertLazRecord(LasHead& head, const std::vector<std::byte>& vlr) {
   head.bytes.insert(head.bytes.begin() + static_cast<std::ptrdiff_t>(head.vlrs_end), vlr.begin(),
                     vlr.end());
   head.header.offset_to_points += static_cast<std::uint32_t>(vlr.size());
@@ -39,17 +39,17 @@ LasHead readLasHead(const LasFile& file) {
   head.bytes.resize(head.header.offset_to_points);
   file.readBytes(0, head.bytes.size(), head.bytes.data());
   head.vlrs_end = head.header.header_size;
-  const LasVlrEntry* laszip = nullptr;
+  const LasVlrEntry* laz = nullptr;
   for (const LasVlrEntry& vlr : file.vlrs()) {
     if (vlr.extended) continue;
     head.vlrs_end = vlr.position + vlr.length;
-    if (vlr.user_id == kLaszipUser && vlr.record_id == kLaszipRecord) laszip = &vlr;
+    if (vlr.user_id == kLazUser && vlr.record_id == kLazRecord) laz = &vlr;
   }
   if (!head.header.compressed) return head;
   head.header.compressed = false;
-  if (laszip != nullptr) {
-    const auto first = static_cast<std::ptrdiff_t>(laszip->position - kLasVlrHeader);
-    const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + laszip->length);
+  if (laz != nullptr) {
+    const auto first = static_cast<std::ptrdiff_t>(laz->position - kLasVlrHeader);
+    const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + laz->length);
     head.bytes.erase(head.bytes.begin() + first, head.bytes.begin() + first + size);
     head.vlrs_end -= static_cast<std::size_t>(size);
     head.header.offset_to_points -= static_cast<std::uint32_t>(size);
@@ -61,13 +61,16 @@ LasHead readLasHead(const LasFile& file) {
 
 LasOutput::LasOutput(const std::filesystem::path& path, LasHead head)
     : file_(path), record_length_(head.header.record_length) {
-  if (isLaz(path)) {
-    laz_ = makeLazWriter(head.header, path.string());
-    insertLaszipRecord(head, laz_->vlr());
-  }
+  const LazSchema schema = LazSchema::forFormat(head.header.point_format, record_length_);
+  const bool compressed = isLaz(path);
+  if (compressed) insertLazRecord(head, lazVlr(schema));
   offset_to_points_ = head.header.offset_to_points;
   file_.write(head.bytes.data(), head.bytes.size());
-  if (laz_) laz_->begin(file_.temporaryPath().string(), offset_to_points_);
+  if (!compressed) return;
+  const auto write = [this](std::uint64_t position, std::size_t bytes, const void* data) {
+    file_.writeAt(position, data, bytes);
+  };
+  laz_ = std::make_unique<LazPointWriter>(schema, write, offset_to_points_);
 }
 
 void LasOutput::append(const std::byte* records, std::size_t count) {
@@ -83,8 +86,7 @@ void LasOutput::putAt(std::uint64_t first, const std::byte* records, std::size_t
 }
 
 std::uint64_t LasOutput::endPoints() {
-  if (laz_) laz_->finish();
-  laz_.reset();
+  if (laz_) return laz_->finish();
   struct stat status {};
   fstat(file_.descriptor(), &status);
   return static_cast<std::uint64_t>(status.st_size);

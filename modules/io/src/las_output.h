@@ -47,7 +47,7 @@ class LasOutput {
   /// The kernel lets one thread at a time write to a file and makes the others spin: with other
   /// work on the machine copying takes five times as long. Waiting here costs nothing.
   std::mutex one_writer_;
-  std::unique_ptr<LazWriter> laz_;
+  std::unique_ptr<LazPointWriter> laz_;
   std::uint64_t offset_to_points_;
   std::size_t record_length_;
 };

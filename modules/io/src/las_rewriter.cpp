@@ -48,7 +48,7 @@ class Rewrite {
 
   LasRewriteResult run(int threads) {
     const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
-    // LASzip works in file order, with one thread at either end.
+    // Compressed points are coded in the order of the file, on several threads within.
     const bool in_order = header_.compressed || output_.compressed();
     parallelFor(blocks, in_order ? 1 : threads, [this](std::size_t block) { rewriteBlock(block); });
     copyTail();
@@ -98,7 +98,7 @@ class Rewrite {
   }
 
   /// Where the bytes behind the points begin. Behind compressed points only what the header points
-  /// at can be told from LASzip's own tables.
+  /// at can be told from the chunk table.
   std::uint64_t tailOfInput() const {
     if (!header_.compressed)
       return header_.offset_to_points + header_.point_count * header_.record_length;

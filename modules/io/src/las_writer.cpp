@@ -177,7 +177,7 @@ void LasWriter::finish() {
     throw InputError(s.name + ": LAS 1." + std::to_string(s.header.version_minor) +
                      " cannot hold more than 4294967295 points; use LAS 1.4");
   s.output->endPoints();
-  // Only what became known at the end: LASzip may have changed other fields of the header.
+  // Only what became known at the end: compression changes other fields of the header.
   const std::vector<std::byte> bytes = serialiseLasHeader(s.header);
   const auto put = [&](std::size_t begin, std::size_t end) {
     s.output->put(begin, &bytes[begin], end - begin);

@@ -3,41 +3,23 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <pcl_als/io/las_header.h>
+#include <pcl_als/las/laz_point_reader.h>
+#include <pcl_als/las/laz_point_writer.h>
+
+#include "input_file.h"
 
 namespace pcl_als::detail {
 
-/// The record that LASzip adds to the VLRs of a compressed file; plain LAS does not have it.
-inline constexpr const char* kLaszipUser = "laszip encoded";
-inline constexpr std::uint16_t kLaszipRecord = 22204;
+/// The compressed points of a file that stays open as long as the reader.
+/// \param payload of the record kLazUser, kLazRecord.
+std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHeader& header,
+                                              const std::vector<std::byte>& payload);
 
-/// Compressed points as the packed records of plain LAS.
-class LazReader {
- public:
-  virtual ~LazReader() = default;
-  virtual void read(std::uint64_t first, std::size_t count, std::byte* out) = 0;
-};
-
-/// Packed records compressed into an existing file, from begin() on.
-class LazWriter {
- public:
-  virtual ~LazWriter() = default;
-  /// The VLR (header and payload) that the file needs among its others.
-  virtual std::vector<std::byte> vlr() = 0;
-  virtual void begin(const std::string& path, std::uint64_t offset_to_points) = 0;
-  virtual void write(const std::byte* records, std::size_t count) = 0;
-  virtual void finish() = 0;
-};
-
-bool lazSupported();
-/// \param name for messages. InputError without LASzip support, telling how to get it.
-std::unique_ptr<LazReader> openLazReader(const std::string& path, const LasHeader& header,
-                                         const std::string& name);
-std::unique_ptr<LazWriter> makeLazWriter(const LasHeader& header, const std::string& name);
+/// The VLR (header and payload) that a compressed file needs among its others.
+std::vector<std::byte> lazVlr(const LazSchema& schema);
 
 }  // namespace pcl_als::detail

@@ -47,8 +47,8 @@ class LasFile {
                                  std::size_t limit = std::size_t{1} << 26) const;
   /// Any bytes of the file as they are.
   void readBytes(std::uint64_t position, std::size_t bytes, std::byte* out) const;
-  /// Raw records [first, first + count). Several threads may call it at once for a .las; a .laz is
-  /// read by one thread and fast only in file order.
+  /// Raw records [first, first + count). Several threads may call it at once; for a .laz they wait
+  /// for each other, because each call decodes on several threads. Fast in the order of the file.
   void readRecords(std::uint64_t first, std::size_t count, std::byte* out) const;
   int descriptor() const;
 

@@ -38,7 +38,7 @@ struct LasHeader {
   std::uint32_t offset_to_points = 375;
   std::uint32_t vlr_count = 0;
   std::uint8_t point_format = 6;  ///< 0 … 10, without the compression bits
-  bool compressed = false;        ///< the format byte carries LASzip's bits
+  bool compressed = false;        ///< the format byte carries the bits of LAZ
   std::uint16_t record_length = 30;
   std::uint64_t point_count = 0;
   std::uint64_t legacy_point_count = 0;                      ///< as stored, for checks

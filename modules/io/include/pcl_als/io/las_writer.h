@@ -30,7 +30,7 @@ struct LasWriterOptions {
   std::string generating_software = "pcl_als";
 };
 
-/** \brief Creates a LAS file (LAZ by extension, where built with LASzip): append points, finish().
+/** \brief Creates a LAS file (LAZ by extension): append points, finish().
  *
  * Counts, returns by number and the bounding box are fixed by finish(); without it no file appears
  * (see AtomicFile). Constant memory.

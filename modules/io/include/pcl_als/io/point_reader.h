@@ -52,7 +52,7 @@ class PointReader {
   static constexpr std::size_t kChunk = std::size_t{1} << 17;
 
   virtual ~PointReader() = default;
-  /// Opens by extension; a .laz without LASzip support is an InputError that says how to get it.
+  /// Opens by extension.
   static std::unique_ptr<PointReader> open(const std::filesystem::path& path);
 
   virtual const PointFileInfo& info() const = 0;

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <mutex>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/las/laz_point_reader.h>
+
+#include "byte_source.h"
+#include "chunk_coder.h"
+#include "chunk_table.h"
+
+namespace pcl_als {
+namespace {
+
+using laz::Chunk;
+
+constexpr std::size_t kLargestDecodedChunk = std::size_t{1} << 26;  ///< bytes of records
+constexpr std::size_t kReadAheadBytes = std::size_t{1} << 20;       ///< at least, if chunks allow
+constexpr std::size_t kReadAheadPerThread = 2;                      ///< chunks
+constexpr std::size_t kRunBytes = std::size_t{1} << 18;             ///< of records, for one thread
+constexpr std::size_t kSkippedRecords = 4096;
+
+/// Consecutive chunks in memory.
+struct Decoded {
+  std::uint64_t first = 0, count = 0;  ///< points
+  std::vector<std::uint8_t> records;
+  bool holds(std::uint64_t point) const { return point >= first && point - first < count; }
+};
+
+/// Where the decoder of a file that is decoded in order stands.
+struct Cursor {
+  std::unique_ptr<laz::ChunkDecoder> decoder;
+  std::size_t chunk = 0;
+  std::uint64_t next = 0;  ///< point
+  bool open = false;
+};
+
+}  // namespace
+
+struct LazPointReader::State {
+  LazSchema schema;
+  LazReadAt read_at;
+  LazPoints points;
+  std::string name;
+  std::size_t record_length = 0;
+  laz::ChunkTable table;
+  bool in_order = false;  ///< chunks too large for memory, or found in decoding only
+  std::mutex mutex;
+  Decoded decoded;
+  std::uint64_t expected = 0;  ///< the next point of a reader that proceeds in order
+  Cursor cursor;
+  std::mutex pool_mutex;
+  std::vector<std::unique_ptr<laz::ChunkDecoder>> pool;
+
+  void open();
+  std::size_t chunkOf(std::uint64_t point) const;
+  [[noreturn]] void refuse(std::size_t chunk, const char* what) const;
+  std::unique_ptr<laz::ChunkDecoder> takeDecoder();
+  void decodeChunk(laz::ChunkDecoder& decoder, std::size_t index, std::uint8_t* out) const;
+  void decodeRun(std::size_t begin, std::size_t end);
+  std::size_t batchEnd(std::size_t first, std::uint64_t wanted_end, bool in_sequence) const;
+  void decodeFrom(std::uint64_t point, std::uint64_t wanted_end, bool in_sequence);
+  void readDecoded(std::uint64_t first, std::size_t count, std::uint8_t* out);
+  void readInOrder(std::uint64_t first, std::size_t count, std::uint8_t* out);
+  void placeCursor(std::uint64_t point);
+  void openNextChunk();
+  void advance(std::size_t count, std::uint8_t* out);
+};
+
+void LazPointReader::State::open() {
+  record_length = schema.recordLength();
+  try {
+    table = laz::readChunkTable(schema, read_at,
+                                {points.offset_to_points, points.file_size, points.point_count});
+  } catch (const laz::Damage& damage) {
+    throw InputError(name + ": " + damage.what() + " (is the file complete?)");
+  }
+  in_order = !table.complete ||
+             std::any_of(table.chunks.begin(), table.chunks.end(), [this](const Chunk& chunk) {
+               return chunk.points > kLargestDecodedChunk / record_length;
+             });
+}
+
+std::size_t LazPointReader::State::chunkOf(std::uint64_t point) const {
+  const auto after =
+      std::upper_bound(table.chunks.begin(), table.chunks.end(), point,
+                       [](std::uint64_t p, const Chunk& chunk) { return p < chunk.first; });
+  return static_cast<std::size_t>(after - table.chunks.begin()) - 1;
+}
+
+void LazPointReader::State::refuse(std::size_t chunk, const char* what) const {
+  const Chunk& c = table.chunks[chunk];
+  throw InputError(name + ": chunk " + std::to_string(chunk + 1) + " (points " +
+                   std::to_string(c.first + 1) + " to " + std::to_string(c.first + c.points) +
+                   "): " + what + " (damaged or truncated copy?)");
+}
+
+std::unique_ptr<laz::ChunkDecoder> LazPointReader::State::takeDecoder() {
+  const std::lock_guard<std::mutex> lock(pool_mutex);
+  if (pool.empty()) return laz::makeChunkDecoder(schema, points.fields);
+  auto decoder = std::move(pool.back());
+  pool.pop_back();
+  return decoder;
+}
+
+void LazPointReader::State::decodeChunk(laz::ChunkDecoder& decoder, std::size_t index,
+                                        std::uint8_t* out) const {
+  const Chunk& chunk = table.chunks[index];
+  if (chunk.points == 0) return;
+  try {
+    decoder.open(&read_at, chunk.begin, chunk.end);
+    decoder.decode(chunk.points, out);
+    // The last chunk of a file may hold more points than the header announces.
+    const bool whole = index + 1 < table.chunks.size() && schema.chunked();
+    if (whole && decoder.end() != chunk.end)
+      throw laz::Damage("its end is not where the chunk table says");
+  } catch (const laz::Damage& damage) {
+    refuse(index, damage.what());
+  }
+}
+
+/// Decodes the chunks [begin, end) of those in `decoded`.
+void LazPointReader::State::decodeRun(std::size_t begin, std::size_t end) {
+  auto decoder = takeDecoder();
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint64_t before = table.chunks[i].first - decoded.first;
+    decodeChunk(*decoder, i, decoded.records.data() + before * record_length);
+  }
+  const std::lock_guard<std::mutex> lock(pool_mutex);
+  pool.push_back(std::move(decoder));
+}
+
+/// The end of the chunks to decode together from \a first on: those that reach up to \a wanted_end
+/// and, for a reader in order, enough for all threads.
+std::size_t LazPointReader::State::batchEnd(std::size_t first, std::uint64_t wanted_end,
+                                            bool in_sequence) const {
+  const std::size_t ahead = kReadAheadPerThread * threadCount(points.threads);
+  std::uint64_t count = 0;
+  std::size_t end = first;
+  for (; end < table.chunks.size(); ++end) {
+    const Chunk& chunk = table.chunks[end];
+    if (end > first && (count + chunk.points) * record_length > kLargestDecodedChunk) break;
+    const bool enough = end - first >= ahead && count * record_length >= kReadAheadBytes;
+    if (in_sequence ? enough : chunk.first >= wanted_end) break;
+    count += chunk.points;
+  }
+  return end;
+}
+
+/// Decodes chunks from that of \a point on.
+void LazPointReader::State::decodeFrom(std::uint64_t point, std::uint64_t wanted_end,
+                                       bool in_sequence) {
+  const std::size_t first = chunkOf(point), end = batchEnd(first, wanted_end, in_sequence);
+  const Chunk& last = table.chunks[end - 1];
+  decoded.count = 0;  // nothing is held if an exception leaves from here
+  decoded.first = table.chunks[first].first;
+  const std::uint64_t count = last.first + last.points - decoded.first;
+  decoded.records.resize(count * record_length);
+  std::vector<std::size_t> runs{first};
+  for (std::size_t i = first; i < end; ++i) {
+    const std::uint64_t run =
+        table.chunks[i].first + table.chunks[i].points - table.chunks[runs.back()].first;
+    if (run * record_length >= kRunBytes || i + 1 == end) runs.push_back(i + 1);
+  }
+  parallelFor(runs.size() - 1, points.threads,
+              [&](std::size_t i) { decodeRun(runs[i], runs[i + 1]); });
+  decoded.count = count;
+}
+
+void LazPointReader::State::readDecoded(std::uint64_t first, std::size_t count, std::uint8_t* out) {
+  const std::uint64_t end = first + count;
+  const bool in_sequence = first == expected;
+  while (first < end) {
+    if (!decoded.holds(first)) decodeFrom(first, end, in_sequence);
+    const std::uint64_t part = std::min(end, decoded.first + decoded.count) - first;
+    const std::uint8_t* from = decoded.records.data() + (first - decoded.first) * record_length;
+    out = std::copy(from, from + part * record_length, out);
+    first += part;
+  }
+  expected = end;
+}
+
+/// Moves the cursor to a chunk at or before a point.
+void LazPointReader::State::placeCursor(std::uint64_t point) {
+  const std::size_t chunk = chunkOf(point);
+  if (cursor.open && cursor.next <= point && cursor.chunk >= chunk) return;
+  if (!cursor.decoder) cursor.decoder = laz::makeChunkDecoder(schema, points.fields);
+  cursor.chunk = chunk;
+  cursor.next = table.chunks[chunk].first;
+  cursor.decoder->open(&read_at, table.chunks[chunk].begin, table.chunks[chunk].end);
+  cursor.open = true;
+}
+
+void LazPointReader::State::openNextChunk() {
+  const Chunk last = table.chunks[cursor.chunk];
+  ++cursor.chunk;
+  if (cursor.chunk == table.chunks.size()) {
+    Chunk next;
+    next.first = last.first + last.points;
+    next.points = std::min<std::uint64_t>(schema.chunk_size, points.point_count - next.first);
+    next.begin = cursor.decoder->end();
+    next.end = points.file_size;
+    table.chunks.back().end = next.begin;
+    table.chunks.push_back(next);
+  }
+  const Chunk& chunk = table.chunks[cursor.chunk];
+  cursor.decoder->open(&read_at, chunk.begin, chunk.end);
+}
+
+/// Decodes records of the cursor's chunk, opening the next chunk where it ends.
+void LazPointReader::State::advance(std::size_t count, std::uint8_t* out) {
+  while (count > 0) {
+    const Chunk& chunk = table.chunks[cursor.chunk];
+    const std::uint64_t left = chunk.first + chunk.points - cursor.next;
+    if (left == 0) {
+      openNextChunk();
+      continue;
+    }
+    const std::size_t part = std::min<std::uint64_t>(left, count);
+    cursor.decoder->decode(part, out);
+    out += part * record_length;
+    cursor.next += part;
+    count -= part;
+  }
+}
+
+void LazPointReader::State::readInOrder(std::uint64_t first, std::size_t count, std::uint8_t* out) {
+  try {
+    placeCursor(first);
+    std::vector<std::uint8_t> skipped;
+    while (cursor.next < first) {
+      const std::size_t part = std::min<std::uint64_t>(kSkippedRecords, first - cursor.next);
+      skipped.resize(part * record_length);
+      advance(part, skipped.data());
+    }
+    advance(count, out);
+  } catch (const laz::Damage& damage) {
+    cursor.open = false;
+    refuse(cursor.chunk, damage.what());
+  } catch (...) {
+    cursor.open = false;
+    throw;
+  }
+}
+
+LazPointReader::LazPointReader(LazSchema schema, LazReadAt read, const LazPoints& points,
+                               std::string name)
+    : state_(std::make_unique<State>()) {
+  state_->schema = std::move(schema);
+  state_->read_at = std::move(read);
+  state_->points = points;
+  state_->name = std::move(name);
+  state_->open();
+}
+
+LazPointReader::~LazPointReader() = default;
+
+void LazPointReader::read(std::uint64_t first, std::size_t count, void* out) {
+  State& s = *state_;
+  if (first > s.points.point_count || count > s.points.point_count - first)
+    throw UsageError(s.name + ": point records past the end were asked for");
+  if (count == 0) return;
+  const std::lock_guard<std::mutex> lock(s.mutex);
+  auto* to = static_cast<std::uint8_t*>(out);
+  if (s.in_order)
+    s.readInOrder(first, count, to);
+  else
+    s.readDecoded(first, count, to);
+}
+
+}  // namespace pcl_als
