@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,9 @@ int run(const char* tool, const std::function<int()>& body);
 
 /// "a, b, c" → {"a", "b", "c"}, without blanks and empty parts.
 std::vector<std::string> splitList(const std::string& list);
+
+/// At most ten significant digits: 0.3 → "0.3", not the digits of the nearest double.
+std::string shortText(double value);
 
 /// 1843200 → "1 843 200".
 std::string grouped(std::uint64_t count);

@@ -6,8 +6,13 @@ namespace pcl_als::app {
 
 template <typename T>
 void CommandLine::add(const char* name, const char* help, const T& default_value) {
-  options_.add_options()(name, boost::program_options::value<T>()->default_value(default_value),
-                         help);
+  auto* const value = boost::program_options::value<T>();
+  if constexpr (std::is_floating_point_v<T>) {
+    value->default_value(default_value, shortText(default_value));
+  } else {
+    value->default_value(default_value);
+  }
+  options_.add_options()(name, value, help);
 }
 
 template <typename T>

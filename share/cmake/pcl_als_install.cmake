@@ -7,7 +7,8 @@ get_property(PCL_ALS_TOOLS GLOBAL PROPERTY PCL_ALS_TOOLS)
 add_custom_target(pcl_als_tools DEPENDS ${PCL_ALS_TOOLS})
 
 get_property(PCL_ALS_EXPORTED_MODULES GLOBAL PROPERTY PCL_ALS_EXPORTED_MODULES)
-install(EXPORT pcl_als-targets NAMESPACE pcl_als:: DESTINATION ${PCL_ALS_CONFIG_DIR})
+install(EXPORT pcl_als-targets NAMESPACE pcl_als:: DESTINATION ${PCL_ALS_CONFIG_DIR}
+  COMPONENT headers)
 configure_package_config_file(share/cmake/pcl_als-config.cmake.in
   ${CMAKE_BINARY_DIR}/pcl_als-config.cmake INSTALL_DESTINATION ${PCL_ALS_CONFIG_DIR})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/pcl_als-config-version.cmake
@@ -16,4 +17,4 @@ install(FILES
   ${CMAKE_BINARY_DIR}/pcl_als-config.cmake
   ${CMAKE_BINARY_DIR}/pcl_als-config-version.cmake
   share/cmake/pcl_als_packages.cmake
-  DESTINATION ${PCL_ALS_CONFIG_DIR})
+  DESTINATION ${PCL_ALS_CONFIG_DIR} COMPONENT headers)

@@ -27,8 +27,21 @@ function(als_add_module)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   set_property(GLOBAL APPEND PROPERTY PCL_ALS_EXPORTED_MODULES ${ARG_NAME})
   install(TARGETS ${target} EXPORT pcl_als-targets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT headers
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT headers)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT headers)
+endfunction()
+
+# The manual page of a tool, from what it prints with -h.
+function(_pcl_als_man_page target tool)
+  set(script ${PROJECT_SOURCE_DIR}/share/cmake/man_page.awk)
+  set(page ${CMAKE_BINARY_DIR}/man/${tool}.1)
+  add_custom_command(OUTPUT ${page} DEPENDS ${target} ${script} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_BINARY_DIR}/man
+    COMMAND $<TARGET_FILE:${target}> -h > ${page}.txt
+    COMMAND awk -v tool=${tool} -v version=${PROJECT_VERSION} -f ${script} ${page}.txt > ${page})
+  add_custom_target(${target}_man ALL DEPENDS ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endfunction()
 
 # als_add_app(VERB calibrate SOURCES … MODULES …): the tool pcl_als_VERB
@@ -42,8 +55,9 @@ function(als_add_app)
   target_compile_definitions(${target} PRIVATE PCL_ALS_VERSION="${PROJECT_VERSION}")
   set_target_properties(${target} PROPERTIES OUTPUT_NAME pcl_als_${ARG_VERB}
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
   set_property(GLOBAL APPEND PROPERTY PCL_ALS_TOOLS ${target})
+  _pcl_als_man_page(${target} pcl_als_${ARG_VERB})
 endfunction()
 
 # als_add_test(NAME test_tin SOURCES … [MODULES …] [PRIVATE …]): a GoogleTest program of one module

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# test_packages.sh BUILD_DIR SCRATCH_DIR: manual pages agree with what the tools print, and the Debian
+# packages hold libraries, tools and headers apart, with the dependencies that they need.
+set -uo pipefail
+export LC_ALL=C
+build=$1 scratch=$2/packages
+rm -rf -- "$scratch" && mkdir -p -- "$scratch" && cd -- "$scratch" || exit 1
+failures=0
+failed() { failures=$((failures + 1)); echo "FAILED: $1"; }
+
+for tool in "$build"/bin/pcl_als_*; do
+  name=$(basename -- "$tool") page=$build/man/$(basename -- "$tool").1
+  [[ -s $page ]] || { failed "$name has no manual page"; continue; }
+  "$tool" -h >help.txt
+  for section in NAME SYNOPSIS OPTIONS EXAMPLE "EXIT STATUS"; do
+    grep -qx ".SH $section" "$page" || failed "$name.1 has no section $section"
+  done
+  # Every option is a paragraph of its own.
+  while read -r option; do
+    sed 's/\\-/-/g' "$page" | grep -qE -- "^\.B -($option|h, -help)( |$)" || failed "$name.1 lacks -$option"
+  done < <(sed -nE 's/^  --([a-z_]+).*/\1/p' help.txt)
+  # Defaults are written as people write them: no digits of the nearest double.
+  grep -nE '[0-9]\.[0-9]*(0{6}|9{6})' help.txt && failed "$name -h prints a number with too many digits"
+done
+
+if command -v cpack >/dev/null && command -v dpkg-shlibdeps >/dev/null && command -v dpkg-deb >/dev/null; then
+  cpack -G DEB --config "$build/CPackConfig.cmake" -B "$PWD" -D CPACK_INSTALL_CMAKE_PROJECTS="$build;pcl_als;ALL;/" \
+    -D CPACK_CMAKE_GENERATOR=Ninja >cpack.log 2>&1 || { cat cpack.log; failed "cpack"; }
+  holds() {  # PACKAGE PATTERN
+    dpkg-deb -c "$1"_*.deb >list.txt && grep -qE "$2" list.txt || failed "package $1 does not hold $2"
+  }
+  holds libpcl-als0 ' ./usr/lib/.*libpcl_als_io\.so\.0'
+  holds pcl-als-tools ' ./usr/bin/pcl_als_calibrate$'
+  holds pcl-als-tools ' ./usr/share/man/man1/pcl_als_calibrate\.1$'
+  holds libpcl-als-dev ' ./usr/include/pcl_als/common/point_types\.h$'
+  holds libpcl-als-dev ' ./usr/lib/.*/cmake/pcl_als/pcl_als-config\.cmake$'
+  dpkg-deb -c libpcl-als0_*.deb >list.txt
+  grep -E 'include/|bin/' list.txt && failed "libpcl-als0 holds headers or tools"
+  dpkg-deb -f pcl-als-tools_*.deb Depends | grep -q 'libpcl-als0 (= ' || failed "tools do not need the libraries"
+  dpkg-deb -f libpcl-als0_*.deb Depends | grep -q libpcl-common || failed "libraries do not need PCL"
+else
+  echo "SKIPPED: packages need cpack, dpkg-deb and dpkg-shlibdeps"
+fi
+[[ $failures == 0 ]] && echo "manual pages and packages as expected"
+exit $((failures > 0))
