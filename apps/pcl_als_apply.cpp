@@ -36,7 +36,8 @@ CommandLine commandLine() {
   line.addFlag("invert", "put the biases in instead of taking them out");
   line.addFlag("strip_corrections",
                "with -calibration: take out what it found wrong with each strip's trajectory, too");
-  line.addFlag("force", "apply a calibration even if its verdict is not \"usable\"");
+  app::addForceOption(
+      line, "the calibration's verdict is not \"usable\" or inputs do not belong together");
   line.addFlag("keep_uncovered",
                "leave points without a trajectory as they are (default: refuse the file)");
   return line;
@@ -117,6 +118,7 @@ int apply(int argc, char** argv) {
   correction.biases = calibration.biases();
   correction.invert = line.has("invert");
   correction.keep_uncovered = line.has("keep_uncovered");
+  correction.force = line.has("force");
   correction.threads = line.threads();
   if (line.has("strip_corrections")) {
     if (calibration.strip_errors.empty()) {
@@ -137,6 +139,7 @@ int apply(int argc, char** argv) {
       files[0], files[1], correction, [&step](double fraction) { step.progress(fraction); });
   step.done(grouped(result.points) + " points");
   app::remark(line, result.time_remark);
+  for (const std::string& warning : result.warnings) app::remark(line, "warning: " + warning);
   app::remark(line, result.attitude_remark);
   if (result.coverage.missed() > 0) {
     app::remark(line, "left as they are: " + result.coverage.describe(*correction.trajectory));

@@ -37,6 +37,7 @@ CommandLine commandLine() {
   line.addOptional("pairs", "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap)");
   app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
+  app::addForceOption(line);
   line.addFlag("vertical",
                "with quasi_rigorous: take the sensor as vertical and looking along the line of "
                "flight, as published, instead of recovering pitch and crab from the points");
@@ -89,6 +90,7 @@ CalibrationSettings settingsOf(const CommandLine& line) {
       static_cast<std::size_t>(1e3 * line.number("candidates", 1.0, 1e6, "thousands"));
   settings.pair_budget =
       static_cast<std::size_t>(1e3 * line.number("select", 0.0, 1e6, "thousands"));
+  settings.force = line.has("force");
   settings.threads = line.threads();
   return settings;
 }
@@ -147,6 +149,7 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   }
   correction.gps_week = app::gpsWeek(line);
   correction.threads = line.threads();
+  correction.check_trajectory = false;  // done with all strips together
   correction.keep_uncovered = true;  // strips too small to calibrate may lie outside the trajectory
   for (const std::string& file : files) {
     const fs::path output = fs::path(line.text("corrected")) / fs::path(file).filename();

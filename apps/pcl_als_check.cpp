@@ -37,6 +37,7 @@ CommandLine commandLine() {
                    "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
                    "quality.json -report report");
   app::addFlightOptions(line, "for scan angles finer than the files' own");
+  app::addForceOption(line);
   line.addOptional(
       "before",
       "the same strips before a calibration: a folder, or files parted by commas; both "
@@ -63,6 +64,7 @@ app::CheckSettings settingsOf(const CommandLine& line) {
   settings.selection.point_budget =
       static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
   settings.control_sigma = line.number("control_sigma", 0.0, 10.0, "m");
+  settings.force = line.has("force");
   settings.threads = line.threads();
   if (line.has("control")) settings.control = readControl(line.text("control"));
   return settings;

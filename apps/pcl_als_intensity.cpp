@@ -36,6 +36,7 @@ CommandLine commandLine() {
       "pcl_als_intensity strip*.las -corrected out -trajectory flight.csv -visibility 48.3 "
       "-temperature 29.8 -pressure 101.81 -estimate strip_gains -report report");
   app::addFlightOptions(line);
+  app::addForceOption(line);
   app::addIntensityOptions(line);
   return line;
 }
@@ -109,8 +110,17 @@ void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport
   for (const std::string& warning : report.warnings) app::remark(line, warning);
 }
 
+/// Counts of all files.
+app::IntensityCounts allCounts(const app::IntensityOutcome& outcome) {
+  app::IntensityCounts all;
+  for (const app::IntensityCounts& counts : outcome.counts) all.merge(counts);
+  return all;
+}
+
 /// In one line, the reasons of each are in the tables; empty where all asked for is answered.
 std::string whyNot(const CommandLine& line, const app::IntensityReport& report) {
+  const app::LostIntensities lost = app::lostIntensities(allCounts(*report.outcome));
+  if (lost.share > app::LostIntensities::kAll) return lost.text;
   if (report.reference && !(report.reference->constant > 0.0)) {
     return "no reference target was seen: intensities are relative";
   }
@@ -124,7 +134,7 @@ void writeReport(const CommandLine& line, const app::IntensityReport& report,
                  const app::IntensityPage* page, bool reliable) {
   const std::filesystem::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  app::writeIntensityReport(folder, report);
+  app::writeIntensityReport(folder, report, page == nullptr);
   if (page != nullptr) page->write(line, report, reliable);
   step.done(page != nullptr ? "report.html with pictures, report.md, CSV"
                             : "report.md, CSV; no report.html: built without VTK");
@@ -159,6 +169,7 @@ int intensity(int argc, const char* const* argv) {
   app::IntensityOutcome outcome(run.strips().size());
   const auto page = line.has("report") ? app::loadIntensityPage(run, outcome) : nullptr;
   app::IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
+  report.warnings = run.warnings();
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
     Step step("Writing " + files.outputs[i], line.quiet());
@@ -169,6 +180,11 @@ int intensity(int argc, const char* const* argv) {
     if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
   }
   if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
+  const app::LostIntensities lost = app::lostIntensities(allCounts(outcome));
+  if (lost.share > app::LostIntensities::kMany) {
+    report.warnings.push_back(lost.text);
+    app::remark(line, "warning: " + lost.text);
+  }
   const std::string missing = whyNot(line, report);
   if (line.has("report")) writeReport(line, report, page.get(), missing.empty());
   if (missing.empty()) return app::kDone;

@@ -54,7 +54,11 @@ BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
       map_(survey.corner()),
       courses_(survey.strips().size()),
       used_(survey.strips().size(), true) {
-  for (std::size_t i = 0; i < survey.strips().size(); ++i) map_.addStrip();
+  if (trajectory_) plausibility_.emplace(trajectory_);
+  for (const std::string& id : survey.strips()) {
+    map_.addStrip();
+    if (plausibility_) plausibility_->addStrip(id);
+  }
 }
 
 SwathPoint BlockCheck::swathPoint(const SurveyReader::Run& run, std::size_t row,
@@ -89,6 +93,7 @@ void BlockCheck::surveyBlock() {
     for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
       const SwathPoint point = swathPoint(run, row, cursor);
       if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
+      if (plausibility_) plausibility_->add(strip, point.time, point.position);
     }
   });
   for (std::size_t strip = 0; strip < used_.size(); ++strip) {
@@ -102,6 +107,7 @@ void BlockCheck::surveyBlock() {
       warnings_.push_back("strip " + id + " has only " + std::to_string(map_.pointCount(index)) +
                           " points and is left out");
   }
+  checkTrajectory();
   for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
     if (used_[overlap.strips.first] && used_[overlap.strips.second]) overlaps_.push_back(overlap);
   }
@@ -110,6 +116,16 @@ void BlockCheck::surveyBlock() {
   throw InputError(
       used < 2 ? "fewer than two strips with enough points and no control: nothing to compare"
                : "no two strips overlap and there is no control: nothing to compare");
+}
+
+void BlockCheck::checkTrajectory() {
+  if (!plausibility_) return;
+  for (std::size_t strip = 0; strip < used_.size(); ++strip) {
+    if (!used_[strip]) plausibility_->leaveOut(static_cast<int>(strip));
+  }
+  for (const std::string& warning : plausibility_->check(settings_.force)) {
+    warnings_.push_back(warning);
+  }
 }
 
 double BlockCheck::coveredArea() const {

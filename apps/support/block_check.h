@@ -18,6 +18,7 @@
 #include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/quality/strip_course.h>
 #include <pcl_als/trajectory/trajectory.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
 
 #include "separation_image.h"
 #include "survey_reader.h"
@@ -33,6 +34,7 @@ struct CheckSettings {
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
   double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed, not measured
   std::size_t candidates = 100'000;   ///< places looked at, all areas, level and steep each
+  bool force = false;                 ///< go on with a trajectory that cannot be the points'
   int threads = 0;
 };
 
@@ -97,6 +99,7 @@ class BlockCheck {
 
  private:
   SwathPoint swathPoint(const SurveyReader::Run& run, std::size_t row, std::size_t& cursor) const;
+  void checkTrajectory();
   void findRoughness();
   void measureAreas();
   void measureControl(CheckedBlock& block);
@@ -105,6 +108,7 @@ class BlockCheck {
   SurveyReader& survey_;
   CheckSettings settings_;
   std::shared_ptr<const Trajectory> trajectory_;
+  std::optional<TrajectoryPlausibility> plausibility_;  ///< with a trajectory
   SurveyMap map_;
   std::vector<StripCourse> courses_;
   std::vector<bool> used_;

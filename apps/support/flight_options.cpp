@@ -9,8 +9,24 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/trajectory/heading_check.h>
 
 namespace pcl_als::app {
+namespace {
+
+/// A column called yaw is clockwise from north or counter-clockwise from east: the course decides.
+std::string decideYaw(TrajectoryFile& file) {
+  if (!file.heading_is_yaw) return {};
+  const HeadingCheck check = headingCheck(file.samples);
+  constexpr auto kFromEast = HeadingReading::from_east_counter_clockwise;
+  if (check.followsCourse() || check.deviation(kFromEast) > HeadingCheck::kLargestCrab) return {};
+  for (TrajectorySample& sample : file.samples) {
+    sample.heading = headingFrom(kFromEast, sample.heading);
+  }
+  return "yaw is counter-clockwise from east, as the course shows: heading = 90 degrees - yaw";
+}
+
+}  // namespace
 
 void addFlightOptions(CommandLine& line, const char* use) {
   const std::string help = std::string("trajectory: .csv, or SBET .out/.sbet (") + use + ")";
@@ -57,6 +73,11 @@ void remark(const CommandLine& line, const std::string& text) {
   if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
 }
 
+void addForceOption(CommandLine& line, const std::string& reason) {
+  const std::string help = "go on, with a warning, where " + reason + "; results may be wrong";
+  line.addFlag("force", help.c_str());
+}
+
 void addModelOption(CommandLine& line) {
   line.add<std::string>(
       "model",
@@ -87,7 +108,9 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   const std::string path = line.text("trajectory");
   Step step("Reading " + path, line.quiet());
   const std::string crs = line.has("crs") ? line.text("crs") : points_crs;
-  std::vector<TrajectorySample> samples = readTrajectory(path, crs);
+  TrajectoryFile file = readTrajectoryFile(path, crs);
+  const std::string yaw = decideYaw(file);
+  std::vector<TrajectorySample>& samples = file.samples;
   const bool complete =
       !samples.empty() && std::all_of(samples.begin(), samples.end(),
                                       [](const TrajectorySample& s) { return s.hasAttitude(); });
@@ -100,6 +123,8 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   auto trajectory = std::make_shared<const Trajectory>(std::move(samples), options);
   step.done(grouped(trajectory->size()) + " samples, " + std::to_string(trajectory->gaps().size()) +
             " gaps" + (options.use_attitude ? ", with attitude" : ""));
+  remark(line, file.columns);
+  if (options.use_attitude) remark(line, yaw);
   for (const std::string& repair : trajectory->repairs()) remark(line, repair);
   return trajectory;
 }

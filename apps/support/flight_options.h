@@ -19,6 +19,9 @@ void addFlightOptions(CommandLine& line, const char* use = "needed");
 /// -gps_week; empty when it is to be found from the data.
 std::optional<int> gpsWeek(const CommandLine& line);
 
+/// -force: go on, with a warning, where the tool refuses because of \a reason.
+void addForceOption(CommandLine& line, const std::string& reason = "inputs do not belong together");
+
 /// What to do with the roll, pitch and heading of a trajectory.
 enum class AttitudeUse { ignore, where_given, needed };
 

@@ -185,25 +185,33 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
   return out.str();
 }
 
-void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(folder.string() + ": cannot make this folder");
-  const IntensityStatistics& statistics = report.outcome->statistics;
-  const double scale = meanScale(statistics.all());
-  Table slopes("slope_deg"), classes("class"), strips("strip");
-  for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
-    slopes.add(slopeName(bin), statistics.slope(bin), scale);
-  for (int code = 0; code < 256; ++code)
-    classes.add(std::to_string(code) + " " + className(code),
-                statistics.classOf(static_cast<std::uint8_t>(code)), scale);
-  for (std::size_t i = 0; i < statistics.strips(); ++i)
-    strips.add(report.run->strips()[i], statistics.strip(i), meanScale(statistics.strip(i)));
-  writeFile(folder / "slopes.csv", slopes.csv.str());
-  writeFile(folder / "classes.csv", classes.csv.str());
-  writeFile(folder / "strips.csv", strips.csv.str());
-  writeFile(folder / "histograms.csv", histogramsCsv(report));
+LostIntensities lostIntensities(const IntensityCounts& counts) {
+  const struct {
+    std::uint64_t count;
+    const char* what;
+  } kinds[] = {
+      {counts.clipped,
+       "beyond 65535 after correction and written as 65535; use a smaller -scale, "
+       "or check that trajectory and points belong together"},
+      {counts.saturated, "saturated as received: corrected values are lower bounds"},
+      {counts.rounded_to_zero, "under 0.5 after correction and written as 0; use a larger -scale"}};
+  LostIntensities lost;
+  const std::uint64_t with_intensity = counts.points - counts.zeros;
+  if (with_intensity == 0) return lost;
+  for (const auto& kind : kinds) {
+    const double share = static_cast<double>(kind.count) / static_cast<double>(with_intensity);
+    if (share <= lost.share) continue;
+    lost.share = share;
+    lost.text =
+        grouped(kind.count) + " of " + grouped(with_intensity) + " intensities are " + kind.what;
+  }
+  return lost;
+}
+
+namespace {
+
+std::string markdownOf(const IntensityReport& report, const Table& slopes, const Table& classes,
+                       const Table& strips) {
   std::ostringstream page;
   const RadiometricModel& model = report.run->model();
   page << "# Radiometric correction\n\nReference range " << model.reference_range
@@ -228,7 +236,32 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
          << report.run->input(i).path() << "\n```\n"
          << countsText(report.outcome->counts[i], *report.run) << "```\n";
   for (const std::string& warning : report.warnings) page << "\n- " << warning;
-  writeFile(folder / "report.md", page.str() + "\n");
+  return page.str() + "\n";
+}
+
+}  // namespace
+
+void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
+                          bool markdown) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(folder.string() + ": cannot make this folder");
+  const IntensityStatistics& statistics = report.outcome->statistics;
+  const double scale = meanScale(statistics.all());
+  Table slopes("slope_deg"), classes("class"), strips("strip");
+  for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
+    slopes.add(slopeName(bin), statistics.slope(bin), scale);
+  for (int code = 0; code < 256; ++code)
+    classes.add(std::to_string(code) + " " + className(code),
+                statistics.classOf(static_cast<std::uint8_t>(code)), scale);
+  for (std::size_t i = 0; i < statistics.strips(); ++i)
+    strips.add(report.run->strips()[i], statistics.strip(i), meanScale(statistics.strip(i)));
+  writeFile(folder / "slopes.csv", slopes.csv.str());
+  writeFile(folder / "classes.csv", classes.csv.str());
+  writeFile(folder / "strips.csv", strips.csv.str());
+  writeFile(folder / "histograms.csv", histogramsCsv(report));
+  if (markdown) writeFile(folder / "report.md", markdownOf(report, slopes, classes, strips));
 }
 
 }  // namespace pcl_als::app

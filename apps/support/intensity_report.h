@@ -32,6 +32,14 @@ std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::s
 std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
 
+/// Points whose corrected intensity says nothing: saturated, clipped or rounded to zero.
+struct LostIntensities {
+  static constexpr double kAll = 0.99, kMany = 0.1;  ///< shares: no answer; worth a warning
+  double share = 0.0;                                ///< of the points with an intensity
+  std::string text;
+};
+LostIntensities lostIntensities(const IntensityCounts& counts);
+
 /// "10-15", or "no surface".
 std::string slopeName(std::size_t bin);
 
@@ -42,7 +50,9 @@ double meanScale(const BeforeAfter& all);
 void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
 
 /// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv into a folder, made if missing.
-void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report);
+/// Without \a markdown all but report.md, which the page writes then.
+void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
+                          bool markdown);
 
 /// Model, gains by strip and constant of a JSON of an earlier run.
 struct StoredRadiometry {

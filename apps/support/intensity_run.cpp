@@ -10,7 +10,9 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/point_sample.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
 
 namespace pcl_als::app {
 namespace {
@@ -38,6 +40,7 @@ IntensityRun::IntensityRun(const std::vector<std::string>& paths,
   settings_.surfaces.check();
   openFiles(paths);
   alignTimes();
+  checkTrajectory();
   chooseRadii();
   chooseCells();
 }
@@ -111,6 +114,33 @@ void IntensityRun::alignTimes() {
                                survey.sources.info.time_kind, flight, settings_.gps_week);
     if (!alignment.remark.empty()) remarks_.push_back(alignment.remark);
   }
+}
+
+/// Ranges from a trajectory of another flight, or in other units, are numbers without meaning.
+void IntensityRun::checkTrajectory() {
+  TrajectoryPlausibility check(trajectory_);
+  for (const std::string& strip : strips()) check.addStrip(strip);
+  for (std::size_t file = 0; file < files(); ++file) {
+    const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point) {
+      check.add(strip_of_[file].at(source), times_[file](time), point);
+    };
+    if (const LasFile* las = inputs_[file]->las()) {
+      samplePoints(*las, SampleSize(), [&add](const PointChunk& chunk) {
+        for (std::size_t i = 0; i < chunk.size(); ++i) {
+          add(chunk.point_source_id[i], chunk.gps_time[i], {chunk.x[i], chunk.y[i], chunk.z[i]});
+        }
+      });
+      continue;
+    }
+    const Strip<PointLidar>& strip = *inputs_[file]->strip();
+    const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / 4096);
+    for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
+      const PointLidar& point = (*strip.cloud)[i];
+      add(point.point_source_id, point.gps_time,
+          strip.frame.origin + point.getVector3fMap().cast<double>());
+    }
+  }
+  warnings_ = check.check(settings_.force);
 }
 
 /// The radius of each strip's surfaces: from the spacing of its points in some windows, and at

@@ -36,6 +36,7 @@ struct IntensitySettings {
   double saturation = 0.0;  ///< digital number; 0: 255 for 8-bit data, else 65535
   bool keep_uncovered = false;
   bool statistics = false;
+  bool force = false;         ///< go on with a trajectory that cannot be the points'
   bool find_surfaces = true;  ///< false: no incidence angles are wanted by anyone
   std::optional<int> gps_week;
   int threads = 0;
@@ -82,6 +83,8 @@ class IntensityRun {
   std::size_t files() const { return inputs_.size(); }
   const IntensitySettings& settings() const { return settings_; }
   const std::vector<std::string>& remarks() const { return remarks_; }
+  /// Of the check of the trajectory.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
   /// By point source id.
@@ -115,6 +118,7 @@ class IntensityRun {
  private:
   void openFiles(const std::vector<std::string>& paths);
   void alignTimes();
+  void checkTrajectory();
   void chooseRadii();
   void chooseCells();
   std::map<std::uint16_t, LocalSurfaces> surfacesOf(std::size_t file,
@@ -129,7 +133,7 @@ class IntensityRun {
   std::vector<std::map<std::uint16_t, int>> strip_of_;  ///< by file and source id
   std::vector<TimeAlignment> times_;
   std::vector<double> radii_, known_gains_, estimated_gains_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_, warnings_;
   RadiometricModel model_;
   double saturation_ = 65535.0, cell_size_ = 2.0, constant_ = 0.0;
   std::uint32_t one_cell_in_ = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <mutex>
 #include <vector>
 
@@ -14,8 +15,10 @@
 #include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/point_sample.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
 
 namespace pcl_als::app {
 namespace {
@@ -130,6 +133,58 @@ AttitudeRecovery::Outcome recoveredAttitude(const Strip<PointLidar>& strip,
   return recovery.recover();
 }
 
+/// Whether the points can have been measured from the trajectory, by source id.
+class FlightCheck {
+ public:
+  explicit FlightCheck(std::shared_ptr<const Trajectory> flight) : check_(std::move(flight)) {}
+
+  void add(std::uint16_t source, double time, const Eigen::Vector3d& point) {
+    const auto [at, fresh] = strips_.try_emplace(source, 0);
+    if (fresh) at->second = check_.addStrip(std::to_string(source));
+    check_.add(at->second, time, point);
+  }
+  /// Warnings; a refusal is an InputError that names the file.
+  std::vector<std::string> result(const std::string& name, bool force) const {
+    try {
+      return check_.check(force);
+    } catch (const InputError& error) {
+      throw InputError(name + ": " + error.what());
+    }
+  }
+
+ private:
+  TrajectoryPlausibility check_;
+  std::map<std::uint16_t, int> strips_;
+};
+
+std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& alignment,
+                                     const PointFileCorrection& correction) {
+  if (!correction.check_trajectory) return {};
+  FlightCheck check(correction.trajectory);
+  samplePoints(file, SampleSize(), [&](const PointChunk& chunk) {
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      check.add(chunk.point_source_id[i], alignment(chunk.gps_time[i]),
+                {chunk.x[i], chunk.y[i], chunk.z[i]});
+    }
+  });
+  return check.result(file.path().string(), correction.force);
+}
+
+std::vector<std::string> checkFlight(const std::string& name, const Strip<PointLidar>& strip,
+                                     const TimeAlignment& alignment,
+                                     const PointFileCorrection& correction) {
+  if (!correction.check_trajectory) return {};
+  constexpr std::size_t kSample = 4096;
+  FlightCheck check(correction.trajectory);
+  const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / kSample);
+  for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
+    const PointLidar& point = (*strip.cloud)[i];
+    check.add(point.point_source_id, alignment(point.gps_time),
+              strip.frame.origin + point.getVector3fMap().cast<double>());
+  }
+  return check.result(name, correction.force);
+}
+
 /// Points that the correction could not serve end the run, unless they may stay as they are.
 void checkCoverage(const std::string& name, const CoverageCount& coverage,
                    const PointFileCorrection& correction) {
@@ -187,6 +242,7 @@ PointFileCorrectionResult correctLas(const std::filesystem::path& input,
   TimeAlignment alignment;
   if (file.header().point_count > 0) alignment = alignmentOf(file, correction);
   result.time_remark = alignment.remark;
+  result.warnings = checkFlight(file, alignment, correction);
   std::shared_ptr<const Trajectory> trajectory = correction.trajectory;
   if (correction.recover_attitude) {
     const AttitudeRecovery::Outcome outcome = recoveredAttitude(file, alignment, trajectory);
@@ -224,6 +280,7 @@ PointFileCorrectionResult correctPcd(const std::filesystem::path& input,
                                            rangeOf(*correction.trajectory), correction.gps_week));
   }
   result.time_remark = filter.getTimeAlignment().remark;
+  result.warnings = checkFlight(input.string(), strip, filter.getTimeAlignment(), correction);
   filter.setTrajectory(correction.trajectory);
   if (correction.recover_attitude) {
     const AttitudeRecovery::Outcome outcome =

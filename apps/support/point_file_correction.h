@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
@@ -22,15 +23,19 @@ struct PointFileCorrection {
   bool recover_attitude = false;  ///< pitch and crab from the points; the trajectory has none
   bool invert = false;            ///< put the biases in instead of taking them out
   bool keep_uncovered = false;    ///< leave points without a trajectory as they are; else refuse
-  std::optional<int> gps_week;    ///< of times that are seconds of the week
+  /// Whether to refuse a trajectory that the points cannot have been measured from.
+  bool check_trajectory = true;
+  bool force = false;           ///< go on where that check refuses, with warnings
+  std::optional<int> gps_week;  ///< of times that are seconds of the week
   int threads = 0;
 };
 
 struct PointFileCorrectionResult {
   std::uint64_t points = 0;
   CoverageCount coverage;
-  std::string time_remark;      ///< how point times were matched to the trajectory's; may be empty
-  std::string attitude_remark;  ///< what was recovered; may be empty
+  std::string time_remark;  ///< how point times were matched to the trajectory's; may be empty
+  std::vector<std::string> warnings;  ///< of the trajectory's check
+  std::string attitude_remark;        ///< what was recovered; may be empty
 };
 
 /** \brief Corrects a point file into another: .las and .laz in constant memory on the raw integers,

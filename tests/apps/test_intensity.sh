@@ -71,8 +71,8 @@ expect 2 "line 2, column 'reflectance'" intensity block/strip1.las x.las "${flig
 expect 0 'atmosphere: left out' intensity block/strip1.las plain.las "${flight[@]}" -no_atmosphere -no_range -no_incidence \
   -no_original -no_fields
 check "without terms nothing changes" cmp plain.las block/strip1.las
-expect 0 'beyond 65535' intensity block/strip3.las x.las "${flight[@]}" -scale 1000
-expect 0 'under 0.5' intensity block/strip3.las x.las "${flight[@]}" -scale 0.0001
+expect 3 "beyond 65535" intensity block/strip3.las x.las "${flight[@]}" -scale 1000
+expect 3 "under 0.5" intensity block/strip3.las x.las "${flight[@]}" -scale 0.0001
 expect 1 'there is no strip 9' intensity block/strip3.las x.las "${flight[@]}" -pulse_rates 3=50000,9=50000
 expect 0 '' intensity block/strip3.las x.las "${flight[@]}" -gains 3=0.8 -attenuation 0.5
 expect 1 'no strip 9' intensity block/strip3.las x.las "${flight[@]}" -gains 9=0.8

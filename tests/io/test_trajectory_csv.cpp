@@ -68,6 +68,40 @@ TEST(TrajectoryCsv, AcceptsEverySeparatorAndLineEnd) {
   }
 }
 
+// 2026-11: headers as they are delivered were refused; only time,x,y,z,roll,pitch,heading were
+// known.
+TEST(TrajectoryCsv, AcceptsTheNamesInUse) {
+  for (const std::string header :
+       {"GpsTime,Easting,Northing,Height,Roll,Pitch,Azimuth",
+        "\"GPS Time (s)\",East,North,Elevation [m],Roll [deg],Pitch [deg],Heading [deg]",
+        "gps_time,X,Y,Alt,ROLL,PITCH,HDG", "sow,X_m,Y_m,Altitude_m,roll_deg,pitch_deg,yaw_deg"}) {
+    const auto samples = readTrajectory(file(header + "\n1,10,20,30,2,-1,270\n"));
+    ASSERT_EQ(samples.size(), 1U) << header;
+    EXPECT_EQ(samples[0].time, 1.0) << header;
+    EXPECT_EQ(samples[0].position, Eigen::Vector3d(10, 20, 30)) << header;
+    EXPECT_DOUBLE_EQ(samples[0].roll, kPi / 90.0) << header;
+    EXPECT_DOUBLE_EQ(samples[0].pitch, -kPi / 180.0) << header;
+    EXPECT_DOUBLE_EQ(samples[0].heading, 1.5 * kPi) << header;
+  }
+}
+
+TEST(TrajectoryCsv, TakesRadiansWhereTheNameSaysSo) {
+  const auto samples =
+      readTrajectory(file("time,x,y,z,roll_rad,Pitch (rad),heading[radians]\n1,2,3,4,0.1,0.2,3\n"));
+  EXPECT_EQ(samples[0].roll, 0.1);
+  EXPECT_EQ(samples[0].pitch, 0.2);
+  EXPECT_EQ(samples[0].heading, 3.0);
+}
+
+TEST(TrajectoryCsv, SaysWhichColumnsItTook) {
+  EXPECT_EQ(readTrajectoryFile(file("time,X,Y,z\n1,2,3,4\n")).columns, "");
+  const TrajectoryFile taken = readTrajectoryFile(file("GpsTime,Y,X,Z,Yaw\n1,20,10,4,5\n"));
+  EXPECT_EQ(taken.columns, "columns: time from GpsTime, heading from Yaw");
+  EXPECT_TRUE(taken.heading_is_yaw);
+  EXPECT_EQ(taken.samples[0].position, Eigen::Vector3d(10, 20, 4));  // Y stands before X
+  EXPECT_FALSE(readTrajectoryFile(file("time,x,y,z,azimuth\n1,2,3,4,5\n")).heading_is_yaw);
+}
+
 TEST(TrajectoryCsv, SkipsByteOrderMarkCommentsAndEmptyLines) {
   expectTwoSamples(
       readTrajectory(file("\xEF\xBB\xBF# made by hand\n\ntime,x,y,z\n# first\n"
@@ -102,6 +136,11 @@ TEST(TrajectoryCsv, ErrorsNameFileLineAndColumn) {
       {"# only a comment\n", "is empty"},
       {"time,x,y,z\n", "has a header but no records"},
       {"time,x,z\n1,2,3\n", "line 1: no column 'y' in the header 'time,x,z'"},
+      {"time,x,y,z,Azimuth,yaw\n1,2,3,4,5,6\n",
+       "columns 'Azimuth' and 'yaw' both name the heading"},
+      {"time,x,y,z,Height\n1,2,3,4,5\n", "columns 'z' and 'Height' both name the z"},
+      {"time,x (ft),y,z\n1,2,3,4\n", "column 'x (ft)': the unit ft is not supported"},
+      {"a,x,y,z\n1,2,3,4\n", "accepted names (in any case): time, gps_time, "},
       {"time,x,y,x\n1,2,3,4\n", "line 1: column 'x' appears twice"},
       {"time,x,y,z\n1,2,3,4\n2,2,abc,4\n", "line 3, column 'y': 'abc' is not a number"},
       {"time,x,y,z\n1,2,3,4m\n", "line 2, column 'z': '4m' is not a number"},
@@ -131,6 +170,20 @@ TEST(TrajectoryCsv, MissingFileAndFolderAreNamed) {
   const auto folder = test::scratch("trajectory_csv_folder");
   EXPECT_THROW(readTrajectory(folder), InputError);
   EXPECT_THROW(readTrajectory(folder / "none.csv"), InputError);
+}
+
+TEST(TrajectoryCsv, ReadsTheTitanTrajectories) {
+  const auto path = test::testData("real/titan/position_attitude.txt");
+  const auto full = test::testData("real/titan/attitude_200hz.txt");
+  PCL_ALS_REQUIRE_DATA(path);
+  PCL_ALS_REQUIRE_DATA(full);
+  const auto samples = readTrajectory(*path);
+  EXPECT_EQ(samples[0].time, 407107.0);
+  EXPECT_EQ(samples[0].position, Eigen::Vector3d(276252.047, 3289429.249, 541.019));
+  EXPECT_FALSE(samples[0].hasAttitude());       // no roll
+  const auto attitude = readTrajectory(*full);  // Y before X
+  EXPECT_EQ(attitude[0].position, Eigen::Vector3d(276318.006408, 3289429.723912, 538.873527));
+  EXPECT_DOUBLE_EQ(attitude[0].heading, -90.494178 * kRadiansPerDegree);
 }
 
 TEST(TrajectoryCsv, ReadsTheHeliosTrajectory) {

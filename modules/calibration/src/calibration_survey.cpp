@@ -29,7 +29,7 @@ std::string seconds(double from, double to) {
 int QuasiRigorousCalibration::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
-  looks_.emplace_back(trajectory_);
+  plausibility_.addStrip(id);
   if (attitude_ == AttitudeSource::none) recoveries_.emplace_back(trajectory_);
   return map_.addStrip();
 }
@@ -37,9 +37,9 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
 void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
                                       std::size_t count) {
   map_.add(strip, points, count);
-  constexpr std::size_t kEveryLook = 128;
-  for (std::size_t i = 0; i < count; i += kEveryLook) {
-    if (points[i].position.allFinite()) looks_[static_cast<std::size_t>(strip)].add(points[i]);
+  constexpr std::size_t kEveryChecked = 128;
+  for (std::size_t i = 0; i < count; i += kEveryChecked) {
+    plausibility_.add(strip, points[i].time, points[i].position);
   }
   if (recoveries_.empty()) return;
   constexpr std::size_t kEvery = 16;  // of the points show the attitude
@@ -86,8 +86,7 @@ void QuasiRigorousCalibration::leaveOutSmallStrips() {
   }
 }
 
-void QuasiRigorousCalibration::checkTrajectory() const {
-  std::vector<LookCheck::Look> looks;
+void QuasiRigorousCalibration::checkTimes() const {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     if (!used_[strip]) continue;
     const double start = map_.startTime(static_cast<int>(strip)),
@@ -98,13 +97,6 @@ void QuasiRigorousCalibration::checkTrajectory() const {
                        seconds(trajectory_->startTime(), trajectory_->endTime()) +
                        ": give the trajectory of this flight");
     }
-    const std::string objection = looks_[strip].objection();
-    if (!objection.empty()) {
-      throw InputError("strip " + ids_[strip] + ": " + objection +
-                       ": give the trajectory of this flight, on the clock and in the coordinates "
-                       "of the points");
-    }
-    looks.push_back(looks_[strip].look());
     for (const Trajectory::Gap& gap : trajectory_->gaps()) {
       if (gap.from >= end || gap.to <= start) continue;
       throw InputError("the trajectory has a gap at " + seconds(gap.from, gap.to) +
@@ -112,13 +104,15 @@ void QuasiRigorousCalibration::checkTrajectory() const {
                        "): give a complete trajectory or leave the strip out");
     }
   }
-  const Eigen::Vector2d offset = trajectoryOffset(looks, trajectory_->hasAttitude());
-  if (offset.isZero()) return;
-  std::ostringstream text;
-  text << "the trajectory lies " << std::lround(offset.norm()) << " m (east "
-       << std::lround(offset.x()) << ", north " << std::lround(offset.y())
-       << ") beside where its points were measured from: give it in the coordinates of the points";
-  throw InputError(text.str());
+}
+
+void QuasiRigorousCalibration::checkTrajectory() {
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    if (!used_[strip]) plausibility_.leaveOut(static_cast<int>(strip));
+  }
+  for (const std::string& warning : plausibility_.check(settings_.force)) {
+    warnings_.push_back(warning);
+  }
 }
 
 int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
@@ -157,6 +151,7 @@ void QuasiRigorousCalibration::choosePairs() {
 
 void QuasiRigorousCalibration::chooseAreas() {
   leaveOutSmallStrips();
+  checkTimes();
   checkTrajectory();
   recoverAttitude();
   choosePairs();

@@ -77,7 +77,10 @@ struct QuasiRigorousCalibration::State {
 QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
                                                    const CalibrationSettings& settings,
                                                    const Eigen::Vector2d& anchor)
-    : trajectory_(std::move(trajectory)), settings_(settings), map_(anchor) {
+    : trajectory_(std::move(trajectory)),
+      settings_(settings),
+      map_(anchor),
+      plausibility_(trajectory_) {
   settings_.noise.validate();
   settings_.shared_errors.validate();
   if (trajectory_->hasAttitude()) attitude_ = AttitudeSource::trajectory;

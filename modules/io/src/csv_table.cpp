@@ -107,10 +107,17 @@ std::size_t CsvTable::optional(std::string_view name) const {
 std::size_t CsvTable::required(std::string_view name) const {
   const std::size_t column = optional(name);
   if (column != npos) return column;
+  refuseHeader("no column '" + std::string(name) + "' in the header '" + headerText() + "'");
+}
+
+std::string CsvTable::headerText() const {
   std::string header;
   for (const std::string& present : columns_) header += (header.empty() ? "" : ",") + present;
-  throw InputError(name_ + ": line " + std::to_string(line_) + ": no column '" + std::string(name) +
-                   "' in the header '" + quotable(header) + "'");
+  return quotable(header);
+}
+
+void CsvTable::refuseHeader(const std::string& what) const {
+  throw InputError(name_ + ": line " + std::to_string(line_) + ": " + what);
 }
 
 bool CsvTable::nextLine(std::string_view& line) {

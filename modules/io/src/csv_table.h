@@ -41,6 +41,10 @@ class CsvTable {
   double number(std::size_t column) const;
   /// A finite number, or NaN where the field is empty or says nan.
   double numberOrNan(std::size_t column) const;
+  /// The header as one line, fit for a message.
+  std::string headerText() const;
+  /// Throws the InputError "FILE: line L: WHAT" about the header.
+  [[noreturn]] void refuseHeader(const std::string& what) const;
   /// Throws the InputError "FILE: line L, column 'c': 'text' WHAT".
   [[noreturn]] void refuse(std::size_t column, const std::string& what) const;
 

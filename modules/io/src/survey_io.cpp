@@ -19,12 +19,20 @@ bool isSbet(const std::filesystem::path& path) {
 
 }  // namespace
 
+TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs) {
+  TrajectoryFile file;
+  if (isSbet(path)) {
+    file.samples = detail::readSbet(path, crs);
+  } else {
+    file = detail::readTrajectoryCsv(path);
+  }
+  detail::unwrapWeek(file.samples);
+  return file;
+}
+
 std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
                                              const std::string& crs) {
-  std::vector<TrajectorySample> samples =
-      isSbet(path) ? detail::readSbet(path, crs) : detail::readTrajectoryCsv(path);
-  detail::unwrapWeek(samples);
-  return samples;
+  return readTrajectoryFile(path, crs).samples;
 }
 
 }  // namespace pcl_als

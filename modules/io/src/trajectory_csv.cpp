@@ -3,33 +3,37 @@
 #include "trajectory_csv.h"
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/system_parameters.h>
 
 #include "csv_table.h"
+#include "trajectory_columns.h"
 
 namespace pcl_als::detail {
 
-std::vector<TrajectorySample> readTrajectoryCsv(const std::filesystem::path& path) {
+TrajectoryFile readTrajectoryCsv(const std::filesystem::path& path) {
   CsvTable table(path);
-  const std::size_t time = table.required("time");
-  const std::size_t x = table.required("x"), y = table.required("y"), z = table.required("z");
-  const std::size_t roll = table.optional("roll"), pitch = table.optional("pitch"),
-                    heading = table.optional("heading");
-  const auto angle = [&table](std::size_t column, double& radians) {
-    if (column != CsvTable::npos) radians = table.numberOrNan(column) * kRadiansPerDegree;
+  const TrajectoryColumns columns(table);
+  const auto number = [&](TrajectoryQuantity quantity) {
+    return table.number(columns[quantity].index);
   };
-  std::vector<TrajectorySample> samples;
+  const auto angle = [&](TrajectoryQuantity quantity, double& radians) {
+    const TrajectoryColumn& column = columns[quantity];
+    if (column.present()) radians = table.numberOrNan(column.index) * column.factor;
+  };
+  TrajectoryFile file;
+  file.heading_is_yaw = columns.headingIsYaw();
+  file.columns = columns.describe();
   while (table.next()) {
     TrajectorySample sample;
-    sample.time = table.number(time);
-    sample.position = {table.number(x), table.number(y), table.number(z)};
-    angle(roll, sample.roll);
-    angle(pitch, sample.pitch);
-    angle(heading, sample.heading);
-    samples.push_back(sample);
+    sample.time = number(TrajectoryQuantity::time);
+    sample.position = {number(TrajectoryQuantity::x), number(TrajectoryQuantity::y),
+                       number(TrajectoryQuantity::z)};
+    angle(TrajectoryQuantity::roll, sample.roll);
+    angle(TrajectoryQuantity::pitch, sample.pitch);
+    angle(TrajectoryQuantity::heading, sample.heading);
+    file.samples.push_back(sample);
   }
-  if (samples.empty()) throw InputError(path.string() + ": has a header but no records");
-  return samples;
+  if (file.samples.empty()) throw InputError(path.string() + ": has a header but no records");
+  return file;
 }
 
 }  // namespace pcl_als::detail

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include <pcl_als/common/survey_types.h>
+#include <pcl_als/io/survey_io.h>
 
 namespace pcl_als::detail {
 
-/// The CSV half of readTrajectory().
-std::vector<TrajectorySample> readTrajectoryCsv(const std::filesystem::path& path);
+/// The CSV half of readTrajectoryFile().
+TrajectoryFile readTrajectoryCsv(const std::filesystem::path& path);
 
 }  // namespace pcl_als::detail

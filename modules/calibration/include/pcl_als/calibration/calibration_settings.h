@@ -34,6 +34,8 @@ struct CalibrationSettings {
   int max_iterations = 20;    ///< twice as many with a pair_budget: most are of few pairs
   /// Metres: an update moves no point by more, or no parameter by 1/20 of its deviation.
   double convergence = 2e-4;
+  /// Go on, with warnings, where the trajectory or its attitude cannot belong to the points.
+  bool force = false;
   int threads = 0;
 };
 

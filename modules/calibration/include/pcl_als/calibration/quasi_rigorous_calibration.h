@@ -12,10 +12,10 @@
 
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/calibration_settings.h>
-#include <pcl_als/calibration/look_check.h>
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
 
 namespace pcl_als {
 
@@ -78,7 +78,8 @@ class QuasiRigorousCalibration {
   struct State;
 
   void leaveOutSmallStrips();
-  void checkTrajectory() const;
+  void checkTrajectory();
+  void checkTimes() const;
   void recoverAttitude();
   void choosePairs();
   int stripNamed(const std::string& id) const;
@@ -108,7 +109,7 @@ class QuasiRigorousCalibration {
   CalibrationSettings settings_;
   AttitudeSource attitude_ = AttitudeSource::none;
   SurveyMap map_;
-  std::deque<LookCheck> looks_;              ///< by strip
+  TrajectoryPlausibility plausibility_;
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is wanted
   std::vector<std::string> ids_;
   std::vector<bool> used_;

@@ -11,14 +11,30 @@
 
 namespace pcl_als {
 
-/** \brief Reads a trajectory: CSV (header with time,x,y,z[,roll,pitch,heading], any order,
- * separator , ; tab or blanks; seconds, metres, degrees) or Applanix SBET (.out, .sbet; projected
- * to \a crs with PROJ, meridian convergence applied to the heading = platform heading - wander
- * angle).
+/// A trajectory as a file holds it.
+struct TrajectoryFile {
+  std::vector<TrajectorySample> samples;  ///< in the order of the file
+  /// The heading's column is called yaw. Some write yaw counter-clockwise from east; the samples
+  /// hold it as a heading, clockwise from north, until the course shows otherwise.
+  bool heading_is_yaw = false;
+  /// "columns: time from GpsTime, heading from Azimuth"; empty where all have their plain names.
+  std::string columns;
+};
+
+/** \brief Reads a trajectory: CSV or Applanix SBET (.out, .sbet).
  *
- * File order is kept. InputError names file and line (or record) and column. SBET without \a crs is
- * a UsageError that names the option.
+ * CSV: a header line and the columns time,x,y,z[,roll,pitch,heading] in any order, separator , ;
+ * tab or blanks; seconds, metres, degrees. Columns are found by the names in use (GpsTime, Easting,
+ * Height, Azimuth, ...; the module's README lists them) in any case; angles in radians where the
+ * name says so ("roll_rad"). SBET: projected to \a crs with PROJ, meridian convergence applied to
+ * the heading = platform heading - wander angle.
+ *
+ * InputError names file, line (or record) and column. SBET without \a crs is a UsageError that
+ * names the option.
  */
+TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs = {});
+
+/// The samples of readTrajectoryFile().
 std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
                                              const std::string& crs = {});
 

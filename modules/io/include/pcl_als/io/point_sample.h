@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <pcl_als/io/las_file.h>
+#include <pcl_als/io/point_reader.h>
+
+namespace pcl_als {
+
+/// How much of a file to look at: runs of consecutive points, evenly spaced from its first point to
+/// its last.
+struct SampleSize {
+  std::size_t runs = 256;
+  std::size_t points_per_run = 16;
+};
+
+/** \brief Hands out some points of a LAS file, run by run, in file order.
+ *
+ * A file with no more points than the sample is handed out whole. An uncompressed file is read
+ * only where the runs lie; of a compressed one, of which each place costs the decoding of a chunk,
+ * at most 16 places are read, with proportionally longer runs.
+ */
+void samplePoints(const LasFile& file, SampleSize size,
+                  const std::function<void(const PointChunk&)>& visit);
+
+}  // namespace pcl_als

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/trajectory/heading_check.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+/** \brief Whether the points of strips can have been measured from a trajectory.
+ *
+ * A trajectory of another flight, on another clock, in other units or coordinates may cover the
+ * same times. Points then lie above the sensor, beyond any scan angle, or far ahead of or behind
+ * the place they were measured from; each is a share of the points, and more than half of them
+ * decides. A trajectory that is displaced by less shows where strips of several courses see it from
+ * different sides. Times of coarse steps leave the firing point open by the distance flown in a
+ * step.
+ *
+ * Give some points of every strip; one in a hundred will do. Points at times outside the trajectory
+ * are ignored. add() may run in several threads for different strips.
+ * \code
+ * TrajectoryPlausibility check(flight);
+ * const int strip = check.addStrip("1");
+ * check.add(strip, time, point);
+ * for (const auto& finding : check.findings()) ...
+ * \endcode
+ */
+class TrajectoryPlausibility {
+ public:
+  explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight)
+      : flight_(std::move(flight)) {}
+
+  int addStrip(const std::string& name);
+  void add(int strip, double time, const Eigen::Vector3d& point);
+  /// Leaves a strip out of findings(), as one that is not used.
+  void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
+
+  struct Finding {
+    bool refuse = false;  ///< results would be wrong; otherwise only suspicious
+    std::string text;     ///< what is wrong, the likely cause and the remedy
+  };
+  std::vector<Finding> findings() const;
+  /// Findings that refuse are thrown as an InputError, the first one; with \a force all are
+  /// returned, as are those that only warn.
+  std::vector<std::string> check(bool force) const;
+
+ private:
+  struct Strip {
+    std::string name;
+    bool used = true;
+    std::size_t cursor = 0, count = 0;
+    std::size_t above = 0, beside = 0, ahead = 0;
+    double beside_sum = 0.0, ahead_sum = 0.0;  ///< metres, of those that are too far
+    Eigen::Vector2d direction_sum = Eigen::Vector2d::Zero();
+    double mean_ahead_sum = 0.0, height_sum = 0.0;  ///< metres, of those below the sensor
+    double slope_sum = 0.0, slope_sum_sq = 0.0;     ///< of ahead / height
+    double speed_sum = 0.0;                         ///< metres per second
+    double last_time = std::numeric_limits<double>::quiet_NaN();
+    double shortest_step = std::numeric_limits<double>::infinity();  ///< seconds
+    std::size_t path_cursor = 0;
+    HeadingCheck heading;
+  };
+  /// What a strip's points lie like on average, seen from where they were measured.
+  struct View {
+    Eigen::Vector2d direction;  ///< of flight, unit
+    double ahead = 0.0;         ///< metres
+    double height = 0.0;        ///< metres, of the sensor
+    double spread = 0.0;        ///< standard deviation of ahead / height
+  };
+
+  static std::string objection(const Strip& strip);
+  static bool viewOf(const Strip& strip, View& view);
+  void checkStrips(std::vector<Finding>& findings) const;
+  void checkTimes(std::vector<Finding>& findings) const;
+  void checkOffset(std::vector<Finding>& findings) const;
+  void checkHeading(std::vector<Finding>& findings) const;
+  Eigen::Vector2d offset(const std::vector<View>& views) const;
+
+  std::shared_ptr<const Trajectory> flight_;
+  std::deque<Strip> strips_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Eigenvalues>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
+
+namespace pcl_als {
+namespace {
+
+// Half of the widest field of view of airborne scanners, and of the widest forward directions (the
+// fore and aft planes of a multi-look scanner, the skew of a slanted mirror) with attitude motion
+// on top.
+constexpr double kWidest = 75.0 * kRadiansPerDegree, kFarthestAhead = 35.0 * kRadiansPerDegree;
+constexpr double kHighest = 20e3;         // metres above the ground: beyond what aircraft reach
+constexpr double kSlowest = 1.0;          // m/s: below it the course is that of the noise
+constexpr std::size_t kFewestTimes = 50;  // points by which the step of times is judged
+constexpr double kCoarseStep = 0.01;      // seconds: no scanner measures 100 points per second
+// The firing point is wrong by up to half the way flown in a step; as a share of the height that
+// is an angle of the pulse. A hundredth is 0.6 degrees, as much as AttitudeRecovery corrects.
+constexpr double kCoarseRefused = 0.01, kCoarseSuspicious = 0.001;
+constexpr std::size_t kFewestHeadings = 50;
+
+std::string metres(double value) {
+  return std::to_string(std::lround(value)) + " m";
+}
+
+const char* const kRemedy =
+    ": give the trajectory of this flight, on the clock and in the coordinates and units of the "
+    "points";
+
+}  // namespace
+
+int TrajectoryPlausibility::addStrip(const std::string& name) {
+  strips_.emplace_back().name = name;
+  return static_cast<int>(strips_.size()) - 1;
+}
+
+void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& point) {
+  Strip& s = strips_[static_cast<std::size_t>(strip)];
+  SensorPose pose;
+  PathSpan path;
+  if (!point.allFinite() || !flight_->poseAt(time, pose, s.cursor) ||
+      !flight_->pathAt(time, path, s.path_cursor)) {
+    return;
+  }
+  ++s.count;
+  const double step = std::abs(time - s.last_time);
+  if (step > 0.0) s.shortest_step = std::min(s.shortest_step, step);
+  s.last_time = time;
+  const double speed = path.velocity.head<2>().norm();
+  s.speed_sum += speed;
+  const Eigen::Vector3d forward = pose.rotation.col(1);
+  if (flight_->hasAttitude() && speed > kSlowest) {
+    s.heading.add(std::atan2(path.velocity.x(), path.velocity.y()),
+                  std::atan2(forward.x(), forward.y()));
+  }
+  const Eigen::Vector3d d = point - pose.position;
+  if (d.z() >= 0.0) {
+    ++s.above;
+    return;
+  }
+  // Seen along the course: a wrong heading is another finding.
+  const Eigen::Vector2d direction = speed > kSlowest
+                                        ? Eigen::Vector2d(path.velocity.head<2>() / speed)
+                                        : Eigen::Vector2d(forward.head<2>().normalized());
+  const double along = direction.dot(d.head<2>());
+  const double lateral = direction.y() * d.x() - direction.x() * d.y();
+  s.direction_sum += direction;
+  s.mean_ahead_sum += forward.dot(d);
+  s.height_sum -= d.z();
+  s.slope_sum -= along / d.z(), s.slope_sum_sq += along * along / (d.z() * d.z());
+  if (std::abs(lateral) > -std::tan(kWidest) * d.z()) {
+    ++s.beside;
+    s.beside_sum += std::abs(lateral);
+  }
+  // From the height, not the range: the edge of a wide swath is far, and not ahead.
+  if (std::abs(along) > std::tan(kFarthestAhead) * std::hypot(d.z(), lateral)) {
+    ++s.ahead;
+    s.ahead_sum += std::abs(along);
+  }
+}
+
+std::string TrajectoryPlausibility::objection(const Strip& strip) {
+  const auto most = [&strip](std::size_t some) { return 2 * some > strip.count; };
+  const auto mean = [](double sum, std::size_t some) {
+    return metres(sum / static_cast<double>(some));
+  };
+  if (most(strip.above)) return "its points lie above the trajectory";
+  const double below = static_cast<double>(strip.count - strip.above);
+  if (below > 0.0 && strip.height_sum > kHighest * below) {
+    return "its points lie " + metres(strip.height_sum / below) + " below the trajectory";
+  }
+  if (most(strip.beside)) {
+    return "its points lie " + mean(strip.beside_sum, strip.beside) + " beside the trajectory";
+  }
+  if (most(strip.ahead)) {
+    return "its points lie " + mean(strip.ahead_sum, strip.ahead) +
+           " ahead of or behind where they were fired";
+  }
+  return {};
+}
+
+void TrajectoryPlausibility::checkStrips(std::vector<Finding>& findings) const {
+  for (const Strip& strip : strips_) {
+    const std::string found = strip.used ? objection(strip) : std::string();
+    if (!found.empty()) findings.push_back({true, "strip " + strip.name + ": " + found + kRemedy});
+  }
+}
+
+void TrajectoryPlausibility::checkTimes(std::vector<Finding>& findings) const {
+  for (const Strip& s : strips_) {
+    const auto below = static_cast<double>(s.count - s.above);
+    if (!s.used || s.count < kFewestTimes || below == 0.0) continue;
+    if (!(s.shortest_step >= kCoarseStep) || std::isinf(s.shortest_step)) continue;
+    const double away = 0.5 * s.shortest_step * s.speed_sum / static_cast<double>(s.count);
+    const double share = away / (s.height_sum / below);
+    if (share < kCoarseSuspicious) continue;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "strip %s: its times have steps of %.3g s, in which the sensor moves %.2g m: "
+                  "the place each point was measured from is not known well enough; use the "
+                  "points with their full times",
+                  s.name.c_str(), s.shortest_step, 2.0 * away);
+    findings.push_back({share > kCoarseRefused, text});
+  }
+}
+
+bool TrajectoryPlausibility::viewOf(const Strip& strip, View& view) {
+  const auto below = static_cast<double>(strip.count - strip.above);
+  if (!strip.used || below == 0.0 || strip.direction_sum.norm() < 0.5 * below) return false;
+  view.direction = strip.direction_sum.normalized();
+  view.ahead = strip.mean_ahead_sum / below;
+  view.height = strip.height_sum / below;
+  const double mean = strip.slope_sum / below;
+  view.spread = std::sqrt(std::max(0.0, strip.slope_sum_sq / below - mean * mean));
+  return true;
+}
+
+/// Strips flown one way then see ahead and strips flown the other way back, which no mounting of
+/// the scanner explains: ahead = c height - offset . direction, for all strips together. Across
+/// parallel lines nothing shows it.
+Eigen::Vector2d TrajectoryPlausibility::offset(const std::vector<View>& views) const {
+  double hh = 0.0, ha = 0.0;
+  Eigen::Vector2d hd = Eigen::Vector2d::Zero(), da = hd;
+  Eigen::Matrix2d dd = Eigen::Matrix2d::Zero();
+  for (const View& view : views) {
+    hh += view.height * view.height, ha += view.height * view.ahead;
+    hd += view.height * view.direction, da += view.ahead * view.direction;
+    dd += view.direction * view.direction.transpose();
+  }
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  if (hh == 0.0) return offset;
+  // The forward direction c eliminated; then each axis that enough strips see from both sides.
+  constexpr double kSeen = 0.3;  // two strips at a right angle: 1; a turn of 30 degrees: 0.13
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(dd - hd * hd.transpose() / hh);
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d axis = axes.eigenvectors().col(i);
+    if (axes.eigenvalues()[i] < kSeen) continue;
+    offset -= axis * (axis.dot(da - hd * ha / hh) / axes.eigenvalues()[i]);
+  }
+  return offset;
+}
+
+/// The doubt: differences in pitch (5 degrees; one where the attitude is known), and for scanners
+/// that see ahead and back at once, of which a part of a strip shows more of one side.
+void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
+  std::vector<View> views;
+  View view;
+  double highest = 0.0, spread = 0.0;
+  for (const Strip& strip : strips_) {
+    if (!viewOf(strip, view)) continue;
+    views.push_back(view);
+    highest = std::max(highest, view.height);
+    spread = std::max(spread, view.spread);
+  }
+  const double angle = (flight_->hasAttitude() ? 1.0 : 5.0) * kRadiansPerDegree;
+  const double doubt = spread > 2.0 * std::tan(angle) ? 2.0 * spread : std::tan(angle);
+  const Eigen::Vector2d found = offset(views);
+  if (found.norm() <= doubt * highest) return;
+  findings.push_back({true, "the trajectory lies " + metres(found.norm()) + " (east " +
+                                std::to_string(std::lround(found.x())) + ", north " +
+                                std::to_string(std::lround(found.y())) +
+                                ") beside where its points were measured from: give it in the "
+                                "coordinates of the points"});
+}
+
+void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const {
+  HeadingCheck all;
+  for (const Strip& strip : strips_) {
+    if (strip.used) all.merge(strip.heading);
+  }
+  if (all.count() < kFewestHeadings || all.followsCourse()) return;
+  const HeadingReading best = all.best();
+  char text[400];
+  if (all.deviation(best) <= HeadingCheck::kLargestCrab && !all.constant()) {
+    std::snprintf(text, sizeof text,
+                  "the heading of the trajectory does not follow its course (%.0f degrees away), "
+                  "but would as %s: give roll, pitch and heading in degrees, heading clockwise "
+                  "from grid north, or use -model quasi_rigorous",
+                  all.deviation(HeadingReading::heading), std::string(describe(best)).c_str());
+  } else {
+    std::snprintf(text, sizeof text,
+                  "the heading of the trajectory does not follow its course (%.0f degrees away)%s: "
+                  "give the attitude of this flight in degrees, heading clockwise from grid "
+                  "north, or use -model quasi_rigorous",
+                  all.deviation(HeadingReading::heading),
+                  all.constant() ? "; it is the same at all times, a column without values" : "");
+  }
+  findings.push_back({true, text});
+}
+
+std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() const {
+  std::vector<Finding> findings;
+  checkStrips(findings);
+  if (!findings.empty()) return findings;  // what follows would repeat it
+  checkTimes(findings);
+  checkHeading(findings);
+  if (findings.empty()) checkOffset(findings);
+  return findings;
+}
+
+std::vector<std::string> TrajectoryPlausibility::check(bool force) const {
+  std::vector<std::string> warnings;
+  for (const Finding& finding : findings()) {
+    if (finding.refuse && !force) throw InputError(finding.text);
+    warnings.push_back(finding.text);
+  }
+  return warnings;
+}
+
+}  // namespace pcl_als

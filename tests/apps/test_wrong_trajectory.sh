@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# Trajectories that do not belong to the points: every tool that takes one refuses them, names the likely cause, and
+# goes on with -force. Until 2026-11 only pcl_als_calibrate did, and none looked at the attitude.
+source "$(dirname -- "$0")/tool_test.sh"
+
+# variant NAME PROGRAM: the block's trajectory, each record changed by an awk program (columns $1 to $7).
+variant() {
+  awk -F, -v OFS=, -v OFMT=%.9f -v CONVFMT=%.9f "NR > 1 { $2 } { print }" "$block/trajectory.csv" >"$1.csv"
+}
+variant feet '$2 /= 0.3048; $3 /= 0.3048; $4 /= 0.3048'
+variant xy 't = $2; $2 = $3; $3 = t'
+variant xz 't = $2; $2 = $4; $4 = t'
+variant far '$2 += 400000'
+variant radians '$5 /= 57.29578; $6 /= 57.29578; $7 /= 57.29578'
+variant zeros '$5 = 0; $6 = 0; $7 = 0'
+variant east '$7 = 90 - $7'
+variant tail '$7 += 180'
+
+strips=("$block"/strip*.las)
+calibrate=(calibrate "${strips[@]}" -control "$block/control.csv" -output c.json)
+check=(check "${strips[@]}" -output q.json)
+apply=(apply "$block/strip1.las" out.las -biases boresight_roll=100)
+intensity=(intensity "$block/strip1.las" out.las)
+for wrong in feet xy xz far; do
+  for tool in calibrate check apply intensity; do
+    declare -n command=$tool
+    expect 2 "strip *: its points lie * m * the trajectory of this flight" "${command[@]}" -trajectory $wrong.csv
+  done
+  absent out.las
+done
+for tool in calibrate check apply; do
+  declare -n command=$tool
+  expect 2 'would as in radians' "${command[@]}" -trajectory radians.csv
+  expect 2 'a column without values' "${command[@]}" -trajectory zeros.csv
+  expect 2 'counter-clockwise from east' "${command[@]}" -trajectory east.csv
+  expect 2 'heading + 180 degrees' "${command[@]}" -trajectory tail.csv
+done
+# Positions are all that intensities need.
+expect 0 '' "${intensity[@]}" -trajectory radians.csv
+rm -f out.las
+# What is refused can be forced; a warning stays.
+expect 0 'warning: the heading' "${apply[@]}" -trajectory tail.csv -force
+# An output without any intensity left is no answer, but it is written.
+rm -f out.las
+expect 3 'intensities are beyond 65535' "${intensity[@]}" -trajectory xz.csv -force
+check "the output is there" test -s out.las
+# The course tells what a column called yaw is; other names are taken as they are in use.
+sed '1s/.*/GpsTime,Easting,Northing,Height,Roll,Pitch,Yaw/' east.csv >yaw.csv
+sed '1s/.*/"gps_time","EASTING","Y (m)","Elevation","roll_deg","Pitch","Azimuth"/' "$block/trajectory.csv" >names.csv
+expect 0 '' "${apply[@]}" -trajectory "$block/trajectory.csv"
+mv out.las plain.las
+expect 0 'yaw is counter-clockwise from east' "${apply[@]}" -trajectory yaw.csv
+rm -f out.las
+expect 0 'columns: time from gps_time, x from EASTING' "${apply[@]}" -trajectory names.csv
+check "names change nothing" cmp out.las plain.las
+finish

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
+
+#include "flights.h"
+
+namespace pcl_als {
+namespace {
+
+using Samples = std::vector<TrajectorySample>;
+
+const Eigen::Vector3d kPlace(433'000.0, 5'812'000.0, 0.0);
+constexpr double kCourses[] = {0.0, 180.0, 90.0};  // one strip each, degrees
+
+/// Three lines at 1000 m with headings 3 degrees off the course, level otherwise.
+Samples flown() {
+  Samples samples;
+  for (int line = 0; line < 3; ++line) {
+    auto part = test::sampled(test::straight(kCourses[line], kPlace), -10.0, 10.0, 0.1);
+    for (TrajectorySample& sample : part) {
+      sample.time += 1000.0 * line + 100.0;
+      sample.heading = (kCourses[line] - 3.0) * kRadiansPerDegree;
+      sample.roll = sample.pitch = 0.0;
+    }
+    samples.insert(samples.end(), part.begin(), part.end());
+  }
+  return samples;
+}
+
+/// Points of a swath of 30 degrees under the lines of flown(), given to the check of \a samples;
+/// \a step: of the times.
+TrajectoryPlausibility seenFrom(const Samples& samples, bool attitude = false, double step = 0.0) {
+  Trajectory::Options options;
+  options.use_attitude = attitude;
+  TrajectoryPlausibility check(std::make_shared<const Trajectory>(samples, options));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> lateral(-270.0, 270.0), time(-9.0, 9.0);
+  for (int line = 0; line < 3; ++line) {
+    const int strip = check.addStrip(std::to_string(line + 1));
+    const double angle = kCourses[line] * kRadiansPerDegree;
+    const Eigen::Vector3d right(std::cos(angle), -std::sin(angle), 0.0);
+    for (int i = 0; i < 500; ++i) {
+      const double t = time(random);
+      const Eigen::Vector3d sensor = test::straight(kCourses[line], kPlace)(t);
+      const Eigen::Vector3d point =
+          sensor + lateral(random) * right - Eigen::Vector3d(0.0, 0.0, 1000.0);
+      double tag = t + 1000.0 * line + 100.0;
+      if (step > 0.0) tag = step * std::round(tag / step);
+      check.add(strip, tag, point);
+    }
+  }
+  return check;
+}
+
+/// What the check says of a trajectory that was changed; empty: nothing.
+template <typename Change>
+std::string said(const Change& change, bool attitude = false) {
+  Samples samples = flown();
+  for (TrajectorySample& sample : samples) change(sample);
+  try {
+    const auto warnings = seenFrom(samples, attitude).check(false);
+    return warnings.empty() ? "" : "warning: " + warnings.front();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(TrajectoryPlausibility, AcceptsTheRightOne) {
+  for (const bool attitude : {false, true}) {
+    EXPECT_EQ(said([](TrajectorySample&) {}, attitude), "");
+  }
+}
+
+TEST(TrajectoryPlausibility, RefusesPositionsThatAreNotThePoints) {
+  EXPECT_NE(said([](auto& s) { s.position /= 0.3048; }), "");
+  EXPECT_NE(said([](auto& s) { std::swap(s.position.x(), s.position.y()); }), "");
+  EXPECT_NE(said([](auto& s) { std::swap(s.position.x(), s.position.z()); }), "");
+  EXPECT_NE(said([](auto& s) { s.position.x() += 400e3; }), "");
+  EXPECT_NE(said([](auto& s) { s.position.z() += 400e3; }).find("401000 m below the trajectory"),
+            std::string::npos);
+  EXPECT_NE(said([](auto& s) { s.position.z() -= 1100.0; }).find("above the trajectory"),
+            std::string::npos);
+  EXPECT_NE(
+      said([](auto& s) { s.position.x() += 4e3; }).find("strip 1: its points lie 4000 m beside"),
+      std::string::npos);
+}
+
+TEST(TrajectoryPlausibility, RefusesADisplacementThatNoStripShowsAlone) {
+  const std::string text = said([](auto& s) { s.position += Eigen::Vector3d(-120.0, 90.0, 0.0); });
+  EXPECT_NE(text.find("lies 150 m (east -120, north 90) beside"), std::string::npos) << text;
+}
+
+// 2026-11: such attitude was used without a word, and boresights came out wrong by degrees.
+TEST(TrajectoryPlausibility, RefusesAHeadingThatIsNone) {
+  const auto in = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  // What a reader makes of radians: as if they were degrees.
+  EXPECT_TRUE(in(said([](auto& s) { s.heading *= kRadiansPerDegree; }, true), "in radians"));
+  EXPECT_TRUE(in(said([](auto& s) { s.heading = 0.5 * kPi - s.heading; }, true),
+                 "counter-clockwise from east"));
+  EXPECT_TRUE(in(said([](auto& s) { s.heading += kPi; }, true), "heading + 180"));
+  EXPECT_TRUE(in(said([](auto& s) { s.heading = 0.0; }, true), "column without values"));
+  EXPECT_EQ(said([](auto& s) { s.heading = 0.0; }, false), "") << "the attitude is not used";
+}
+
+TEST(TrajectoryPlausibility, ForceGoesOnWithAWarning) {
+  Samples samples = flown();
+  for (TrajectorySample& sample : samples) sample.position.x() += 4e3;
+  const TrajectoryPlausibility check = seenFrom(samples);
+  EXPECT_THROW(check.check(false), InputError);
+  EXPECT_FALSE(check.check(true).empty());
+}
+
+// 2026-11: points with times in whole seconds were reported as a trajectory beside its place.
+TEST(TrajectoryPlausibility, NamesTimesInWholeSeconds) {
+  const auto findings = seenFrom(flown(), false, 1.0).findings();
+  ASSERT_FALSE(findings.empty());
+  EXPECT_TRUE(findings[0].refuse);
+  EXPECT_NE(findings[0].text.find("steps of 1 s, in which the sensor moves 60 m"),
+            std::string::npos)
+      << findings[0].text;
+  // 0.05 s: 1.5 m of 1000 m, worth a warning; 0.001 s: nothing.
+  const auto fine = seenFrom(flown(), false, 0.05).findings();
+  ASSERT_FALSE(fine.empty());
+  EXPECT_FALSE(fine[0].refuse);
+  EXPECT_TRUE(seenFrom(flown(), false, 0.001).findings().empty());
+}
+
+TEST(TrajectoryPlausibility, IgnoresStripsThatAreLeftOut) {
+  Samples samples = flown();
+  for (TrajectorySample& sample : samples) {
+    if (sample.time < 500.0) sample.position.x() += 4e3;
+  }
+  TrajectoryPlausibility check = seenFrom(samples);
+  EXPECT_THROW(check.check(false), InputError);
+  check.leaveOut(0);
+  EXPECT_TRUE(check.check(false).empty());
+}
+
+}  // namespace
+}  // namespace pcl_als
