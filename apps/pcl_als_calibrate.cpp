@@ -37,7 +37,9 @@ CommandLine commandLine() {
   line.addOptional("pairs", "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap)");
   app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
-  app::addForceOption(line);
+  app::addForceOption(line,
+                      "inputs do not belong together or, with -corrected, the result should not "
+                      "be applied");
   line.addFlag("vertical",
                "with quasi_rigorous: take the sensor as vertical and looking along the line of "
                "flight, as published, instead of recovering pitch and crab from the points");
@@ -45,8 +47,6 @@ CommandLine commandLine() {
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
                "with -corrected: take out what was found wrong with each strip's trajectory, too");
-  line.addFlag("force",
-               "with -corrected: write the copies even if the result should not be applied");
   line.addOptional("report",
                    "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
