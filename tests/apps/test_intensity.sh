@@ -110,7 +110,7 @@ expect 2 'lies outside the table' intensity block/strip1.las x.las "${flight[@]}
   -agc_gain <(printf 'value,gain\n5,1\n6,2\n')
 expect 2 'nothing.las' intensity nothing.las x.las "${flight[@]}"
 sed 's/^\([0-9.]*\),\([^,]*\),\([^,]*\),[^,]*/\1,\2,\3,500/' block/trajectory.csv >low.csv
-expect 2 'lie above the sensor' intensity block/strip1.las x.las -trajectory low.csv
+expect 2 'lie above the trajectory' intensity block/strip1.las x.las -trajectory low.csv
 awk -F, 'NR == 1 || $1 < 401253' block/trajectory.csv >short.csv
 expect 2 '-keep_uncovered leaves them' intensity block/strip2.las x.las -trajectory short.csv
 absent x.las x.pcd
