@@ -36,7 +36,7 @@ if command -v cpack >/dev/null && command -v dpkg-shlibdeps >/dev/null && comman
   holds pcl-als-tools ' ./usr/bin/pcl_als_calibrate$'
   holds pcl-als-tools ' ./usr/share/man/man1/pcl_als_calibrate\.1$'
   holds libpcl-als-dev ' ./usr/include/pcl_als/common/point_types\.h$'
-  holds libpcl-als-dev ' ./usr/lib/.*/cmake/pcl_als/pcl_als-config\.cmake$'
+  holds libpcl-als-dev ' ./usr/lib/(.*/)?cmake/pcl_als/pcl_als-config\.cmake$'
   dpkg-deb -c libpcl-als0_*.deb >list.txt
   grep -E 'include/|bin/' list.txt && failed "libpcl-als0 holds headers or tools"
   dpkg-deb -f pcl-als-tools_*.deb Depends | grep -q 'libpcl-als0 (= ' || failed "tools do not need the libraries"
