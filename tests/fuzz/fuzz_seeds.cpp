@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "fuzz_seeds.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <unistd.h>
@@ -62,6 +63,17 @@ std::vector<std::string> lasSeeds() {
   none.extra = 2;
   none.vlrs = {extraFieldsVlr()};
   seeds.push_back(none.str());
+  return seeds;
+}
+
+/// The files of all formats, coders and kinds of chunks that the tests of module las have.
+std::vector<std::string> lazSeeds() {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(PCL_ALS_LAZ_FILES))
+    paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  std::vector<std::string> seeds;
+  for (const auto& path : paths) seeds.push_back(test::readBytes(path));
   return seeds;
 }
 

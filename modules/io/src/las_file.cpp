@@ -99,14 +99,16 @@ std::vector<std::byte> lazPayload(const LasFile& file) {
 
 }  // namespace
 
-LasFile::LasFile(std::filesystem::path path) : state_(std::make_unique<State>(std::move(path))) {
+LasFile::LasFile(std::filesystem::path path, unsigned laz_fields)
+    : state_(std::make_unique<State>(std::move(path))) {
   State& s = *state_;
   s.header = readHeader(s.file);
   s.layout = LasRecordLayout::of(s.header.point_format);
   readEntries(s.file, false, s.header.header_size, s.header.vlr_count, s.header.offset_to_points,
               s.vlrs);
   readExtendedEntries(s.file, s.header, s.vlrs);
-  if (s.header.compressed) s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this));
+  if (s.header.compressed)
+    s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields);
   const auto extra = std::find_if(s.vlrs.begin(), s.vlrs.end(), [](const LasVlrEntry& entry) {
     return isRecord(entry, "LASF_Spec", 4) && entry.length <= kLargestExtraRecord;
   });

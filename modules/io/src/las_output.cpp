@@ -59,7 +59,7 @@ LasHead readLasHead(const LasFile& file) {
   return head;
 }
 
-LasOutput::LasOutput(const std::filesystem::path& path, LasHead head)
+LasOutput::LasOutput(const std::filesystem::path& path, LasHead head, int threads)
     : file_(path), record_length_(head.header.record_length) {
   const LazSchema schema = LazSchema::forFormat(head.header.point_format, record_length_);
   const bool compressed = isLaz(path);
@@ -70,7 +70,7 @@ LasOutput::LasOutput(const std::filesystem::path& path, LasHead head)
   const auto write = [this](std::uint64_t position, std::size_t bytes, const void* data) {
     file_.writeAt(position, data, bytes);
   };
-  laz_ = std::make_unique<LazPointWriter>(schema, write, offset_to_points_);
+  laz_ = std::make_unique<LazPointWriter>(schema, write, offset_to_points_, threads);
 }
 
 void LasOutput::append(const std::byte* records, std::size_t count) {

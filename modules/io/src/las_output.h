@@ -30,7 +30,8 @@ LasHead readLasHead(const LasFile& file);
 /// Plain or compressed (by extension .laz) point records into an AtomicFile.
 class LasOutput {
  public:
-  LasOutput(const std::filesystem::path& path, LasHead head);
+  /// \param threads that compress; 0: all cores.
+  LasOutput(const std::filesystem::path& path, LasHead head, int threads = 0);
 
   void append(const std::byte* records, std::size_t count);
   /// Plain LAS only: records at an index; by several threads at once.

@@ -34,7 +34,7 @@ struct Boxes {
 class Rewrite {
  public:
   Rewrite(const LasFile& input, const std::filesystem::path& output, const LasEdit& edit,
-          const LasExtension& extension)
+          const LasExtension& extension, int threads)
       : input_(input),
         edit_(edit),
         header_(input.header()),
@@ -44,13 +44,15 @@ class Rewrite {
                        ? extension.block_records
                        : std::max<std::size_t>(1, kBlockBytes / out_length_)),
         keeps_coordinates_(extension.keeps_coordinates),
-        output_(output, head_) {}
+        threads_(threads),
+        output_(output, head_, threads) {}
 
-  LasRewriteResult run(int threads) {
+  LasRewriteResult run() {
     const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
     // Compressed points are coded in the order of the file, on several threads within.
     const bool in_order = header_.compressed || output_.compressed();
-    parallelFor(blocks, in_order ? 1 : threads, [this](std::size_t block) { rewriteBlock(block); });
+    parallelFor(blocks, in_order ? 1 : threads_,
+                [this](std::size_t block) { rewriteBlock(block); });
     copyTail();
     LasRewriteResult result;
     result.points = header_.point_count;
@@ -144,6 +146,7 @@ class Rewrite {
   const std::size_t out_length_;
   const std::size_t per_block_;
   const bool keeps_coordinates_;
+  const int threads_;
   detail::LasOutput output_;
   Boxes boxes_;
 };
@@ -160,7 +163,7 @@ LasRewriteResult extendLas(const LasFile& input, const std::filesystem::path& ou
   std::error_code absent;
   if (std::filesystem::equivalent(input.path(), output, absent))
     throw UsageError(output.string() + ": input and output are the same file");
-  return Rewrite(input, output, edit, extension).run(threads);
+  return Rewrite(input, output, edit, extension, threads).run();
 }
 
 LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::filesystem::path& output,

@@ -24,7 +24,8 @@ void checkAgainst(const LazSchema& schema, const LasHeader& header, const std::s
 }  // namespace
 
 std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHeader& header,
-                                              const std::vector<std::byte>& payload) {
+                                              const std::vector<std::byte>& payload,
+                                              unsigned fields) {
   LazSchema schema = LazSchema::parse(reinterpret_cast<const std::uint8_t*>(payload.data()),
                                       payload.size(), file.name());
   checkAgainst(schema, header, file.name());
@@ -32,6 +33,7 @@ std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHe
   points.offset_to_points = header.offset_to_points;
   points.file_size = file.size();
   points.point_count = header.point_count;
+  points.fields = fields;
   const auto read = [&file](std::uint64_t position, std::size_t bytes, void* out) {
     file.read(position, bytes, out);
   };

@@ -18,9 +18,14 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
 // Seconds of the week may run on past its end; as adjusted standard time these were September 2011.
 constexpr double kLastWeekSecond = 2.0 * 604800.0;
 
+/// What a PointChunk has columns for; the layers of other fields are not decoded.
+constexpr unsigned kColumns = kLazZ | kLazClassification | kLazFlags | kLazIntensity |
+                              kLazScanAngle | kLazPointSource | kLazGpsTime;
+
 class LasPointReader : public PointReader {
  public:
-  explicit LasPointReader(const std::filesystem::path& path) : file_(path), info_(file_.info()) {}
+  explicit LasPointReader(const std::filesystem::path& path)
+      : file_(path, kColumns), info_(file_.info()) {}
 
   const PointFileInfo& info() const override { return info_; }
 

@@ -12,6 +12,7 @@
 #include <pcl_als/io/las_extra.h>
 #include <pcl_als/io/las_header.h>
 #include <pcl_als/io/las_record.h>
+#include <pcl_als/las/laz_io.h>
 
 namespace pcl_als {
 
@@ -28,7 +29,8 @@ namespace pcl_als {
  */
 class LasFile {
  public:
-  explicit LasFile(std::filesystem::path path);
+  /// \param laz_fields LazField bits: what a caller does not need is not decoded from layers.
+  explicit LasFile(std::filesystem::path path, unsigned laz_fields = kLazAllFields);
   ~LasFile();
   LasFile(LasFile&&) noexcept;
   LasFile& operator=(LasFile&&) = delete;
