@@ -6,8 +6,7 @@ namespace pcl_als::laz {
 namespace {
 
 constexpr std::uint32_t kUnity = 1U << 31;
-constexpr std::uint32_t kLargestAlphabetWithoutIndex = 16;
-constexpr unsigned kFewestBucketBits = 3, kSymbolsPerBucketBits = 2;
+constexpr std::uint32_t kLargestAlphabetWithoutIndex = 4;
 
 std::uint32_t nextCycle(std::uint32_t cycle, std::uint32_t longest) {
   return std::min(cycle + cycle / 4, longest);
@@ -33,8 +32,8 @@ void SymbolModel<kSearch>::allocate(std::uint32_t symbols) {
   symbols_ = symbols;
   std::size_t buckets = 0;
   if (kSearch && symbols > kLargestAlphabetWithoutIndex) {
-    bucket_bits_ = kFewestBucketBits;
-    while (symbols > 1U << (bucket_bits_ + kSymbolsPerBucketBits)) ++bucket_bits_;
+    // About one symbol per bucket: updates get dearer by less than searches get cheaper.
+    bucket_bits_ = digits(symbols - 1);
     buckets = (std::size_t{1} << bucket_bits_) + 1;
   }
   storage_ = std::make_unique<std::uint16_t[]>(2 * std::size_t{symbols} + buckets);

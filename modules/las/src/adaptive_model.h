@@ -13,6 +13,11 @@ inline constexpr unsigned kShareBits = 15;     ///< shares of symbols are multip
 inline constexpr unsigned kBitShareBits = 13;  ///< shares of the two values of a bit
 inline constexpr std::uint32_t kShareOne = 1U << kShareBits;
 
+/// Number of binary digits of a value; 0 of 0.
+inline unsigned digits(std::uint32_t value) {
+  return value == 0 ? 0U : 32U - static_cast<unsigned>(__builtin_clz(value));
+}
+
 /// Adaptive share of zeros of a binary decision; brought up to date at growing intervals.
 class BitModel {
  public:

@@ -6,11 +6,6 @@
 
 namespace pcl_als::laz {
 
-/// Number of binary digits of a value; 0 of 0.
-inline unsigned digits(std::uint32_t value) {
-  return value == 0 ? 0U : 32U - static_cast<unsigned>(__builtin_clz(value));
-}
-
 /** \brief Codes integers as corrections of predictions.
  *
  * A correction c falls into class k = 0 for c in {0, 1}, else k with -2^k < c <= -2^(k-1) or
