@@ -33,7 +33,9 @@ void EntropyEncoder::finish() {
   else
     narrow(kShortestInterval >> 1, kShortestInterval >> 9);
   // A decoder is four bytes ahead of the interval.
-  for (int i = 0; i < (one_byte ? 3 : 2); ++i) put(0);
+  bytes_.resize(size_);
+  bytes_.resize(size_ + (one_byte ? 3 : 2));
+  size_ = bytes_.size();
 }
 
 void EntropyEncoder::carry() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "adaptive_model.h"
@@ -122,19 +123,21 @@ class EntropyEncoder {
     base_ += begin;
     if (base_ < begin) carry();
     length_ = length;
-    while (length_ < kShortestInterval) {
-      put(static_cast<std::uint8_t>(base_ >> 24));
-      base_ <<= 8;
-      length_ <<= 8;
-    }
+    if (length_ < kShortestInterval) shiftOut();
+  }
+  /// Puts out the upper bytes of the base that no later symbol changes (but for a carry).
+  void shiftOut() {
+    if (bytes_.size() - size_ < sizeof base_) bytes_.resize(2 * size_ + 4096);
+    const unsigned bytes = static_cast<unsigned>(__builtin_clz(length_)) / 8;  // 1 to 3
+    const std::uint32_t upper_first = __builtin_bswap32(base_);
+    std::memcpy(&bytes_[size_], &upper_first, sizeof upper_first);
+    size_ += bytes;
+    base_ <<= 8 * bytes;
+    length_ <<= 8 * bytes;
   }
   void rawStep(unsigned bits, std::uint32_t value) {
     const std::uint32_t unit = length_ >> bits;
     narrow(value * unit, unit);
-  }
-  void put(std::uint8_t byte) {
-    if (size_ == bytes_.size()) bytes_.resize(2 * size_ + 4096);
-    bytes_[size_++] = byte;
   }
   void carry();
 
