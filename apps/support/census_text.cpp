@@ -4,6 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/io/las_file.h>
 
 #include "census_report.h"
@@ -126,7 +127,8 @@ std::string fileText(const FileCensus& file) {
 }
 
 std::string stripsText(const SurveyCensus& survey) {
-  std::string text = format("%zu strips (cells of %g m)\n", survey.strips.size(), survey.cell);
+  std::string text =
+      counted(survey.strips.size(), "strip") + format(" (cells of %g m)\n", survey.cell);
   text += format("  %-16s %12s %16s %16s %5s %9s %9s %9s %14s\n", "id", "points", "from s", "to s",
                  "gaps", "points/m2", "pulses/m2", "area m2", "scan angle deg");
   for (const StripCensus& strip : survey.strips) {
@@ -145,8 +147,9 @@ std::string stripsText(const SurveyCensus& survey) {
       text += "  ! strip " + strip.id + " " + remark + '\n';
     const std::uint64_t unsorted = strip.statistics.unsorted_times;
     if (unsorted > 0)
-      text += format("  strip %s: %s points are earlier than the one before in their file\n",
-                     strip.id.c_str(), grouped(unsorted).c_str());
+      text += format("  strip %s: %s earlier than the one before in %s file\n", strip.id.c_str(),
+                     unsorted == 1 ? "1 point is" : (grouped(unsorted) + " points are").c_str(),
+                     unsorted == 1 ? "its" : "their");
   }
   return text;
 }

@@ -97,7 +97,7 @@ TEST(SurveyCensus, FindsGapsInTime) {
   ASSERT_EQ(strip.gaps.size(), 1U);
   EXPECT_NEAR(strip.gaps[0].from, 1008.89, 1e-9);
   EXPECT_NEAR(strip.gaps[0].to, 1010.0, 1e-9);
-  EXPECT_TRUE(has(strip.remarks, "1 gaps in time"));
+  EXPECT_TRUE(has(strip.remarks, "has 1 gap in time"));
 }
 
 TEST(SurveyCensus, JoinsTilesOfAStrip) {
@@ -174,11 +174,33 @@ TEST(SurveyCensus, SaysWhatIsSuspiciousAboutPoints) {
   std::fill(p.intensity.begin(), p.intensity.end(), 0.0F);
   std::swap(p.gps_time[7], p.gps_time[8]);
   const SurveyCensus survey = takeCensus({write(folder / "a.las", {p})});
-  EXPECT_TRUE(has(survey.files[0].remarks, "1 points (0.25 %) have return number zero"));
+  EXPECT_TRUE(has(survey.files[0].remarks, "1 point (0.25 %) has return number zero"));
   EXPECT_TRUE(has(survey.files[0].remarks, "flagged as withheld"));
   EXPECT_TRUE(has(survey.files[0].remarks, "every intensity is zero"));
   EXPECT_TRUE(has(survey.strips[0].remarks, "only 400 points"));
   EXPECT_EQ(survey.strips[0].statistics.unsorted_times, 1U);
+}
+
+TEST(SurveyCensus, RemarksTimesInWholeSeconds) {
+  const auto folder = test::scratch("census_whole_seconds");
+  PointChunk rounded = field(0, 0, 50, 20, 1);
+  for (double& time : rounded.gps_time) time = std::floor(time);
+  const SurveyCensus survey = takeCensus({write(folder / "rounded.las", {rounded})});
+  // 4000 points at 100 a second are 40 s.
+  EXPECT_TRUE(has(survey.strips[0].remarks, "in whole seconds only (40 distinct values in 4000"));
+  const SurveyCensus fine = takeCensus({write(folder / "fine.las", {field(0, 0, 50, 20, 1)})});
+  EXPECT_FALSE(has(fine.strips[0].remarks, "whole seconds"));
+}
+
+TEST(SurveyCensus, RemarksLargeScanAngles) {
+  const auto folder = test::scratch("census_scan_angles");
+  PointChunk points = field(0, 0, 50, 20, 1);
+  points.scan_angle[7] = 59.0F;
+  const SurveyCensus usual = takeCensus({write(folder / "usual.las", {points})});
+  EXPECT_FALSE(has(usual.strips[0].remarks, "scan angles"));
+  points.scan_angle[8] = -106.0F;
+  const SurveyCensus large = takeCensus({write(folder / "large.las", {points})});
+  EXPECT_TRUE(has(large.strips[0].remarks, "scan angles of -106 to 59 degrees"));
 }
 
 TEST(SurveyCensus, SaysWhatIsWrongInTheHeader) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/io/las_file.h>
 
 #include "file_kind.h"
@@ -15,6 +16,8 @@ namespace {
 
 constexpr double kLastWeekSecond = 2.0 * 604800.0;  // some count on past the end of the week
 constexpr std::uint64_t kFewPoints = 1000;
+constexpr std::uint64_t kPointsPerTime = 10;  // fewer with the same time are returns of few pulses
+constexpr float kLargeScanAngle = 60.0F;      // degrees; line scanners for mapping stay below 40
 
 std::string percentOf(std::uint64_t part, std::uint64_t whole) {
   std::ostringstream text;
@@ -23,11 +26,12 @@ std::string percentOf(std::uint64_t part, std::uint64_t whole) {
   return text.str();
 }
 
-/// "12 points (0.5 %) <what>" when there are any.
+/// "1 point (0.5 %) <one>" or "12 points (0.5 %) <many>" when there are any.
 void remarkCount(std::vector<std::string>& remarks, std::uint64_t part, std::uint64_t whole,
-                 const char* what) {
+                 const char* one, const char* many) {
   if (part > 0)
-    remarks.push_back(std::to_string(part) + " points (" + percentOf(part, whole) + ") " + what);
+    remarks.push_back(counted(part, "point") + " (" + percentOf(part, whole) + ") " +
+                      (part == 1 ? one : many));
 }
 
 void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
@@ -36,12 +40,13 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
     remarks.push_back("the points have no GPS time: they cannot be tied to a trajectory");
     return;
   }
-  remarkCount(remarks, s.invalid_times, s.points, "have a GPS time that is no number");
+  remarkCount(remarks, s.invalid_times, s.points, "has a GPS time that is no number",
+              "have a GPS time that is no number");
   if (s.zero_times == s.points) {
     remarks.push_back("every GPS time is zero: the points cannot be tied to a trajectory");
     return;
   }
-  remarkCount(remarks, s.zero_times, s.points, "have GPS time zero");
+  remarkCount(remarks, s.zero_times, s.points, "has GPS time zero", "have GPS time zero");
   const bool in_week = s.first_time >= 0.0 && s.last_time <= kLastWeekSecond;
   if (info.time_kind == TimeKind::week_seconds && !in_week)
     remarks.push_back(
@@ -105,22 +110,47 @@ void remarkFile(FileCensus& file) {
   const std::string extension = lowerExtension(file.info.path);
   if (extension == ".las" || extension == ".laz")
     remarkHeader(LasFile(file.info.path).header(), s, remarks);
-  remarkCount(remarks, s.invalid_coordinates, s.points, "have coordinates that are no place");
+  remarkCount(remarks, s.invalid_coordinates, s.points, "has coordinates that are no place",
+              "have coordinates that are no place");
   remarkCount(remarks, s.wrong_returns, s.points,
+              "has return number zero or one above its number of returns",
               "have return number zero or one above their number of returns");
-  remarkCount(remarks, s.withheld, s.points, "are flagged as withheld");
+  remarkCount(remarks, s.withheld, s.points, "is flagged as withheld", "are flagged as withheld");
   if (s.largest_intensity == 0.0F && s.least_intensity == 0.0F)
     remarks.emplace_back("every intensity is zero");
   remarkCrs(file.info.crs, remarks);
 }
 
+/// Rounded times: an aircraft is metres to tens of metres further when they change.
+void remarkWholeSeconds(StripCensus& strip) {
+  const PointStatistics& s = strip.statistics;
+  const bool timed = s.zero_times + s.invalid_times < s.points;
+  if (!timed || s.fractional_times > 0 || s.points < kPointsPerTime * strip.half_seconds) return;
+  strip.remarks.push_back("has times in whole seconds only (" +
+                          counted(strip.half_seconds, "distinct value") + " in " +
+                          counted(s.points, "point") + "): too coarse for a trajectory");
+}
+
+void remarkScanAngles(const PointStatistics& s, std::vector<std::string>& remarks) {
+  const float largest = std::max(std::abs(s.least_scan_angle), std::abs(s.largest_scan_angle));
+  if (!(largest >= kLargeScanAngle)) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << "has scan angles of " << s.least_scan_angle << " to " << s.largest_scan_angle
+       << " degrees: beyond " << kLargeScanAngle
+       << " degrees the scanner rotates or looks sideways, or the angles are in another unit";
+  remarks.push_back(text.str());
+}
+
 void remarkStrip(StripCensus& strip, bool has_time) {
   const PointStatistics& s = strip.statistics;
   if (s.points < kFewPoints)
-    strip.remarks.push_back("holds only " + std::to_string(s.points) + " points, too few to use");
+    strip.remarks.push_back("holds only " + counted(s.points, "point") + ", too few to use");
   if (has_time && !strip.gaps.empty())
-    strip.remarks.push_back("has " + std::to_string(strip.gaps.size()) +
-                            " gaps in time of more than 1 s");
+    strip.remarks.push_back("has " + counted(strip.gaps.size(), "gap") +
+                            " in time of more than 1 s");
+  if (has_time) remarkWholeSeconds(strip);
+  remarkScanAngles(s, strip.remarks);
 }
 
 }  // namespace
@@ -139,8 +169,9 @@ void addRemarks(SurveyCensus& survey) {
     }
   if (survey.duplicates > 0)
     survey.remarks.push_back((survey.duplicates_estimated ? "about " : "") +
-                             std::to_string(survey.duplicates) +
-                             " points repeat another point (place, time, return and source id)");
+                             counted(survey.duplicates, "point") +
+                             (survey.duplicates == 1 ? " repeats" : " repeat") +
+                             " another point (place, time, return and source id)");
   if (survey.strips.size() == 1)
     survey.remarks.emplace_back("there is one strip only: nothing to compare it with");
   if (survey.strips.size() > 1 && survey.overlaps.empty())

@@ -19,6 +19,7 @@ class TimeBins {
   void add(double time);
   void add(const TimeBins& other);
   std::vector<TimeGap> gaps(double longer_than) const;
+  std::size_t count() const { return bins_.size(); }
 
  private:
   static constexpr double kBin = 0.5;
