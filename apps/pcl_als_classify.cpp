@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/class_io.h>
@@ -57,7 +58,10 @@ class Classification {
     makeRasters();
     if (line_.has("output")) mapClasses();
     for (const std::string& remark : remarks_) say("note: " + remark + "\n");
-    return rank_deficient_ ? kNoReliableAnswer : kDone;
+    if (rank_deficient_.empty()) return kDone;
+    std::cerr << "pcl_als_classify: no reliable answer: too few training samples for "
+              << joined(rank_deficient_) << std::endl;
+    return kNoReliableAnswer;
   }
 
  private:
@@ -199,9 +203,10 @@ class Classification {
     if (!priors_.empty()) setPriors(priors_, result);
     for (const GaussianClass& c : result.classes) {
       if (c.samples > bands_.size()) continue;
-      rank_deficient_ = true;
-      remarks_.push_back("class " + c.name + ": " + std::to_string(c.samples) +
-                         " samples determine no covariance of " + std::to_string(bands_.size()) +
+      rank_deficient_.push_back("class " + c.name);
+      remarks_.push_back("class " + c.name + ": " + counted(c.samples, "sample") +
+                         (c.samples == 1 ? " determines" : " determine") + " no covariance of " +
+                         std::to_string(bands_.size()) +
                          " bands: its cells are not reliable (exit status 3)");
     }
     if (line_.has("save_model")) writeClassModel(line_.text("save_model"), result, remarks_);
@@ -303,7 +308,7 @@ class Classification {
   std::optional<AtomicFile> scratch_;
   fs::path raster_path_;
   std::vector<std::string> remarks_;
-  bool rank_deficient_ = false;
+  std::vector<std::string> rank_deficient_;  ///< "class road", …
 };
 
 int classify(int argc, char** argv) {

@@ -14,7 +14,9 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "option_suggestion.h"
 #include "output_check.h"
+#include "standard_streams.h"
 
 namespace po = boost::program_options;
 
@@ -62,6 +64,9 @@ bool CommandLine::parse(int argc, const char* const* argv) {
         po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
         values_);
     po::notify(values_);
+  } catch (const po::unknown_option& error) {
+    throw UsageError(error.what() + suggestionFor(error.get_option_name()) + " (see " + tool_ +
+                     " -h)");
   } catch (const po::error& error) {
     throw UsageError(std::string(error.what()) + " (see " + tool_ + " -h)");
   }
@@ -77,6 +82,25 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   if (get<int>("threads") < 0) throw UsageError("option -threads: must be 0 or more");
   refuseToOverwrite();
   return true;
+}
+
+std::string CommandLine::suggestionFor(const std::string& option) const {
+  std::vector<std::string> names;
+  for (const auto& known : options_.options()) names.push_back(known->long_name());
+  const std::size_t start = option.find_first_not_of('-');
+  if (start == std::string::npos) return {};
+  const std::string name = nearestName(option.substr(start, option.find('=') - start), names);
+  return name.empty() ? std::string() : "; did you mean -" + name + "?";
+}
+
+void CommandLine::refuseRepeated() const {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& input : inputs_) {
+    std::error_code error;
+    std::filesystem::path path = std::filesystem::canonical(input, error);
+    if (error) path = input;
+    if (!seen.insert(path).second) throw UsageError(input + " is given twice");
+  }
 }
 
 void CommandLine::refuseToOverwrite() const {
@@ -110,7 +134,11 @@ double CommandLine::number(const char* name, double low, double high, const char
 }
 
 const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t high) const {
-  if (inputs_.size() >= low && inputs_.size() <= high) return inputs_;
+  if (inputs_.size() >= low && inputs_.size() <= high) {
+    // Of a list; where each input has a part of its own, the tool says what may be the same.
+    if (high > 2) refuseRepeated();
+    return inputs_;
+  }
   throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
 }
 
@@ -171,8 +199,14 @@ int run(const char* tool, const std::function<int()>& body) {
     std::cerr << tool << ": " << message << std::endl;
     return status;
   };
+  openStandardStreams();
+  reportAborts(tool);
   try {
-    return body();
+    const int status = body();
+    const char* reason = "";
+    if (flushStandardOutput(reason) || status != kDone) return status;
+    return failed((std::string("cannot write to standard output: ") + reason).c_str(),
+                  kUnusableInput);
   } catch (const UsageError& error) {
     return failed(error.what(), kWrongUsage);
   } catch (const std::bad_alloc&) {

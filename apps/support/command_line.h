@@ -46,7 +46,8 @@ class CommandLine {
   /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
   double number(const char* name, double low, double high, const char* unit) const;
 
-  /// Positional arguments; UsageError unless their number is in [low, high].
+  /// Positional arguments; UsageError unless their number is in [low, high], and for one that is
+  /// given twice in a list of any length.
   const std::vector<std::string>& inputs(std::size_t low, std::size_t high) const;
   bool quiet() const { return has("quiet"); }
   int threads() const;
@@ -57,6 +58,10 @@ class CommandLine {
 
  private:
   std::string help() const;
+  /// "; did you mean -trajectory?" for a misspelt option; empty where none is near.
+  std::string suggestionFor(const std::string& option) const;
+  /// UsageError where an input is given twice: its points would be counted twice.
+  void refuseRepeated() const;
   /// UsageError where a file to write is one that is read.
   void refuseToOverwrite() const;
 

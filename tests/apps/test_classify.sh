@@ -85,8 +85,10 @@ check "areas give more samples than points" awk '/"samples"/ { gsub(/[^0-9]/, ""
 awk -F, 'NR == 1 || $3 != "grass" || !seen++' "$training" >one_grass.csv
 run classify "${strips[@]}" -training one_grass.csv -checkpoints "$checkpoints" -cell 2 -output one.tif
 checks=$((checks + 1))
-[[ $status == 3 && $(<out.txt) == *"class grass: 1 samples determine no covariance"* && -s one.tif ]] ||
+[[ $status == 3 && $(<out.txt) == *"class grass: 1 sample determines no covariance"* && -s one.tif ]] ||
   failed "one training point: status 3, a note and the map"
+expect 3 'no reliable answer: too few training samples for class grass' classify "${strips[@]}" \
+  -training one_grass.csv -cell 2 -output one.tif -quiet
 awk -F, '$3 != "grass"' "$training" >no_grass.csv
 expect 0 'class grass: 150 check sites but no training; counted as wrong' classify "${strips[@]}" \
   -training no_grass.csv -checkpoints "$checkpoints" -cell 2 -output no.tif -map no.png -beside map.tif

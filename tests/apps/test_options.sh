@@ -19,6 +19,34 @@ for tool in "$bin"/pcl_als_*; do
 done
 
 for tool in apply calibrate info; do expect 1 "usage: pcl_als_$tool" "$tool"; done
+
+# A misspelt option is answered with the nearest one, where there is one.
+expect 1 "trajctory'; did you mean -trajectory?" calibrate -trajctory x
+expect 1 "did you mean -strip_corrections?" calibrate -strip-corrections
+expect 1 "did you mean -output?" calibrate -outptu x.json
+expect 1 "did you mean -quality_level?" check --qualitylevel=2
+check "no suggestion for what is near nothing" sh -c \
+  "! '$bin/pcl_als_info' -zzzzzz 2>&1 | grep -q 'did you mean'"
+
+# What cannot be written to stdout is an error; closed streams and FIFOs do no harm.
+full() {  # VERB ARG…: the tool ends with status 2 and one line when stdout is full
+  checks=$((checks + 1))
+  status=0
+  "$bin/pcl_als_$1" "${@:2}" >/dev/full 2>err.txt || status=$?
+  [[ $status == 2 && $(<err.txt) == "pcl_als_$1: cannot write to standard output"* ]] ||
+    failed "$1 > /dev/full: status $status"
+}
+full info "$block/strip1.las"
+for tool in "$bin"/pcl_als_*; do full "${tool##*/pcl_als_}" -h; done
+closed() { "$bin/pcl_als_info" "$block/strip1.las" -json closed.json <&- >&- 2>&-; }
+check "closed standard streams" closed
+check "the output is whole" grep -q '"strips"' closed.json
+mkfifo pipe.las
+checks=$((checks + 1))
+status=0
+timeout 10 "$bin/pcl_als_info" pipe.las >out.txt 2>err.txt || status=$?
+[[ $status == 2 && $(<err.txt) == *"pipe.las: is not a regular file"* ]] || failed "a FIFO: status $status"
+expect 1 "given twice" info "$block/strip1.las" "$block/../block/strip1.las"
 expect 1 "output" simulate
 expect 1 "preset" simulate -output x -preset huge
 expect 1 "scale" simulate -output x -scale 0

@@ -15,7 +15,8 @@
 namespace pcl_als::detail {
 
 InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
-  descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Without O_NONBLOCK a FIFO would be waited for, and only then refused.
+  descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) {
     const char* reason = errno == ENOENT ? "there is no such file" : std::strerror(errno);
     throw InputError(name_ + ": cannot be opened: " + reason);
@@ -23,7 +24,7 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
   struct stat status {};
   if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     close(descriptor_);
-    throw InputError(name_ + ": is not a regular file");
+    throw InputError(name_ + ": is not a regular file (point files are read several times)");
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
   posix_fadvise(descriptor_, 0, 0, POSIX_FADV_SEQUENTIAL);
