@@ -39,7 +39,8 @@ CommandLine commandLine() {
   app::addForceOption(
       line, "the calibration's verdict is not \"usable\" or inputs do not belong together");
   line.addFlag("keep_uncovered",
-               "leave points without a trajectory as they are (default: refuse the file)");
+               "leave points without a trajectory as they are, however many (default: up to 1 % of "
+               "a file, which are counted; a file with more is refused)");
   return line;
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 
@@ -14,6 +15,7 @@
 #include "flight_options.h"
 #include "output_check.h"
 #include "point_file_correction.h"
+#include "strip_options.h"
 #include "survey_reader.h"
 
 namespace {
@@ -34,7 +36,11 @@ CommandLine commandLine() {
                    "-output calibration.json");
   app::addFlightOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
-  line.addOptional("pairs", "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap)");
+  app::addStripOptions(line);
+  line.addOptional(
+      "pairs",
+      "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap); without -control, "
+      "other strips take no part");
   app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
   app::addForceOption(line,
@@ -76,6 +82,35 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
   return pairs;
 }
 
+/// Without the pairs of strips that have no usable points; those are named in \a warnings.
+std::vector<std::pair<std::string, std::string>> usablePairs(
+    const std::vector<std::pair<std::string, std::string>>& pairs, const app::SurveyReader& survey,
+    std::vector<std::string>& warnings) {
+  const auto missing = [&](const std::string& name) -> const StripArrangement::Label* {
+    const std::vector<std::string>& strips = survey.strips();
+    if (std::find(strips.begin(), strips.end(), name) != strips.end()) return nullptr;
+    for (const StripArrangement::Label& label : survey.arrangement().labels()) {
+      if (label.strip == name) return &label;
+    }
+    return nullptr;  // unknown: the calibration says which there are
+  };
+  std::vector<std::pair<std::string, std::string>> usable;
+  for (const auto& [a, b] : pairs) {
+    const auto* label = missing(a) != nullptr ? missing(a) : missing(b);
+    if (label == nullptr) {
+      usable.emplace_back(a, b);
+      continue;
+    }
+    if (label->reason == LeftOutReason::excluded)
+      throw UsageError("option -pairs: names strip '" + label->strip +
+                       "', which -strips or -without leaves out");
+    warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
+  }
+  if (usable.empty() && !pairs.empty())
+    throw InputError("option -pairs: no pair is left; " + warnings.back());
+  return usable;
+}
+
 CalibrationSettings settingsOf(const CommandLine& line) {
   CalibrationSettings settings;
   settings.recover_attitude = !line.has("vertical");
@@ -104,6 +139,13 @@ void checkOutputs(const CommandLine& line) {
   }
 }
 
+/// For a message: what was not used, in short.
+std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
+  std::string text;
+  for (const std::string& part : describe(parts)) text += "; " + part;
+  return text;
+}
+
 /// Both looks at the points and the adjustment.
 CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& survey,
                                   app::CalibrationPage& page,
@@ -115,9 +157,13 @@ CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& su
       calibration.survey(strip, points, count);
       page.add(strip, points, count);
     });
-    calibration.chooseAreas();
-    step.done(std::to_string(calibration.pairs().size()) + " overlapping pairs, " +
-              std::to_string(calibration.areas().size()) + " areas");
+    try {
+      calibration.chooseAreas();
+    } catch (const InputError& error) {
+      throw InputError(error.what() + leftOutText(survey.leftOut()));
+    }
+    step.done(counted(calibration.pairs().size(), "overlapping pair") + ", " +
+              counted(calibration.areas().size(), "area"));
   }
   {
     Step step("Reading the areas", line.quiet());
@@ -135,6 +181,8 @@ CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& su
                           std::to_string(1000.0 * last.largest_update) + " mm");
   });
   CalibrationResult result = calibration.calibrate();
+  result.left_out = survey.leftOut();
+  for (const std::string& text : describe(result.left_out)) result.warnings.push_back(text);
   step.done(result.converged ? "converged" : "not converged");
   return result;
 }
@@ -178,23 +226,26 @@ int calibrate(int argc, char** argv) {
   const std::vector<std::string>& files = line.inputs(1, 100000);
   CalibrationSettings settings = settingsOf(line);
   const auto pairs = stripPairs(line);
+  const StripChoice choice = app::stripChoice(line);
   checkOutputs(line);
-  Step step("Reading " + std::to_string(files.size()) + " point files", line.quiet());
+  Step step("Reading " + counted(files.size(), "point file"), line.quiet());
   app::SurveyReader survey(files, line.threads());
-  step.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
-            " strips");
+  step.done(grouped(survey.pointCount()) + " points");
   const auto trajectory =
       app::readFlight(line, survey.crs(), 0.0,
                       line.has("vertical") ? app::AttitudeUse::ignore : app::attitudeUse(line));
-  for (const std::string& text : survey.alignTimes(*trajectory, app::gpsWeek(line))) {
+  for (const std::string& text :
+       survey.choose(choice, {trajectory.get(), app::gpsWeek(line), true})) {
     app::remark(line, text);
   }
   settings.resolution = survey.resolution();
   QuasiRigorousCalibration calibration(trajectory, settings, survey.corner());
-  calibration.setPairs(pairs);
+  std::vector<std::string> warnings;
+  calibration.setPairs(usablePairs(pairs, survey, warnings));
   if (line.has("control")) calibration.setControl(readControl(line.text("control")));
   app::CalibrationPage page(survey, line.has("report"));
   CalibrationResult result = calibrateSurvey(line, survey, page, calibration);
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   result.inputs = files;
   result.inputs.push_back(line.text("trajectory"));
   if (line.has("control")) result.inputs.push_back(line.text("control"));

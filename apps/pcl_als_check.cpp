@@ -8,6 +8,7 @@
 
 #include <sys/resource.h>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_io.h>
@@ -18,6 +19,7 @@
 #include "output_check.h"
 #include "quality_page.h"
 #include "quality_report.h"
+#include "strip_options.h"
 
 namespace {
 
@@ -42,6 +44,7 @@ CommandLine commandLine() {
       "before",
       "the same strips before a calibration: a folder, or files parted by commas; both "
       "are reported side by side");
+  app::addStripOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   line.addOptional("output", "quality.json to write (needed)");
   line.addOptional(
@@ -151,16 +154,17 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
 app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
                              const app::CheckSettings& settings, const std::string& image,
                              std::vector<SurveyArea>& areas, app::QualityPage* page) {
-  Step reading("Reading " + std::to_string(files.size()) + " point files", line.quiet());
+  Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
   app::SurveyReader survey(files, line.threads());
-  reading.done(grouped(survey.pointCount()) + " points, " + std::to_string(survey.strips().size()) +
-               " strips");
+  reading.done(grouped(survey.pointCount()) + " points");
   std::shared_ptr<const Trajectory> trajectory;
   if (line.has("trajectory")) {
     trajectory = app::readFlight(line, survey.crs(), 0.0, app::AttitudeUse::where_given);
-    for (const std::string& text : survey.alignTimes(*trajectory, app::gpsWeek(line)))
-      app::remark(line, text);
   }
+  // The trajectory serves for scan angles only: points that it does not cover are compared, too.
+  for (const std::string& text :
+       survey.choose(app::stripChoice(line), {trajectory.get(), app::gpsWeek(line), false}))
+    app::remark(line, text);
   app::BlockCheck check(survey, settings, trajectory);
   {
     Step step("Surveying the block", line.quiet());
@@ -171,8 +175,8 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
     } else {
       check.setAreas(areas);
     }
-    step.done(std::to_string(check.overlaps().size()) + " overlapping pairs, " +
-              std::to_string(areas.size()) + " areas");
+    step.done(counted(check.overlaps().size(), "overlapping pair") + ", " +
+              counted(areas.size(), "area"));
   }
   std::unique_ptr<SwathSeparation> separation = separationOf(line, survey, check);
   {
@@ -192,7 +196,9 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
   Step step("Measuring", line.quiet());
   app::CheckedBlock block = check.assess([&](double fraction) { step.progress(fraction); });
   block.files = files;
-  step.done(std::to_string(block.pairs.size()) + " pairs");
+  block.left_out = survey.leftOut();
+  for (const std::string& text : describe(block.left_out)) block.warnings.push_back(text);
+  step.done(counted(block.pairs.size(), "pair"));
   if (separation) {
     Step writing("Writing " + image, line.quiet());
     block.separation = app::writeSeparation(line.text("report"), image, *separation,

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
@@ -15,6 +16,7 @@
 #include "intensity_report.h"
 #include "intensity_run.h"
 #include "output_check.h"
+#include "strip_options.h"
 
 namespace {
 
@@ -37,6 +39,7 @@ CommandLine commandLine() {
       "-temperature 29.8 -pressure 101.81 -estimate strip_gains -report report");
   app::addFlightOptions(line);
   app::addForceOption(line);
+  app::addStripOptions(line, false);
   app::addIntensityOptions(line);
   return line;
 }
@@ -159,9 +162,9 @@ int intensity(int argc, const char* const* argv) {
   const auto flight = app::readFlight(line, PointReader::open(files.inputs[0])->info().crs, 0.0,
                                       app::AttitudeUse::ignore);
 
-  Step looking("Looking at " + std::to_string(files.inputs.size()) + " files", line.quiet());
+  Step looking("Reading " + counted(files.inputs.size(), "file"), line.quiet());
   app::IntensityRun run(files.inputs, flight, settings);
-  looking.done(grouped(run.strips().size()) + " strips");
+  looking.done(counted(run.strips().size(), "strip"));
   for (const std::string& remark : run.remarks()) app::remark(line, remark);
   useStored(line, run);
   if (!line.has("radiometry")) app::remark(line, extinction.remark);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/visualization/section.h>
 #include <pcl_als/visualization/section_search.h>
@@ -14,6 +15,7 @@
 #include "picture_options.h"
 #include "picture_source.h"
 #include "section_places.h"
+#include "strip_options.h"
 
 namespace {
 
@@ -33,12 +35,13 @@ CommandLine commandLine() {
   line.addOptional("to", "end of the section: X,Y, m");
   line.add("width", "of the section, m; 0: 2 m, with -auto by the density of the points", 0.0);
   line.addOptional("auto",
-                   "instead of -from and -to: find so many gable roofs and slopes where a "
-                   "misfit shows best");
+                   "instead of -from and -to: find so many places where a misfit shows best: "
+                   "gable roofs (two planar faces with a sharp ridge, above the ground around), "
+                   "other opposite slopes, slopes");
   line.addOptional("after",
                    "the same strips corrected, drawn below: a folder with files of the "
                    "same names, or files parted by commas");
-  line.addOptional("strips", "draw these strips only, e.g. 1,2");
+  app::addStripOptions(line);
   line.addOptional("output", "PNG to write, with -auto a folder for profile1.png, … (needed)");
   app::addSizeOption(line);
   line.addOptional("title", "text above (default: names of the files)");
@@ -78,16 +81,6 @@ std::size_t countOf(const CommandLine& line) {
     throw UsageError("option -auto: must be a whole number from 1 to 100");
   }
   return static_cast<std::size_t>(count);
-}
-
-/// Strips that are drawn; empty: all.
-std::vector<bool> chosenStrips(const CommandLine& line, const PictureSource& source) {
-  std::vector<bool> chosen(source.strips().size(), !line.has("strips"));
-  if (!line.has("strips")) return chosen;
-  for (const std::string& name : app::splitList(line.text("strips"))) {
-    chosen[static_cast<std::size_t>(source.stripNamed(name, "strips"))] = true;
-  }
-  return chosen;
 }
 
 std::vector<SectionSearch::Place> search(const PictureSource& source,
@@ -151,14 +144,15 @@ int profile(int argc, char** argv) {
     app::pictureFile(line);
   }
 
-  Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());
-  const PictureSource source(inputs);
-  const std::vector<bool> chosen = chosenStrips(line, source);
+  Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
+  const PictureSource source(inputs, line.has("split"));
+  const std::vector<bool> chosen = app::chosenStrips(app::stripChoice(line), source.strips());
   if (automatic) places = search(source, chosen, count, width);
   const auto before = collect(source, places, source.strips(), chosen);
   std::vector<SectionPoints> after;
   if (line.has("after")) {
-    after = collect(PictureSource(filesAfter(line, inputs)), places, source.strips(), chosen);
+    after = collect(PictureSource(filesAfter(line, inputs), line.has("split")), places,
+                    source.strips(), chosen);
   }
   step.done(grouped(source.pointCount()) + " points");
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <set>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/visualization/point_picture.h>
 #include <pcl_als/visualization/point_scene.h>
@@ -15,6 +15,7 @@
 #include "command_line.h"
 #include "picture_options.h"
 #include "picture_source.h"
+#include "strip_options.h"
 
 namespace {
 
@@ -43,7 +44,7 @@ CommandLine commandLine() {
   line.addOptional("range",
                    "LOW:HIGH of the colours (default: 1st to 99th percentile of what is "
                    "shown)");
-  line.addOptional("strips", "draw these strips only, e.g. 1,2");
+  app::addStripOptions(line);
   line.add("azimuth", "direction the camera looks to, degrees clockwise from north", 0.0);
   line.add("elevation", "height of the camera above the horizon, degrees; 90: top view", 90.0);
   line.add("zoom", "enlarges about the middle", 1.0);
@@ -66,13 +67,13 @@ PointShade shadeOf(const CommandLine& line) {
 
 /// What of the points is drawn.
 struct Selection {
-  std::set<int> strips;  ///< empty: all
-  int hidden = -1;
+  std::vector<bool> strips;  ///< chosen
+  int hidden = -1;           ///< not drawn
   bool cut = false;
   Eigen::Vector2d low, high;
 
   bool operator()(const PictureSource::Point& point) const {
-    if (strips.empty() ? point.strip == hidden : strips.count(point.strip) == 0) return false;
+    if (point.strip == hidden || !strips[static_cast<std::size_t>(point.strip)]) return false;
     if (!cut) return true;
     return (point.position.head<2>().array() >= low.array()).all() &&
            (point.position.head<2>().array() <= high.array()).all();
@@ -82,13 +83,8 @@ struct Selection {
 Selection selectionOf(const CommandLine& line, const PictureSource& source,
                       const PointAttribute& attribute) {
   Selection selection;
-  selection.hidden = attribute.hiddenStrip();
-  if (line.has("strips")) {
-    for (const std::string& name : app::splitList(line.text("strips"))) {
-      selection.strips.insert(source.stripNamed(name, "strips"));
-    }
-    if (selection.strips.empty()) throw UsageError("option -strips: names no strip");
-  }
+  selection.strips = app::chosenStrips(app::stripChoice(line), source.strips());
+  if (!line.has("strips")) selection.hidden = attribute.hiddenStrip();
   if (line.has("extent")) {
     const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4);
     selection.cut = true;
@@ -174,8 +170,8 @@ int view(int argc, char** argv) {
   }
   if (line.has("output")) app::pictureFile(line);
 
-  Step step("Reading " + std::to_string(inputs.size()) + " files", line.quiet());
-  const PictureSource source(inputs);
+  Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
+  const PictureSource source(inputs, line.has("split"));
   PointAttribute attribute(line.text("color"), source,
                            line.has("reference") ? line.text("reference") : "");
   const Selection selection = selectionOf(line, source, attribute);

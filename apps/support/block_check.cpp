@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
@@ -100,12 +101,12 @@ void BlockCheck::surveyBlock() {
     const int index = static_cast<int>(strip);
     const std::string& id = survey_.strips()[strip];
     if (map_.invalidCount(index) > 0)
-      warnings_.push_back("strip " + id + ": " + std::to_string(map_.invalidCount(index)) +
-                          " points with a time or coordinate that is not finite were ignored");
+      warnings_.push_back("strip " + id + ": " + counted(map_.invalidCount(index), "point") +
+                          " with a time or coordinate that is not finite left out");
     used_[strip] = map_.pointCount(index) >= settings_.minimum_points;
     if (!used_[strip])
-      warnings_.push_back("strip " + id + " has only " + std::to_string(map_.pointCount(index)) +
-                          " points and is left out");
+      warnings_.push_back("strip " + id + " has only " + counted(map_.pointCount(index), "point") +
+                          " and is left out");
   }
   checkTrajectory();
   for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {

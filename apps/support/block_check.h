@@ -71,6 +71,7 @@ struct CheckedBlock {
   std::optional<SeparationSummary> separation;  ///< of the images that were written
   double roughness_limit = 0.0;                 ///< metres: smooth
   std::vector<std::string> warnings;
+  std::vector<LeftOutPoints> left_out;  ///< points that took no part
 };
 
 /** \brief Checks one set of strips: three looks at the files, memory for the chosen areas only. */

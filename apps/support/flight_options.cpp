@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/trajectory/heading_check.h>
@@ -121,8 +122,8 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   }
   options.use_attitude = complete && attitude != AttitudeUse::ignore;
   auto trajectory = std::make_shared<const Trajectory>(std::move(samples), options);
-  step.done(grouped(trajectory->size()) + " samples, " + std::to_string(trajectory->gaps().size()) +
-            " gaps" + (options.use_attitude ? ", with attitude" : ""));
+  step.done(grouped(trajectory->size()) + " samples, " + counted(trajectory->gaps().size(), "gap") +
+            (options.use_attitude ? ", with attitude" : ""));
   remark(line, file.columns);
   if (options.use_attitude) remark(line, yaw);
   for (const std::string& repair : trajectory->repairs()) remark(line, repair);

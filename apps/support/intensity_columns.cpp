@@ -82,7 +82,8 @@ RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t fi
       scale_(scale),
       saturation_(run.saturation()),
       original_at_(original_at) {
-  for (const auto& [source, strip] : run.stripsOf(file)) divisors_[source] = run.gain(strip);
+  for (const auto& [source, strip] : run.stripsOf(file))
+    divisors_[source] = strip < 0 ? 1.0 : run.gain(strip);
 }
 
 std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t length,

@@ -202,6 +202,7 @@ Json filesJson(const IntensityReport& report) {
                      {"output", report.outputs[i]},
                      {"points", counts.points},
                      {"points_by_status", status},
+                     {"points_of_strips_not_chosen", counts.excluded},
                      {"zero_intensity", counts.zeros},
                      {"saturated_before", counts.saturated},
                      {"clipped_after", counts.clipped},

@@ -8,6 +8,7 @@
 #include <pcl_als/io/survey_io.h>
 
 #include "flight_options.h"
+#include "strip_options.h"
 
 namespace pcl_als::app {
 namespace {
@@ -74,7 +75,9 @@ void addOutputOptions(CommandLine& line) {
   line.add<double>("scale", "factor on corrected intensities in the 16-bit field", 1.0);
   line.addFlag("no_original", "do not keep the original intensity as extra bytes");
   line.addFlag("no_fields", "add no range, incidence angle and reflectance as extra bytes");
-  line.addFlag("keep_uncovered", "leave points without a trajectory as they are (default: refuse)");
+  line.addFlag("keep_uncovered",
+               "leave points without a trajectory as they are, however many (default: up to 1 % of "
+               "a file, which are counted; a file with more is refused)");
   line.addOptional("json", "file for model, uncertainties, counts and statistics");
   line.addOptional(
       "report",
@@ -193,6 +196,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
   }
   if (line.has("saturation")) settings.saturation = positiveOption(line, "saturation");
   settings.keep_uncovered = line.has("keep_uncovered");
+  settings.strips = stripChoice(line);
   settings.statistics = line.has("json") || line.has("report");
   settings.find_surfaces = model.incidence_exponent != 0.0 || settings.statistics ||
                            !line.has("no_fields") || line.has("estimate") || line.has("targets");

@@ -14,6 +14,7 @@
 #include <pcl_als/io/pcd_io.h>
 
 #include "intensity_columns.h"
+#include "uncovered_points.h"
 
 namespace pcl_als::app {
 namespace {
@@ -53,7 +54,10 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
            const CorrectedPoint& point, double stored, BlockOutcome& out) {
   const IntensityPoint& given = found.window.points[i];
   ++out.counts.points;
-  ++out.counts.status[static_cast<std::size_t>(found.radiometry[i].status)];
+  if (found.strip[i] < 0)
+    ++out.counts.excluded;
+  else
+    ++out.counts.status[static_cast<std::size_t>(found.radiometry[i].status)];
   out.counts.zeros += given.intensity == 0.0F ? 1 : 0;
   out.counts.saturated += static_cast<double>(given.intensity) >= run.saturation() ? 1 : 0;
   out.counts.clipped += stored > kLargestIntensity ? 1 : 0;
@@ -97,7 +101,7 @@ class OrderedOutcome {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (std::size_t i = 0; i < after.size(); ++i) {
       const IntensityPoint& point = found.window.points[i];
-      if (outcome_.seen)
+      if (outcome_.seen && found.strip[i] >= 0)
         outcome_.seen(found.strip[i], found.window.origin + point.position.cast<double>());
       const float before = point.intensity;
       if (!found.radiometry[i].corrected() || !run.usable(before)) continue;
@@ -124,7 +128,7 @@ void checkCounts(const std::string& name, const IntensityCounts& counts, bool ke
   const std::uint64_t uncovered = countOf(counts, RadiometryStatus::uncovered);
   std::ostringstream text;
   text << name << ": ";
-  if (uncovered > 0 && !keep_uncovered) {
+  if (!keep_uncovered && !fewUncovered(uncovered, counts.points)) {
     text << "the trajectory does not cover the times of " << uncovered << " of " << counts.points
          << " points; -keep_uncovered leaves them as they are";
     throw InputError(text.str());
@@ -311,7 +315,7 @@ void writeCorrected(const IntensityRun& run, std::size_t file, const std::filesy
     throw UsageError(path.string() + ": input and output must be of one kind, .las/.laz or .pcd");
   if (pcd_out)
     writePcd(run, file, path, output, outcome);
-  else if (RangeOnlyCorrection::serves(run.settings(), output))
+  else if (RangeOnlyCorrection::serves(run.settings(), output) && run.allChosen(file))
     writeRangeOnly(run, file, path, output, progress, outcome.counts[file]);
   else
     writeLas(run, file, path, output, progress, outcome);

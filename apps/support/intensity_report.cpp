@@ -172,6 +172,9 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
         << " points without a trajectory, " << grouped(count(RadiometryStatus::above_sensor))
         << " above the sensor, " << grouped(count(RadiometryStatus::not_finite))
         << " without coordinates\n";
+  if (counts.excluded > 0)
+    out << "  left as they are: " << grouped(counts.excluded)
+        << " points of strips that were not chosen\n";
   if (counts.zeros + counts.saturated > 0)
     out << "  of intensity 0: " << grouped(counts.zeros) << " points; saturated ("
         << run.saturation() << " and more): " << grouped(counts.saturated)

@@ -14,6 +14,8 @@
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
+#include "strip_options.h"
+
 namespace pcl_als::app {
 namespace {
 
@@ -26,6 +28,7 @@ constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxe
 void IntensityCounts::merge(const IntensityCounts& other) {
   for (std::size_t i = 0; i < status.size(); ++i) status[i] += other.status[i];
   points += other.points;
+  excluded += other.excluded;
   zeros += other.zeros;
   saturated += other.saturated;
   clipped += other.clipped;
@@ -68,15 +71,7 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
   saturation_ = settings_.saturation > 0.0 ? settings_.saturation
                 : largest <= 255.0         ? 255.0
                                            : 65535.0;
-  naming_.emplace(sources);
-  for (std::size_t file = 0; file < sources.size(); ++file) {
-    std::map<std::uint16_t, int>& strips = strip_of_.emplace_back();
-    for (const PointSource& source : sources[file].sources) {
-      const std::string& name = naming_->nameOf(file, source.id);
-      const auto at = std::find(naming_->names().begin(), naming_->names().end(), name);
-      strips[source.id] = static_cast<int>(at - naming_->names().begin());
-    }
-  }
+  nameStrips(sources);
   for (const auto* given : {&settings_.gains, &settings_.pulse_rates}) {
     for (const auto& [name, value] : *given) {
       if (std::find(strips().begin(), strips().end(), name) == strips().end())
@@ -87,6 +82,27 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
   }
   for (const std::string& strip : strips()) known_gains_.push_back(knownGain(strip));
   estimated_gains_.assign(strips().size(), 1.0);
+}
+
+void IntensityRun::nameStrips(const std::vector<PointFileSources>& sources) {
+  const StripNaming naming(sources);
+  const std::vector<bool> chosen = chosenStrips(settings_.strips, naming.names());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (chosen[i]) strips_.push_back(naming.names()[i]);
+  }
+  if (strips_.empty()) throw InputError("no strip is left: all are excluded");
+  for (std::size_t file = 0; file < sources.size(); ++file) {
+    std::map<std::uint16_t, int>& strips = strip_of_.emplace_back();
+    for (const PointSource& source : sources[file].sources) {
+      const auto at = std::find(strips_.begin(), strips_.end(), naming.nameOf(file, source.id));
+      strips[source.id] = at == strips_.end() ? -1 : static_cast<int>(at - strips_.begin());
+    }
+  }
+}
+
+bool IntensityRun::allChosen(std::size_t file) const {
+  return std::all_of(strip_of_[file].begin(), strip_of_[file].end(),
+                     [](const auto& strip) { return strip.second >= 0; });
 }
 
 /// Given gain, times the energy of a pulse against the mean of the strips' (constant power).
@@ -106,14 +122,24 @@ double IntensityRun::knownGain(const std::string& strip) const {
 
 void IntensityRun::alignTimes() {
   const TimeRange flight{trajectory_->startTime(), trajectory_->endTime()};
+  std::string objection;
+  std::size_t met = 0;
   for (const auto& input : inputs_) {
     TimeAlignment& alignment = times_.emplace_back();
     const IntensitySurvey& survey = input->survey();
     if (survey.sources.sources.empty()) continue;
-    alignment = reconcileTimes(input->path(), {survey.first_time, survey.last_time},
-                               survey.sources.info.time_kind, flight, settings_.gps_week);
+    try {
+      alignment = reconcileTimes(input->path(), {survey.first_time, survey.last_time},
+                                 survey.sources.info.time_kind, flight, settings_.gps_week);
+      ++met;
+    } catch (const InputError& error) {
+      if (objection.empty()) objection = error.what();
+    }
     if (!alignment.remark.empty()) remarks_.push_back(alignment.remark);
   }
+  if (objection.empty()) return;
+  if (met == 0 || !settings_.keep_uncovered) throw InputError(objection);
+  remarks_.push_back(objection + ": left as it is");
 }
 
 /// Ranges from a trajectory of another flight, or in other units, are numbers without meaning.
@@ -122,7 +148,8 @@ void IntensityRun::checkTrajectory() {
   for (const std::string& strip : strips()) check.addStrip(strip);
   for (std::size_t file = 0; file < files(); ++file) {
     const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point) {
-      check.add(strip_of_[file].at(source), times_[file](time), point);
+      const int strip = strip_of_[file].at(source);
+      if (strip >= 0) check.add(strip, times_[file](time), point);
     };
     if (const LasFile* las = inputs_[file]->las()) {
       samplePoints(*las, SampleSize(), [&add](const PointChunk& chunk) {
@@ -155,6 +182,7 @@ void IntensityRun::chooseRadii() {
       inputs_[file]->load(probe * windows / probes, WindowRequest(), window);
       std::size_t cursor = 0;
       for (const auto& [source, points] : window.surface_points) {
+        if (strip_of_[file].at(source) < 0) continue;
         double radius = LocalSurfaces::radiusFor(points);
         const auto first =
             std::find_if(window.points.begin(), window.points.end(),
@@ -215,6 +243,7 @@ std::map<std::uint16_t, LocalSurfaces> IntensityRun::surfacesOf(
     std::size_t file, const IntensityWindow& window) const {
   std::map<std::uint16_t, LocalSurfaces> surfaces;
   for (const auto& [source, neighbours] : window.surface_points) {
+    if (strip_of_[file].at(source) < 0) continue;
     LocalSurfaceSettings settings = settings_.surfaces;
     settings.radius = radius(strip_of_[file].at(source));
     surfaces.emplace(source, LocalSurfaces(neighbours, settings));
@@ -229,7 +258,7 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
   request.records = choice.records;
   request.record_length = choice.record_length;
   for (const auto& [source, strip] : strip_of_[file])
-    if (request.surfaces) request.margins[source] = radius(strip);
+    if (request.surfaces && strip >= 0) request.margins[source] = radius(strip);
   inputs_[file]->load(window, request, out.window);
   const std::vector<IntensityPoint>& points = out.window.points;
   const std::map<std::uint16_t, LocalSurfaces> surfaces = surfacesOf(file, out.window);
@@ -252,8 +281,10 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
       of_strip = at == surfaces.end() ? nullptr : &at->second;
     }
     out.strip[i] = strip;
-    out.divisor[i] = known_gains_[static_cast<std::size_t>(strip)];
+    out.divisor[i] = 1.0;
     out.radiometry[i] = PointRadiometry();
+    if (strip < 0) continue;
+    out.divisor[i] = known_gains_[static_cast<std::size_t>(strip)];
     if (choice.wanted && !choice.wanted(place.x(), place.y())) continue;
     const bool on_surface = of_strip != nullptr && point.return_number >= point.number_of_returns;
     if (on_surface) out.surfaces[i] = of_strip->at(point.position);
@@ -283,6 +314,7 @@ const OverlapResult& IntensityRun::adjust(const std::function<void(double)>& pro
         evaluate(file, first + part, found, choice);
         for (std::size_t i = 0; i < found.window.points.size(); ++i) {
           const IntensityPoint& point = found.window.points[i];
+          if (found.strip[i] < 0) continue;
           const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
           parts[part].add(found.strip[i], place.x(), place.y(),
                           static_cast<double>(point.intensity) / found.divisor[i],

@@ -16,6 +16,7 @@
 #include <pcl_als/radiometry/intensity_statistics.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
 #include <pcl_als/radiometry/reference_targets.h>
+#include <pcl_als/survey/strip_arrangement.h>
 
 #include "intensity_input.h"
 
@@ -38,6 +39,7 @@ struct IntensitySettings {
   bool statistics = false;
   bool force = false;         ///< go on with a trajectory that cannot be the points'
   bool find_surfaces = true;  ///< false: no incidence angles are wanted by anyone
+  StripChoice strips;         ///< points of other strips stay as they are; it is not split
   std::optional<int> gps_week;
   int threads = 0;
 };
@@ -46,6 +48,7 @@ struct IntensitySettings {
 struct IntensityCounts {
   std::array<std::uint64_t, kRadiometryStatusCount> status{};
   std::uint64_t points = 0, zeros = 0, saturated = 0;
+  std::uint64_t excluded = 0;         ///< of strips that were not chosen: in no status
   std::uint64_t clipped = 0;          ///< beyond 65535 after correction: written as 65535
   std::uint64_t rounded_to_zero = 0;  ///< not 0 before, under 0.5 after
   void merge(const IntensityCounts& other);
@@ -56,7 +59,7 @@ struct EvaluatedWindow {
   IntensityWindow window;
   std::vector<PointRadiometry> radiometry;
   std::vector<LocalSurface> surfaces;  ///< empty where none are sought
-  std::vector<int> strip;              ///< of each point
+  std::vector<int> strip;              ///< of each point; -1: not chosen
   std::vector<double> divisor;  ///< of each point's intensity: gains, pulse energy, gain control
 };
 
@@ -78,7 +81,8 @@ class IntensityRun {
   IntensityRun(const std::vector<std::string>& paths, std::shared_ptr<const Trajectory> trajectory,
                const IntensitySettings& settings);
 
-  const std::vector<std::string>& strips() const { return naming_->names(); }
+  /// Those that were chosen.
+  const std::vector<std::string>& strips() const { return strips_; }
   const IntensityInput& input(std::size_t file) const { return *inputs_[file]; }
   std::size_t files() const { return inputs_.size(); }
   const IntensitySettings& settings() const { return settings_; }
@@ -87,8 +91,9 @@ class IntensityRun {
   const std::vector<std::string>& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
-  /// By point source id.
+  /// By point source id; -1: not chosen.
   const std::map<std::uint16_t, int>& stripsOf(std::size_t file) const { return strip_of_[file]; }
+  bool allChosen(std::size_t file) const;
   double saturation() const { return saturation_; }
   double cellSize() const { return cell_size_; }
   double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }
@@ -117,6 +122,7 @@ class IntensityRun {
 
  private:
   void openFiles(const std::vector<std::string>& paths);
+  void nameStrips(const std::vector<PointFileSources>& sources);
   void alignTimes();
   void checkTrajectory();
   void chooseRadii();
@@ -129,7 +135,7 @@ class IntensityRun {
   IntensitySettings settings_;
   std::shared_ptr<const Trajectory> trajectory_;
   std::vector<std::unique_ptr<IntensityInput>> inputs_;
-  std::optional<StripNaming> naming_;
+  std::vector<std::string> strips_;
   std::vector<std::map<std::uint16_t, int>> strip_of_;  ///< by file and source id
   std::vector<TimeAlignment> times_;
   std::vector<double> radii_, known_gains_, estimated_gains_;

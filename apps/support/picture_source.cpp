@@ -52,11 +52,12 @@ class ExtraValues {
   std::vector<double> values_;
 };
 
-std::string extraFieldNames(const std::vector<PointFileSources>& files) {
+std::string extraFieldNames(const std::vector<SurveyedFile>& files) {
   std::string names;
-  for (const PointFileSources& file : files) {
-    if (file.info.format.rfind("PCD", 0) == 0) continue;
-    const LasFile las(file.info.path);
+  for (const SurveyedFile& file : files) {
+    const PointFileInfo& info = file.sources.info;
+    if (info.format.rfind("PCD", 0) == 0) continue;
+    const LasFile las(info.path);
     for (const LasExtraField& field : las.extraFields()) {
       if ((" " + names + ",").find(" " + field.name + ",") != std::string::npos) continue;
       names += (names.empty() ? "" : ", ") + field.name;
@@ -72,21 +73,21 @@ enum ReturnKind { kSingle, kFirst, kMiddle, kLast };
 
 }  // namespace
 
-PictureSource::PictureSource(const std::vector<std::string>& paths) {
+PictureSource::PictureSource(const std::vector<std::string>& paths, bool split) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   minimum_.setConstant(infinity);
   maximum_.setConstant(-infinity);
   first_time_ = infinity;
   for (const std::string& path : paths) {
-    PointFileSources& file = files_.emplace_back(surveySources(path));
-    for (const PointSource& source : file.sources) {
+    const SurveyedFile& file = files_.emplace_back(surveyFile(path));
+    for (const PointSource& source : file.sources.sources) {
       if (!source.minimum.allFinite() || !source.maximum.allFinite()) continue;
       minimum_ = minimum_.cwiseMin(source.minimum);
       maximum_ = maximum_.cwiseMax(source.maximum);
       first_time_ = std::min(first_time_, source.first_time);
     }
   }
-  naming_.emplace(files_);
+  arrangement_.emplace(files_, StripChoice{{}, {}, split, true}, FlownTimes());
   if (!minimum_.allFinite()) {
     throw InputError(paths.front() + (paths.size() > 1 ? " and the other files hold" : ": holds") +
                      " no point to draw");
@@ -95,42 +96,33 @@ PictureSource::PictureSource(const std::vector<std::string>& paths) {
 
 std::uint64_t PictureSource::pointCount() const {
   std::uint64_t count = 0;
-  for (const PointFileSources& file : files_) count += file.info.point_count;
+  for (const SurveyedFile& file : files_) count += file.sources.info.point_count;
   return count;
 }
 
 double PictureSource::sectionCell(const std::vector<bool>& chosen) const {
-  return app::sectionCell(stripDensities(files_, *naming_), chosen);
+  return app::sectionCell(stripDensities(files_, *arrangement_), chosen);
 }
 
 double PictureSource::cellFor(int strip, double points) const {
-  return stripDensities(files_, *naming_)[static_cast<std::size_t>(strip)].cellFor(points);
-}
-
-int PictureSource::stripNamed(const std::string& name, const std::string& option) const {
-  const auto found = std::find(strips().begin(), strips().end(), name);
-  if (found != strips().end()) return static_cast<int>(found - strips().begin());
-  std::string all;
-  for (const std::string& strip : strips()) all += (all.empty() ? "" : ", ") + strip;
-  throw UsageError("option -" + option + ": there is no strip '" + name + "'; there are " + all);
+  return stripDensities(files_, *arrangement_)[static_cast<std::size_t>(strip)].cellFor(points);
 }
 
 void PictureSource::read(const std::function<void(const Point&)>& sink,
                          const std::string& extra_field) const {
-  std::vector<int> strip_of(std::size_t{1} << 16U);
   for (std::size_t file = 0; file < files_.size(); ++file) {
-    for (const PointSource& source : files_[file].sources) {
-      strip_of[source.id] = stripNamed(naming_->nameOf(file, source.id), "");
-    }
-    ExtraValues extra(files_[file].info.path, extra_field);
-    const auto reader = PointReader::open(files_[file].info.path);
+    StripArrangement::Sorter sorter(*arrangement_, file);
+    ExtraValues extra(files_[file].sources.info.path, extra_field);
+    const auto reader = PointReader::open(files_[file].sources.info.path);
     PointChunk chunk;
     while (reader->read(chunk)) {
       if (!extra_field.empty()) extra.read(chunk.size());
       Point point{{}, 0, 0, &chunk, 0.0};
       for (std::size_t i = 0; i < chunk.size(); ++i) {
+        const std::size_t label = sorter.label(chunk.point_source_id[i], chunk.gps_time[i]);
+        point.strip = arrangement_->labels()[label].index;
+        if (point.strip < 0) continue;
         point.position = {chunk.x[i], chunk.y[i], chunk.z[i]};
-        point.strip = strip_of[chunk.point_source_id[i]];
         point.index = i;
         if (!extra_field.empty()) point.extra = extra[i];
         sink(point);
@@ -147,7 +139,7 @@ PointAttribute::PointAttribute(std::string name, const PictureSource& source,
       throw UsageError(
           "option -color difference: needs -reference STRIP, the strip to compare with");
     }
-    reference_ = source.stripNamed(reference, "reference");
+    reference_ = static_cast<int>(stripNamed(source.strips(), reference, "reference"));
     if (source.strips().size() < 2)
       throw UsageError("option -color difference: needs a second strip besides " + reference);
     return;

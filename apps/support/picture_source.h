@@ -13,7 +13,7 @@
 
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/io/point_reader.h>
-#include <pcl_als/io/strip_naming.h>
+#include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/visualization/plane_grid.h>
 #include <pcl_als/visualization/point_picture.h>
 
@@ -26,16 +26,15 @@ class PictureSource {
  public:
   /// Looks at all files once. InputError for a file that cannot be read and where no file has a
   /// point.
-  explicit PictureSource(const std::vector<std::string>& paths);
+  /// \a split: cut into flight lines, as StripChoice.
+  explicit PictureSource(const std::vector<std::string>& paths, bool split = false);
 
-  const std::vector<std::string>& strips() const { return naming_->names(); }
+  const std::vector<std::string>& strips() const { return arrangement_->names(); }
   std::uint64_t pointCount() const;
   const Eigen::Vector3d& minimum() const { return minimum_; }  ///< of the finite points
   const Eigen::Vector3d& maximum() const { return maximum_; }
   double firstTime() const { return first_time_; }
-  const std::vector<PointFileSources>& files() const { return files_; }
-  /// The strip of that name; UsageError that lists the names.
-  int stripNamed(const std::string& name, const std::string& option) const;
+  const std::vector<SurveyedFile>& files() const { return files_; }
 
   /// Cells for a SectionSearch among the chosen strips.
   double sectionCell(const std::vector<bool>& chosen) const;
@@ -56,8 +55,8 @@ class PictureSource {
             const std::string& extra_field = {}) const;
 
  private:
-  std::vector<PointFileSources> files_;
-  std::optional<StripNaming> naming_;
+  std::vector<SurveyedFile> files_;
+  std::optional<StripArrangement> arrangement_;
   Eigen::Vector3d minimum_, maximum_;
   double first_time_ = 0.0;
 };

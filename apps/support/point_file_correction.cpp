@@ -20,6 +20,8 @@
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
+#include "uncovered_points.h"
+
 namespace pcl_als::app {
 namespace {
 
@@ -185,10 +187,12 @@ std::vector<std::string> checkFlight(const std::string& name, const Strip<PointL
   return check.result(name, correction.force);
 }
 
-/// Points that the correction could not serve end the run, unless they may stay as they are.
+/// Points that the correction could not serve end the run, unless they are few or may stay as they
+/// are.
 void checkCoverage(const std::string& name, const CoverageCount& coverage,
                    const PointFileCorrection& correction) {
-  if (coverage.unsolved == 0 && (coverage.missed() == 0 || correction.keep_uncovered)) return;
+  const bool stay = correction.keep_uncovered || fewUncovered(coverage.missed(), coverage.points);
+  if (coverage.unsolved == 0 && stay) return;
   const char* way_out = coverage.unsolved == 0 ? "; -keep_uncovered leaves them as they are" : "";
   throw InputError(name + ": " + coverage.describe(*correction.trajectory) + way_out);
 }

@@ -22,7 +22,7 @@ struct PointFileCorrection {
   std::shared_ptr<const TrajectoryErrors> trajectory_errors;  ///< strip corrections; null: none
   bool recover_attitude = false;  ///< pitch and crab from the points; the trajectory has none
   bool invert = false;            ///< put the biases in instead of taking them out
-  bool keep_uncovered = false;    ///< leave points without a trajectory as they are; else refuse
+  bool keep_uncovered = false;    ///< points without trajectory stay; else at most 1 %
   /// Whether to refuse a trajectory that the points cannot have been measured from.
   bool check_trajectory = true;
   bool force = false;           ///< go on where that check refuses, with warnings

@@ -210,6 +210,12 @@ Json blockJson(const CheckedBlock& block) {
   }
   json["smooth_roughness_m"] = block.roughness_limit;
   json["warnings"] = block.warnings;
+  json["left_out"] = Json::array();
+  for (const LeftOutPoints& part : block.left_out)
+    json["left_out"].push_back({{"strip", part.strip},
+                                {"reason", toString(part.reason)},
+                                {"points", part.points},
+                                {"of", part.of}});
   return json;
 }
 

@@ -14,17 +14,16 @@ double StripDensity::cellFor(double points_in_it) const {
   return std::clamp(std::sqrt(points_in_it * area / count), 0.5, 20.0);
 }
 
-std::vector<StripDensity> stripDensities(const std::vector<PointFileSources>& files,
-                                         const StripNaming& naming) {
-  const std::vector<std::string>& names = naming.names();
-  std::vector<StripDensity> strips(names.size());
+std::vector<StripDensity> stripDensities(const std::vector<SurveyedFile>& files,
+                                         const StripArrangement& arrangement) {
+  std::vector<StripDensity> strips(arrangement.names().size());
+  for (std::size_t i = 0; i < strips.size(); ++i)
+    strips[i].points = arrangement.expectedPoints()[i];
   for (std::size_t file = 0; file < files.size(); ++file) {
-    for (const PointSource& source : files[file].sources) {
-      const auto at = std::find(names.begin(), names.end(), naming.nameOf(file, source.id));
-      StripDensity& strip = strips[static_cast<std::size_t>(at - names.begin())];
+    for (const PointSource& source : files[file].sources.sources) {
       const Eigen::Vector3d size = source.maximum - source.minimum;
-      strip.area += size.x() * size.y();
-      strip.points += source.points;
+      for (const int strip : arrangement.stripsOf(file, source.id))
+        strips[static_cast<std::size_t>(strip)].area += size.x() * size.y();
     }
   }
   return strips;
@@ -41,9 +40,9 @@ double sectionCell(const std::vector<StripDensity>& strips, const std::vector<bo
 
 std::string describe(const SectionSearch::Place& place) {
   const Eigen::Vector2d middle = 0.5 * (place.line.from + place.line.to);
-  return std::string(place.gable ? "gable" : "slope") + " at " + numberText(middle.x(), 1) + ", " +
-         numberText(middle.y(), 1) + ", " + std::to_string(place.strips) +
-         " strips, heights differ by " + numberText(place.difference, 3) + " m";
+  return std::string(place.gable ? "gable" : "slope") + " at " + numberText(middle.x(), 1) + ", " + numberText(middle.y(), 1) + ", " +
+         std::to_string(place.strips) + " strips, heights differ by " +
+         numberText(place.difference, 3) + " m";
 }
 
 }  // namespace pcl_als::app

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/io/strip_naming.h>
+#include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/visualization/section_search.h>
 
 namespace pcl_als::app {
@@ -20,14 +20,14 @@ struct StripDensity {
   /// Side of a cell in which so many points are on average, 0.5 to 20 m.
   double cellFor(double points_in_it) const;
 };
-/// In the order of StripNaming::names().
-std::vector<StripDensity> stripDensities(const std::vector<PointFileSources>& files,
-                                         const StripNaming& naming);
+/// In the order of StripArrangement::names().
+std::vector<StripDensity> stripDensities(const std::vector<SurveyedFile>& files,
+                                         const StripArrangement& arrangement);
 
 /// Cells for a SectionSearch among the chosen strips, metres.
 double sectionCell(const std::vector<StripDensity>& strips, const std::vector<bool>& chosen);
 
-/// "gable at 1234.5, 6789.0, 3 strips, heights differ by 0.123 m"
+/// "gable at 1234.5, 6789.0, 3 strips, heights differ by 0.123 m"; gable, opposite slopes or slope.
 std::string describe(const SectionSearch::Place& place);
 
 }  // namespace pcl_als::app

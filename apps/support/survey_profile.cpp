@@ -15,7 +15,8 @@ std::vector<SectionSearch::Place> findPlaces(const SurveyReader& survey) {
   const std::size_t strips = survey.strips().size();
   const std::vector<bool> all(strips, true);
   SectionSearch search(survey.corner(), survey.farCorner(),
-                       sectionCell(stripDensities(survey.files(), survey.naming()), all), strips);
+                       sectionCell(stripDensities(survey.files(), survey.arrangement()), all),
+                       strips);
   survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (points[i].isSingle()) search.add(points[i].position, static_cast<std::size_t>(strip));

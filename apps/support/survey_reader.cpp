@@ -3,10 +3,12 @@
 #include "survey_reader.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <numeric>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 
 namespace pcl_als::app {
@@ -14,27 +16,27 @@ namespace pcl_als::app {
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
     : threads_(threads), files_(paths.size()), times_(paths.size()) {
   parallelFor(paths.size(), threads,
-              [&](std::size_t file) { files_[file] = surveySources(paths[file]); });
-  naming_.emplace(files_);
+              [&](std::size_t file) { files_[file] = surveyFile(paths[file]); });
+  arrangement_.emplace(files_, StripChoice(), FlownTimes());
 }
 
 std::uint64_t SurveyReader::pointCount() const {
   std::uint64_t count = 0;
-  for (const PointFileSources& file : files_) count += file.info.point_count;
+  for (const SurveyedFile& file : files_) count += file.sources.info.point_count;
   return count;
 }
 
 std::string SurveyReader::crs() const {
-  for (const PointFileSources& file : files_) {
-    if (!file.info.crs.empty()) return file.info.crs;
+  for (const SurveyedFile& file : files_) {
+    if (!file.sources.info.crs.empty()) return file.sources.info.crs;
   }
   return {};
 }
 
 Eigen::AlignedBox2d SurveyReader::extent() const {
   Eigen::AlignedBox2d box;
-  for (const PointFileSources& file : files_) {
-    for (const PointSource& source : file.sources) {
+  for (const SurveyedFile& file : files_) {
+    for (const PointSource& source : file.sources.sources) {
       box.extend(Eigen::Vector2d(source.minimum.head<2>()));
       box.extend(Eigen::Vector2d(source.maximum.head<2>()));
     }
@@ -50,8 +52,8 @@ Eigen::Vector2d SurveyReader::corner() const {
 
 Eigen::Vector2d SurveyReader::farCorner() const {
   Eigen::Vector2d corner = Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity());
-  for (const PointFileSources& file : files_) {
-    for (const PointSource& source : file.sources) {
+  for (const SurveyedFile& file : files_) {
+    for (const PointSource& source : file.sources.sources) {
       corner = corner.cwiseMax(source.maximum.head<2>());
     }
   }
@@ -60,46 +62,93 @@ Eigen::Vector2d SurveyReader::farCorner() const {
 
 double SurveyReader::resolution() const {
   double finest = std::numeric_limits<double>::infinity();
-  for (const PointFileSources& file : files_) {
-    finest = std::min(finest, file.info.resolution.head<2>().minCoeff());
+  for (const SurveyedFile& file : files_) {
+    finest = std::min(finest, file.sources.info.resolution.head<2>().minCoeff());
   }
   // A TIN counts in steps of this inside areas of some hundred metres: neither finer nor coarser
   // helps.
   return std::clamp(finest, 1e-4, 0.01);
 }
 
-std::vector<std::string> SurveyReader::alignTimes(const Trajectory& trajectory,
-                                                  std::optional<int> gps_week) {
+std::vector<std::string> SurveyReader::alignTimes(const Flight& flight) {
   std::vector<std::string> remarks;
-  const TimeRange flight{trajectory.startTime(), trajectory.endTime()};
+  times_.assign(files_.size(), {});
+  if (flight.trajectory == nullptr) return remarks;
+  const TimeRange flown{flight.trajectory->startTime(), flight.trajectory->endTime()};
+  std::string objection;
+  std::size_t met = 0;
   for (std::size_t file = 0; file < files_.size(); ++file) {
     TimeRange range;
-    for (const PointSource& source : files_[file].sources) {
+    for (const PointSource& source : files_[file].sources.sources) {
+      if (!source.hasTimes()) continue;
       range.add(source.first_time);
       range.add(source.last_time);
     }
-    const PointFileInfo& info = files_[file].info;
-    times_[file] = reconcileTimes(info.path.string(), range, info.time_kind, flight, gps_week);
+    const PointFileInfo& info = files_[file].sources.info;
+    if (range.empty() && info.point_count > 0) range = {0.0, 0.0};
+    try {
+      times_[file] =
+          reconcileTimes(info.path.string(), range, info.time_kind, flown, flight.gps_week);
+      ++met;
+    } catch (const InputError& error) {
+      // Its points are then left out, with the others of their strips in mind: see the tally.
+      if (objection.empty()) objection = error.what();
+    }
     const std::string& remark = times_[file].remark;
     if (!remark.empty() && std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) {
       remarks.push_back(remark);
     }
   }
+  if (met == 0) throw InputError(objection);
+  if (!objection.empty()) remarks.push_back(objection);
   return remarks;
+}
+
+std::vector<std::string> SurveyReader::choose(const StripChoice& choice, const Flight& flight) {
+  std::vector<std::string> remarks = alignTimes(flight);
+  arrangement_.emplace(files_, choice, FlownTimes{flight.trajectory, times_, flight.needed});
+  left_out_.clear();
+  checkAnyLeft(flight);
+  return remarks;
+}
+
+void SurveyReader::checkAnyLeft(const Flight& flight) const {
+  if (!strips().empty()) return;
+  TimeRange range;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : files_[file].sources.sources) {
+      if (!source.hasTimes()) continue;
+      range.add(times_[file](source.first_time));
+      range.add(times_[file](source.last_time));
+    }
+  }
+  if (flight.trajectory == nullptr || range.empty())
+    throw InputError("no strip is left: all are excluded or have no times");
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "no strip is left: the points were measured at %.3f to %.3f s, the trajectory covers "
+      "%.3f to %.3f s%s: give the trajectory of this flight",
+      range.first, range.last, flight.trajectory->startTime(), flight.trajectory->endTime(),
+      flight.trajectory->gaps().empty() ? "" : " with gaps");
+  throw InputError(text);
 }
 
 std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
   std::vector<std::size_t> group(files_.size());
   std::iota(group.begin(), group.end(), 0);
-  std::map<std::string, std::size_t> first_file;
+  std::map<int, std::size_t> first_file;
+  const auto join = [&](std::size_t file, int strip) {
+    const auto [known, added] = first_file.try_emplace(strip, file);
+    if (added || group[known->second] == group[file]) return;
+    const std::size_t merged = group[file], into = group[known->second];
+    for (std::size_t& g : group) {
+      if (g == merged) g = into;
+    }
+  };
   for (std::size_t file = 0; file < files_.size(); ++file) {
-    for (const PointSource& source : files_[file].sources) {
-      const auto [known, added] = first_file.try_emplace(naming_->nameOf(file, source.id), file);
-      if (added || group[known->second] == group[file]) continue;
-      const std::size_t merged = group[file], into = group[known->second];
-      for (std::size_t& g : group) {
-        if (g == merged) g = into;
-      }
+    for (const PointSource& source : files_[file].sources.sources) {
+      for (const int strip : arrangement_->stripsOf(file, source.id)) join(file, strip);
     }
   }
   std::map<std::size_t, std::vector<std::size_t>> members;
@@ -133,26 +182,29 @@ void SurveyReader::read(const Sink& sink) const {
 
 void SurveyReader::readRuns(const RunSink& sink) const {
   const auto groups = groupsOfFiles();
+  const std::size_t labels = arrangement_->labels().size();
+  std::vector<std::vector<std::uint64_t>> counts(groups.size(), std::vector<std::uint64_t>(labels));
   parallelFor(groups.size(), threads_, [&](std::size_t group) {
-    for (const std::size_t file : groups[group]) readFile(file, sink);
+    for (const std::size_t file : groups[group]) readFile(file, sink, counts[group]);
   });
+  for (std::size_t group = 1; group < groups.size(); ++group) {
+    for (std::size_t i = 0; i < labels; ++i) counts[0][i] += counts[group][i];
+  }
+  left_out_ = counts.empty() ? std::vector<LeftOutPoints>() : arrangement_->leftOut(counts[0]);
 }
 
-void SurveyReader::readFile(std::size_t file, const RunSink& sink) const {
-  std::map<std::uint16_t, int> strip_of;
-  for (const PointSource& source : files_[file].sources) {
-    const auto& names = naming_->names();
-    const auto found = std::find(names.begin(), names.end(), naming_->nameOf(file, source.id));
-    strip_of[source.id] = static_cast<int>(found - names.begin());
-  }
-  const auto reader = PointReader::open(files_[file].info.path);
+void SurveyReader::readFile(std::size_t file, const RunSink& sink,
+                            std::vector<std::uint64_t>& counts) const {
+  StripArrangement::Sorter sorter(*arrangement_, file);
+  const auto reader = PointReader::open(files_[file].sources.info.path);
   PointChunk chunk;
   while (reader->read(chunk)) {
-    for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
-      for (to = from + 1;
-           to < chunk.size() && chunk.point_source_id[to] == chunk.point_source_id[from]; ++to) {
-      }
-      sink(strip_of.at(chunk.point_source_id[from]), Run{chunk, from, to, times_[file]});
+    for (std::size_t from = 0; from < chunk.size();) {
+      const auto [to, label] = sorter.run(chunk, from);
+      counts[label] += to - from;
+      const int strip = arrangement_->labels()[label].index;
+      if (strip >= 0) sink(strip, Run{chunk, from, to, times_[file]});
+      from = to;
     }
   }
 }

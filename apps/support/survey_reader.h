@@ -12,16 +12,17 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/calibration/calibration_point.h>
-#include <pcl_als/io/strip_naming.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als::app {
 
 /** \brief The point files of a survey as strips: read again and again, chunk by chunk.
  *
- * Strips are named by StripNaming. Files that share a strip are read one after the other in the
- * given order, others at the same time: what a strip sees does not depend on the number of threads.
+ * Strips are those of StripArrangement; points that it leaves out are counted and not handed on.
+ * Files that share a strip are read one after the other in the given order, others at the same
+ * time: what a strip sees does not depend on the number of threads.
  */
 class SurveyReader {
  public:
@@ -36,11 +37,28 @@ class SurveyReader {
   };
   using RunSink = std::function<void(int strip, const Run& run)>;
 
-  /// Looks at all files once (ids, times, extents). InputError for a file that cannot be read.
+  /// What is known of the flight, for choose().
+  struct Flight {
+    const Trajectory* trajectory = nullptr;
+    std::optional<int> gps_week;
+    /// Whether points without trajectory are left out; else they are read with the others.
+    bool needed = true;
+  };
+
+  /// Reads all files once (ids, times, extents). InputError for a file that cannot be read.
   SurveyReader(const std::vector<std::string>& paths, int threads);
 
-  const std::vector<std::string>& strips() const { return naming_->names(); }
+  /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
+  /// them. Returns how times were matched to the trajectory's, one line each. UsageError for an
+  /// unknown strip, InputError where no point is left.
+  std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
+
+  const std::vector<std::string>& strips() const { return arrangement_->names(); }
   std::uint64_t pointCount() const;
+  /// By strip: points that are read, about.
+  const std::vector<std::uint64_t>& pointsByStrip() const { return arrangement_->expectedPoints(); }
+  /// What the last complete reading left out.
+  const std::vector<LeftOutPoints>& leftOut() const { return left_out_; }
   /// CRS of the first file that has one; empty when none has.
   std::string crs() const;
   /// Box of all points in plan, metres; empty when there are none.
@@ -52,11 +70,8 @@ class SurveyReader {
   /// Finest coordinate step of the files, metres.
   double resolution() const;
 
-  const std::vector<PointFileSources>& files() const { return files_; }
-  const StripNaming& naming() const { return *naming_; }
-
-  /// Matches the files' times to the trajectory's; returns what was assumed, one line each.
-  std::vector<std::string> alignTimes(const Trajectory& trajectory, std::optional<int> gps_week);
+  const std::vector<SurveyedFile>& files() const { return files_; }
+  const StripArrangement& arrangement() const { return *arrangement_; }
 
   /// Calls \a sink with all points, in runs of one strip; from several threads for different
   /// strips.
@@ -65,13 +80,17 @@ class SurveyReader {
   void readRuns(const RunSink& sink) const;
 
  private:
-  void readFile(std::size_t file, const RunSink& sink) const;
+  std::vector<std::string> alignTimes(const Flight& flight);
+  void checkAnyLeft(const Flight& flight) const;
+  /// Adds the points of each label to \a counts.
+  void readFile(std::size_t file, const RunSink& sink, std::vector<std::uint64_t>& counts) const;
   std::vector<std::vector<std::size_t>> groupsOfFiles() const;
 
   int threads_;
-  std::vector<PointFileSources> files_;
-  std::optional<StripNaming> naming_;
+  std::vector<SurveyedFile> files_;
+  std::optional<StripArrangement> arrangement_;
   std::vector<TimeAlignment> times_;
+  mutable std::vector<LeftOutPoints> left_out_;
 };
 
 }  // namespace pcl_als::app

@@ -4,6 +4,7 @@
 // las_damage IN OUT CHANGE…: a copy of a LAS file with lies in it, for tests.
 //   set FIELD VALUE   a field of the header, see kFields
 //   zero_times        the GPS time of every point (formats 6-10)
+//   source_id BYTE    both bytes of the point source id of every point (formats 6-10)
 //   class CODE        of every point
 //   keep BYTES        only the first bytes
 //   crop_y FROM TO    only the points in that range of northings (no lie; LAS 1.2, 1.3)
@@ -103,6 +104,8 @@ int main(int argc, char** argv) {
       i += 2;
     } else if (words[i] == "zero_times") {
       fillRecords(bytes, 22, 8, 0);
+    } else if (words[i] == "source_id" && i + 1 < words.size()) {
+      fillRecords(bytes, 20, 2, std::stoi(words[++i]));
     } else if (words[i] == "crop_y" && i + 2 < words.size()) {
       cropNorthings(bytes, std::stod(words[i + 1]), std::stod(words[i + 2]));
       i += 2;

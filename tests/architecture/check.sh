@@ -12,7 +12,8 @@ breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 
 # What a module may declare: arrows go down only, and nobody may use simulation or visualization.
 declare -A may=(
-  [common]="" [las]="common" [io]="common las" [trajectory]="common" [tin]="common" [registration]="common tin"
+  [common]="" [las]="common" [io]="common las" [trajectory]="common"
+  [survey]="common io trajectory" [tin]="common" [registration]="common tin"
   [calibration]="common trajectory tin registration" [radiometry]="common trajectory tin"
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common tin registration trajectory"

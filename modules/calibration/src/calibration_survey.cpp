@@ -79,7 +79,7 @@ void QuasiRigorousCalibration::leaveOutSmallStrips() {
                           std::to_string(map_.invalidCount(static_cast<int>(strip))) +
                           " points with a time or coordinate that is not finite were ignored");
     }
-    if (count >= settings_.minimum_points) continue;
+    if (count >= settings_.minimum_points || !used_[strip]) continue;
     used_[strip] = false;
     warnings_.push_back("strip " + ids_[strip] + " has only " + std::to_string(count) +
                         " points and is left out");
@@ -96,12 +96,6 @@ void QuasiRigorousCalibration::checkTimes() const {
                        ", the trajectory covers " +
                        seconds(trajectory_->startTime(), trajectory_->endTime()) +
                        ": give the trajectory of this flight");
-    }
-    for (const Trajectory::Gap& gap : trajectory_->gaps()) {
-      if (gap.from >= end || gap.to <= start) continue;
-      throw InputError("the trajectory has a gap at " + seconds(gap.from, gap.to) +
-                       " under strip " + ids_[strip] + " (" + seconds(start, end) +
-                       "): give a complete trajectory or leave the strip out");
     }
   }
 }
@@ -121,6 +115,19 @@ int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
   std::string known;
   for (const std::string& name : ids_) known += (known.empty() ? "" : ", ") + name;
   throw UsageError("pairs name strip '" + id + "', but the strips are " + known);
+}
+
+/// With pairs given by name, other strips are of use for control only.
+void QuasiRigorousCalibration::leaveOutUnpaired() {
+  if (wanted_pairs_.empty() || !control_.empty()) return;
+  std::vector<bool> paired(ids_.size(), false);
+  for (const auto& [a, b] : wanted_pairs_) {
+    paired[static_cast<std::size_t>(stripNamed(a))] = true;
+    paired[static_cast<std::size_t>(stripNamed(b))] = true;
+  }
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    if (!paired[strip]) used_[strip] = false;
+  }
 }
 
 void QuasiRigorousCalibration::choosePairs() {
@@ -150,6 +157,7 @@ void QuasiRigorousCalibration::choosePairs() {
 }
 
 void QuasiRigorousCalibration::chooseAreas() {
+  leaveOutUnpaired();
   leaveOutSmallStrips();
   checkTimes();
   checkTrajectory();

@@ -132,6 +132,17 @@ Json controlOf(const CalibrationResult& result) {
   return control;
 }
 
+Json leftOutOf(const CalibrationResult& result) {
+  Json parts = Json::array();
+  for (const LeftOutPoints& part : result.left_out) {
+    parts.push_back(Json{{"strip", part.strip},
+                         {"reason", toString(part.reason)},
+                         {"points", part.points},
+                         {"of", part.of}});
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::string calibrationToJson(const CalibrationResult& result) {
@@ -155,6 +166,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["strip_corrections"] = stripErrorsOf(result);
   root["observability"] = result.observability;
   root["warnings"] = result.warnings;
+  root["left_out"] = leftOutOf(result);
   root["inputs"] = result.inputs;
   root["tool_version"] = PCL_ALS_VERSION;
   // A file name may hold bytes that are no UTF-8.

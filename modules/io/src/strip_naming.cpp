@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <pcl_als/common/errors.h>
@@ -45,9 +46,12 @@ std::string ownName(const std::filesystem::path& path, const std::set<std::strin
 }  // namespace
 
 void PointSource::merge(const PointSource& other) {
+  if (other.hasTimes()) {
+    first_time = hasTimes() ? std::min(first_time, other.first_time) : other.first_time;
+    last_time = hasTimes() ? std::max(last_time, other.last_time) : other.last_time;
+  }
   points += other.points;
-  first_time = std::min(first_time, other.first_time);
-  last_time = std::max(last_time, other.last_time);
+  without_time += other.without_time;
   minimum = minimum.cwiseMin(other.minimum);
   maximum = maximum.cwiseMax(other.maximum);
 }
@@ -75,26 +79,24 @@ const std::string& StripNaming::nameOf(std::size_t file, std::uint16_t id) const
                    std::to_string(id));
 }
 
-PointFileSources surveySources(const std::filesystem::path& path) {
+PointFileSources surveySources(const std::filesystem::path& path,
+                               const std::function<void(const PointChunk&)>& also) {
   const auto reader = PointReader::open(path);
   PointFileSources file{reader->info(), {}};
   std::map<std::uint16_t, PointSource> sources;
   PointChunk chunk;
-  while (reader->read(chunk))
+  while (reader->read(chunk)) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
       const double time = chunk.gps_time[i];
+      const std::uint64_t no_time = std::isfinite(time) && time != 0.0 ? 0 : 1;
       const std::uint16_t id = chunk.point_source_id[i];
-      auto found = sources.find(id);
-      if (found == sources.end())
-        found = sources.insert({id, PointSource{id, 0, time, time, point, point}}).first;
-      PointSource& source = found->second;
-      ++source.points;
-      source.first_time = std::min(source.first_time, time);
-      source.last_time = std::max(source.last_time, time);
-      source.minimum = source.minimum.cwiseMin(point);
-      source.maximum = source.maximum.cwiseMax(point);
+      const PointSource one{id, 1, time, time, point, point, no_time};
+      const auto [found, added] = sources.try_emplace(id, one);
+      if (!added) found->second.merge(one);
     }
+    if (also) also(chunk);
+  }
   for (const auto& entry : sources) file.sources.push_back(entry.second);
   return file;
 }

@@ -50,13 +50,15 @@ class QuasiRigorousCalibration {
 
   int addStrip(const std::string& id);
   void setControl(std::vector<ControlPoint> control) { control_ = std::move(control); }
-  /// Limits the pairs to these, by strip id; UsageError from chooseAreas() for an unknown id.
+  /// Limits the pairs to these, by strip id; strips in none of them are used for control only.
+  /// UsageError from chooseAreas() for an unknown id.
   void setPairs(std::vector<std::pair<std::string, std::string>> pairs) {
     wanted_pairs_ = std::move(pairs);
   }
 
   void survey(int strip, const CalibrationPoint* points, std::size_t count);
-  /// InputError when no strips overlap, or when a strip's times are not in the trajectory.
+  /// InputError when no strips overlap, or when a strip begins before the trajectory or ends after
+  /// it: points that it does not cover are to be left out before. Points in its gaps are not used.
   void chooseAreas();
   void load(int strip, const CalibrationPoint* points, std::size_t count);
   /// Called after every iteration.
@@ -77,6 +79,7 @@ class QuasiRigorousCalibration {
  private:
   struct State;
 
+  void leaveOutUnpaired();
   void leaveOutSmallStrips();
   void checkTrajectory();
   void checkTimes() const;

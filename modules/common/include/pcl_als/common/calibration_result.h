@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/calibration_verdict.h>
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -96,6 +97,7 @@ struct CalibrationResult {
   std::vector<StripErrors> strip_errors;   ///< of the strips that were calibrated with
   std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help
   std::vector<std::string> warnings;
+  std::vector<LeftOutPoints> left_out;  ///< points that took no part
   std::vector<std::string> inputs;
 
   SystemVector biases() const;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,10 +21,13 @@ namespace pcl_als {
 struct PointSource {
   std::uint16_t id = 0;
   std::uint64_t points = 0;
-  double first_time = 0.0, last_time = 0.0;           ///< smallest and largest GPS time, seconds
+  /// Smallest and largest GPS time other than 0, which means "no time"; seconds. 0: all have none.
+  double first_time = 0.0, last_time = 0.0;
   Eigen::Vector3d minimum = Eigen::Vector3d::Zero();  ///< metres, ground frame
   Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
+  std::uint64_t without_time = 0;  ///< points of GPS time 0 or none
 
+  bool hasTimes() const { return without_time < points; }
   /// Takes in other points of the same id; both must hold some.
   void merge(const PointSource& other);
 };
@@ -34,8 +38,9 @@ struct PointFileSources {
   std::vector<PointSource> sources;
 };
 
-/// Reads a file once and tells which ids it holds. Constant memory.
-PointFileSources surveySources(const std::filesystem::path& path);
+/// Reads a file once and tells which ids it holds. Constant memory. \a also gets every chunk, too.
+PointFileSources surveySources(const std::filesystem::path& path,
+                               const std::function<void(const PointChunk&)>& also = {});
 
 /** \brief Tells which points of a set of files belong to one strip, and what the strip is called.
  *

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "strip_options.h"
+
+#include <algorithm>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::app {
+namespace {
+
+std::vector<std::string> namesOf(const CommandLine& line, const char* option) {
+  if (!line.has(option)) return {};
+  std::vector<std::string> names = splitList(line.text(option));
+  if (names.empty()) throw UsageError("option -" + std::string(option) + ": names no strip");
+  return names;
+}
+
+}  // namespace
+
+void addStripOptions(CommandLine& line, bool split) {
+  line.addOptional("strips", "use these strips only, e.g. 1,2 (names as pcl_als_info lists them)");
+  line.addOptional("without", "leave these strips out, e.g. 3,4");
+  if (!split) return;
+  line.addFlag("split",
+               "cut the points into flight lines at gaps in time, changes of course and turns: for "
+               "files without source ids (lines are named line1, line2, ... in order of time)");
+}
+
+StripChoice stripChoice(const CommandLine& line) {
+  StripChoice choice{namesOf(line, "strips"), namesOf(line, "without"), line.has("split")};
+  for (const std::string& name : choice.without) {
+    if (std::find(choice.only.begin(), choice.only.end(), name) != choice.only.end())
+      throw UsageError("options -strips and -without: both name strip '" + name + "'");
+  }
+  return choice;
+}
+
+std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips) {
+  std::vector<bool> chosen(strips.size(), choice.only.empty());
+  const auto mark = [&](const std::vector<std::string>& names, const char* option, bool value) {
+    for (const std::string& name : names) chosen[stripNamed(strips, name, option)] = value;
+  };
+  mark(choice.only, "strips", true);
+  mark(choice.without, "without", false);
+  return chosen;
+}
+
+}  // namespace pcl_als::app

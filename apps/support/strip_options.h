@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/survey/strip_arrangement.h>
+
+#include "command_line.h"
+
+namespace pcl_als::app {
+
+/// Adds -strips, -without and, where \a split, -split, which mean the same in every tool that takes
+/// strips.
+void addStripOptions(CommandLine& line, bool split = true);
+/// What they say. UsageError for an option without a name, and for a name in both lists.
+StripChoice stripChoice(const CommandLine& line);
+/// Which of all strips they choose; UsageError for a name that no strip has.
+std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips);
+
+}  // namespace pcl_als::app

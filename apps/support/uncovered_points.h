@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+
+namespace pcl_als::app {
+
+/// Whether points of a file that no trajectory covers may stay as they are without being asked for:
+/// a few at the ends of a flight line are usual, more are the trajectory of another flight.
+inline bool fewUncovered(std::uint64_t uncovered, std::uint64_t points) {
+  constexpr double kFew = 0.01;
+  return static_cast<double>(uncovered) <= kFew * static_cast<double>(points);
+}
+
+}  // namespace pcl_als::app

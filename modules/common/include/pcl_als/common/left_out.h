@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcl_als {
+
+/// Why points take no part in a computation.
+enum class LeftOutReason {
+  excluded,           ///< the strip was not chosen by the user
+  zero_time,          ///< GPS time 0 among points that have times
+  before_trajectory,  ///< measured before the trajectory's first sample
+  after_trajectory,   ///< measured after its last sample
+  in_trajectory_gap,  ///< measured in a gap of the trajectory
+  strip_uncovered,    ///< covered, but the trajectory covers hardly anything of the strip
+  in_turn,            ///< measured in a turn between strips
+};
+
+/// "excluded", "zero_time", …: the word of result files.
+std::string_view toString(LeftOutReason reason);
+
+/// Points of one strip that were left out for one reason.
+struct LeftOutPoints {
+  std::string strip;
+  LeftOutReason reason = LeftOutReason::excluded;
+  std::uint64_t points = 0;
+  std::uint64_t of = 0;  ///< points of the strip
+};
+
+/// "strip 66: 812 of 912345 points (0.09 %) left out: measured before the trajectory begins".
+std::string describe(const LeftOutPoints& part);
+
+/// describe() of each part, in order.
+std::vector<std::string> describe(const std::vector<LeftOutPoints>& parts);
+
+}  // namespace pcl_als

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/survey/surveyed_file.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+/// Which points are to be used, and as what strips.
+struct StripChoice {
+  std::vector<std::string> only;     ///< names of the strips to use; empty: all
+  std::vector<std::string> without;  ///< names of strips to leave out
+  bool split = false;                ///< cut into flight lines by splitTrack()
+  /// Without split: keep points of GPS time 0 in files that have times.
+  bool keep_timeless = false;
+};
+
+/// Index of the strip of that name; UsageError that names the option and lists the strips.
+std::size_t stripNamed(const std::vector<std::string>& strips, const std::string& name,
+                       const std::string& option);
+
+/// What the points are tied to, if anything.
+struct FlownTimes {
+  const Trajectory* trajectory = nullptr;
+  /// By file; empty: the points' times as they are. A file whose times do not meet the trajectory's
+  /// has an alignment that leaves them outside it.
+  std::vector<TimeAlignment> alignments;
+  /// Leave out points that the trajectory does not cover, and points without a time.
+  bool needed = true;
+};
+
+/** \brief Tells to which strip each point of a set of files belongs, or why it is left out.
+ *
+ * Without StripChoice::split, strips are those of StripNaming. With it, points of one point source
+ * id in all files are cut into stretches by splitTrack(): of id 0 called line1, line2, … in order
+ * of time, of another id by the number where they are one stretch, else 7.1, 7.2, …; files whose
+ * points have no times stay as they are.
+ *
+ * Left out are strips that were not chosen, points in turns (with split), points of GPS time 0 in a
+ * file that has times, and, where a trajectory is needed, points that it does not cover; a strip of
+ * which it covers less than kLeastCovered is left out as a whole.
+ */
+class StripArrangement {
+ private:
+  using Key = std::pair<std::size_t, std::uint16_t>;  ///< file, point source id
+  /// Labels by time: each from its time to the next one's, the first from the beginning.
+  struct Table {
+    std::vector<std::pair<double, std::size_t>> from;
+    std::optional<std::size_t> zero_time;
+  };
+
+ public:
+  static constexpr double kLeastCovered = 0.05;  ///< share of a strip's points
+
+  /// \param files must outlive this. UsageError for names in \a choice that no strip has.
+  StripArrangement(const std::vector<SurveyedFile>& files, const StripChoice& choice,
+                   const FlownTimes& flown);
+
+  /// The strips in use, in order of first appearance (with split: of id and time).
+  const std::vector<std::string>& names() const { return names_; }
+  /// By strip in use: points, about (those of bins on the border of the trajectory count whole).
+  const std::vector<std::uint64_t>& expectedPoints() const { return expected_; }
+
+  /// What a point is: of a strip in use, or left out.
+  struct Label {
+    std::string strip;
+    int index = -1;  ///< among names(); -1: left out
+    LeftOutReason reason = LeftOutReason::excluded;
+  };
+  const std::vector<Label>& labels() const { return labels_; }
+  /// The strips in use that may have points of that id in that file, as indices into names().
+  std::vector<int> stripsOf(std::size_t file, std::uint16_t id) const;
+  /// The points that were left out, from the number of points of each label.
+  std::vector<LeftOutPoints> leftOut(const std::vector<std::uint64_t>& points_of_label) const;
+
+  /** \brief Labels the points of one file; not to be shared between threads. */
+  class Sorter {
+   public:
+    Sorter(const StripArrangement& arrangement, std::size_t file);
+    /// Index into labels() of a point with the file's own time. A time that is not finite is that
+    /// of the strip's first point.
+    std::size_t label(std::uint16_t id, double time);
+    /// End of the run of points of one label that starts with \a from, and the label.
+    std::pair<std::size_t, std::size_t> run(const PointChunk& chunk, std::size_t from);
+
+   private:
+    const StripArrangement& arrangement_;
+    std::size_t file_;
+    const TimeAlignment& alignment_;
+    const Table* table_ = nullptr;
+    std::uint16_t id_ = 0;
+    double from_ = 0.0, until_ = 0.0;  ///< aligned times of which label_ holds
+    std::size_t label_ = 0;
+  };
+
+ private:
+  struct Piece;
+
+  std::vector<Piece> pieces(const StripChoice& choice) const;
+  SwathTrack trackOf(const std::vector<Key>& keys) const;
+  void splitPool(std::uint16_t id, const std::vector<Key>& keys, std::vector<Piece>& found) const;
+  static void checkNames(const StripChoice& choice, const std::vector<Piece>& all);
+  void arrange(const Piece& piece, const StripChoice& choice);
+  std::optional<LeftOutReason> whyNone(const Piece& piece, const StripChoice& choice,
+                                       std::uint64_t& covered) const;
+  bool losesTimeless(const Key& key, const StripChoice& choice) const;
+  std::size_t labelFor(const std::string& strip, std::optional<LeftOutReason> reason);
+  double coveredShare(const Piece& piece, std::uint64_t& covered) const;
+  void addCoverage(Table& table, const Piece& piece);
+
+  const std::vector<SurveyedFile>& files_;
+  FlownTimes flown_;
+  TimeAlignment identity_;
+  std::vector<std::string> names_;
+  std::vector<std::uint64_t> expected_;
+  std::vector<Label> labels_;
+  std::map<Key, Table> tables_;
+};
+
+}  // namespace pcl_als

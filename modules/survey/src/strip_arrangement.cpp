@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/strip_split.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double justAfter(double time) {
+  return std::nextafter(time, kInfinity);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Times at which the trajectory's coverage changes, in order, and what holds from each on.
+std::vector<std::pair<double, std::optional<LeftOutReason>>> coverageOf(const Trajectory& flight) {
+  std::vector<std::pair<double, std::optional<LeftOutReason>>> spans;
+  spans.emplace_back(-kInfinity, LeftOutReason::before_trajectory);
+  spans.emplace_back(flight.startTime(), std::nullopt);
+  for (const Trajectory::Gap& gap : flight.gaps()) {
+    spans.emplace_back(justAfter(gap.from), LeftOutReason::in_trajectory_gap);
+    spans.emplace_back(gap.to, std::nullopt);
+  }
+  spans.emplace_back(justAfter(flight.endTime()), LeftOutReason::after_trajectory);
+  return spans;
+}
+
+}  // namespace
+
+std::size_t stripNamed(const std::vector<std::string>& strips, const std::string& name,
+                       const std::string& option) {
+  const auto found = std::find(strips.begin(), strips.end(), name);
+  if (found != strips.end()) return static_cast<std::size_t>(found - strips.begin());
+  std::string all;
+  for (const std::string& strip : strips) all += (all.empty() ? "" : ", ") + strip;
+  throw UsageError("option -" + option + ": there is no strip '" + name + "'; there are " + all);
+}
+
+/// Points of a strip: of these ids, from one time (aligned) until another.
+struct StripArrangement::Piece {
+  std::string name;
+  std::vector<Key> keys;
+  double from = -kInfinity, until = kInfinity;
+  bool turn = false;
+};
+
+StripArrangement::StripArrangement(const std::vector<SurveyedFile>& files,
+                                   const StripChoice& choice, const FlownTimes& flown)
+    : files_(files), flown_(flown) {
+  flown_.alignments.resize(files.size());
+  const std::vector<Piece> all = pieces(choice);
+  checkNames(choice, all);
+  for (const Piece& piece : all) arrange(piece, choice);
+}
+
+SwathTrack StripArrangement::trackOf(const std::vector<Key>& keys) const {
+  SwathTrack track;
+  for (const auto& [file, id] : keys)
+    track.merge(files_[file].tracks.at(id), flown_.alignments[file]);
+  return track;
+}
+
+void StripArrangement::splitPool(std::uint16_t id, const std::vector<Key>& keys,
+                                 std::vector<Piece>& found) const {
+  const std::vector<TimeStretch> stretches = splitTrack(trackOf(keys), flown_.trajectory);
+  const auto lines = std::count_if(stretches.begin(), stretches.end(),
+                                   [](const TimeStretch& stretch) { return !stretch.turn; });
+  const std::string number = std::to_string(id);
+  int line = 0;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    Piece piece;
+    piece.keys = keys;
+    piece.turn = stretches[i].turn;
+    if (!piece.turn) ++line;
+    if (id == 0)
+      piece.name = piece.turn ? "turns" : "line" + std::to_string(line);
+    else if (piece.turn)
+      piece.name = number + ".turns";
+    else
+      piece.name = lines == 1 ? number : number + "." + std::to_string(line);
+    if (i > 0) piece.from = stretches[i].from;
+    if (i + 1 < stretches.size()) piece.until = stretches[i + 1].from;
+    found.push_back(std::move(piece));
+  }
+}
+
+std::vector<StripArrangement::Piece> StripArrangement::pieces(const StripChoice& choice) const {
+  std::vector<PointFileSources> sources;
+  for (const SurveyedFile& file : files_) sources.push_back(file.sources);
+  const StripNaming naming(sources);
+  std::vector<Piece> found;
+  std::map<std::uint16_t, std::vector<Key>> pools;
+  std::map<std::string, std::size_t> place;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : sources[file].sources) {
+      if (choice.split && source.hasTimes()) {
+        pools[source.id].emplace_back(file, source.id);
+        continue;
+      }
+      const std::string& name = naming.nameOf(file, source.id);
+      const auto [known, added] = place.try_emplace(name, found.size());
+      if (added) {
+        found.emplace_back();
+        found.back().name = name;
+      }
+      found[known->second].keys.emplace_back(file, source.id);
+    }
+  }
+  for (const auto& [id, keys] : pools) splitPool(id, keys, found);
+  return found;
+}
+
+void StripArrangement::checkNames(const StripChoice& choice, const std::vector<Piece>& all) {
+  std::vector<std::string> strips;
+  for (const Piece& piece : all) {
+    if (!piece.turn) strips.push_back(piece.name);
+  }
+  for (const std::string& name : choice.only) stripNamed(strips, name, "strips");
+  for (const std::string& name : choice.without) stripNamed(strips, name, "without");
+}
+
+std::size_t StripArrangement::labelFor(const std::string& strip,
+                                       std::optional<LeftOutReason> reason) {
+  Label label{strip, -1, reason.value_or(LeftOutReason::excluded)};
+  if (!reason) {
+    const auto found = std::find(names_.begin(), names_.end(), strip);
+    label.index = static_cast<int>(found - names_.begin());
+    if (found == names_.end()) {
+      names_.push_back(strip);
+      expected_.push_back(0);
+    }
+  }
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    if (labels_[i].strip == strip && labels_[i].index == label.index &&
+        labels_[i].reason == label.reason)
+      return i;
+  }
+  labels_.push_back(label);
+  return labels_.size() - 1;
+}
+
+/// Of the points that have times, in bins of the track.
+double StripArrangement::coveredShare(const Piece& piece, std::uint64_t& covered) const {
+  std::uint64_t all = 0;
+  covered = 0;
+  const SwathTrack track = trackOf(piece.keys);
+  for (const auto& entry : track.bins()) {
+    const SwathTrack::Bin& bin = entry.second;
+    if (bin.first < piece.from || bin.first >= piece.until) continue;
+    all += bin.points;
+    const bool inside = !flown_.needed || flown_.trajectory == nullptr ||
+                        flown_.trajectory->coverage(bin.middle()) == Trajectory::Coverage::covered;
+    if (inside) covered += bin.points;
+  }
+  return all == 0 ? 1.0 : static_cast<double>(covered) / static_cast<double>(all);
+}
+
+void StripArrangement::addCoverage(Table& table, const Piece& piece) {
+  const std::size_t used = labelFor(piece.name, std::nullopt);
+  if (flown_.trajectory == nullptr || !flown_.needed) {
+    table.from.emplace_back(piece.from, used);
+    return;
+  }
+  const auto spans = coverageOf(*flown_.trajectory);
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const double end = i + 1 < spans.size() ? spans[i + 1].first : kInfinity;
+    if (end <= piece.from || spans[i].first >= piece.until) continue;
+    table.from.emplace_back(std::max(spans[i].first, piece.from),
+                            spans[i].second ? labelFor(piece.name, spans[i].second) : used);
+  }
+}
+
+/// Points of time 0 among others have lost theirs; a file without any time is of another kind.
+bool StripArrangement::losesTimeless(const Key& key, const StripChoice& choice) const {
+  if (flown_.trajectory != nullptr && flown_.needed) return true;
+  if (choice.keep_timeless && !choice.split) return false;
+  const auto& sources = files_[key.first].sources.sources;
+  return std::any_of(sources.begin(), sources.end(),
+                     [](const PointSource& source) { return source.hasTimes(); });
+}
+
+/// Why a piece is left out as a whole, if it is, and how many of its points are covered.
+std::optional<LeftOutReason> StripArrangement::whyNone(const Piece& piece,
+                                                       const StripChoice& choice,
+                                                       std::uint64_t& covered) const {
+  const double share = coveredShare(piece, covered);
+  if (piece.turn) return LeftOutReason::in_turn;
+  const bool chosen = choice.only.empty() || contains(choice.only, piece.name);
+  if (!chosen || contains(choice.without, piece.name)) return LeftOutReason::excluded;
+  const bool timeless = std::all_of(piece.keys.begin(), piece.keys.end(), [&](const Key& key) {
+    return losesTimeless(key, choice) && files_[key.first].tracks.at(key.second).empty();
+  });
+  if (timeless) return LeftOutReason::zero_time;
+  if (share < kLeastCovered) return LeftOutReason::strip_uncovered;
+  return std::nullopt;
+}
+
+void StripArrangement::arrange(const Piece& piece, const StripChoice& choice) {
+  std::uint64_t covered = 0;
+  const std::optional<LeftOutReason> whole = whyNone(piece, choice, covered);
+  for (const Key& key : piece.keys) {
+    Table& table = tables_[key];
+    const bool loses = losesTimeless(key, choice);
+    if (loses && !table.zero_time)
+      table.zero_time = labelFor(piece.name, whole ? *whole : LeftOutReason::zero_time);
+    if (whole)
+      table.from.emplace_back(piece.from, labelFor(piece.name, whole));
+    else
+      addCoverage(table, piece);
+    for (const PointSource& source : files_[key.first].sources.sources)
+      if (source.id == key.second && !loses) covered += source.without_time;
+  }
+  if (!whole) expected_[stripNamed(names_, piece.name, "")] += covered;
+}
+
+std::vector<int> StripArrangement::stripsOf(std::size_t file, std::uint16_t id) const {
+  std::vector<int> strips;
+  for (const auto& entry : tables_.at({file, id}).from) {
+    const int index = labels_[entry.second].index;
+    if (index >= 0 && std::find(strips.begin(), strips.end(), index) == strips.end())
+      strips.push_back(index);
+  }
+  return strips;
+}
+
+std::vector<LeftOutPoints> StripArrangement::leftOut(
+    const std::vector<std::uint64_t>& points_of_label) const {
+  std::map<std::string, std::uint64_t> all;
+  for (std::size_t i = 0; i < labels_.size(); ++i) all[labels_[i].strip] += points_of_label[i];
+  std::vector<LeftOutPoints> parts;
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    const Label& label = labels_[i];
+    if (label.index >= 0 || points_of_label[i] == 0) continue;
+    parts.push_back({label.strip, label.reason, points_of_label[i], all[label.strip]});
+  }
+  return parts;
+}
+
+StripArrangement::Sorter::Sorter(const StripArrangement& arrangement, std::size_t file)
+    : arrangement_(arrangement), file_(file), alignment_(arrangement.flown_.alignments[file]) {}
+
+std::size_t StripArrangement::Sorter::label(std::uint16_t id, double time) {
+  if (table_ == nullptr || id != id_) {
+    const auto found = arrangement_.tables_.find({file_, id});
+    if (found == arrangement_.tables_.end())
+      throw InputError(arrangement_.files_[file_].sources.info.path.string() +
+                       ": was changed while it was read");
+    table_ = &found->second;
+    id_ = id;
+    from_ = until_ = 0.0;
+  }
+  if (time == 0.0 && table_->zero_time) return *table_->zero_time;
+  const double aligned = alignment_(time);
+  if (aligned >= from_ && aligned < until_) return label_;
+  const auto& from = table_->from;
+  auto next = std::upper_bound(from.begin(), from.end(), aligned,
+                               [](double value, const std::pair<double, std::size_t>& entry) {
+                                 return value < entry.first;
+                               });
+  if (next == from.begin() || !std::isfinite(aligned)) next = from.begin() + 1;
+  label_ = (next - 1)->second;
+  if (!std::isfinite(aligned)) {
+    from_ = until_ = 0.0;
+    return label_;
+  }
+  from_ = (next - 1)->first;
+  until_ = next == from.end() ? kInfinity : next->first;
+  return label_;
+}
+
+std::pair<std::size_t, std::size_t> StripArrangement::Sorter::run(const PointChunk& chunk,
+                                                                  std::size_t from) {
+  const std::size_t first = label(chunk.point_source_id[from], chunk.gps_time[from]);
+  std::size_t to = from + 1;
+  while (to < chunk.size() && label(chunk.point_source_id[to], chunk.gps_time[to]) == first) ++to;
+  return {to, first};
+}
+
+}  // namespace pcl_als

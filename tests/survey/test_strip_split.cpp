@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/survey/strip_split.h>
+
+#include "flown_points.h"
+
+namespace pcl_als {
+namespace {
+
+using test::Path;
+
+SwathTrack trackOf(const PointChunk& chunk) {
+  SwathTrack track;
+  track.add(chunk, 0, chunk.size());
+  return track;
+}
+
+/// Two lines of 20 s, opposite, with a half circle of 30 s (6 degrees per second) between.
+Path lineTurnLine() {
+  return [](double t) {
+    constexpr double kPi = 3.14159265358979, kSpeed = 60.0, kRadius = kSpeed * 30.0 / kPi;
+    if (t < 120.0) return Eigen::Vector2d(0.0, kSpeed * (t - 100.0));
+    if (t > 150.0) return Eigen::Vector2d(2.0 * kRadius, kSpeed * (20.0 - (t - 150.0)));
+    const double angle = kPi * (t - 120.0) / 30.0;
+    return Eigen::Vector2d(kRadius * (1.0 - std::cos(angle)),
+                           20.0 * kSpeed + kRadius * std::sin(angle));
+  };
+}
+
+std::vector<TimeStretch> lines(const std::vector<TimeStretch>& stretches) {
+  std::vector<TimeStretch> found;
+  for (const TimeStretch& stretch : stretches)
+    if (!stretch.turn) found.push_back(stretch);
+  return found;
+}
+
+TEST(StripSplit, LongGapsPartLines) {
+  PointChunk chunk;
+  const Path path = test::straight({500000.0, 5200000.0}, 30.0, 100.0);
+  test::scan(chunk, 0, path, 100.0, 108.0);
+  test::scan(chunk, 0, path, 130.0, 135.0);  // 22 s, more than StripNaming::kLargestGap
+  const auto stretches = splitTrack(trackOf(chunk), nullptr);
+  ASSERT_EQ(stretches.size(), 2U);
+  EXPECT_DOUBLE_EQ(stretches[0].from, 100.0);
+  EXPECT_NEAR(stretches[0].to, 108.0, 1e-3);  // a pulse before
+  EXPECT_DOUBLE_EQ(stretches[1].from, 130.0);
+  EXPECT_FALSE(stretches[0].turn || stretches[1].turn);
+}
+
+TEST(StripSplit, AStraightLineWithAHoleStaysOneLine) {
+  PointChunk chunk;
+  const Path path = test::straight({500000.0, 5200000.0}, 30.0, 100.0);
+  test::scan(chunk, 0, path, 100.0, 108.0);
+  test::scan(chunk, 0, path, 118.0, 125.0);
+  EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
+  const Trajectory flight = test::flown(path, 99.0, 126.0);
+  EXPECT_EQ(splitTrack(trackOf(chunk), &flight).size(), 1U);
+}
+
+TEST(StripSplit, AShortGapWithAnotherCourseBehindPartsLines) {
+  PointChunk chunk;  // as a drone turns: eight seconds, back beside the first line
+  test::scan(chunk, 0, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 110.0);
+  test::scan(chunk, 0, test::straight({200.0, 600.0}, 180.0, 118.0), 118.0, 128.0);
+  EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 2U);
+}
+
+TEST(StripSplit, AShortGapWithTheSameCourseBesideTheLinePartsLines) {
+  PointChunk chunk;
+  test::scan(chunk, 0, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 110.0);
+  test::scan(chunk, 0, test::straight({200.0, -300.0}, 0.0, 118.0), 118.0, 128.0);
+  EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 2U);
+}
+
+TEST(StripSplit, ATurnIsAStretchOfItsOwn) {
+  PointChunk chunk;
+  test::scan(chunk, 0, lineTurnLine(), 100.0, 170.0);
+  const Trajectory flight = test::flown(lineTurnLine(), 99.0, 171.0);
+  for (const Trajectory* known : {static_cast<const Trajectory*>(nullptr), &flight}) {
+    const auto stretches = splitTrack(trackOf(chunk), known);
+    ASSERT_EQ(stretches.size(), 3U);
+    EXPECT_TRUE(stretches[1].turn);
+    // Courses are means over 1 s (trajectory) or 4 s (swath), and are compared 4 s apart.
+    EXPECT_NEAR(stretches[1].from, 120.0, 4.0);
+    EXPECT_NEAR(stretches[1].to, 150.0, 4.0);
+  }
+}
+
+TEST(StripSplit, ABendOfTheTrajectoryIsNoTurn) {
+  const Path bend = [](double t) {  // 20 degrees in 10 s
+    const double s = std::clamp((t - 110.0) / 10.0, 0.0, 1.0);
+    const double angle = s * 20.0 * 3.14159265358979 / 180.0;
+    return Eigen::Vector2d(60.0 * (t - 100.0) * std::sin(angle),
+                           60.0 * (t - 100.0) * std::cos(angle));
+  };
+  PointChunk chunk;
+  test::scan(chunk, 0, test::straight({0.0, 0.0}, 10.0, 100.0), 100.0, 130.0);
+  const Trajectory flight = test::flown(bend, 99.0, 131.0);
+  EXPECT_LE(lines(splitTrack(trackOf(chunk), &flight)).size(), 2U);
+  EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
+}
+
+TEST(StripSplit, WholeSecondsAreNoGaps) {
+  PointChunk chunk;
+  for (int second = 0; second < 20; ++second)
+    for (int i = 0; i < 10; ++i)
+      test::addPoint(chunk, 0, 1000.0 + second, {5.0 * second, static_cast<double>(i)});
+  EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
+}
+
+TEST(StripSplit, OrderAndFilesChangeNothing) {
+  PointChunk chunk;
+  test::scan(chunk, 0, lineTurnLine(), 100.0, 170.0);
+  std::vector<std::size_t> order(chunk.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), std::mt19937(7));
+  SwathTrack one, other;
+  for (const std::size_t i : order) (i % 3 == 0 ? one : other).add(chunk, i, i + 1);
+  other.merge(one);
+  const auto expected = splitTrack(trackOf(chunk), nullptr), found = splitTrack(other, nullptr);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].from, expected[i].from);
+    EXPECT_EQ(found[i].to, expected[i].to);
+  }
+}
+
+TEST(SwathTrack, MemoryIsBounded) {
+  SwathTrack track;
+  PointChunk chunk;
+  chunk.resize(3 * SwathTrack::kMostBins);
+  for (std::size_t i = 0; i < chunk.size(); ++i)
+    chunk.gps_time[i] = 0.15 * static_cast<double>(i + 1);
+  track.add(chunk, 0, chunk.size());
+  EXPECT_LE(track.bins().size(), SwathTrack::kMostBins);
+  EXPECT_EQ(track.pointCount(), chunk.size());
+}
+
+}  // namespace
+}  // namespace pcl_als
