@@ -40,7 +40,11 @@ double sectionCell(const std::vector<StripDensity>& strips, const std::vector<bo
 
 std::string describe(const SectionSearch::Place& place) {
   const Eigen::Vector2d middle = 0.5 * (place.line.from + place.line.to);
-  return std::string(place.gable ? "gable" : "slope") + " at " + numberText(middle.x(), 1) + ", " + numberText(middle.y(), 1) + ", " +
+  using Kind = SectionSearch::Place::Kind;
+  const std::string what = place.kind == Kind::gable             ? "gable"
+                           : place.kind == Kind::opposite_slopes ? "opposite slopes"
+                                                                 : "slope";
+  return what + " at " + numberText(middle.x(), 1) + ", " + numberText(middle.y(), 1) + ", " +
          std::to_string(place.strips) + " strips, heights differ by " +
          numberText(place.difference, 3) + " m";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include <pcl_als/common/errors.h>
@@ -90,7 +91,7 @@ TEST(SectionSearch, FindsTheGableAndItsDirection) {
   addHouse(search, 0.3);
   const auto places = search.find(3);
   ASSERT_GE(places.size(), 1U);
-  EXPECT_TRUE(places[0].gable);
+  EXPECT_EQ(places[0].kind, SectionSearch::Place::Kind::gable);
   EXPECT_EQ(places[0].strips, 2U);
   const Eigen::Vector2d middle = 0.5 * (places[0].line.from + places[0].line.to);
   // Cells are 1.5 m: the ridge is met to one of them.
@@ -100,6 +101,36 @@ TEST(SectionSearch, FindsTheGableAndItsDirection) {
   EXPECT_NEAR(along.x(), 1.0, 0.02);  // across the ridge, from west to east
   // A shift of 0.3 m on a slope of 45 degrees is a height of 0.3 m.
   EXPECT_NEAR(places[0].difference, 0.3, 0.03);
+}
+
+/// Ground of two strips, heights by a function of the place relative to (kEast, kNorth).
+void addGround(SectionSearch& search, const std::function<double(double, double)>& height) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> place(0.0, 60.0);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  for (std::size_t strip = 0; strip < 2; ++strip) {
+    for (int i = 0; i < 40000; ++i) {
+      const double x = place(random), y = place(random);
+      search.add({kEast + x, kNorth + y, height(x, y) + noise(random)}, strip);
+    }
+  }
+}
+
+TEST(SectionSearch, CallsNoGableWhatHasNoLowerGroundOrNoSharpRidge) {
+  // Waves of the ground of 1.6 m from crest to trough, as forest floor: slopes of 22 degrees.
+  SectionSearch waves({kEast, kNorth}, {kEast + 60.0, kNorth + 60.0}, 1.5, 2);
+  addGround(waves, [](double x, double /*y*/) { return 0.8 * std::sin(0.5 * x); });
+  // A round hill of 5 m.
+  SectionSearch hill({kEast, kNorth}, {kEast + 60.0, kNorth + 60.0}, 1.5, 2);
+  addGround(hill, [](double x, double y) {
+    return 5.0 * std::exp(-(std::pow(x - 30.0, 2) + std::pow(y - 30.0, 2)) / 128.0);
+  });
+  for (SectionSearch* search : {&waves, &hill}) {
+    const auto places = search->find(5);
+    ASSERT_FALSE(places.empty());
+    for (const SectionSearch::Place& place : places)
+      EXPECT_NE(place.kind, SectionSearch::Place::Kind::gable);
+  }
 }
 
 TEST(SectionSearch, FindsNothingOnFlatGroundOrInOneStrip) {
@@ -156,6 +187,47 @@ TEST(SectionPicture, PointsStandWhereTheAxesSay) {
   SectionPicture nothing;
   nothing.addPanel("x", other);
   EXPECT_THROW(nothing.draw(), UsageError);
+}
+
+/// Points on a line 10 m up, every 5 cm, of two strips 5 cm apart in height.
+SectionPoints flatSection(const SectionLine& line) {
+  SectionPoints points(line);
+  for (int i = 0; i < 400; ++i)
+    points.add({kEast + 0.05 * i, kNorth, 10.0 + 0.05 * (i % 2)}, i % 2);
+  return points;
+}
+
+TEST(SectionPicture, OutliersAreMarkedAtTheEdgeAndDoNotCompressTheAxis) {
+  const SectionLine line{{kEast, kNorth}, {kEast + 20.0, kNorth}, 1.0};
+  SectionPoints clean = flatSection(line), outliers = flatSection(line);
+  outliers.add({kEast + 5.0, kNorth, -60.0}, 0);
+  outliers.add({kEast + 6.0, kNorth, -58.0}, 1);
+  SectionPicture expected, picture;
+  expected.addPanel("", clean);
+  picture.addPanel("", outliers);
+  // With the outliers' 70 m on the axis it would be 0.15 times; alone the points have 100 times.
+  EXPECT_GT(expected.exaggeration({1600, 1000}), 50.0);
+  EXPECT_GT(picture.exaggeration({1600, 1000}), 50.0);
+  const Canvas canvas = picture.draw({1600, 1000});
+  writePng(pictureFile("section_outliers.png"), canvas.image());
+  expectTidy(canvas);
+  bool said = false;
+  for (const auto& text : canvas.texts())
+    said = said || text.text.find("2 points below") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
+TEST(SectionPicture, ARoofAndItsGroundAreShownWhole) {
+  const SectionLine line{{kEast, kNorth}, {kEast + 20.0, kNorth}, 1.0};
+  SectionPoints points(line);
+  for (int i = 0; i < 400; ++i) {
+    const double x = 0.05 * i, roof = 12.0 - std::abs(x - 10.0);
+    points.add({kEast + x, kNorth, std::abs(x - 10.0) < 8.0 ? roof : 0.0}, 0);
+  }
+  SectionPicture picture;
+  picture.addPanel("", points);
+  // 12 m of height over the panel: a narrower axis would show them larger.
+  EXPECT_LT(picture.exaggeration({1600, 1000}), 1.0);
 }
 
 }  // namespace

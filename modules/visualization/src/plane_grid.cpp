@@ -49,6 +49,11 @@ void PlaneGrid::add(const Eigen::Vector3d& ground) {
   s.xz += x * z, s.yz += y * z, s.zz += z * z;
 }
 
+std::pair<int, int> PlaneGrid::cellOf(const Eigen::Vector2d& place) const {
+  const Eigen::Vector2d at = ((place - minimum_) / cell_).array().floor();
+  return {static_cast<int>(at.y()), static_cast<int>(at.x())};
+}
+
 std::optional<CellPlane> PlaneGrid::planeAt(double x, double y) const {
   const long index = indexOf(x, y);
   if (index < 0) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/visualization/axes.h>
 #include <pcl_als/visualization/map_furniture.h>
@@ -36,6 +37,23 @@ double simpleFactor(double limit) {
 double markerSize(std::size_t points, double width) {
   const double per_pixel = static_cast<double>(points) / std::max(1.0, width);
   return std::clamp(5.0 / std::sqrt(std::max(per_pixel, 0.3)), 2.0, 6.0);
+}
+
+/// ", beyond the axis (triangles): 3 points above, 1 below"; empty where there are none.
+std::string beyondText(std::size_t above, std::size_t below) {
+  if (above + below == 0) return {};
+  std::string text = ", beyond the axis (triangles at its edge): ";
+  if (above > 0) text += counted(above, "point") + " above";
+  if (below > 0) text += (above > 0 ? ", " : "") + counted(below, "point") + " below";
+  return text;
+}
+
+/// A triangle at the upper or lower edge, pointing to where the point is.
+void drawBeyond(Canvas& canvas, const Eigen::Vector2d& tip, double down, const Color& color) {
+  constexpr double kHalf = 5.0, kHeight = 9.0;  // pixels
+  const Eigen::Vector2d base = tip + Eigen::Vector2d(0.0, down * kHeight);
+  canvas.polygon({tip, base - Eigen::Vector2d(kHalf, 0.0), base + Eigen::Vector2d(kHalf, 0.0)},
+                 color);
 }
 
 }  // namespace
@@ -83,17 +101,37 @@ void SectionPicture::addPanel(std::string caption, const SectionPoints& points) 
   panels_.push_back({std::move(caption), &points});
 }
 
-SectionPicture::Layout SectionPicture::layoutFor(PictureSize size) const {
-  std::set<int> shown;
-  double low = INFINITY, high = -INFINITY;
+std::pair<double, double> SectionPicture::heightRange() const {
+  constexpr double kMost = 0.9;              // share of the points that the axis has to show
+  constexpr double kCompressed = 1.0 / 3.0;  // of the whole range: beyond are outliers
+  constexpr double kRim = 0.25;              // of their range, on both sides
+  std::vector<double> heights;
   for (const Panel& panel : panels_) {
-    for (const SectionPoints::Point& point : panel.points->points()) {
-      shown.insert(point.strip);
-      low = std::min(low, panel.points->baseHeight() + point.height);
-      high = std::max(high, panel.points->baseHeight() + point.height);
-    }
+    for (const SectionPoints::Point& point : panel.points->points())
+      heights.push_back(panel.points->baseHeight() + point.height);
   }
-  if (shown.empty()) throw UsageError("no point lies in the section");
+  if (heights.empty()) throw UsageError("no point lies in the section");
+  std::sort(heights.begin(), heights.end());
+  const double low = heights.front(), high = heights.back();
+  const auto most =
+      static_cast<std::size_t>(std::ceil(kMost * static_cast<double>(heights.size())));
+  std::size_t narrowest = 0;
+  for (std::size_t i = 0; i + most <= heights.size(); ++i) {
+    if (heights[i + most - 1] - heights[i] < heights[narrowest + most - 1] - heights[narrowest])
+      narrowest = i;
+  }
+  const double from = heights[narrowest], to = heights[narrowest + most - 1];
+  if (to - from > kCompressed * (high - low)) return {low, high};
+  const double rim = kRim * std::max(to - from, 0.1);
+  return {std::max(low, from - rim), std::min(high, to + rim)};
+}
+
+SectionPicture::Layout SectionPicture::layoutFor(PictureSize size) const {
+  const auto [low, high] = heightRange();
+  std::set<int> shown;
+  for (const Panel& panel : panels_) {
+    for (const SectionPoints::Point& point : panel.points->points()) shown.insert(point.strip);
+  }
   Layout layout{};
   layout.shown.assign(shown.begin(), shown.end());
   layout.left = 100.0;
@@ -112,11 +150,45 @@ SectionPicture::Layout SectionPicture::layoutFor(PictureSize size) const {
   const double half = 0.5 * layout.height * metres_across / layout.exaggeration;
   layout.low = 0.5 * (low + high) - half;
   layout.high = 0.5 * (low + high) + half;
+  for (const Panel& panel : panels_) {
+    for (const SectionPoints::Point& point : panel.points->points()) {
+      const double height = panel.points->baseHeight() + point.height;
+      layout.above += height > layout.high ? 1 : 0;
+      layout.below += height < layout.low ? 1 : 0;
+    }
+  }
   return layout;
 }
 
 double SectionPicture::exaggeration(PictureSize size) const {
   return layoutFor(size).exaggeration;
+}
+
+void SectionPicture::drawPanel(Canvas& canvas, const Layout& layout, std::size_t panel) const {
+  const SectionPoints& points = *panels_[panel].points;
+  Axis x, y;
+  x.high = points.line().length();
+  x.label = panel + 1 == panels_.size() ? "distance along the section, m" : "";
+  y.low = layout.low;
+  y.high = layout.high;
+  y.label = "height, m";
+  const PixelBox box{layout.left, layout.top + static_cast<double>(panel) * layout.pitch,
+                     layout.width, layout.height};
+  Axes axes(canvas, box, x, y);
+  const double diameter = markerSize(points.points().size(), box.width);
+  canvas.setClip(box);
+  for (const SectionPoints::Point& point : points.points()) {
+    const double height = points.baseHeight() + point.height;
+    const Color color = categoryColor(static_cast<std::size_t>(point.strip)).withAlpha(210);
+    if (height > layout.high)
+      drawBeyond(canvas, axes.pixel(point.along, layout.high), 1.0, color);
+    else if (height < layout.low)
+      drawBeyond(canvas, axes.pixel(point.along, layout.low), -1.0, color);
+    else
+      canvas.marker(Marker::disk, axes.pixel(point.along, height), diameter, color);
+  }
+  canvas.clearClip();
+  axes.drawFrame(panels_[panel].caption);
 }
 
 Canvas SectionPicture::draw(PictureSize size) const {
@@ -132,30 +204,11 @@ Canvas SectionPicture::draw(PictureSize size) const {
   };
   const std::string facts = "from (" + place(line.from) + ") to (" + place(line.to) + "), width " +
                             numberText(2.0 * line.half_width, 1) + " m, vertical exaggeration " +
-                            shortNumber(layout.exaggeration) + "×";
+                            shortNumber(layout.exaggeration) + "×" +
+                            beyondText(layout.above, layout.below);
   canvas.text(detail::shortened(facts, size.width - 2.0 * kPlotMargin, note),
               {kPlotMargin, below_title + 4.0}, note);
-  Axis x, y;
-  x.high = line.length();
-  x.label = "distance along the section, m";
-  y.low = layout.low;
-  y.high = layout.high;
-  y.label = "height, m";
-  for (std::size_t i = 0; i < panels_.size(); ++i) {
-    const SectionPoints& points = *panels_[i].points;
-    x.label = i + 1 == panels_.size() ? "distance along the section, m" : "";
-    const PixelBox box{layout.left, layout.top + static_cast<double>(i) * layout.pitch,
-                       layout.width, layout.height};
-    Axes axes(canvas, box, x, y);
-    const double diameter = markerSize(points.points().size(), box.width);
-    canvas.setClip(box);
-    for (const SectionPoints::Point& point : points.points()) {
-      canvas.marker(Marker::disk, axes.pixel(point.along, points.baseHeight() + point.height),
-                    diameter, categoryColor(static_cast<std::size_t>(point.strip)).withAlpha(210));
-    }
-    canvas.clearClip();
-    axes.drawFrame(panels_[i].caption);
-  }
+  for (std::size_t i = 0; i < panels_.size(); ++i) drawPanel(canvas, layout, i);
   std::vector<LegendEntry> entries;
   for (const int strip : layout.shown) {
     const auto index = static_cast<std::size_t>(strip);

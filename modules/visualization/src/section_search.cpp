@@ -14,13 +14,22 @@ constexpr double kMostTangent = 1.7;      // 60 degrees: steeper are walls
 constexpr double kSameSurface = 0.97;     // cosine between the strips' normals: 14 degrees
 constexpr double kFarthestSurface = 2.0;  // m: strips further apart see different things
 constexpr double kWidestRoof = 30.0;      // m, between the sides of a gable
+constexpr double kOpposite = -0.85;       // cosine between the directions of fall: 148 degrees
+constexpr double kSameFace = 0.97;        // the same within a face: 14 degrees
+constexpr double kInFace = 0.15;          // m: how far a cell of a face may lie from its plane
+constexpr std::size_t kFaceCells = 3;     // of 3 x 3: smaller is a dormer, a bush or a heap
+constexpr double kSharp = 0.25;           // m: how far the surface may lie below the sharp ridge
+constexpr double kAboveGround = 1.5;      // m: what a roof's face is above the ground beyond it
+constexpr double kEaves = 12.0;           // m: within which that ground is looked for
+constexpr double kHardSurface = 0.03;     // m: rougher surfaces show a misfit less well
 constexpr double kApart = 25.0;           // m, between places
 
-/// Worth of a place: the misfit that is seen, a little for the slope that would show one, and the
-/// number of strips.
+/// Worth of a place: the misfit that is seen, a little for the slope that would show one, how
+/// smooth the surface is, and the number of strips.
 double worthOf(const SectionSearch::Place& place) {
   return (place.difference + 0.02) * std::sqrt(static_cast<double>(place.strips)) *
-         (place.gable ? 1.5 : 1.0);
+         (kHardSurface / std::max(kHardSurface, place.roughness)) *
+         (place.kind == SectionSearch::Place::Kind::gable ? 1.5 : 1.0);
 }
 
 SectionLine lineThrough(const Eigen::Vector2d& middle, const Eigen::Vector2d& direction,
@@ -55,8 +64,9 @@ std::optional<SectionSearch::Slope> SectionSearch::slopeAt(int column, int row) 
   if (planes.size() < 2) return std::nullopt;
   double low = planes[0].height, high = low;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double height = 0.0;
+  double height = 0.0, roughness = 0.0;
   for (const CellPlane& plane : planes) {
+    roughness = std::max(roughness, plane.rms);
     if (plane.normal().dot(planes[0].normal()) < kSameSurface) return std::nullopt;
     low = std::min(low, plane.height);
     high = std::max(high, plane.height);
@@ -70,11 +80,12 @@ std::optional<SectionSearch::Slope> SectionSearch::slopeAt(int column, int row) 
   slope.tangent = normal.head<2>().norm() / normal.z();
   slope.height = height;
   slope.difference = high - low;
+  slope.roughness = roughness;
   slope.strips = planes.size();
   return slope;
 }
 
-std::optional<SectionSearch::Place> SectionSearch::gableFrom(
+std::optional<SectionSearch::Place> SectionSearch::oppositeOf(
     const Slopes& slopes, const std::pair<int, int>& cell) const {
   const Slope& side = slopes.at(cell);
   const double step = grids_[0].cell();
@@ -84,21 +95,79 @@ std::optional<SectionSearch::Place> SectionSearch::gableFrom(
                                     cell.second + static_cast<int>(std::lround(shift.x()))});
     if (found == slopes.end()) continue;
     const Slope& other = found->second;
-    if (other.downhill.dot(side.downhill) > -0.85) continue;
+    if (other.downhill.dot(side.downhill) > kOpposite) continue;
     // Both sides rise to about the same ridge.
     const double apart = (other.center - side.center).norm();
     const double ridge = side.height + 0.5 * apart * side.tangent;
     if (std::abs(other.height + 0.5 * apart * other.tangent - ridge) > 0.35 * apart) continue;
     Place place;
-    place.gable = true;
+    place.kind = isGable(slopes, side, other) ? Place::Kind::gable : Place::Kind::opposite_slopes;
     place.strips = std::min(side.strips, other.strips);
     place.difference = 0.5 * (side.difference + other.difference);
+    place.roughness = std::max(side.roughness, other.roughness);
     const Eigen::Vector2d across = (side.downhill - other.downhill).normalized();
     place.line = lineThrough(0.5 * (side.center + other.center), across,
                              0.5 * apart + std::max(8.0, 2.0 * step), std::max(1.0, 0.75 * step));
     return place;
   }
   return std::nullopt;
+}
+
+/// Height of the surface in the cell of a place: mean over the strips that see one; empty without.
+std::optional<double> SectionSearch::surfaceAt(const Eigen::Vector2d& place) const {
+  double sum = 0.0, n = 0.0;
+  for (const PlaneGrid& grid : grids_) {
+    const auto plane = grid.planeAt(place.x(), place.y());
+    if (!plane) continue;
+    sum += plane->height;
+    n += 1.0;
+  }
+  if (n == 0.0) return std::nullopt;
+  return sum / n;
+}
+
+/// Cells around a face's that lie in its plane, itself among them.
+std::size_t SectionSearch::faceCells(const Slopes& slopes, const Slope& face) const {
+  std::size_t count = 0;
+  const std::pair<int, int> middle = grids_[0].cellOf(face.center);
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      const auto found = slopes.find({middle.first + row, middle.second + column});
+      if (found == slopes.end()) continue;
+      const Slope& slope = found->second;
+      if (slope.downhill.dot(face.downhill) < kSameFace) continue;
+      if (std::abs(slope.height - face.heightAt(slope.center)) < kInFace) ++count;
+    }
+  }
+  return count;
+}
+
+/// Whether the ground beyond a face's lower edge lies well below the face.
+bool SectionSearch::fallsBeyond(const Slope& face) const {
+  const double step = grids_[0].cell();
+  for (double distance = step; distance <= kEaves; distance += step) {
+    const auto height = surfaceAt(face.center + distance * face.downhill);
+    if (height && *height < face.height - kAboveGround) return true;
+  }
+  return false;
+}
+
+bool SectionSearch::isGable(const Slopes& slopes, const Slope& side, const Slope& other) const {
+  if (!fallsBeyond(side) && !fallsBeyond(other)) return false;
+  // Between the faces the surface is the lower of the two planes, up to the ridge.
+  const double step = grids_[0].cell();
+  const Eigen::Vector2d between = other.center - side.center;
+  const double apart = between.norm();
+  for (double distance = step; distance < apart; distance += step) {
+    const Eigen::Vector2d place = side.center + distance / apart * between;
+    const auto height = surfaceAt(place);
+    const double roof = std::min(side.heightAt(place), other.heightAt(place));
+    // The mean of a cell with the ridge in it is lower by a quarter of the fall from ridge to rim,
+    // and the cell's centre may lie half a cell aside.
+    const double allowed = kSharp + 0.5 * step * std::max(side.tangent, other.tangent);
+    if (!height || std::abs(*height - roof) > allowed) return false;
+  }
+  return faceCells(slopes, side) >= kFaceCells && faceCells(slopes, other) >= kFaceCells;
 }
 
 std::optional<SectionSearch::Place> SectionSearch::slopeAround(
@@ -115,6 +184,7 @@ std::optional<SectionSearch::Place> SectionSearch::slopeAround(
   Place place;
   place.strips = middle.strips;
   place.difference = middle.difference;
+  place.roughness = middle.roughness;
   const double step = grids_[0].cell();
   place.line = lineThrough(middle.center, middle.downhill, std::max(12.0, 3.0 * step),
                            std::max(1.0, 0.75 * step));
@@ -131,7 +201,7 @@ std::vector<SectionSearch::Place> SectionSearch::find(std::size_t most) const {
   }
   std::vector<Place> places;
   for (const auto& entry : slopes) {
-    if (auto place = gableFrom(slopes, entry.first)) places.push_back(*place);
+    if (auto place = oppositeOf(slopes, entry.first)) places.push_back(*place);
     if (auto place = slopeAround(slopes, entry.first)) places.push_back(*place);
   }
   std::stable_sort(places.begin(), places.end(),

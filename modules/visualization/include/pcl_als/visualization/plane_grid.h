@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -41,6 +42,8 @@ class PlaneGrid {
   int rows() const { return rows_; }
   void add(const Eigen::Vector3d& ground);
 
+  /// Row and column of the cell that holds a place; may lie outside the grid.
+  std::pair<int, int> cellOf(const Eigen::Vector2d& place) const;
   /// The plane of a cell that has at least six points, not all in a line; by index or position.
   std::optional<CellPlane> plane(int column, int row) const;
   std::optional<CellPlane> planeAt(double x, double y) const;

@@ -54,6 +54,10 @@ class SectionPoints {
 
 /** \brief Draws sections of the same line above each other on the same axes, as for before and
  * after: distance and height in metres, points coloured by strip, the vertical exaggeration stated.
+ *
+ * The height axis shows all points, unless nine tenths of them lie within a third of the whole
+ * range: then it shows these and a quarter of their range on both sides, and points beyond are
+ * marked by triangles at the edge and counted.
  */
 class SectionPicture {
  public:
@@ -75,9 +79,13 @@ class SectionPicture {
   struct Layout {
     double left, width, height, top, pitch;  ///< of the panels' boxes, pixels
     double exaggeration, low, high;          ///< of the height axis, metres
+    std::size_t above, below;                ///< points beyond it, all panels
     std::vector<int> shown;                  ///< strips with points
   };
   Layout layoutFor(PictureSize size) const;
+  /// The heights that the axis has to show, metres.
+  std::pair<double, double> heightRange() const;
+  void drawPanel(Canvas& canvas, const Layout& layout, std::size_t panel) const;
 
   std::string title_;
   std::vector<std::string> strips_;

@@ -16,12 +16,14 @@
 namespace pcl_als {
 
 /** \brief Finds the places where a misfit of strips is seen best: across gable roofs, and where
- * there are none along slopes.
+ * there are none across opposite slopes and along slopes.
  *
  * Planes are fitted to square cells strip by strip. Cells that slope, are smooth and alike in at
- * least two strips are candidates; two of them that fall away from each other with a ridge between
- * make a gable. Places are ranked by the height difference of the strips on both sides, more strips
- * before fewer, and kept apart.
+ * least two strips are candidates; two of them that fall away from each other make opposite slopes.
+ * These are a gable roof only where both sides are faces of several cells in one plane, the surface
+ * between them follows the two planes up to a sharp ridge, and the ground beyond lies well below.
+ * Places are ranked by the height difference of the strips on both sides against the roughness of
+ * the surface, more strips before fewer, and kept apart.
  *
  * Memory: 44 bytes per cell and strip, of all strips together at most some 400 MB (cells grow).
  */
@@ -29,7 +31,8 @@ class SectionSearch {
  public:
   struct Place {
     SectionLine line;
-    bool gable = false;
+    enum class Kind { gable, opposite_slopes, slope } kind = Kind::slope;
+    double roughness = 0.0;   ///< RMS of the points about the cells' planes, m
     std::size_t strips = 0;   ///< that see both sides
     double difference = 0.0;  ///< mean over the sides of the strips' largest height difference, m
   };
@@ -48,12 +51,20 @@ class SectionSearch {
   /// A cell that two strips or more see as the same slope.
   struct Slope {
     Eigen::Vector2d center, downhill;  ///< downhill: unit
-    double height, tangent, difference;
+    double height, tangent, difference, roughness;
     std::size_t strips;
+
+    double heightAt(const Eigen::Vector2d& place) const {
+      return height - tangent * downhill.dot(place - center);
+    }
   };
   using Slopes = std::map<std::pair<int, int>, Slope>;  ///< by row and column
   std::optional<Slope> slopeAt(int column, int row) const;
-  std::optional<Place> gableFrom(const Slopes& slopes, const std::pair<int, int>& cell) const;
+  std::optional<Place> oppositeOf(const Slopes& slopes, const std::pair<int, int>& cell) const;
+  bool isGable(const Slopes& slopes, const Slope& side, const Slope& other) const;
+  std::size_t faceCells(const Slopes& slopes, const Slope& face) const;
+  bool fallsBeyond(const Slope& face) const;
+  std::optional<double> surfaceAt(const Eigen::Vector2d& place) const;
   std::optional<Place> slopeAround(const Slopes& slopes, const std::pair<int, int>& cell) const;
 
   std::vector<PlaneGrid> grids_;
