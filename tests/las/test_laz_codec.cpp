@@ -79,6 +79,16 @@ TEST(LazCodecChunks, OfVariableSizeAreKept) {
   EXPECT_THROW(LazPointWriter(schemaOf(3, 0, 10), nullptr, 0).endChunk(), UsageError);
 }
 
+TEST(LazCodecChunks, MayHoldMoreThanTheHeaderAnnounces) {
+  for (const int format : {3, 6}) {
+    const LazSchema schema = schemaOf(format, 0, 100);
+    ByteVector records = LazRecords(format, 0, PointKind::survey, 8).make(350);
+    const ByteVector file = test::encode(schema, records);
+    records.resize(120 * schema.recordLength());
+    EXPECT_TRUE(test::decode(schema, file, 120, 2) == records);
+  }
+}
+
 TEST(LazCodecEmpty, FileWithoutPoints) {
   for (const int format : {0, 6}) {
     const LazSchema schema = schemaOf(format, 0, 100);

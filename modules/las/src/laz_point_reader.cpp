@@ -112,8 +112,9 @@ void LazPointReader::State::decodeChunk(laz::ChunkDecoder& decoder, std::size_t 
   try {
     decoder.open(&read_at, chunk.begin, chunk.end);
     decoder.decode(chunk.points, out);
-    // The last chunk of a file may hold more points than the header announces.
-    const bool whole = index + 1 < table.chunks.size() && schema.chunked();
+    // The header may announce fewer points than the chunks hold.
+    const bool whole = index + 1 < table.chunks.size() &&
+                       (schema.variableChunks() || chunk.points == schema.chunk_size);
     if (whole && decoder.end() != chunk.end)
       throw laz::Damage("its end is not where the chunk table says");
   } catch (const laz::Damage& damage) {
