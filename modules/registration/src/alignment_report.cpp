@@ -79,7 +79,8 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
   Matrix6d raise = Matrix6d::Identity();
   for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
     const double formal_variance = result.covariance_formal(p, p);
-    const double excess = result.surface_std[p] * result.surface_std[p];
+    const double excess = result.surface_std[p] * result.surface_std[p] +
+                          result.convergence_std[p] * result.convergence_std[p];
     const double variance = std::max(formal_variance, result.covariance_jackknife(p, p)) + excess;
     raise(p, p) = !result.parameters[p].determined ? 0.0 : std::sqrt(variance / formal_variance);
   }

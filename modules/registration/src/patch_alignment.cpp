@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <pcl_als/common/errors.h>
@@ -29,7 +30,9 @@ constexpr double kLeastThreshold = 0.25;     // metres
 constexpr double kThresholdSigmas = 8.0;
 constexpr std::size_t kFewestPairs = 50;
 constexpr double kGroups = 60.0;   // of the jackknife, about
-constexpr double kResting = 5e-3;  // metres
+constexpr double kResting = 5e-3;  // metres: an update that ends a stage of the iteration
+constexpr double kProgress = 0.7;  // an update that is smaller than that of the best so far is some
+constexpr int kStalledAfter = 3;   // updates without progress
 // On the way a part of the candidates will do.
 constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
 constexpr double kSwing = 10.0;  // updates that may swing, of the convergence
@@ -37,7 +40,27 @@ constexpr std::size_t kSecondOpinionPairs = 25'000;
 // Half of the difference's variance is this estimate's share; and it comes from two values, whose
 // 95 % limit is 4.303 standard deviations (Student, two degrees of freedom) and not 1.960.
 constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
-constexpr double kFrozen = 1e-3;  // metres: below, scatter and threshold stay
+constexpr double kFrozen = 1e-3;  // metres: below, the threshold stays
+
+/// Notices when updates no longer become smaller. Pairs that flip between two patches, and weights
+/// that follow the scatter, can send the motion round in a cycle of any size and length.
+class UpdateHistory {
+ public:
+  /// True from the third update in a row that is no progress.
+  bool stalled(double update) {
+    if (update < kProgress * best_) {
+      best_ = update;
+      without_progress_ = 0;
+    } else {
+      ++without_progress_;
+    }
+    return without_progress_ >= kStalledAfter;
+  }
+
+ private:
+  double best_ = std::numeric_limits<double>::infinity();
+  int without_progress_ = 0;
+};
 
 struct Extent {
   Eigen::AlignedBox3d box;
@@ -77,6 +100,7 @@ class Alignment {
   void chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceLimits& limits,
                         std::size_t count) const;
   bool alignFinely(std::vector<AreaSurfaces>& areas);
+  void keepSwing(const Unknowns& update);
   void compareWithAllSurfaces(std::vector<AreaSurfaces>& areas);
   Unknowns returnToGuess() const;
   bool isSmall(const Unknowns& update) const;
@@ -96,6 +120,7 @@ class Alignment {
   ScatterBySlope scatter_;
   double threshold_ = 0.0;
   Robustness robustness_ = Robustness::whileMoving();
+  bool frozen_ = false;  ///< scatter, directions and threshold stay: the updates have stalled
   SurfaceLimits limits_;
   Directions directions_;
   PatchPairs pairs_;
@@ -204,9 +229,9 @@ Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) 
   const PatchAdjustment adjustment(pairs, about, robustness_, settings_.threads);
   Unknowns update = Unknowns::Zero();
   for (int pass = 0; pass < kPasses; ++pass) {
-    scatter_ = adjustment.scatter(update);
+    if (!frozen_) scatter_ = adjustment.scatter(update);
     const NormalEquations equations = adjustment.accumulate(update, scatter_);
-    directions_ = analyse(equations, about.unknowns(), limit);
+    if (!frozen_) directions_ = analyse(equations, about.unknowns(), limit);
     update += solveDetermined(equations, directions_, 1.0 / (prior * prior));
   }
   return update;
@@ -253,6 +278,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   all.slope = 1.45;
   chooseCandidates(areas, all, std::min(settings_.pairs, kSecondOpinionPairs));
   robustness_ = Robustness::trusting();
+  frozen_ = false;
   PatchPairs pairs;
   for (int i = 0; i < kIterations; ++i) {
     pairs = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads);
@@ -281,10 +307,17 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   result_.surface_std = excess.cwiseSqrt();
 }
 
+/** Three stages, each of which ends when updates are small or no longer become smaller: a part of
+ * the candidates, all of them, and all without outliers. No stage is entered again: stages that
+ * take turns have different solutions and would never converge. In the last one a stalled iteration
+ * is damped, with its weights held.
+ */
 bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
   threshold_ = std::clamp(threshold_, kLeastThreshold, kFirstFineThreshold);
-  double step = 1.0, previous = threshold_;
+  double step = 1.0;
+  bool last = false;
   std::size_t stride = settings_.pairs < kEnoughForStride ? 1 : kFirstStride;
+  UpdateHistory history;
   for (result_.iterations = 1; result_.iterations <= settings_.maximum_iterations;
        ++result_.iterations) {
     pairs_ = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads, stride);
@@ -295,22 +328,32 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
     }
     const Unknowns update = adjust(pairs_, settings_.determined_std / 3.0, 1e9) + returnToGuess();
     const double moved = update.norm();
-    // Pairs that flip to and fro between two patches would keep it swinging by some hundredths of
-    // a millimetre.
-    if (moved < kFrozen && moved > 0.5 * previous) step *= 0.5;
-    previous = moved;
-    motion_ = frame().motionOf(step * update) * motion_;
-    if (stride == 1 && step * moved < settings_.convergence && isSmall(update)) return true;
-    if (moved < kResting && stride > 1) {
-      stride = 1;
-      previous = threshold_;
+    const bool stalled = history.stalled(moved);
+    if (last && stalled) {
+      frozen_ = true;
+      step *= 0.5;
     }
-    robustness_ = moved < kResting ? Robustness() : Robustness::whileMoving();
-    if (moved > kFrozen)
+    motion_ = frame().motionOf(step * update) * motion_;
+    if (last && step * moved < settings_.convergence && isSmall(update)) {
+      if (frozen_) keepSwing(update);
+      return true;
+    }
+    if (!last && (stalled || moved < kResting)) {
+      last = stride == 1;
+      stride = 1;
+      if (last) robustness_ = Robustness();
+      history = UpdateHistory();
+    }
+    if (moved > kFrozen && !frozen_)
       threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);
   }
   --result_.iterations;
   return false;
+}
+
+/// What the pairs still ask for where the iteration was damped: the motion is not known better.
+void Alignment::keepSwing(const Unknowns& update) {
+  result_.convergence_std << update.head<3>().cwiseAbs(), update.segment<3>(3).cwiseAbs() / radius_;
 }
 
 /// Takes back what the coarse stage moved in directions that nothing determines.

@@ -70,8 +70,12 @@ std::vector<std::vector<std::int32_t>> SurfaceSide::trianglesByClass(std::size_t
     const std::int32_t point = tin.triangles()[t].vertex[0];
     if (seen[point] || !box_.contains(tin.points()[point].head<2>())) continue;
     seen[point] = true;
-    const auto triangle = static_cast<std::int32_t>(t);
-    classes[OrientationClasses::of(surface_.normal(triangle))].push_back(triangle);
+    // The triangle beyond the opposite edge: points that were looked for because their own noise
+    // made them face west would not have a mean error of zero.
+    const std::int32_t beyond = tin.triangles()[t].neighbour[0];
+    if (beyond == Tin::kNone) continue;
+    classes[OrientationClasses::of(surface_.normal(beyond))].push_back(
+        static_cast<std::int32_t>(t));
   }
   return classes;
 }
