@@ -64,6 +64,19 @@ ReportTable controlTable(const CalibrationResult& result) {
   return table;
 }
 
+ReportTable controlPointTable(const CalibrationResult& result) {
+  ReportTable table{"",
+                    "Mean height of the strips above each control point, m",
+                    {"point", "strips", "before", "after", "expected std", "used"},
+                    {}};
+  for (const ControlPointFit& fit : result.control_points) {
+    table.rows.push_back({fit.id, countText(fit.strips), numberText(fit.before, 4),
+                          numberText(fit.after, 4), numberText(fit.expected_std, 4),
+                          fit.used ? "yes" : "no: outlier"});
+  }
+  return table;
+}
+
 void addParameters(HtmlReport& report, const CalibrationResult& result) {
   report.addSection("Parameters");
   report.addTable(parameterTable(result));
@@ -93,6 +106,7 @@ void addFits(HtmlReport& report, const CalibrationResult& result) {
                       "Normal distances of all pairs before and after.");
   }
   if (!result.control.empty()) report.addTable(controlTable(result));
+  if (!result.control_points.empty()) report.addTable(controlPointTable(result));
   if (!result.iterations.empty()) {
     report.addPicture(drawConvergence(result, kWide).image(), "Update and fit by iteration.");
   }

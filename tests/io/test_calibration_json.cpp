@@ -163,6 +163,24 @@ TEST(CalibrationJson, KeepsTheVerdictAndTheMisfit) {
             std::string::npos);
 }
 
+TEST(CalibrationJson, KeepsTheControlPoints) {
+  const auto path = test::scratch("calibration_json") / "control.json";
+  CalibrationResult written = example();
+  written.control_points = {{"a", 2, 0.01, 0.3, 0.02, 0.015, true},
+                            {"b", 1, 0.0, 0.5, 0.21, 0.025, false}};
+  writeCalibration(path, written);
+  const CalibrationResult read = readCalibration(path);
+  ASSERT_EQ(read.control_points.size(), 2U);
+  EXPECT_EQ(read.control_points[0].id, "a");
+  EXPECT_EQ(read.control_points[0].strips, 2U);
+  EXPECT_EQ(read.control_points[0].sigma, 0.01);
+  EXPECT_TRUE(read.control_points[0].used);
+  EXPECT_EQ(read.control_points[1].before, 0.5);
+  EXPECT_EQ(read.control_points[1].after, 0.21);
+  EXPECT_EQ(read.control_points[1].expected_std, 0.025);
+  EXPECT_FALSE(read.control_points[1].used);
+}
+
 TEST(CalibrationJson, FilesWithoutAVerdictHaveOneByTheirConvergence) {
   std::string text = exampleText();
   const std::size_t from = text.find("\"verdict\""), to = text.find("\"model\"");
@@ -216,6 +234,13 @@ TEST(CalibrationJson, ErrorsNameTheKey) {
       {"\"bias\": -0.12", "\"bias\": 1e999", "is not valid JSON"},
       {"\"bias\": -0.12", "\"bias\": NaN", "is not valid JSON"},
       {"\"bias\": -0.12", "\"bia\": 1", "'parameters.range_bias.bias' is missing"},
+      {"\"bias\": -0.12", "\"bias\": -120",
+       "'parameters.range_bias.bias' is out of range: -120 m is not between -100 and 100 m"},
+      {"\"up_m\": 0.03", "\"up_m\": 1e6",
+       "'strip_corrections[0].knots[0].up_m' is out of range: 1e+06 m is not between -100 and 100"},
+      {"\"east_m\": 0.01", "\"east_m\": 0.01, \"east_m\": 0.02", "'east_m' stands twice"},
+      {"\"version\": 1", "\"version\": 1, \"version\": 1", "'version' stands twice"},
+      {"\"line_fit_half_width_s\": 0.5", "\"line_fit_half_width_s\": 1e9", "exceed 60 seconds"},
       {"\"status\": \"fixed\"", "\"status\": \"free\"",
        "must be estimated, fixed or not_estimable"},
       {"\"line_fit_half_width_s\": 0.5", "\"line_fit_half_width_s\": -1", "must not be negative"},

@@ -23,10 +23,19 @@ std::string centimetres(double metres) {
 /// "3.34 cm after the calibration, 3.10 cm as delivered (change +0.24 +- 0.05 cm at 5310 points)"
 std::string describe(const MisfitChange& misfit) {
   char change[96];
-  std::snprintf(change, sizeof change, "%+.2f +- %.2f cm at %zu points", 100.0 * misfit.change(),
-                100.0 * misfit.change_std, misfit.points);
+  if (std::isfinite(misfit.change_std)) {
+    std::snprintf(change, sizeof change, "%+.2f +- %.2f cm at %zu points", 100.0 * misfit.change(),
+                  100.0 * misfit.change_std, misfit.points);
+  } else {
+    std::snprintf(change, sizeof change, "%+.2f cm at %zu points of one area",
+                  100.0 * misfit.change(), misfit.points);
+  }
   return centimetres(misfit.rms_after) + " after the calibration, " +
          centimetres(misfit.rms_before) + " as delivered (change " + change + ")";
+}
+
+bool improvedSignificantly(const MisfitChange& misfit) {
+  return misfit.change() < -kSignificant * misfit.change_std;  // false where that is unknown
 }
 
 /// 99 % quantile of the chi-squared distribution (Wilson and Hilferty 1931; to 1 % for 1 and more).
@@ -91,9 +100,14 @@ void judgeCalibration(const std::vector<SystemParameter>& requested,
   }
   judgeMisfit(result);
   if (!result.verdict.usable() || !result.verdict.reason.empty()) return;
-  result.verdict.reason = result.misfit.points == 0
-                              ? "the adjustment converged"
-                              : "misfit between the strips " + describe(result.misfit);
+  if (result.misfit.points == 0) {
+    result.verdict.reason = "the adjustment converged";
+  } else if (improvedSignificantly(result.misfit)) {
+    result.verdict.reason = "the misfit between the strips is smaller: " + describe(result.misfit);
+  } else {
+    result.verdict.reason =
+        "the misfit between the strips does not change significantly: " + describe(result.misfit);
+  }
 }
 
 }  // namespace pcl_als

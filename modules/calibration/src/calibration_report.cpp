@@ -123,6 +123,33 @@ void CalibrationReport::addFit(const std::vector<AreaObservations>& observations
       histogramOf(observations, histogram.edges, distance);
 }
 
+void CalibrationReport::addControlPoints(const std::vector<ControlPoint>& control,
+                                         const std::vector<AreaObservations>& observations,
+                                         const std::vector<bool>& used, double trajectory_std,
+                                         CalibrationResult& result) const {
+  const std::size_t first = observations.size() - control.size();
+  for (std::size_t i = 0; i < control.size(); ++i) {
+    const AreaObservations& area = observations[first + i];
+    if (area.empty()) continue;
+    ControlPointFit fit;
+    fit.id = control[i].id;
+    fit.sigma = control[i].sigma;
+    fit.strips = area.size();
+    fit.used = used[first + i];
+    double variance = 0.0;
+    for (const PairObservation& o : area) {
+      fit.before -= o.distance(SystemVector::Zero()) / o.normal.z();
+      fit.after -= o.distance(result.biases()) / o.normal.z();
+      variance += o.variance;
+    }
+    const auto strips = static_cast<double>(fit.strips);
+    fit.before /= strips;
+    fit.after /= strips;
+    fit.expected_std = std::sqrt(variance / strips + trajectory_std * trajectory_std / strips);
+    result.control_points.push_back(std::move(fit));
+  }
+}
+
 void CalibrationReport::addStrips(const SharedErrors& errors, const std::vector<bool>& used,
                                   const AdjustmentSolution& solution,
                                   CalibrationResult& result) const {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -38,7 +39,7 @@ AreaSum sumOf(const Distances& distances, double limit) {
   return sum;
 }
 
-/// Standard deviation of the mean change of the squares, areas as clusters; 0 for a single area.
+/// Standard deviation of the mean change of the squares, areas as clusters; unknown for one area.
 double changeStd(const std::vector<AreaSum>& areas, const AreaSum& all) {
   const double mean = (all.after - all.before) / all.count;
   double squares = 0.0, clusters = 0.0;
@@ -47,7 +48,7 @@ double changeStd(const std::vector<AreaSum>& areas, const AreaSum& all) {
     squares += std::pow(area.after - area.before - area.count * mean, 2);
     clusters += 1.0;
   }
-  if (clusters < 2.0) return 0.0;
+  if (clusters < 2.0) return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt(clusters / (clusters - 1.0) * squares) / all.count;
 }
 

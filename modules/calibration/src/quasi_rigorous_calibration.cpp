@@ -7,6 +7,7 @@
 #include <pcl_als/calibration/block_advice.h>
 #include <pcl_als/calibration/calibration_judgement.h>
 #include <pcl_als/calibration/calibration_report.h>
+#include <pcl_als/calibration/control_consistency.h>
 #include <pcl_als/calibration/misfit_comparison.h>
 #include <pcl_als/calibration/pair_selection.h>
 #include <pcl_als/calibration/pair_weights.h>
@@ -15,6 +16,7 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 
+#include "calibration_state.h"
 #include "pairing_rules.h"
 
 namespace pcl_als {
@@ -35,44 +37,6 @@ SystemVector largestBelievable() {
 }
 
 }  // namespace
-
-/// What changes from iteration to iteration.
-struct QuasiRigorousCalibration::State {
-  explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
-
-  std::size_t observationCount() const {
-    std::size_t count = 0;
-    for (const AreaObservations& area : observations) count += area.size();
-    return count;
-  }
-  long redundancy() const {
-    return static_cast<long>(weights.kept()) - static_cast<long>(choice.estimate.size());
-  }
-  /// Whether all pairs are adjusted, not a chosen part of them.
-  bool all() const { return seekers == AreaMatcher::Seekers::candidates; }
-  /// Whether the levels need no further look.
-  bool looked() const {
-    constexpr int kLooks = 8;
-    return levels_rest || looks >= kLooks;
-  }
-
-  Adjustment adjustment;
-  ParameterChoice choice;
-  /// Whether choice holds a solution: before, residuals are full of what is sought, and none may be
-  /// called an outlier for it.
-  bool solved = false;
-  /// On the way: nothing is left out for being uncertain, for mismatched pairs make all uncertain.
-  bool coarse = true;
-  bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
-  int looks = 0;             ///< how often it was looked for
-  bool levels_rest = false;  ///< whether the last look left them as they were
-  AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
-  bool choose_again = false;   ///< of all pairs, in the next iteration
-  bool chosen_at_end = false;  ///< whether that was done where all had come to rest, levels too
-  double threshold = 0.0;
-  std::vector<AreaObservations> observations;
-  PairWeights weights;
-};
 
 QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
                                                    const CalibrationSettings& settings,
@@ -132,17 +96,6 @@ void QuasiRigorousCalibration::lookAtControl(const State& state) {
                       "control");
 }
 
-void QuasiRigorousCalibration::selectPairs(State& state) {
-  PairSelectionSettings settings;
-  settings.budget = settings_.pair_budget;
-  const PairSelection selection(state.observations, state.weights.weights(), state.adjustment,
-                                state.choice.solution, settings);
-  parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
-    matchers_[i].keep(state.observations[i], selection.chosen()[i]);
-  });
-  state.seekers = AreaMatcher::Seekers::kept;
-}
-
 void QuasiRigorousCalibration::weigh(State& state) const {
   std::vector<std::vector<double>> residuals(state.observations.size());
   parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
@@ -158,8 +111,10 @@ void QuasiRigorousCalibration::weigh(State& state) const {
 }
 
 void QuasiRigorousCalibration::choose(State& state) const {
-  const std::vector<SystemParameter> wanted =
+  std::vector<SystemParameter> wanted =
       settings_.estimate.empty() ? automaticParameters(control_seen_) : settings_.estimate;
+  const auto left_out = [&](SystemParameter p) { return state.excluded.count(p) > 0; };
+  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
   if (state.coarse) {
     state.choice.estimate = wanted;
     state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
@@ -170,8 +125,13 @@ void QuasiRigorousCalibration::choose(State& state) const {
     if (settings_.estimate.empty() && !control_seen_) {
       unknown.push_back(SystemParameter::range_bias);
     }
+    for (const auto& [p, reason] : state.excluded) unknown.push_back(p);
     state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
                                     settings_.limits, factor, unknown);
+    for (const auto& [p, reason] : state.excluded) {
+      state.choice.status[indexOf(p)] = ParameterStatus::not_estimable;
+      state.choice.reason[indexOf(p)] = reason;
+    }
   }
   state.solved = true;
 }
@@ -191,28 +151,6 @@ void QuasiRigorousCalibration::adjust(State& state) const {
   weigh(state);
 }
 
-namespace {
-
-/// Largest movement of a ground point by a change of the biases, from the design rows of the
-/// observations, metres.
-double largestEffect(const std::vector<AreaObservations>& observations,
-                     const SystemVector& change) {
-  double x = 0.0, z = 0.0;
-  for (const AreaObservations& area : observations) {
-    for (const PairObservation& o : area) {
-      x = std::max(x, o.lateral);
-      z = std::max(z, o.height);
-    }
-  }
-  ScanGeometry geometry;
-  geometry.x = x;
-  geometry.z = -z;
-  geometry.beta = -std::atan2(x, z);
-  return (designBlock(geometry).cwiseAbs() * change.cwiseAbs()).maxCoeff();
-}
-
-}  // namespace
-
 void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
   constexpr double kSmallest = 0.25;  // metres
   constexpr double kFactor = 6.0;
@@ -227,63 +165,6 @@ void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
     if (values.size() >= kEnoughForScale) widest = std::max(widest, robustSigma(values));
   }
   state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
-}
-
-bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVector& before) {
-  constexpr double kNegligible = 0.05;  // of a standard deviation
-  const AdjustmentSolution& solution = state.choice.solution;
-  return std::all_of(state.choice.estimate.begin(), state.choice.estimate.end(),
-                     [&](SystemParameter p) {
-                       const int i = indexOf(p);
-                       return std::abs(solution.biases[i] - before[i]) <
-                              kNegligible * std::sqrt(solution.covariance(i, i));
-                     });
-}
-
-void QuasiRigorousCalibration::openIteration(State& state, const CalibrationResult& result) const {
-  constexpr double kNearlyAtRest = 0.005;  // metres
-  constexpr std::size_t kCoarseAtMost = 12;
-  const std::size_t done = result.iterations.size();
-  const bool rests =
-      done > 0 && (state.choose_again || result.iterations.back().largest_update < kNearlyAtRest);
-  const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
-  if (arrives) state.coarse = false;
-  // The levels are looked for where the geometry has come to rest, for what is left of the biases
-  // looks like errors of the trajectory; and they must rest for the iteration to converge.
-  const bool look_due = !state.coarse && rests && !state.looked();
-  // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
-  // The noise of the few is no measure of the levels.
-  const bool first_look = look_due && state.looks == 0;
-  if ((arrives || first_look || state.choose_again) && !state.all()) {
-    state.seekers = AreaMatcher::Seekers::candidates;
-    pairUp(state);
-  }
-  state.levels_open = look_due && state.all();
-  if (state.levels_open) ++state.looks;
-}
-
-void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
-  const SystemVector before = state.choice.solution.biases;
-  const std::size_t done = result.iterations.size();
-  openIteration(state, result);
-  adjust(state);
-  state.chosen_at_end = state.chosen_at_end || (state.choose_again && state.looked());
-  state.choose_again = false;
-  if (settings_.pair_budget > 0 && state.all()) selectPairs(state);
-  const SystemVector& biases = state.choice.solution.biases;
-  const double effect = largestEffect(state.observations, biases - before);
-  result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
-  if (progress_) progress_(result.iterations.back());
-  result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
-                     (effect < settings_.convergence || restsWithin(state, before));
-  if (result.converged && settings_.pair_budget > 0 && !state.chosen_at_end) {
-    state.choose_again = true;
-    result.converged = false;
-  }
-  const BiasEvaluator correction(trajectory_, biases);
-  parallelFor(matchers_.size(), settings_.threads,
-              [&](std::size_t i) { matchers_[i].correct(correction); });
-  shrinkThreshold(state);
 }
 
 std::vector<std::string> QuasiRigorousCalibration::observability(
@@ -324,11 +205,6 @@ std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() con
   return times;
 }
 
-std::string QuasiRigorousCalibration::whyOpen(const CalibrationResult& result) const {
-  return "the adjustment did not converge in " + std::to_string(result.iterations.size()) +
-         " iterations" + (settings_.pair_budget > 0 ? "; let -select keep more pairs" : "");
-}
-
 CalibrationResult QuasiRigorousCalibration::calibrate() {
   prepare();
   std::vector<std::pair<double, double>> spans;
@@ -347,8 +223,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   const CalibrationReport report(ids_, !control_seen_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
   const MisfitComparison misfit(state.observations);
-  const int most = (settings_.pair_budget > 0 ? 2 : 1) * settings_.max_iterations;
-  for (int i = 0; i < most && !result.converged && state.observationCount() > 0; ++i) {
+  while (mayContinue(state, result)) {
     iterate(state, result);
     if (!result.converged) pairUp(state);
   }
@@ -364,13 +239,19 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   result.observability = observability(state, spans, result);
   information_ = state.adjustment.informationShares(state.choice.estimate);
   information_.resize(areas_.size(), 0.0);
+  const std::vector<bool> used = state.usedAreas();
   state.threshold = settings_.max_normal_distance;
   state.seekers = AreaMatcher::Seekers::candidates;
   pairUp(state);
+  report.addControlPoints(
+      control_, state.observations, used,
+      settings_.shared_errors.position * std::sqrt(state.adjustment.levels().position), result);
   report.addFit(state.observations, result.biases(), true, result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
   result.misfit = misfit.change(state.observations, result.biases());
-  judgeCalibration(settings_.estimate, open ? whyOpen(result) : "", result);
+  diagnose(result);
+  judgeControl(result);
+  judgeCalibration(settings_.estimate, open ? whyOpen(state, result) : "", result);
   return result;
 }
 

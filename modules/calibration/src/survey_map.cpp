@@ -9,6 +9,7 @@
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
 namespace {
@@ -114,6 +115,24 @@ std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
     if (area >= minimum_area) found.push_back({strips, area});
   }
   return found;
+}
+
+SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
+  constexpr std::uint32_t kEnough = 5;
+  std::vector<double> differences;
+  const auto& others = strips_[static_cast<std::size_t>(pair.second)].cells;
+  for (const auto& [key, cell] : strips_[static_cast<std::size_t>(pair.first)].cells) {
+    const auto other = others.find(key);
+    if (other == others.end() || cell.last_returns < kEnough ||
+        other->second.last_returns < kEnough) {
+      continue;
+    }
+    const auto height = [](const Cell& c) { return c.z_reference + c.z_sum / c.last_returns; };
+    differences.push_back(height(cell) - height(other->second));
+  }
+  if (differences.empty()) return {};
+  const std::size_t count = differences.size();
+  return {medianInPlace(differences), count};
 }
 
 double SurveyMap::score(const Cell& a, const Cell& b) const {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <sstream>
+
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/system_parameters.h>
 
@@ -18,6 +21,21 @@ const std::array<SystemParameterInfo, kSystemParameterCount>& systemParameters()
       {P::scan_angle_scale, "scan_angle_scale", "1", 1.0},
   }};
   return infos;
+}
+
+double largestBias(SystemParameter p) {
+  return infoOf(p).unit == "m" ? 100.0 : 0.1;
+}
+
+std::string refusedBias(SystemParameter p, double bias) {
+  const double limit = largestBias(p);
+  if (std::abs(bias) < limit) return {};
+  const SystemParameterInfo& info = infoOf(p);
+  const std::string unit = info.unit == "1" ? "" : " " + std::string(info.unit);
+  std::ostringstream text;
+  text << bias / info.internal_per_unit << unit << " is not between "
+       << -limit / info.internal_per_unit << " and " << limit / info.internal_per_unit << unit;
+  return text.str();
 }
 
 std::optional<SystemParameter> systemParameterNamed(std::string_view name) {

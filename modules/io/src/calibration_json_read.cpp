@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 
 #include "calibration_json.h"
 #include "csv_table.h"
+#include "json_parse.h"
 
 namespace pcl_als {
 namespace detail {
@@ -46,6 +48,14 @@ class Node {
     const double value = json_->get<double>();
     if (!std::isfinite(value)) refuse("must be a finite number");
     return value;
+  }
+  double within(double limit, const char* unit) const {
+    const double value = number();
+    if (std::abs(value) <= limit) return value;
+    std::ostringstream text;
+    text << "is out of range: " << value << ' ' << unit << " is not between " << -limit << " and "
+         << limit << ' ' << unit;
+    refuse(text.str());
   }
   double numberOrNan() const {
     return json_->is_null() ? std::numeric_limits<double>::quiet_NaN() : number();
@@ -112,6 +122,8 @@ void readParameters(const Node& parameters, CalibrationResult& result) {
       node["unit"].refuse("is '" + unit + "'; it must be '" + std::string(info.unit) + "'");
     }
     estimate.bias = node["bias"].number() * info.internal_per_unit;
+    const std::string refused = refusedBias(info.parameter, estimate.bias);
+    if (!refused.empty()) node["bias"].refuse("is out of range: " + refused);
     if (node.has("std")) estimate.std = node["std"].numberOrNan() * info.internal_per_unit;
     if (node.has("std_formal")) {
       estimate.std_formal = node["std_formal"].numberOrNan() * info.internal_per_unit;
@@ -221,17 +233,45 @@ void readControlFits(const Node& control, CalibrationResult& result) {
   }
 }
 
+void readControlPoints(const Node& points, CalibrationResult& result) {
+  for (const Node& node : points.items()) {
+    ControlPointFit fit;
+    fit.id = node["id"].text();
+    fit.strips = node["strips"].count();
+    fit.sigma = node["sigma_m"].numberOrNan();
+    fit.before = node["before_m"].numberOrNan();
+    fit.after = node["after_m"].numberOrNan();
+    fit.expected_std = node["expected_std_m"].numberOrNan();
+    fit.used = node["used"].truth();
+    result.control_points.push_back(std::move(fit));
+  }
+}
+
+void readStripOffsets(const Node& strips, CalibrationResult& result) {
+  for (const Node& node : strips.items()) {
+    result.strip_offsets.push_back({node["strip"].text(), node["offset_m"].numberOrNan(),
+                                    node["expected_std_m"].numberOrNan(),
+                                    node["consistent"].truth()});
+  }
+}
+
+// No trajectory of a survey is wrong by more, and a lever arm or boresight is not either.
+constexpr double kLargestShift = 100.0;   // metres
+constexpr double kLargestTurn = 20000.0;  // arc-seconds
+
 void readStripErrors(const Node& strips, CalibrationResult& result) {
   for (const Node& node : strips.items()) {
     StripErrors strip;
     strip.id = node["strip"].text();
     for (const Node& at : node["knots"].items()) {
+      const auto metres = [&](const char* key) { return at[key].within(kLargestShift, "m"); };
+      const auto arcsec = [&](const char* key) { return at[key].within(kLargestTurn, "arcsec"); };
       TrajectoryErrorKnot knot;
       knot.time = at["time"].number();
-      knot.position = {at["east_m"].number(), at["north_m"].number(), at["up_m"].number()};
-      knot.angles = kRadiansPerArcsec * Eigen::Vector3d(at["pitch_arcsec"].number(),
-                                                        at["roll_arcsec"].number(),
-                                                        at["heading_arcsec"].number());
+      knot.position = {metres("east_m"), metres("north_m"), metres("up_m")};
+      knot.angles =
+          kRadiansPerArcsec *
+          Eigen::Vector3d(arcsec("pitch_arcsec"), arcsec("roll_arcsec"), arcsec("heading_arcsec"));
       strip.knots.push_back(knot);
     }
     result.strip_errors.push_back(std::move(strip));
@@ -242,18 +282,6 @@ std::vector<std::string> textsOf(const Node& list) {
   std::vector<std::string> texts;
   for (const Node& node : list.items()) texts.push_back(node.text());
   return texts;
-}
-
-Json parse(const std::string& text, const std::string& name) {
-  try {
-    return Json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    const std::string what = error.what();
-    // "[json.exception.parse_error.101] parse error at …": the part a user can act on.
-    const std::size_t end = what.find("] ");
-    throw InputError(
-        name + ": is not valid JSON: " + (end == std::string::npos ? what : what.substr(end + 2)));
-  }
 }
 
 void checkFormat(const Node& root, const std::string& name) {
@@ -269,8 +297,10 @@ void checkFormat(const Node& root, const std::string& name) {
 
 }  // namespace
 
+constexpr double kLongestWindow = 60.0;  // seconds, half of it; the tools' limit of -line_fit
+
 CalibrationResult calibrationFromJson(const std::string& text, const std::string& name) {
-  const Json json = parse(text, name);
+  const Json json = parseJson(text, name);
   const Node root(json, name);
   checkFormat(root, name);
   CalibrationResult result;
@@ -286,12 +316,17 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
     const Node width = root["line_fit_half_width_s"];
     result.line_fit_half_width = width.number();
     if (result.line_fit_half_width < 0.0) width.refuse("must not be negative");
+    if (result.line_fit_half_width > kLongestWindow) {
+      width.refuse("must not exceed 60 seconds: the flight is taken as straight within it");
+    }
   }
   if (root.has("iterations")) readIterations(root["iterations"], result);
   if (root.has("pairs")) readPairs(root["pairs"], result);
   if (root.has("misfit")) result.misfit = misfitOf(root["misfit"]);
   if (root.has("residuals")) readResiduals(root["residuals"], result.residuals);
   if (root.has("control")) readControlFits(root["control"], result);
+  if (root.has("control_points")) readControlPoints(root["control_points"], result);
+  if (root.has("strip_offsets")) readStripOffsets(root["strip_offsets"], result);
   if (root.has("strip_corrections")) readStripErrors(root["strip_corrections"], result);
   if (root.has("observability")) result.observability = textsOf(root["observability"]);
   if (root.has("warnings")) result.warnings = textsOf(root["warnings"]);

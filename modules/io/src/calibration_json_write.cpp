@@ -119,6 +119,31 @@ Json misfitOf(const MisfitChange& misfit) {
               {"change_std_m", number(misfit.change_std)}};
 }
 
+Json stripOffsetsOf(const CalibrationResult& result) {
+  Json strips = Json::array();
+  for (const StripOffset& strip : result.strip_offsets) {
+    strips.push_back(Json{{"strip", strip.strip},
+                          {"offset_m", number(strip.offset)},
+                          {"expected_std_m", number(strip.expected_std)},
+                          {"consistent", strip.consistent}});
+  }
+  return strips;
+}
+
+Json controlPointsOf(const CalibrationResult& result) {
+  Json points = Json::array();
+  for (const ControlPointFit& fit : result.control_points) {
+    points.push_back(Json{{"id", fit.id},
+                          {"strips", fit.strips},
+                          {"sigma_m", number(fit.sigma)},
+                          {"before_m", number(fit.before)},
+                          {"after_m", number(fit.after)},
+                          {"expected_std_m", number(fit.expected_std)},
+                          {"used", fit.used}});
+  }
+  return points;
+}
+
 Json controlOf(const CalibrationResult& result) {
   Json control = Json::array();
   for (const ControlFit& fit : result.control) {
@@ -163,6 +188,8 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["misfit"] = misfitOf(result.misfit);
   if (!result.residuals.edges.empty()) root["residuals"] = histogramOf(result.residuals);
   root["control"] = controlOf(result);
+  root["control_points"] = controlPointsOf(result);
+  root["strip_offsets"] = stripOffsetsOf(result);
   root["strip_corrections"] = stripErrorsOf(result);
   root["observability"] = result.observability;
   root["warnings"] = result.warnings;

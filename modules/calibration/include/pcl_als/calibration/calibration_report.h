@@ -8,6 +8,7 @@
 #include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
 
@@ -26,6 +27,13 @@ class CalibrationReport {
   /// automatic choice.
   void addParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
                      CalibrationResult& result) const;
+
+  /// Every control point that a strip sees, from all pairs of the control areas found anew with the
+  /// widest threshold. \a used: by area, whether the adjustment gave a pair of it a weight.
+  void addControlPoints(const std::vector<ControlPoint>& control,
+                        const std::vector<AreaObservations>& observations,
+                        const std::vector<bool>& used, double trajectory_std,
+                        CalibrationResult& result) const;
 
   /// What the solution says of each strip's trajectory.
   void addStrips(const SharedErrors& errors, const std::vector<bool>& used,

@@ -31,7 +31,8 @@ struct CalibrationSettings {
   /// false: a vertical system that looks along the line of flight, as in the paper.
   bool recover_attitude = true;
   double resolution = 0.001;  ///< metres, coordinate step of the files
-  int max_iterations = 20;    ///< twice as many with a pair_budget: most are of few pairs
+  /// With a pair_budget twice as many (most are of few pairs); at most 12 of the coarse stage more.
+  int max_iterations = 20;
   /// Metres: an update moves no point by more, or no parameter by 1/20 of its deviation.
   double convergence = 2e-4;
   /// Go on, with warnings, where the trajectory or its attitude cannot belong to the points.

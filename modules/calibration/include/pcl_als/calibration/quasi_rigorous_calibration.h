@@ -97,13 +97,25 @@ class QuasiRigorousCalibration {
   void choose(State& state) const;
   void adjust(State& state) const;
   void shrinkThreshold(State& state) const;
-  /// Whether no parameter moved by more than a small part of its standard deviation.
-  static bool restsWithin(const State& state, const SystemVector& before);
+  /// Whether no parameter changed by more than so many of its standard deviations.
+  static bool restsWithin(const State& state, const SystemVector& before, double deviations);
+  /// Records what the last update changed.
+  static void recordUpdate(State& state, const SystemVector& before);
+  /// The parameter that changed most in the last iterations, by its standard deviation.
+  static SystemParameter mostRestless(const State& state);
+  /// Whether another iteration follows. Where the limit is reached and the parameters are chosen
+  /// automatically, the one that changes most is left out and the iteration continues.
+  bool mayContinue(State& state, const CalibrationResult& result) const;
   /// Decides whether levels are looked for, and whether all pairs are adjusted or those chosen.
   void openIteration(State& state, const CalibrationResult& result) const;
   void iterate(State& state, CalibrationResult& result);
   /// Why the iteration did not converge, for the verdict.
-  std::string whyOpen(const CalibrationResult& result) const;
+  std::string whyOpen(const State& state, const CalibrationResult& result) const;
+  bool hasPairs(int strip, const CalibrationResult& result) const;
+  /// Why a strip that overlaps others has no pairs, for a warning; empty where it overlaps none.
+  std::string lostStrip(int strip) const;
+  /// Adds what is wrong with strips: those without pairs, those that do not fit the others.
+  void diagnose(CalibrationResult& result) const;
   std::vector<std::string> observability(const State& state,
                                          const std::vector<std::pair<double, double>>& spans,
                                          const CalibrationResult& result) const;

@@ -52,6 +52,15 @@ class SurveyMap {
   /// Every pair of strips with at least \a minimum_area in common, in order.
   std::vector<Overlap> overlaps(double minimum_area) const;
 
+  /// Height of the first strip above the second: the median over the cells that both see of the
+  /// difference of the mean heights of their surface points. Vegetation and slopes make it good to
+  /// decimetres only.
+  struct HeightOffset {
+    double offset = 0.0;  ///< metres
+    std::size_t cells = 0;
+  };
+  HeightOffset heightOffset(const StripPair& pair) const;
+
   struct Selection {
     double area_size = 50.0;  ///< metres
     double margin = 8.0;      ///< metres

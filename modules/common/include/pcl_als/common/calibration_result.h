@@ -64,6 +64,24 @@ struct ControlFit {
   double mean_before = 0.0, rms_before = 0.0, mean_after = 0.0, rms_after = 0.0;
 };
 
+/// One control point: mean height of the strips above it, metres.
+struct ControlPointFit {
+  std::string id;
+  std::size_t strips = 0;  ///< that see it on a smooth surface
+  double sigma = 0.0;      ///< metres, as stated
+  double before = 0.0, after = 0.0;
+  double expected_std = 0.0;  ///< metres, of after: control, points and trajectory
+  bool used = true;           ///< false: rejected as an outlier
+};
+
+/// Height of one strip above all others after the calibration, from the means of its pairs.
+struct StripOffset {
+  std::string strip;
+  double offset = 0.0;        ///< metres
+  double expected_std = 0.0;  ///< metres, a priori: of the mean trajectory error over the strip
+  bool consistent = true;     ///< false: does not fit the rest of the block
+};
+
 /// What the trajectory of a strip is wrong by at a time, assumed - true.
 struct TrajectoryErrorKnot {
   double time = 0.0;                                   ///< seconds, on the trajectory's clock
@@ -94,7 +112,9 @@ struct CalibrationResult {
   MisfitChange misfit;  ///< of all pairs together
   ResidualHistogram residuals;
   std::vector<ControlFit> control;
-  std::vector<StripErrors> strip_errors;   ///< of the strips that were calibrated with
+  std::vector<ControlPointFit> control_points;  ///< those that a strip sees
+  std::vector<StripOffset> strip_offsets;       ///< of the strips that have pairs
+  std::vector<StripErrors> strip_errors;        ///< of the strips that were calibrated with
   std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help
   std::vector<std::string> warnings;
   std::vector<LeftOutPoints> left_out;  ///< points that took no part

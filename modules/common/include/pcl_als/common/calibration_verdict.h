@@ -47,7 +47,7 @@ struct MisfitChange {
   std::size_t points = 0, areas = 0;
   double rms_before = 0.0, rms_after = 0.0;  ///< metres, along the normals
   double limit = 0.0;                        ///< metres
-  double change_std = 0.0;                   ///< metres, of change()
+  double change_std = 0.0;                   ///< metres, of change(); NaN for a single area
 
   double change() const { return rms_after - rms_before; }  ///< metres
 };

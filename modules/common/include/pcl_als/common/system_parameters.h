@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -52,6 +53,14 @@ inline int indexOf(SystemParameter p) {
 inline const SystemParameterInfo& infoOf(SystemParameter p) {
   return systemParameters()[indexOf(p)];
 }
+
+/// Biases of this size and more are refused, internal units: no mounted scanner has 100 m of lever
+/// arm or range bias, 0.1 rad of boresight or a tenth of scale.
+double largestBias(SystemParameter p);
+
+/// "1e+06 m is not between -100 and 100 m": why a bias in internal units is refused; empty when it
+/// is not.
+std::string refusedBias(SystemParameter p, double bias);
 
 /// The parameter of that name; empty when there is none.
 std::optional<SystemParameter> systemParameterNamed(std::string_view name);

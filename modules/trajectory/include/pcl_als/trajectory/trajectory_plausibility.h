@@ -44,6 +44,13 @@ class TrajectoryPlausibility {
   /// Leaves a strip out of findings(), as one that is not used.
   void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
 
+  /// Mean height of the trajectory above a strip's points, metres; 0 where no point lies below it.
+  double meanHeight(int strip) const {
+    const Strip& s = strips_[static_cast<std::size_t>(strip)];
+    const auto below = static_cast<double>(s.count - s.above);
+    return below > 0.0 ? s.height_sum / below : 0.0;
+  }
+
   struct Finding {
     bool refuse = false;  ///< results would be wrong; otherwise only suspicious
     std::string text;     ///< what is wrong, the likely cause and the remedy

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// What QuasiRigorousCalibration finds wrong with the strips of a block after the adjustment.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/strip_consistency.h>
+
+namespace pcl_als {
+
+bool QuasiRigorousCalibration::hasPairs(int strip, const CalibrationResult& result) const {
+  const std::string& id = ids_[static_cast<std::size_t>(strip)];
+  return std::any_of(result.pairs.begin(), result.pairs.end(), [&](const PairFit& fit) {
+    return fit.correspondences > 0 && (fit.a == id || fit.b == id);
+  });
+}
+
+std::string QuasiRigorousCalibration::lostStrip(int strip) const {
+  SurveyMap::HeightOffset best;
+  int partner = -1;
+  for (const StripPair& pair : pairs_) {
+    if (pair.first != strip && pair.second != strip) continue;
+    SurveyMap::HeightOffset found = map_.heightOffset(pair);
+    if (found.cells <= best.cells) continue;
+    partner = pair.first == strip ? pair.second : pair.first;
+    if (pair.second == strip) found.offset = -found.offset;
+    best = found;
+  }
+  if (partner < 0) return {};
+  const std::string start = "strip " + ids_[static_cast<std::size_t>(strip)] +
+                            " has no pairs with any strip although it overlaps others: ";
+  if (std::abs(best.offset) < settings_.max_normal_distance) {
+    return start + "no smooth surface in common was found";
+  }
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "it lies %+.2f m above strip %s (median of %zu cells of 10 m); check its heights "
+                "(unit, height reference, trajectory), or leave it out (-without)",
+                best.offset, ids_[static_cast<std::size_t>(partner)].c_str(), best.cells);
+  return start + text;
+}
+
+void QuasiRigorousCalibration::diagnose(CalibrationResult& result) const {
+  std::vector<StripFacts> strips;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (!used_[i]) continue;
+    const int strip = static_cast<int>(i);
+    if (!hasPairs(strip, result)) {
+      const std::string lost = lostStrip(strip);
+      if (!lost.empty()) result.warnings.push_back(lost);
+    }
+    strips.push_back(
+        {ids_[i], map_.startTime(strip), map_.endTime(strip), plausibility_.meanHeight(strip)});
+  }
+  const SharedErrorModel& errors = settings_.shared_errors;
+  const StripConsistency consistency(strips, result.pairs,
+                                     {errors.position, errors.correlation_time});
+  result.strip_offsets = consistency.offsets();
+  const auto& found = consistency.warnings();
+  result.warnings.insert(result.warnings.end(), found.begin(), found.end());
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The iteration of QuasiRigorousCalibration: its stages and when it has converged.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/parallel.h>
+
+#include "calibration_state.h"
+
+namespace pcl_als {
+namespace {
+
+constexpr double kNegligible = 0.05;  // of a standard deviation: an update that is none
+constexpr double kSettled = 0.1;      // of a standard deviation: the next stage may begin
+constexpr int kMostReductions = 3;    // parameters left out because the iteration does not converge
+constexpr int kAfterReduction = 10;   // iterations
+
+/// Upper bound of the movement of a ground point by a change of the biases, metres: as if the
+/// effects of all parameters added up.
+double largestEffect(const std::vector<AreaObservations>& observations,
+                     const SystemVector& change) {
+  double x = 0.0, z = 0.0;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      x = std::max(x, o.lateral);
+      z = std::max(z, o.height);
+    }
+  }
+  ScanGeometry geometry;
+  geometry.x = x;
+  geometry.z = -z;
+  geometry.beta = -std::atan2(x, z);
+  return (designBlock(geometry).cwiseAbs() * change.cwiseAbs()).maxCoeff();
+}
+
+/// Movement of a ground point by a change of the biases, metres: the largest of the points that
+/// were observed, on either side of the line of flight. Changes that compensate each other move
+/// nothing.
+double largestMovement(const std::vector<AreaObservations>& observations,
+                       const SystemVector& change) {
+  constexpr std::size_t kEnough = 20'000;
+  std::size_t count = 0, index = 0;
+  for (const AreaObservations& area : observations) count += area.size();
+  const std::size_t every = std::max<std::size_t>(1, count / kEnough);
+  double largest = 0.0;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      if (index++ % every != 0) continue;
+      for (const double x : {o.lateral, -o.lateral}) {
+        ScanGeometry geometry;
+        geometry.x = x;
+        geometry.z = -o.height;
+        geometry.beta = -std::atan2(x, o.height);
+        largest = std::max(largest, (designBlock(geometry) * change).norm());
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+void QuasiRigorousCalibration::selectPairs(State& state) {
+  PairSelectionSettings settings;
+  settings.budget = settings_.pair_budget;
+  const PairSelection selection(state.observations, state.weights.weights(), state.adjustment,
+                                state.choice.solution, settings);
+  parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
+    matchers_[i].keep(state.observations[i], selection.chosen()[i]);
+  });
+  state.seekers = AreaMatcher::Seekers::kept;
+}
+
+bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVector& before,
+                                           double deviations) {
+  const AdjustmentSolution& solution = state.choice.solution;
+  return std::all_of(state.choice.estimate.begin(), state.choice.estimate.end(),
+                     [&](SystemParameter p) {
+                       const int i = indexOf(p);
+                       return std::abs(solution.biases[i] - before[i]) <
+                              deviations * std::sqrt(solution.covariance(i, i));
+                     });
+}
+
+void QuasiRigorousCalibration::recordUpdate(State& state, const SystemVector& before) {
+  constexpr double kMemory = 0.7;
+  const AdjustmentSolution& solution = state.choice.solution;
+  state.movement = largestMovement(state.observations, solution.biases - before);
+  state.settled = restsWithin(state, before, kSettled);
+  for (const SystemParameter p : state.choice.estimate) {
+    const int i = indexOf(p);
+    const double std = std::sqrt(solution.covariance(i, i));
+    const double update = std > 0.0 ? std::abs(solution.biases[i] - before[i]) / std : 0.0;
+    state.unrest[i] = std::max(kMemory * state.unrest[i], update);
+  }
+}
+
+SystemParameter QuasiRigorousCalibration::mostRestless(const State& state) {
+  return *std::max_element(state.choice.estimate.begin(), state.choice.estimate.end(),
+                           [&](SystemParameter a, SystemParameter b) {
+                             return state.unrest[indexOf(a)] < state.unrest[indexOf(b)];
+                           });
+}
+
+bool QuasiRigorousCalibration::mayContinue(State& state, const CalibrationResult& result) const {
+  if (result.converged || state.observationCount() == 0) return false;
+  const int done = static_cast<int>(result.iterations.size()) - state.coarse_iterations;
+  const int most = (settings_.pair_budget > 0 ? 2 : 1) * settings_.max_iterations;
+  const int reductions = static_cast<int>(state.excluded.size());
+  if (done < most + reductions * kAfterReduction) return true;
+  if (!settings_.estimate.empty() || reductions == kMostReductions ||
+      state.choice.estimate.size() < 2) {
+    return false;
+  }
+  const SystemParameter p = mostRestless(state);
+  const double std = std::sqrt(state.choice.solution.covariance(indexOf(p), indexOf(p)));
+  state.excluded[p] = "the adjustment does not converge with it: it still changed by " +
+                      inUnit(p, state.unrest[indexOf(p)] * std) + " after " +
+                      std::to_string(result.iterations.size()) + " iterations";
+  state.unrest.setZero();
+  return true;
+}
+
+void QuasiRigorousCalibration::openIteration(State& state, const CalibrationResult& result) const {
+  constexpr double kNearlyAtRest = 0.005;  // metres
+  constexpr std::size_t kCoarseAtMost = 12;
+  const std::size_t done = result.iterations.size();
+  // Combinations that the data hardly determine change with every new set of pairs, at no effect on
+  // the points or by a small part of their standard deviations: neither holds up the next stage.
+  constexpr std::size_t kFewest = 4;
+  const bool settled = state.settled && done >= kFewest;
+  const bool rests = done > 0 && (state.choose_again || state.movement < kNearlyAtRest || settled);
+  const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
+  if (arrives) state.coarse = false;
+  if (state.coarse) ++state.coarse_iterations;
+  // The levels are looked for where the geometry has come to rest, for what is left of the biases
+  // looks like errors of the trajectory; and they must rest for the iteration to converge.
+  const bool look_due = !state.coarse && rests && !state.looked();
+  // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
+  // The noise of the few is no measure of the levels.
+  const bool first_look = look_due && state.looks == 0;
+  if ((arrives || first_look || state.choose_again) && !state.all()) {
+    state.seekers = AreaMatcher::Seekers::candidates;
+    pairUp(state);
+  }
+  state.levels_open = look_due && state.all();
+  if (state.levels_open) ++state.looks;
+}
+
+void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
+  const SystemVector before = state.choice.solution.biases;
+  const std::size_t done = result.iterations.size();
+  openIteration(state, result);
+  adjust(state);
+  state.chosen_at_end = state.chosen_at_end || (state.choose_again && state.looked());
+  state.choose_again = false;
+  if (settings_.pair_budget > 0 && state.all()) selectPairs(state);
+  const SystemVector& biases = state.choice.solution.biases;
+  const double effect = largestEffect(state.observations, biases - before);
+  recordUpdate(state, before);
+  result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
+  if (progress_) progress_(result.iterations.back());
+  result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
+                     (effect < settings_.convergence || restsWithin(state, before, kNegligible));
+  if (result.converged && settings_.pair_budget > 0 && !state.chosen_at_end) {
+    state.choose_again = true;
+    result.converged = false;
+  }
+  const BiasEvaluator correction(trajectory_, biases);
+  parallelFor(matchers_.size(), settings_.threads,
+              [&](std::size_t i) { matchers_[i].correct(correction); });
+  shrinkThreshold(state);
+}
+
+std::string QuasiRigorousCalibration::whyOpen(const State& state,
+                                              const CalibrationResult& result) const {
+  if (result.iterations.empty()) return "no point has a patch in another strip or at control";
+  std::ostringstream text;
+  text << "the adjustment did not converge in " << result.iterations.size() << " iterations";
+  if (!state.choice.estimate.empty()) {
+    const SystemParameter p = mostRestless(state);
+    text.precision(2);
+    text << ": " << infoOf(p).name << " still changes by " << state.unrest[indexOf(p)]
+         << " standard deviations; estimate fewer parameters (-estimate)";
+  }
+  if (settings_.pair_budget > 0) text << " or keep more pairs (-select)";
+  return text.str();
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <pcl_als/calibration/control_consistency.h>
+#include <pcl_als/common/statistics.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kEnough = 6;  // points whose scatter can be judged
+// Expected standard deviations; six points exceed 2.43 once in a thousand normal samples.
+constexpr double kScatter = 2.5;
+constexpr double kSeparate = 4.5;          // standard deviations of the groups
+constexpr double kSeparateExpected = 5.0;  // expected standard deviations
+constexpr double kSmallestGroup = 0.2;     // share of the points
+constexpr std::size_t kNamed = 8;          // points that a sentence names
+
+std::string inMetres(double value, const char* format = "%+.3f m") {
+  char text[32];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  if (names.size() > kNamed) text += " and " + std::to_string(names.size() - kNamed) + " more";
+  return text;
+}
+
+struct Split {
+  std::size_t lower = 0;  ///< points of the lower group
+  double separation = 0.0, within = 0.0;
+};
+
+/// The split of sorted values that separates two means best.
+Split bestSplit(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  const auto smallest = std::max<std::size_t>(
+      2, static_cast<std::size_t>(std::ceil(kSmallestGroup * static_cast<double>(n))));
+  Split best;
+  double ratio = 0.0;
+  for (std::size_t k = smallest; k + smallest <= n; ++k) {
+    RunningStatistics low, high;
+    for (std::size_t i = 0; i < n; ++i) (i < k ? low : high).add(values[i]);
+    const auto freedom = static_cast<double>(n) - 2.0;
+    const double squares = static_cast<double>(k - 1) * std::pow(low.standardDeviation(), 2) +
+                           static_cast<double>(n - k - 1) * std::pow(high.standardDeviation(), 2);
+    const double separation = high.mean() - low.mean(), within = std::sqrt(squares / freedom);
+    if (separation <= ratio * within) continue;
+    ratio = within > 0.0 ? separation / within : 1e9;
+    best = {k, separation, within};
+  }
+  return best;
+}
+
+}  // namespace
+
+ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& points) {
+  std::vector<double> standardised, expected;
+  RunningStatistics residuals;
+  for (const ControlPointFit& point : points) {
+    expected.push_back(point.expected_std);
+    if (point.expected_std > 0.0) standardised.push_back(point.after / point.expected_std);
+    if (point.used) residuals.add(point.after);
+  }
+  rms = residuals.rms();
+  if (standardised.size() >= kEnough) scatter = robustSigma(standardised);
+  if (points.size() < kEnough) return;
+  std::vector<const ControlPointFit*> order;
+  for (const ControlPointFit& point : points) order.push_back(&point);
+  std::sort(order.begin(), order.end(),
+            [](const ControlPointFit* a, const ControlPointFit* b) { return a->after < b->after; });
+  std::vector<double> values;
+  for (const ControlPointFit* point : order) values.push_back(point->after);
+  const Split split = bestSplit(values);
+  two_groups = split.separation > kSeparate * split.within &&
+               split.separation > kSeparateExpected * medianInPlace(expected);
+  if (!two_groups) return;
+  separation = split.separation;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    (i < split.lower ? lower : higher).push_back(order[i]->id);
+  }
+}
+
+namespace {
+
+void enlargeRangeBias(double half_separation, CalibrationResult& result) {
+  ParameterEstimate& range = result[SystemParameter::range_bias];
+  if (range.status == ParameterStatus::estimated)
+    range.std = std::hypot(range.std, half_separation);
+}
+
+}  // namespace
+
+void judgeControl(CalibrationResult& result) {
+  const ControlConsistency control(result.control_points);
+  std::vector<std::string> rejected;
+  for (const ControlPointFit& point : result.control_points) {
+    if (!point.used) rejected.push_back(point.id + " (" + inMetres(point.after) + ")");
+  }
+  if (!rejected.empty()) {
+    result.warnings.push_back("control points rejected as outliers, strips above them by: " +
+                              listed(rejected));
+  }
+  if (control.two_groups) {
+    const std::string what = "the control points contradict each other: the strips lie " +
+                             inMetres(control.separation, "%.3f m") + " higher above " +
+                             std::to_string(control.higher.size()) + " of them (" +
+                             listed(control.higher) + ") than above the other " +
+                             std::to_string(control.lower.size()) + " (" + listed(control.lower) +
+                             ")";
+    result.warnings.push_back(what + "; the standard deviation of range_bias allows for either");
+    result.verdict.object(CalibrationStatus::parameters_affected, what);
+    enlargeRangeBias(0.5 * control.separation, result);
+  } else if (control.scatter > kScatter) {
+    char times[32];
+    std::snprintf(times, sizeof times, "%.1f", control.scatter);
+    result.warnings.push_back("control fits with an RMS of " + inMetres(control.rms, "%.3f m") +
+                              ", " + times +
+                              " times what its stated standard deviations and those of the points "
+                              "and the trajectory explain: check the control points and state a "
+                              "realistic sigma");
+  }
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// Blocks with something wrong in them: what the result says of it.
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "simulated_survey.h"
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+using simulation::NoiseOptions;
+using simulation::SimulationOptions;
+using test::SimulatedSurvey;
+
+SimulatedSurvey smallBlock() {
+  SimulationOptions options = SimulationOptions::preset("small", 1.0, 0.5);
+  options.noise = NoiseOptions::named("range");
+  options.seed = 17;
+  return SimulatedSurvey(options);
+}
+
+std::string allOf(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += warning + '\n';
+  return text;
+}
+
+/// The number behind a text in the warnings; NaN where the text is not there.
+double numberAfter(const std::string& text, const std::string& warnings) {
+  const std::size_t at = warnings.find(text);
+  return at == std::string::npos ? std::nan("") : std::stod(warnings.substr(at + text.size()));
+}
+
+TEST(CalibrationProblems, AGoodBlockIsUsableWithoutWarnings) {
+  const CalibrationResult result = smallBlock().calibrate();
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::usable) << result.verdict.reason;
+  EXPECT_LT(result.misfit.change(), -2.0 * result.misfit.change_std);
+  EXPECT_EQ(allOf(result.warnings), "");
+  EXPECT_GT(result.control_points.size(), 5U);
+}
+
+TEST(CalibrationProblems, ALiftedStripIsNamedWithItsHeight) {
+  SimulatedSurvey survey = smallBlock();
+  for (CalibrationPoint& point : survey.strips[2]) point.position.z() += 50.0;
+  const std::string warnings = allOf(survey.calibrate().warnings);
+  EXPECT_NE(warnings.find("strip 3 has no pairs"), std::string::npos) << warnings;
+  // Means of 10 m cells of biased strips: decimetres.
+  EXPECT_NEAR(numberAfter("it lies ", warnings), 50.0, 0.3) << warnings;
+}
+
+TEST(CalibrationProblems, ControlThatContradictsItselfIsSaidAndAllowedFor) {
+  // Half of the points 0.2 m too high at a stated sigma of 0.01 m: range_bias was 4.7 standard
+  // deviations off, without a warning.
+  SimulatedSurvey survey = smallBlock();
+  for (std::size_t i = 0; i < survey.control.size(); ++i) {
+    survey.control[i].sigma = 0.01;
+    if (i % 2 == 0) survey.control[i].position.z() += 0.2;
+  }
+  const CalibrationResult result = survey.calibrate();
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected) << result.verdict.reason;
+  EXPECT_NE(result.verdict.reason.find("contradict"), std::string::npos) << result.verdict.reason;
+  const ParameterEstimate& range = result[P::range_bias];
+  EXPECT_LT(std::abs(range.bias - survey.bias[indexOf(P::range_bias)]), 2.0 * range.std);
+}
+
+TEST(CalibrationProblems, ARejectedControlPointIsNamed) {
+  SimulatedSurvey survey = smallBlock();
+  ASSERT_GT(survey.control.size(), 5U);
+  survey.control[3].position.z() -= 1.0;
+  const CalibrationResult result = survey.calibrate();
+  const std::string warnings = allOf(result.warnings);
+  EXPECT_NEAR(numberAfter(survey.control[3].id + " (", warnings), 1.0, 0.05) << warnings;
+  EXPECT_TRUE(result.verdict.usable()) << result.verdict.reason;
+}
+
+}  // namespace
+}  // namespace pcl_als
