@@ -111,6 +111,18 @@ std::vector<std::pair<std::string, std::string>> usablePairs(
   return usable;
 }
 
+/// -vertical ignores the attitude that -model rigorous is about.
+app::AttitudeUse attitudeToUse(const CommandLine& line) {
+  const app::AttitudeUse use = app::attitudeUse(line);
+  if (!line.has("vertical")) return use;
+  if (use == app::AttitudeUse::needed) {
+    throw UsageError(
+        "options -model rigorous and -vertical exclude each other: -vertical takes the sensor as "
+        "vertical, the rigorous model takes its attitude from the trajectory");
+  }
+  return app::AttitudeUse::ignore;
+}
+
 CalibrationSettings settingsOf(const CommandLine& line) {
   CalibrationSettings settings;
   settings.recover_attitude = !line.has("vertical");
@@ -227,13 +239,12 @@ int calibrate(int argc, char** argv) {
   CalibrationSettings settings = settingsOf(line);
   const auto pairs = stripPairs(line);
   const StripChoice choice = app::stripChoice(line);
+  const app::AttitudeUse attitude = attitudeToUse(line);
   checkOutputs(line);
   Step step("Reading " + counted(files.size(), "point file"), line.quiet());
   app::SurveyReader survey(files, line.threads());
   step.done(grouped(survey.pointCount()) + " points");
-  const auto trajectory =
-      app::readFlight(line, survey.crs(), 0.0,
-                      line.has("vertical") ? app::AttitudeUse::ignore : app::attitudeUse(line));
+  const auto trajectory = app::readFlight(line, survey.crs(), 0.0, attitude);
   for (const std::string& text :
        survey.choose(choice, {trajectory.get(), app::gpsWeek(line), true})) {
     app::remark(line, text);

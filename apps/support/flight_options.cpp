@@ -29,6 +29,12 @@ std::string decideYaw(TrajectoryFile& file) {
 
 }  // namespace
 
+namespace {
+
+constexpr double kLongestWindow = 60.0;  // seconds, half of it
+
+}  // namespace
+
 void addFlightOptions(CommandLine& line, const char* use) {
   const std::string help = std::string("trajectory: .csv, or SBET .out/.sbet (") + use + ")";
   line.addOptional("trajectory", help.c_str());
@@ -104,6 +110,11 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
     options.line_fit_half_width = numberIn(line.text("line_fit"), "option -line_fit");
     if (options.line_fit_half_width <= 0.0) {
       throw UsageError("option -line_fit: must be more than 0 seconds");
+    }
+    if (options.line_fit_half_width > kLongestWindow) {
+      throw UsageError(
+          "option -line_fit: must not exceed 60 seconds: the flight is taken as "
+          "straight within it");
     }
   }
   const std::string path = line.text("trajectory");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -140,6 +141,15 @@ TEST(FlightPlan, RefusesWhatCannotBeFlown) {
                  plain)
           .evaluate(),
       InputError);
+}
+
+TEST(Observability, AMatrixThatIsNotFiniteHasNoDirections) {
+  // 2026-11: a control sigma of 1e160 m made the matrix infinite, and describing it crashed.
+  const SystemMatrix infinite = SystemMatrix::Constant(std::numeric_limits<double>::infinity());
+  const Observability unknown(infinite,
+                              {SystemParameter::boresight_roll, SystemParameter::range_bias},
+                              SystemVector::Ones());
+  EXPECT_TRUE(unknown.directions().empty());
 }
 
 TEST(Observability, NamesDirectionsInMetresOnTheGround) {

@@ -151,6 +151,13 @@ TEST(SystemBiasCorrection, TakesTheBiasesOfACalibration) {
   EXPECT_EQ(filter.getBiases(), SystemVector::Unit(6) * 0.25);
 }
 
+TEST(SystemBiasCorrection, ACalibrationWithAnAdverseVerdictIsRefused) {
+  CalibrationResult result;
+  result.verdict.object(CalibrationStatus::no_improvement, "the misfit is larger");
+  SystemBiasCorrection<PointLidar> filter;
+  EXPECT_THROW(filter.setCalibration(result), UsageError);
+}
+
 TEST(SystemBiasCorrection, RefusesPointsWithoutTrajectoryUnlessTheyMayStay) {
   Fixture f;
   (*f.cloud)[3].gps_time = 99.0;

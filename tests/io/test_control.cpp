@@ -48,6 +48,8 @@ TEST(Control, ErrorsNameLineAndColumn) {
   EXPECT_NE(refusal("id,x,y,z\na,1,2,high\n").find("line 2, column 'z': 'high'"),
             std::string::npos);
   EXPECT_NE(refusal("id,x,y,z\n,1,2,3\n").find("column 'id'"), std::string::npos);
+  EXPECT_NE(refusal("id,x,y,z,sigma\na,1,2,3,1e160\n").find("must not exceed 100 m"),
+            std::string::npos);
   EXPECT_NE(refusal("id,x,y,z,sigma\na,1,2,3,-1\n").find("must not be negative"),
             std::string::npos);
   EXPECT_NE(refusal("id,x,y,z\n").find("no control points"), std::string::npos);

@@ -52,6 +52,7 @@ std::string describe(const SystemVector& components, double std) {
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return std::pair(-std::abs(components[a]), a) < std::pair(-std::abs(components[b]), b);
   });
+  if (order.empty()) return "not observed";
   const double largest = components[order.front()];
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);
@@ -100,7 +101,8 @@ Eigen::MatrixXd Observability::scaledNormal() const {
 
 std::vector<ParameterDirection> Observability::directions() const {
   std::vector<ParameterDirection> directions;
-  if (wanted_.empty()) return directions;
+  // A matrix that is not finite (weights beyond the range of numbers) knows no directions.
+  if (wanted_.empty() || !scaledNormal().allFinite()) return directions;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaledNormal());
   for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k) {
     ParameterDirection direction;

@@ -7,6 +7,12 @@
 
 namespace pcl_als {
 
+namespace {
+
+constexpr double kLargestSigma = 100.0;  // metres: such a point says nothing of a height
+
+}  // namespace
+
 std::vector<ControlPoint> readControl(const std::filesystem::path& path) {
   detail::CsvTable table(path);
   const std::size_t id = table.required("id");
@@ -21,6 +27,7 @@ std::vector<ControlPoint> readControl(const std::filesystem::path& path) {
     if (sigma != detail::CsvTable::npos && !table.text(sigma).empty()) {
       point.sigma = table.number(sigma);
       if (point.sigma < 0.0) table.refuse(sigma, "must not be negative");
+      if (point.sigma > kLargestSigma) table.refuse(sigma, "must not exceed 100 m");
     }
     points.push_back(std::move(point));
   }

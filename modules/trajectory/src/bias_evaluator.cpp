@@ -21,21 +21,10 @@ constexpr int kMostIterations = 60;
 constexpr double kConverged = 1e-7;  ///< metres, change of the effect
 constexpr double kSolved = 1e-6;     ///< metres
 
-/// Largest believable value of each parameter, internal units.
-double limitOf(const SystemParameterInfo& info) {
-  return info.unit == "m" ? 100.0 : 0.1;
-}
-
 void checkBiases(const SystemVector& biases) {
   for (const SystemParameterInfo& info : systemParameters()) {
-    const double value = biases[indexOf(info.parameter)], limit = limitOf(info);
-    if (std::abs(value) < limit) continue;
-    char text[200];
-    std::snprintf(text, sizeof text, "bias %s = %g %s is not a number between -%g and %g %s",
-                  std::string(info.name).c_str(), value / info.internal_per_unit,
-                  std::string(info.unit).c_str(), limit / info.internal_per_unit,
-                  limit / info.internal_per_unit, std::string(info.unit).c_str());
-    throw UsageError(text);
+    const std::string refused = refusedBias(info.parameter, biases[indexOf(info.parameter)]);
+    if (!refused.empty()) throw UsageError("bias of " + std::string(info.name) + ": " + refused);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <pcl/filters/filter.h>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/time_alignment.h>
@@ -59,8 +60,14 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   /// Biases, assumed - true: m, rad, 1. UsageError (in filter()) for values no scanner has.
   void setBiases(const SystemVector& biases) { biases_ = biases; }
   const SystemVector& getBiases() const { return biases_; }
-  /// The biases of a calibration; its strip corrections only by setTrajectoryErrors().
-  void setCalibration(const CalibrationResult& result) { setBiases(result.biases()); }
+  /// The biases of a calibration; its strip corrections only by setTrajectoryErrors(). UsageError
+  /// unless its verdict is usable; setBiases(result.biases()) takes any.
+  void setCalibration(const CalibrationResult& result) {
+    if (!result.verdict.usable()) {
+      throw UsageError("this calibration should not be applied, " + result.verdict.text());
+    }
+    setBiases(result.biases());
+  }
 
   /// Strip corrections: what the calibration found wrong with the trajectory, taken out together
   /// with the biases; default none.
