@@ -157,7 +157,7 @@ TEST(SurveyCensus, SaysWhatIsSuspiciousAboutTimes) {
   const auto zero = [](PointChunk& p) { std::fill(p.gps_time.begin(), p.gps_time.end(), 0.0); };
   EXPECT_TRUE(has(remarksFor(zero, week), "every GPS time is zero"));
   EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = 0.0; }, week),
-                  "1 points (0.0625 %) have GPS time zero"));
+                  "1 point (0.0625 %) has GPS time zero"));
   EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = NAN; }, week),
                   "GPS time that is no number"));
   EXPECT_TRUE(has(remarksFor(keep, standard), "look like seconds of the week"));

@@ -18,17 +18,16 @@ constexpr double kOpposite = -0.85;       // cosine between the directions of fa
 constexpr double kSameFace = 0.97;        // the same within a face: 14 degrees
 constexpr double kInFace = 0.15;          // m: how far a cell of a face may lie from its plane
 constexpr std::size_t kFaceCells = 3;     // of 3 x 3: smaller is a dormer, a bush or a heap
+constexpr double kFaceArea = 12.0;        // m2: so large a face may have fewer, larger cells
 constexpr double kSharp = 0.25;           // m: how far the surface may lie below the sharp ridge
 constexpr double kAboveGround = 1.5;      // m: what a roof's face is above the ground beyond it
 constexpr double kEaves = 12.0;           // m: within which that ground is looked for
-constexpr double kHardSurface = 0.03;     // m: rougher surfaces show a misfit less well
 constexpr double kApart = 25.0;           // m, between places
 
-/// Worth of a place: the misfit that is seen, a little for the slope that would show one, how
-/// smooth the surface is, and the number of strips.
+/// Worth of a place: the misfit that is seen, a little for the slope that would show one, and the
+/// number of strips.
 double worthOf(const SectionSearch::Place& place) {
   return (place.difference + 0.02) * std::sqrt(static_cast<double>(place.strips)) *
-         (kHardSurface / std::max(kHardSurface, place.roughness)) *
          (place.kind == SectionSearch::Place::Kind::gable ? 1.5 : 1.0);
 }
 
@@ -64,9 +63,8 @@ std::optional<SectionSearch::Slope> SectionSearch::slopeAt(int column, int row) 
   if (planes.size() < 2) return std::nullopt;
   double low = planes[0].height, high = low;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double height = 0.0, roughness = 0.0;
+  double height = 0.0;
   for (const CellPlane& plane : planes) {
-    roughness = std::max(roughness, plane.rms);
     if (plane.normal().dot(planes[0].normal()) < kSameSurface) return std::nullopt;
     low = std::min(low, plane.height);
     high = std::max(high, plane.height);
@@ -80,7 +78,6 @@ std::optional<SectionSearch::Slope> SectionSearch::slopeAt(int column, int row) 
   slope.tangent = normal.head<2>().norm() / normal.z();
   slope.height = height;
   slope.difference = high - low;
-  slope.roughness = roughness;
   slope.strips = planes.size();
   return slope;
 }
@@ -104,7 +101,6 @@ std::optional<SectionSearch::Place> SectionSearch::oppositeOf(
     place.kind = isGable(slopes, side, other) ? Place::Kind::gable : Place::Kind::opposite_slopes;
     place.strips = std::min(side.strips, other.strips);
     place.difference = 0.5 * (side.difference + other.difference);
-    place.roughness = std::max(side.roughness, other.roughness);
     const Eigen::Vector2d across = (side.downhill - other.downhill).normalized();
     place.line = lineThrough(0.5 * (side.center + other.center), across,
                              0.5 * apart + std::max(8.0, 2.0 * step), std::max(1.0, 0.75 * step));
@@ -136,7 +132,9 @@ std::size_t SectionSearch::faceCells(const Slopes& slopes, const Slope& face) co
       if (found == slopes.end()) continue;
       const Slope& slope = found->second;
       if (slope.downhill.dot(face.downhill) < kSameFace) continue;
-      if (std::abs(slope.height - face.heightAt(slope.center)) < kInFace) ++count;
+      // Strips that do not fit each other move a cell's mean height by who sees it.
+      const double misfit = std::max(slope.difference, face.difference);
+      if (std::abs(slope.height - face.heightAt(slope.center)) < kInFace + misfit) ++count;
     }
   }
   return count;
@@ -164,10 +162,14 @@ bool SectionSearch::isGable(const Slopes& slopes, const Slope& side, const Slope
     const double roof = std::min(side.heightAt(place), other.heightAt(place));
     // The mean of a cell with the ridge in it is lower by a quarter of the fall from ridge to rim,
     // and the cell's centre may lie half a cell aside.
-    const double allowed = kSharp + 0.5 * step * std::max(side.tangent, other.tangent);
+    const double allowed = kSharp + 0.5 * step * std::max(side.tangent, other.tangent) +
+                           std::max(side.difference, other.difference);
     if (!height || std::abs(*height - roof) > allowed) return false;
   }
-  return faceCells(slopes, side) >= kFaceCells && faceCells(slopes, other) >= kFaceCells;
+  const auto enough = [&](std::size_t cells) {
+    return cells >= kFaceCells || static_cast<double>(cells) * step * step >= kFaceArea;
+  };
+  return enough(faceCells(slopes, side)) && enough(faceCells(slopes, other));
 }
 
 std::optional<SectionSearch::Place> SectionSearch::slopeAround(
@@ -184,7 +186,6 @@ std::optional<SectionSearch::Place> SectionSearch::slopeAround(
   Place place;
   place.strips = middle.strips;
   place.difference = middle.difference;
-  place.roughness = middle.roughness;
   const double step = grids_[0].cell();
   place.line = lineThrough(middle.center, middle.downhill, std::max(12.0, 3.0 * step),
                            std::max(1.0, 0.75 * step));

@@ -22,8 +22,8 @@ namespace pcl_als {
  * least two strips are candidates; two of them that fall away from each other make opposite slopes.
  * These are a gable roof only where both sides are faces of several cells in one plane, the surface
  * between them follows the two planes up to a sharp ridge, and the ground beyond lies well below.
- * Places are ranked by the height difference of the strips on both sides against the roughness of
- * the surface, more strips before fewer, and kept apart.
+ * Places are ranked by the height difference of the strips on both sides, more strips before fewer,
+ * and kept apart.
  *
  * Memory: 44 bytes per cell and strip, of all strips together at most some 400 MB (cells grow).
  */
@@ -32,7 +32,6 @@ class SectionSearch {
   struct Place {
     SectionLine line;
     enum class Kind { gable, opposite_slopes, slope } kind = Kind::slope;
-    double roughness = 0.0;   ///< RMS of the points about the cells' planes, m
     std::size_t strips = 0;   ///< that see both sides
     double difference = 0.0;  ///< mean over the sides of the strips' largest height difference, m
   };
@@ -51,7 +50,7 @@ class SectionSearch {
   /// A cell that two strips or more see as the same slope.
   struct Slope {
     Eigen::Vector2d center, downhill;  ///< downhill: unit
-    double height, tangent, difference, roughness;
+    double height, tangent, difference;
     std::size_t strips;
 
     double heightAt(const Eigen::Vector2d& place) const {
