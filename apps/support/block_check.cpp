@@ -11,6 +11,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/quality/height_gap.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als::app {
@@ -282,6 +283,14 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   }
   pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
                                courses_[static_cast<std::size_t>(b)].direction());
+  if (const auto gap = heightGap(offsets_, a, b)) {
+    const std::string text = describeGap(*gap, pair.a, pair.b, settings_.limits.maximum_distance);
+    if (!text.empty()) {
+      warnings_.push_back("strips " + pair.a + " and " + pair.b + " overlap, but " + text);
+      if (pair.assessment.status == PairAssessment::Status::too_little)
+        pair.assessment.reason += "; " + text;
+    }
+  }
   cells = cellMeans(samples);
   if (pair.overlap_area >= settings_.minimum_overlap &&
       pair.assessment.status != PairAssessment::Status::copy) {

@@ -19,6 +19,7 @@ Json summaryJson(const OffsetSummary& s) {
   return {{"places", s.count},
           {"mean_m", number(s.mean, any)},
           {"mean_std_m", number(s.std_of_mean)},
+          {"mean_std_formal_m", number(s.std_of_mean_formal)},
           {"median_m", number(s.median, any)},
           {"sd_m", number(s.std, any)},
           {"nmad_m", number(s.nmad, any)},
@@ -75,13 +76,18 @@ Json trendsJson(const OverlapTrends& t) {
 }
 
 Json horizontalJson(const HorizontalShift& h) {
-  Json shift = Json::object(), std = Json::object();
+  Json shift = Json::object(), std = Json::object(), formal = Json::object();
   const char* const names[] = {"east_m", "north_m", "up_m"};
   for (int i = 0; i < 3; ++i) {
     shift[names[i]] = number(h.shift[i], h.determined);
     std[names[i]] = number(h.std[i], h.determined);
+    formal[names[i]] = number(h.std_formal[i], h.determined);
   }
-  Json json = {{"determined", h.determined}, {"places", h.count}, {"shift", shift}, {"std", std}};
+  Json json = {{"determined", h.determined},
+               {"places", h.count},
+               {"shift", shift},
+               {"std", std},
+               {"std_formal", formal}};
   if (!h.determined) json["reason"] = h.reason;
   return json;
 }

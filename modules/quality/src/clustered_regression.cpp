@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/quality/clustered_regression.h>
+#include <pcl_als/registration/correlated_errors.h>
 
 namespace pcl_als {
 namespace {
@@ -53,6 +54,11 @@ double ClusteredRegression::Result::std(int unknown) const {
                     : std::numeric_limits<double>::quiet_NaN();
 }
 
+double ClusteredRegression::Result::formalStd(int unknown) const {
+  return determined ? std::sqrt(std::max(0.0, covariance_formal(unknown, unknown)))
+                    : std::numeric_limits<double>::quiet_NaN();
+}
+
 ClusteredRegression::ClusteredRegression(int unknowns) : unknowns_(unknowns) {
   if (unknowns < 1 || unknowns > 6) throw UsageError("a regression has 1 to 6 unknowns");
 }
@@ -62,6 +68,25 @@ void ClusteredRegression::add(std::int64_t cluster, const Eigen::VectorXd& row, 
   rows_.insert(rows_.end(), row.data(), row.data() + unknowns_);
   values_.push_back(value);
   clusters_.push_back(cluster);
+}
+
+void ClusteredRegression::add(std::int64_t cluster, const Eigen::VectorXd& row, double value,
+                              const Eigen::Vector2d& place, const Eigen::VectorXd& effect) {
+  add(cluster, row, value);
+  places_.push_back(place);
+  effects_.push_back(effect);
+}
+
+void ClusteredRegression::raiseByCorrelation(const Eigen::VectorXd& weights,
+                                             const Eigen::VectorXd& left, Result& result) const {
+  if (places_.size() != values_.size()) return;
+  CorrelatedErrors errors(unknowns_, static_cast<int>(effects_.front().size()));
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
+    errors.add(places_[i], row, effects_[i], weights[i], left[i]);
+  }
+  const CorrelatedErrors::Result shared = errors.solve();
+  if (shared.determined) raiseTo(shared.covariance.diagonal(), result.covariance);
 }
 
 Eigen::VectorXd ClusteredRegression::residuals(const Eigen::VectorXd& estimate) const {
@@ -116,6 +141,8 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
   result.covariance = groups / (groups - unknowns_) * inverse * middle * inverse;
   const double variance = left.cwiseProduct(weights).dot(left) / static_cast<double>(n - unknowns_);
   raiseTo(variance * inverse.diagonal(), result.covariance);
+  result.covariance_formal = result.covariance;
+  raiseByCorrelation(weights, left, result);
   result.determined = true;
   return result;
 }

@@ -16,21 +16,36 @@ std::int64_t OffsetSample::cluster() const {
   return cell(position.y()) * kColumns + cell(position.x());
 }
 
-OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64_t>& clusters) {
+Eigen::Vector2d OffsetSample::centreOf(std::int64_t cluster) {
+  constexpr std::int64_t kColumns = std::int64_t{1} << 31U;
+  const auto row = static_cast<std::int64_t>(
+      std::floor(static_cast<double>(cluster) / static_cast<double>(kColumns) + 0.5));
+  const auto column = cluster - row * kColumns;
+  return kCluster * (Eigen::Vector2d(static_cast<double>(column), static_cast<double>(row)) +
+                     Eigen::Vector2d::Constant(0.5));
+}
+
+OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64_t>& clusters,
+                        const std::vector<Eigen::Vector2d>& places) {
   OffsetSummary summary;
   summary.count = values.size();
-  summary.std_of_mean = std::numeric_limits<double>::quiet_NaN();
+  summary.std_of_mean = summary.std_of_mean_formal = std::numeric_limits<double>::quiet_NaN();
   if (values.empty()) return summary;
   RunningStatistics statistics;
   ClusteredRegression mean(1);
   for (std::size_t i = 0; i < values.size(); ++i) {
     statistics.add(values[i]);
-    mean.add(clusters[i], Eigen::VectorXd::Ones(1), values[i]);
+    if (places.empty())
+      mean.add(clusters[i], Eigen::VectorXd::Ones(1), values[i]);
+    else
+      mean.add(clusters[i], Eigen::VectorXd::Ones(1), values[i], places[i]);
   }
   summary.mean = statistics.mean();
   summary.std = statistics.standardDeviation();
   summary.rms = statistics.rms();
-  summary.std_of_mean = mean.solve().std(0);
+  const ClusteredRegression::Result solved = mean.solve();
+  summary.std_of_mean = solved.std(0);
+  summary.std_of_mean_formal = solved.formalStd(0);
   summary.nmad = robustSigma(values);
   summary.median = medianInPlace(values);
   for (double& value : values) value = std::abs(value);

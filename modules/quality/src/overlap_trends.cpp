@@ -63,7 +63,8 @@ Trend trendOver(const Samples& samples, Place place) {
   if (!(largest > 1e-6)) return trend;  // no scan angles, no times: nothing changes
   ClusteredRegression line(2);
   for (const OffsetSample* s : samples)
-    line.add(s->cluster(), Eigen::Vector2d(1.0, (place(*s) - mean) / largest), s->vertical);
+    line.add(s->cluster(), Eigen::Vector2d(1.0, (place(*s) - mean) / largest), s->vertical,
+             s->position.head<2>());
   const ClusteredRegression::Result result = line.solve();
   trend.determined = result.determined;
   if (!trend.determined) return trend;
@@ -104,7 +105,7 @@ void fitPlane(const Samples& samples, const std::optional<Eigen::Vector2d>& cour
     plane.add(s->cluster(),
               Eigen::Vector3d(1.0, trends.distance(s->position) / kScale,
                               trends.distanceAlong(s->position) / kScale),
-              s->vertical);
+              s->vertical, s->position.head<2>());
   }
   const ClusteredRegression::Result fit = plane.solve();
   if (!fit.determined) return;

@@ -26,29 +26,34 @@ constexpr int kAspects = 8;
 OffsetSummary summaryOf(const std::vector<OffsetSample>& samples, bool level) {
   std::vector<double> values;
   std::vector<std::int64_t> clusters;
+  std::vector<Eigen::Vector2d> places;
   for (const OffsetSample& s : samples) {
     if (!(level ? s.level : s.conjugate)) continue;
     values.push_back(level ? s.vertical : s.normal_distance);
     clusters.push_back(s.cluster());
+    places.emplace_back(s.position.head<2>());
   }
-  return summarize(std::move(values), clusters);
+  return summarize(std::move(values), clusters, places);
 }
 
 OffsetSummary cellSummary(const std::vector<OffsetSample>& samples) {
   std::vector<double> means;
   std::vector<std::int64_t> clusters;
+  std::vector<Eigen::Vector2d> places;
   for (const auto& [cluster, mean] : cellMeans(samples)) {
     means.push_back(mean);
     clusters.push_back(cluster);
+    places.push_back(OffsetSample::centreOf(cluster));
   }
-  return summarize(std::move(means), clusters);
+  return summarize(std::move(means), clusters, places);
 }
 
 HorizontalShift horizontalShift(const std::vector<OffsetSample>& samples) {
   HorizontalShift found;
   ClusteredRegression equations(3);
   for (const OffsetSample& s : samples) {
-    if (s.conjugate && s.slope > kSteep) equations.add(s.cluster(), s.normal, s.normal_distance);
+    if (s.conjugate && s.slope > kSteep)
+      equations.add(s.cluster(), s.normal, s.normal_distance, s.position.head<2>(), s.normal);
   }
   found.count = equations.count();
   const ClusteredRegression::Result result = equations.solve(true);
@@ -56,7 +61,10 @@ HorizontalShift horizontalShift(const std::vector<OffsetSample>& samples) {
     found.reason = "too few slopes over 10 degrees";
     return found;
   }
-  for (int i = 0; i < 3; ++i) found.std[i] = result.std(i);
+  for (int i = 0; i < 3; ++i) {
+    found.std[i] = result.std(i);
+    found.std_formal[i] = result.formalStd(i);
+  }
   found.rms = result.rms;
   if (!(found.std.maxCoeff() < kWeakest)) {
     found.reason = "slopes over 10 degrees do not face in enough directions";
@@ -132,7 +140,10 @@ PairAssessment assessPair(const std::vector<OffsetSample>& samples,
   if (pair.vertical.count < kFewest ||
       pair.vertical_cells.count < ClusteredRegression::kFewestClusters) {
     pair.reason = "only " + std::to_string(pair.vertical.count) +
-                  " places on smooth level single-return ground in common";
+                  " places on smooth level single-return ground in common, " +
+                  std::to_string(kFewest) + " in " +
+                  std::to_string(ClusteredRegression::kFewestClusters) +
+                  " cells of 25 m are required";
     return pair;
   }
   pair.status = PairAssessment::Status::judged;

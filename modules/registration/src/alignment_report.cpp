@@ -74,22 +74,29 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
   for (const NormalEquations& part : parts) all.merge(part);
   const UnknownsMatrix formal = cofactor(all, directions_) + weak;
   const UnknownsMatrix scatter = jackknife(parts, directions_) + weak;
+  const UnknownsMatrix correlated = adjustment.correlated(scatter_, directions_) + weak;
   result.covariance_formal = ofParameters(formal, result.motion);
   if (scatter.trace() > 0.0) result.covariance_jackknife = ofParameters(scatter, result.motion);
+  if (correlated.trace() > 0.0)
+    result.covariance_correlated = ofParameters(correlated, result.motion);
   Matrix6d raise = Matrix6d::Identity();
   for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
     const double formal_variance = result.covariance_formal(p, p);
     const double excess = result.surface_std[p] * result.surface_std[p] +
                           result.convergence_std[p] * result.convergence_std[p];
-    const double variance = std::max(formal_variance, result.covariance_jackknife(p, p)) + excess;
+    const double variance = std::max({formal_variance, result.covariance_jackknife(p, p),
+                                      result.covariance_correlated(p, p)}) +
+                            excess;
     raise(p, p) = !result.parameters[p].determined ? 0.0 : std::sqrt(variance / formal_variance);
   }
   result.covariance = raise * result.covariance_formal * raise;
   const auto keep = (raise.diagonal().array() > 0.0).cast<double>().matrix().asDiagonal();
   result.covariance_formal = keep * result.covariance_formal * keep;
   result.covariance_jackknife = keep * result.covariance_jackknife * keep;
+  result.covariance_correlated = keep * result.covariance_correlated * keep;
   if (frame_.with_scale)
-    result.scale_std = std::sqrt(std::max(formal(6, 6), scatter(6, 6))) / frame_.radius;
+    result.scale_std =
+        std::sqrt(std::max({formal(6, 6), scatter(6, 6), correlated(6, 6)})) / frame_.radius;
 }
 
 void AlignmentReport::fillFit(PatchAlignmentResult& result) const {

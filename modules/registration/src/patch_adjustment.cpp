@@ -10,6 +10,7 @@
 
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/registration/correlated_errors.h>
 
 namespace pcl_als::registration {
 namespace {
@@ -154,6 +155,23 @@ std::vector<NormalEquations> PatchAdjustment::accumulateGroups(const ScatterBySl
                            [](const NormalEquations& sum) { return sum.weights == 0.0; }),
             all.end());
   return all;
+}
+
+UnknownsMatrix PatchAdjustment::correlated(const ScatterBySlope& scatter,
+                                           const Directions& directions) const {
+  const int strong = directions.unknowns - directions.weak;
+  if (strong == 0) return UnknownsMatrix::Zero();
+  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  CorrelatedErrors errors(strong, 3);
+  for (const PatchPair& pair : pairs_) {
+    const double weight = weightOf(pair.distance, pair, scatter);
+    if (weight == 0.0) continue;
+    const CorrelatedErrors::Row row = basis.transpose() * frame_.rowOf(pair);
+    errors.add(pair.position.head<2>(), row, pair.normal, weight, pair.distance);
+  }
+  const CorrelatedErrors::Result result = errors.solve();
+  if (!result.determined) return UnknownsMatrix::Zero();
+  return basis * result.covariance * basis.transpose();
 }
 
 Directions analyse(const NormalEquations& equations, int unknowns, double limit) {

@@ -96,6 +96,9 @@ class PatchAdjustment {
   /// By group, in order of their numbers; groups without weight are left out.
   std::vector<NormalEquations> accumulateGroups(const ScatterBySlope& scatter,
                                                 std::size_t groups) const;
+  /// Covariance of the solution where errors vary slowly over the ground (CorrelatedErrors), metres
+  /// squared; zero with too few cells.
+  UnknownsMatrix correlated(const ScatterBySlope& scatter, const Directions& directions) const;
 
  private:
   double weightOf(double rest, const PatchPair& pair, const ScatterBySlope& scatter) const;

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <pcl_als/common/errors.h>
@@ -13,6 +12,7 @@
 #include "alignment_areas.h"
 #include "alignment_report.h"
 #include "patch_adjustment.h"
+#include "update_history.h"
 
 namespace pcl_als {
 namespace {
@@ -31,8 +31,6 @@ constexpr double kThresholdSigmas = 8.0;
 constexpr std::size_t kFewestPairs = 50;
 constexpr double kGroups = 60.0;   // of the jackknife, about
 constexpr double kResting = 5e-3;  // metres: an update that ends a stage of the iteration
-constexpr double kProgress = 0.7;  // an update that is smaller than that of the best so far is some
-constexpr int kStalledAfter = 3;   // updates without progress
 // On the way a part of the candidates will do.
 constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
 constexpr double kSwing = 10.0;  // updates that may swing, of the convergence
@@ -41,26 +39,6 @@ constexpr std::size_t kSecondOpinionPairs = 25'000;
 // 95 % limit is 4.303 standard deviations (Student, two degrees of freedom) and not 1.960.
 constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
 constexpr double kFrozen = 1e-3;  // metres: below, the threshold stays
-
-/// Notices when updates no longer become smaller. Pairs that flip between two patches, and weights
-/// that follow the scatter, can send the motion round in a cycle of any size and length.
-class UpdateHistory {
- public:
-  /// True from the third update in a row that is no progress.
-  bool stalled(double update) {
-    if (update < kProgress * best_) {
-      best_ = update;
-      without_progress_ = 0;
-    } else {
-      ++without_progress_;
-    }
-    return without_progress_ >= kStalledAfter;
-  }
-
- private:
-  double best_ = std::numeric_limits<double>::infinity();
-  int without_progress_ = 0;
-};
 
 struct Extent {
   Eigen::AlignedBox3d box;

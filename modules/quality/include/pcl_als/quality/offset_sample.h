@@ -30,6 +30,7 @@ struct OffsetSample {
   /// Ground cells of kCluster metres, within which errors are taken as one.
   static constexpr double kCluster = 25.0;
   std::int64_t cluster() const;
+  static Eigen::Vector2d centreOf(std::int64_t cluster);
 };
 
 /// Statistics of signed offsets, metres.
@@ -37,13 +38,16 @@ struct OffsetSummary {
   std::size_t count = 0;
   double mean = 0.0, std = 0.0, rms = 0.0;
   double median = 0.0;
-  double nmad = 0.0;           ///< 1.4826 times the median absolute deviation
-  double percentile_95 = 0.0;  ///< of the absolute values
-  double largest = 0.0;        ///< absolute value
-  double std_of_mean = 0.0;    ///< neighbours err together (ClusteredRegression); NaN: unknown
+  double nmad = 0.0;                ///< 1.4826 times the median absolute deviation
+  double percentile_95 = 0.0;       ///< of the absolute values
+  double largest = 0.0;             ///< absolute value
+  double std_of_mean = 0.0;         ///< places err together (ClusteredRegression); NaN: unknown
+  double std_of_mean_formal = 0.0;  ///< the same with clusters as independent; NaN: unknown
 };
 
 /// \param clusters of each value, as many as values
-OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64_t>& clusters);
+/// \param places plan positions of the values, metres; empty: clusters are independent
+OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64_t>& clusters,
+                        const std::vector<Eigen::Vector2d>& places = {});
 
 }  // namespace pcl_als

@@ -24,6 +24,7 @@ struct HorizontalShift {
   bool determined = false;
   std::string reason;                                                              ///< why not
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), std = Eigen::Vector3d::Zero();  ///< metres
+  Eigen::Vector3d std_formal = Eigen::Vector3d::Zero();  ///< metres; cells are independent
   std::size_t count = 0;
   double rms = 0.0;  ///< of what is left, metres
 };

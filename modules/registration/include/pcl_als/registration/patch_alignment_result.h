@@ -46,12 +46,14 @@ struct PatchAlignmentResult {
   std::array<Parameter, kParameters> parameters;
 
   /// m^2, m rad, rad^2. The formal one, sigma0^2 N^-1 (Habib et al. 2011, Eq. (26)), with each
-  /// standard deviation raised to that of the jackknife over areas (neighbouring points may share
-  /// errors) and by surface_std. Rows of what is not determined are zero.
+  /// standard deviation raised to those of the jackknife over areas (neighbouring points may share
+  /// errors) and of errors that vary slowly over the ground (strips deform along time), and by
+  /// surface_std and convergence_std. Rows of what is not determined are zero.
   Matrix6d covariance = Matrix6d::Zero();
   Matrix6d covariance_formal = Matrix6d::Zero();
   Matrix6d covariance_jackknife = Matrix6d::Zero();  ///< zero with fewer than ten groups of pairs
   std::size_t jackknife_groups = 0;
+  Matrix6d covariance_correlated = Matrix6d::Zero();  ///< CorrelatedErrors; zero with too few cells
   /// Metres, radians: by how much more than by chance an estimate from all surfaces, rough ones and
   /// edges too, differs from that of the smooth ones. Part of covariance. Where ranging depends on
   /// the surface, no rigid motion is the whole truth, and no scatter inside the smooth ones shows
