@@ -13,10 +13,11 @@ constexpr double kLeastTangent = 0.2;     // 11 degrees
 constexpr double kMostTangent = 1.7;      // 60 degrees: steeper are walls
 constexpr double kSameSurface = 0.97;     // cosine between the strips' normals: 14 degrees
 constexpr double kFarthestSurface = 2.0;  // m: strips further apart see different things
+constexpr double kRoofTangent = 0.3;      // 17 degrees: flatter crests are round ones of the ground
 constexpr double kWidestRoof = 30.0;      // m, between the sides of a gable
 constexpr double kOpposite = -0.85;       // cosine between the directions of fall: 148 degrees
 constexpr double kSameFace = 0.97;        // the same within a face: 14 degrees
-constexpr double kInFace = 0.15;          // m: how far a cell of a face may lie from its plane
+constexpr double kInFace = 0.06;          // m: how far a cell of a face may lie from its plane
 constexpr std::size_t kFaceCells = 3;     // of 3 x 3: smaller is a dormer, a bush or a heap
 constexpr double kFaceArea = 12.0;        // m2: so large a face may have fewer, larger cells
 constexpr double kSharp = 0.25;           // m: how far the surface may lie below the sharp ridge
@@ -151,6 +152,7 @@ bool SectionSearch::fallsBeyond(const Slope& face) const {
 }
 
 bool SectionSearch::isGable(const Slopes& slopes, const Slope& side, const Slope& other) const {
+  if (std::min(side.tangent, other.tangent) < kRoofTangent) return false;
   if (!fallsBeyond(side) && !fallsBeyond(other)) return false;
   // Between the faces the surface is the lower of the two planes, up to the ridge.
   const double step = grids_[0].cell();
