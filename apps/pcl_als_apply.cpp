@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -94,8 +96,39 @@ CalibrationResult biasesOf(const CommandLine& line) {
 /// A calibration's biases belong to its model; biases by themselves take the best there is.
 app::AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
   if (line.has("biases")) return app::attitudeUse(line);
-  return calibration.attitude == AttitudeSource::trajectory ? app::AttitudeUse::needed
-                                                            : app::AttitudeUse::ignore;
+  switch (calibration.attitude) {
+    case AttitudeSource::trajectory:
+      return app::AttitudeUse::needed;
+    case AttitudeSource::nominal:
+      return app::AttitudeUse::nominal;
+    case AttitudeSource::none:
+    case AttitudeSource::points:
+      break;
+  }
+  return app::AttitudeUse::ignore;
+}
+
+/// The attitude of a part of a strip is not quite that of the whole, so tiles of a strip that are
+/// corrected one by one differ a little; the calibration knows how long its strips are.
+void reportParts(const CommandLine& line, const std::vector<AttitudeRecovery::Pass>& passes,
+                 const CalibrationResult& calibration) {
+  constexpr double kWhole = 0.98;  // of a strip's time
+  for (const AttitudeRecovery::Pass& pass : passes) {
+    for (const StripErrors& strip : calibration.strip_errors) {
+      if (strip.knots.empty()) continue;
+      const double from = strip.knots.front().time, to = strip.knots.back().time;
+      const double common = std::min(to, pass.to) - std::max(from, pass.from);
+      if (common <= 0.0 || common > kWhole * (to - from)) continue;
+      std::ostringstream text;
+      text << std::fixed << std::setprecision(1)
+           << "pitch and crab are recovered from a part of strip " << strip.id << " only ("
+           << common << " of " << to - from
+           << " s): its other tiles get a slightly different attitude; correct whole strips, or "
+              "give a "
+              "trajectory with attitude";
+      app::remark(line, text.str());
+    }
+  }
 }
 
 std::string biasText(const SystemVector& biases) {
@@ -142,6 +175,7 @@ int apply(int argc, char** argv) {
   app::remark(line, result.time_remark);
   for (const std::string& warning : result.warnings) app::remark(line, "warning: " + warning);
   app::remark(line, result.attitude_remark);
+  reportParts(line, result.passes, calibration);
   if (result.coverage.missed() > 0) {
     app::remark(line, "left as they are: " + result.coverage.describe(*correction.trajectory));
   }

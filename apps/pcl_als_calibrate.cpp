@@ -176,6 +176,7 @@ CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& su
     }
     step.done(counted(calibration.pairs().size(), "overlapping pair") + ", " +
               counted(calibration.areas().size(), "area"));
+    for (const std::string& text : calibration.attitudeRemarks()) app::remark(line, text);
   }
   {
     Step step("Reading the areas", line.quiet());

@@ -89,7 +89,10 @@ void addModelOption(CommandLine& line) {
   line.add<std::string>(
       "model",
       "rigorous: roll, pitch and heading of the trajectory; quasi_rigorous: its positions only, "
-      "pitch and crab from the points; auto: rigorous where the trajectory has attitude",
+      "pitch and crab from the points (linear scanners); nominal: rigorous with a level sensor "
+      "whose "
+      "heading is the course (conical and multi-plane scanners without attitude); auto: rigorous "
+      "where the trajectory has attitude",
       "auto");
 }
 
@@ -98,7 +101,9 @@ AttitudeUse attitudeUse(const CommandLine& line) {
   if (model == "auto") return AttitudeUse::where_given;
   if (model == modelName(AttitudeSource::trajectory)) return AttitudeUse::needed;
   if (model == modelName(AttitudeSource::none)) return AttitudeUse::ignore;
-  throw UsageError("option -model: '" + model + "' is not auto, quasi_rigorous or rigorous");
+  if (model == toString(AttitudeSource::nominal)) return AttitudeUse::nominal;
+  throw UsageError("option -model: '" + model +
+                   "' is not auto, quasi_rigorous, rigorous or nominal");
 }
 
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
@@ -131,10 +136,13 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
                      ": has no roll, pitch and heading for every sample; the rigorous model "
                      "needs them");
   }
-  options.use_attitude = complete && attitude != AttitudeUse::ignore;
+  options.nominal_attitude = attitude == AttitudeUse::nominal;
+  options.use_attitude =
+      complete && attitude != AttitudeUse::ignore && attitude != AttitudeUse::nominal;
   auto trajectory = std::make_shared<const Trajectory>(std::move(samples), options);
   step.done(grouped(trajectory->size()) + " samples, " + counted(trajectory->gaps().size(), "gap") +
-            (options.use_attitude ? ", with attitude" : ""));
+            (options.use_attitude ? ", with attitude" : "") +
+            (options.nominal_attitude ? ", nominal attitude" : ""));
   remark(line, file.columns);
   if (options.use_attitude) remark(line, yaw);
   for (const std::string& repair : trajectory->repairs()) remark(line, repair);

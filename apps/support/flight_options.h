@@ -23,9 +23,9 @@ std::optional<int> gpsWeek(const CommandLine& line);
 void addForceOption(CommandLine& line, const std::string& reason = "inputs do not belong together");
 
 /// What to do with the roll, pitch and heading of a trajectory.
-enum class AttitudeUse { ignore, where_given, needed };
+enum class AttitudeUse { ignore, where_given, needed, nominal };
 
-/// -model auto, quasi_rigorous or rigorous.
+/// -model auto, quasi_rigorous, rigorous or nominal.
 void addModelOption(CommandLine& line);
 AttitudeUse attitudeUse(const CommandLine& line);
 

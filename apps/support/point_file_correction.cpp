@@ -75,11 +75,11 @@ TimeAlignment alignmentOf(const LasFile& file, const PointFileCorrection& correc
   }
 }
 
-/// Hands out runs of 32 points in every 2048 of an uncompressed file: enough of every scan line to
-/// see the attitude by, in a fiftieth of the pages.
+/// Hands out runs of 32 points in every 512 of an uncompressed file: enough of every scan line to
+/// see the attitude by, without decoding all of them.
 template <typename Visit>
 void visitSome(const LasFile& file, const Visit& visit) {
-  constexpr std::uint64_t kEvery = 2048, kRun = 32;
+  constexpr std::uint64_t kEvery = 512, kRun = 32;
   const LasHeader& header = file.header();
   const std::size_t length = header.record_length;
   std::vector<std::byte> records(kRun * length);
@@ -135,6 +135,24 @@ AttitudeRecovery::Outcome recoveredAttitude(const Strip<PointLidar>& strip,
   return recovery.recover();
 }
 
+/// The flight with what the points show of its attitude; a scanner that is not linear is refused,
+/// with force taken as level.
+std::shared_ptr<const Trajectory> usedAttitude(const std::string& name,
+                                               const AttitudeRecovery::Outcome& outcome,
+                                               const PointFileCorrection& correction,
+                                               PointFileCorrectionResult& result) {
+  result.attitude_remark = outcome.remark;
+  result.passes = outcome.passes;
+  if (outcome.linear) return outcome.flight;
+  if (!correction.force) {
+    throw InputError(name + ": " + outcome.remark +
+                     ": give a trajectory with roll, pitch and heading, and biases that were "
+                     "estimated with it; -force takes the sensor as level");
+  }
+  result.warnings.push_back("the sensor is taken as level with its heading along the course");
+  return std::make_shared<const Trajectory>(outcome.flight->withNominalAttitude());
+}
+
 /// Whether the points can have been measured from the trajectory, by source id.
 class FlightCheck {
  public:
@@ -163,7 +181,10 @@ std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& a
                                      const PointFileCorrection& correction) {
   if (!correction.check_trajectory) return {};
   FlightCheck check(correction.trajectory);
-  samplePoints(file, SampleSize(), [&](const PointChunk& chunk) {
+  // The attitude shows in more points than the positions.
+  SampleSize size;
+  if (correction.trajectory->hasAttitude()) size.runs = 4096;
+  samplePoints(file, size, [&](const PointChunk& chunk) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       check.add(chunk.point_source_id[i], alignment(chunk.gps_time[i]),
                 {chunk.x[i], chunk.y[i], chunk.z[i]});
@@ -250,8 +271,7 @@ PointFileCorrectionResult correctLas(const std::filesystem::path& input,
   std::shared_ptr<const Trajectory> trajectory = correction.trajectory;
   if (correction.recover_attitude) {
     const AttitudeRecovery::Outcome outcome = recoveredAttitude(file, alignment, trajectory);
-    trajectory = outcome.flight;
-    result.attitude_remark = outcome.remark;
+    trajectory = usedAttitude(name, outcome, correction, result);
   }
   const IntegerBiasCorrection engine =
       integerCorrection(file, correction, std::move(trajectory), std::move(alignment));
@@ -289,8 +309,7 @@ PointFileCorrectionResult correctPcd(const std::filesystem::path& input,
   if (correction.recover_attitude) {
     const AttitudeRecovery::Outcome outcome =
         recoveredAttitude(strip, filter.getTimeAlignment(), correction.trajectory);
-    filter.setTrajectory(outcome.flight);
-    result.attitude_remark = outcome.remark;
+    filter.setTrajectory(usedAttitude(input.string(), outcome, correction, result));
   }
   filter.setLocalFrame(strip.frame);
   filter.setBiases(correction.biases);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 
 namespace pcl_als::app {
@@ -34,8 +35,9 @@ struct PointFileCorrectionResult {
   std::uint64_t points = 0;
   CoverageCount coverage;
   std::string time_remark;  ///< how point times were matched to the trajectory's; may be empty
-  std::vector<std::string> warnings;  ///< of the trajectory's check
-  std::string attitude_remark;        ///< what was recovered; may be empty
+  std::vector<std::string> warnings;           ///< of the trajectory's check
+  std::string attitude_remark;                 ///< what was recovered; may be empty
+  std::vector<AttitudeRecovery::Pass> passes;  ///< by which the attitude was recovered
 };
 
 /** \brief Corrects a point file into another: .las and .laz in constant memory on the raw integers,

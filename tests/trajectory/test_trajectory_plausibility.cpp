@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
@@ -109,6 +110,55 @@ TEST(TrajectoryPlausibility, RefusesAHeadingThatIsNone) {
   EXPECT_TRUE(in(said([](auto& s) { s.heading += kPi; }, true), "heading + 180"));
   EXPECT_TRUE(in(said([](auto& s) { s.heading = 0.0; }, true), "column without values"));
   EXPECT_EQ(said([](auto& s) { s.heading = 0.0; }, false), "") << "the attitude is not used";
+}
+
+/// One line with motion in pitch and roll, its points by a forward chain of its own; what the check
+/// says when the attitude is changed before it is given.
+template <typename Change>
+std::string saidOfMotion(const Change& change) {
+  Samples samples = test::sampled(test::straight(0.0), 0.0, 20.0, 0.005);
+  std::vector<std::pair<double, Eigen::Vector3d>> points;
+  for (TrajectorySample& sample : samples) {
+    sample.roll = 0.03 * std::sin(0.9 * sample.time);
+    sample.pitch = 0.02 + 0.02 * std::sin(0.7 * sample.time);
+    sample.heading = 0.04;
+    const Eigen::Matrix3d body = (Eigen::AngleAxisd(-sample.heading, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(sample.pitch, Eigen::Vector3d::UnitX()) *
+                                  Eigen::AngleAxisd(sample.roll, Eigen::Vector3d::UnitY()))
+                                     .toRotationMatrix();
+    for (int i = -6; i <= 6; ++i) {
+      const double beta = 0.35 * i / 6.0;
+      const Eigen::Vector3d pulse = body * Eigen::Vector3d(-std::sin(beta), 0.0, -std::cos(beta));
+      points.emplace_back(sample.time, sample.position + pulse * (1000.0 / -pulse.z()));
+    }
+  }
+  for (TrajectorySample& sample : samples) change(sample);
+  Trajectory::Options options;
+  options.use_attitude = true;
+  TrajectoryPlausibility check(std::make_shared<const Trajectory>(samples, options));
+  check.addStrip("1");
+  for (const auto& [time, point] : points) check.add(0, time, point);
+  const auto findings = check.findings();
+  return findings.empty() ? ""
+                          : (findings[0].refuse ? "refused: " : "warning: ") + findings[0].text;
+}
+
+// 2026-11: signs and units of roll and pitch were never compared with the points.
+TEST(TrajectoryPlausibility, ComparesRollAndPitchWithThePoints) {
+  const auto begins = [](const std::string& text, const std::string& with) {
+    return text.rfind(with, 0) == 0;
+  };
+  EXPECT_EQ(saidOfMotion([](auto&) {}), "");
+  const std::string pitch = saidOfMotion([](auto& s) { s.pitch = -s.pitch; });
+  EXPECT_TRUE(begins(pitch, "refused: the pitch of the trajectory has the opposite sign")) << pitch;
+  const std::string roll = saidOfMotion([](auto& s) { s.roll = -s.roll; });
+  EXPECT_TRUE(begins(roll, "refused: the roll of the trajectory has the opposite sign")) << roll;
+  const std::string radians = saidOfMotion([](auto& s) {
+    s.roll *= kRadiansPerDegree, s.pitch *= kRadiansPerDegree, s.heading *= kRadiansPerDegree;
+  });
+  EXPECT_TRUE(begins(radians, "refused: the pitch of the trajectory changes by")) << radians;
+  const std::string zeros = saidOfMotion([](auto& s) { s.roll = s.pitch = s.heading = 0.0; });
+  EXPECT_TRUE(begins(zeros, "warning: the pitch of the trajectory is the same")) << zeros;
 }
 
 TEST(TrajectoryPlausibility, ForceGoesOnWithAWarning) {

@@ -37,7 +37,7 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
 void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
                                       std::size_t count) {
   map_.add(strip, points, count);
-  constexpr std::size_t kEveryChecked = 128;
+  constexpr std::size_t kEveryChecked = 32;
   for (std::size_t i = 0; i < count; i += kEveryChecked) {
     plausibility_.add(strip, points[i].time, points[i].position);
   }
@@ -47,13 +47,47 @@ void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
   for (std::size_t i = 0; i < count; i += kEvery) recovery.add(points[i].time, points[i].position);
 }
 
+void QuasiRigorousCalibration::describeAttitudes() {
+  for (std::size_t strip = 0; strip < recoveries_.size(); ++strip) {
+    if (!used_[strip]) continue;
+    const AttitudeRecovery::Outcome outcome = recoveries_[strip].assess();
+    const std::string text = "strip " + ids_[strip] + ": " + outcome.remark;
+    attitude_remarks_.push_back(text);
+    if (!outcome.linear) warnings_.push_back(text + "; it is taken as level");
+  }
+}
+
+/// The models for linear scanners would take points ahead and behind for pitch and crab.
+void QuasiRigorousCalibration::takeNonLinear(const std::string& remark) {
+  const std::string text =
+      remark + ": the attitude of a scanner that is not linear has to come with the trajectory";
+  if (!settings_.force) {
+    throw InputError(text +
+                     "; give one with roll, pitch and heading, or use -model nominal, which takes "
+                     "the sensor as level with its heading along the course");
+  }
+  warnings_.push_back(text);
+  if (!settings_.recover_attitude) return;
+  warnings_.push_back(
+      "the sensor is taken as level with its heading along the course (nominal "
+      "attitude)");
+  trajectory_ = std::make_shared<const Trajectory>(trajectory_->withNominalAttitude());
+  attitude_ = AttitudeSource::nominal;
+}
+
 void QuasiRigorousCalibration::recoverAttitude() {
   if (recoveries_.empty()) return;
-  for (std::size_t strip = 1; strip < recoveries_.size(); ++strip) {
-    recoveries_[0].merge(recoveries_[strip]);
+  describeAttitudes();
+  AttitudeRecovery all(trajectory_);
+  for (std::size_t strip = 0; strip < recoveries_.size(); ++strip) {
+    if (used_[strip]) all.merge(recoveries_[strip]);
   }
-  const AttitudeRecovery::Outcome outcome = recoveries_[0].recover();
+  const AttitudeRecovery::Outcome outcome = all.recover();
   recoveries_.clear();
+  if (!outcome.linear) {
+    takeNonLinear(outcome.remark);
+    return;
+  }
   if (!settings_.recover_attitude) {
     if (outcome.found && outcome.size > kVertical) {
       warnings_.push_back(

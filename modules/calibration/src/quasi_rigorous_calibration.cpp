@@ -48,6 +48,7 @@ QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Traject
   settings_.noise.validate();
   settings_.shared_errors.validate();
   if (trajectory_->hasAttitude()) attitude_ = AttitudeSource::trajectory;
+  if (trajectory_->attitudeIsNominal()) attitude_ = AttitudeSource::nominal;
 }
 
 std::size_t QuasiRigorousCalibration::loadedPoints() const {

@@ -59,12 +59,16 @@ std::string_view toString(AttitudeSource attitude) {
       return "points";
     case AttitudeSource::trajectory:
       return "trajectory";
+    case AttitudeSource::nominal:
+      return "nominal";
   }
   return "none";
 }
 
 std::string_view modelName(AttitudeSource attitude) {
-  return attitude == AttitudeSource::trajectory ? "rigorous" : "quasi_rigorous";
+  const bool rigorous =
+      attitude == AttitudeSource::trajectory || attitude == AttitudeSource::nominal;
+  return rigorous ? "rigorous" : "quasi_rigorous";
 }
 
 std::string_view toString(ParameterStatus status) {

@@ -105,12 +105,12 @@ AttitudeSource attitudeOf(const Node& root) {
   if (!root.has("attitude")) return attitude;
   const Node node = root["attitude"];
   const std::string text = node.text();
-  for (const auto source :
-       {AttitudeSource::none, AttitudeSource::points, AttitudeSource::trajectory}) {
+  for (const auto source : {AttitudeSource::none, AttitudeSource::points,
+                            AttitudeSource::trajectory, AttitudeSource::nominal}) {
     if (text == toString(source) && modelName(source) == modelName(attitude)) return source;
   }
   node.refuse("is '" + text +
-              "'; it must be none or points (quasi_rigorous), trajectory (rigorous)");
+              "'; it must be none or points (quasi_rigorous), trajectory or nominal (rigorous)");
 }
 
 void readParameters(const Node& parameters, CalibrationResult& result) {

@@ -4,22 +4,24 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <vector>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 
+#include "attitude_pass.h"
+
 namespace pcl_als {
 namespace {
 
-constexpr double kBin = 0.1;        // seconds
-constexpr double kFewest = 20.0;    // points that a bin (with its neighbours') needs
-constexpr double kSmoothing = 0.5;  // share of the neighbours' points in a bin's plane
-constexpr double kOffPlane = 0.01;  // radians; beyond it the scanner is not a linear one
-// What holds an angle that a sliver of a swath leaves open: it is about zero, give or take 0.1 rad,
-// at 0.1 m per point. A hundred points over 10 m outweigh it ten thousand times.
-constexpr double kPrior = 1.0;
+using detail::kAttitudeBin;
+using detail::PassBin;
+using detail::PulseSums;
+
+// Seconds without points after which another pass begins: less than a turn between strips takes,
+// more than a conical scanner needs to see a small area again from behind.
+constexpr double kPassGap = 20.0;
+constexpr double kFewNotLinear = 0.3;  // share of the points that other passes outvote
 
 struct Attitude {
   double time = 0.0;
@@ -38,34 +40,135 @@ Trajectory::PitchAndCrab interpolated(const std::vector<Attitude>& known, double
           a.angles.crab + share * (after->angles.crab - a.angles.crab)};
 }
 
-std::string found(const std::vector<Attitude>& known, double off_plane) {
-  double low = known.front().angles.crab, high = low, nose_down = known.front().angles.pitch;
-  double nose_up = nose_down;
-  for (const Attitude& a : known) {
-    low = std::min(low, a.angles.crab), high = std::max(high, a.angles.crab);
-    nose_down = std::min(nose_down, a.angles.pitch), nose_up = std::max(nose_up, a.angles.pitch);
+/// Bins in order of time, cut where a pass ends.
+std::vector<std::vector<PassBin>> passesOf(
+    const std::unordered_map<std::int64_t, PulseSums>& bins) {
+  const std::map<std::int64_t, PulseSums> in_order(bins.begin(), bins.end());
+  std::vector<std::vector<PassBin>> passes;
+  for (const auto& [index, sums] : in_order) {
+    if (passes.empty() ||
+        static_cast<double>(index - passes.back().back().index) * kAttitudeBin > kPassGap) {
+      passes.emplace_back();
+    }
+    PassBin& bin = passes.back().emplace_back();
+    bin.index = index;
+    bin.sums = sums;
   }
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "from the points: pitch %.2f ... %.2f, crab %.2f ... %.2f degrees (pulses in a "
-                "plane to %.4f degrees)",
-                nose_down / kRadiansPerDegree, nose_up / kRadiansPerDegree, low / kRadiansPerDegree,
-                high / kRadiansPerDegree, off_plane / kRadiansPerDegree);
-  return text;
+  return passes;
+}
+
+/// Collects what the passes show.
+class Recovered {
+ public:
+  explicit Recovered(double start) : start_(start) {}
+
+  void add(std::vector<PassBin>& bins) {
+    detail::smoothPlanes(bins);
+    AttitudeRecovery::Pass pass = detail::judgePass(bins);
+    pass.from = timeOf(bins.front()), pass.to = timeOf(bins.back());
+    const bool linear = pass.verdict == AttitudeRecovery::Verdict::linear;
+    for (const PassBin& bin : bins) {
+      // A pass that shows nothing is level, and takes nothing from its neighbours.
+      Attitude attitude{timeOf(bin), {}};
+      if (linear) attitude.angles = {bin.pitch(), bin.crab()};
+      known_.push_back(attitude);
+      if (linear && bin.well_determined) addInstant(bin);
+    }
+    passes_.push_back(pass);
+  }
+
+  AttitudeRecovery::Outcome outcome(const std::shared_ptr<const Trajectory>& flight, bool turned);
+
+ private:
+  double timeOf(const PassBin& bin) const {
+    return start_ + static_cast<double>(bin.index) * kAttitudeBin + bin.sums.time / bin.sums.n;
+  }
+  void addInstant(const PassBin& bin) {
+    instants_.push_back({timeOf(bin), bin.pitch(), bin.crab(),
+                         0.5 * (std::atan(bin.sums.leftmost) + std::atan(bin.sums.rightmost)),
+                         passes_.size()});
+  }
+  /// The pass that stands for those that are not linear, where they outweigh the others.
+  const AttitudeRecovery::Pass* objectingPass() const;
+
+  double start_;
+  std::vector<Attitude> known_;
+  std::vector<AttitudeRecovery::Pass> passes_;
+  std::vector<AttitudeRecovery::Instant> instants_;
+};
+
+const AttitudeRecovery::Pass* Recovered::objectingPass() const {
+  double all = 0.0, objecting = 0.0;
+  const AttitudeRecovery::Pass* largest = nullptr;
+  for (const AttitudeRecovery::Pass& pass : passes_) {
+    if (pass.verdict == AttitudeRecovery::Verdict::undetermined) continue;
+    all += pass.points;
+    if (pass.verdict == AttitudeRecovery::Verdict::linear) continue;
+    objecting += pass.points;
+    if (largest == nullptr || pass.points > largest->points) largest = &pass;
+  }
+  return objecting > kFewNotLinear * all ? largest : nullptr;
+}
+
+AttitudeRecovery::Range united(const std::vector<AttitudeRecovery::Pass>& passes,
+                               AttitudeRecovery::Range AttitudeRecovery::Pass::*range) {
+  AttitudeRecovery::Range all{std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()};
+  for (const AttitudeRecovery::Pass& pass : passes) {
+    if (pass.verdict != AttitudeRecovery::Verdict::linear) continue;
+    all = {std::min(all.low, (pass.*range).low), std::max(all.high, (pass.*range).high)};
+  }
+  return all;
+}
+
+AttitudeRecovery::Outcome Recovered::outcome(const std::shared_ptr<const Trajectory>& flight,
+                                             bool turned) {
+  using Pass = AttitudeRecovery::Pass;
+  AttitudeRecovery::Outcome outcome;
+  outcome.flight = flight;
+  outcome.passes = passes_;
+  std::vector<double> off;
+  for (const Pass& pass : passes_) {
+    if (pass.verdict != AttitudeRecovery::Verdict::undetermined) off.push_back(pass.off_plane);
+  }
+  if (off.empty()) {
+    outcome.remark = "attitude not recovered from the points: too few of them";
+    return outcome;
+  }
+  outcome.off_plane = medianInPlace(off);
+  if (const Pass* pass = objectingPass()) {
+    outcome.linear = false;
+    outcome.remark = "attitude not recovered: " + detail::objectionTo(*pass) +
+                     ", so this is no linear scanner, or the trajectory is another flight's";
+    return outcome;
+  }
+  outcome.found = true;
+  for (const Attitude& a : known_) {
+    outcome.size += a.angles.pitch * a.angles.pitch + a.angles.crab * a.angles.crab;
+  }
+  outcome.size = std::sqrt(outcome.size / static_cast<double>(known_.size()));
+  char plane[80];
+  std::snprintf(plane, sizeof plane, " (pulses in a plane to %.4f degrees)",
+                outcome.off_plane / kRadiansPerDegree);
+  outcome.remark =
+      "from the points: " +
+      AttitudeRecovery::describe(united(passes_, &Pass::pitch), united(passes_, &Pass::crab)) +
+      plane;
+  outcome.instants = std::move(instants_);
+  if (!turned) return outcome;
+  outcome.flight = std::make_shared<const Trajectory>(
+      flight->withAttitude([this](double time) { return interpolated(known_, time); }));
+  return outcome;
 }
 
 }  // namespace
 
-void AttitudeRecovery::Sums::add(const Sums& other, double weight) {
-  n += weight * other.n, t += weight * other.t;
-  xx += weight * other.xx, xz += weight * other.xz, zz += weight * other.zz;
-  xy += weight * other.xy, zy += weight * other.zy, yy += weight * other.yy;
+void detail::PulseSums::add(const PulseSums& other) {
+  n += other.n, time += other.time;
+  sum += other.sum, products += other.products;
+  leftmost = std::min(leftmost, other.leftmost);
+  rightmost = std::max(rightmost, other.rightmost);
 }
-
-/// y = across x + below z, and the RMS of what is left over the distance.
-struct AttitudeRecovery::Plane {
-  double across = 0.0, below = 0.0, off_plane = 0.0;
-};
 
 AttitudeRecovery::AttitudeRecovery(std::shared_ptr<const Trajectory> flight)
     : flight_(std::move(flight)) {
@@ -78,13 +181,13 @@ void AttitudeRecovery::add(double time, const Eigen::Vector3d& point) {
   SensorPose pose;
   if (!flight_->poseAt(time, pose, cursor_)) return;
   const Eigen::Vector3d d = pose.rotation.transpose() * (point - pose.position);
-  if (!d.allFinite()) return;
+  if (!d.allFinite() || !(d.z() < 0.0)) return;
+  const Eigen::Vector3d pulse = d.normalized();
   const double from_start = time - flight_->startTime();
-  const double bin = std::floor(from_start / kBin);
+  const double bin = std::floor(from_start / kAttitudeBin);
+  const double across = d.x() / -d.z();
   bins_[static_cast<std::int64_t>(bin)].add(
-      {1.0, from_start - bin * kBin, d.x() * d.x(), d.x() * d.z(), d.z() * d.z(), d.x() * d.y(),
-       d.z() * d.y(), d.y() * d.y()},
-      1.0);
+      {1.0, from_start - bin * kAttitudeBin, pulse, pulse * pulse.transpose(), across, across});
 }
 
 void AttitudeRecovery::add(const PointColumns& points, std::size_t count) {
@@ -94,62 +197,27 @@ void AttitudeRecovery::add(const PointColumns& points, std::size_t count) {
 }
 
 void AttitudeRecovery::merge(const AttitudeRecovery& other) {
-  for (const auto& [bin, sums] : other.bins_) bins_[bin].add(sums, 1.0);
+  for (const auto& [bin, sums] : other.bins_) bins_[bin].add(sums);
 }
 
-AttitudeRecovery::Plane AttitudeRecovery::planeOf(const Sums& s) {
-  const double xx = s.xx + kPrior, zz = s.zz + kPrior;
-  const double determinant = xx * zz - s.xz * s.xz;
-  Plane plane;
-  plane.across = (zz * s.xy - s.xz * s.zy) / determinant;
-  plane.below = (xx * s.zy - s.xz * s.xy) / determinant;
-  const double left = s.yy - plane.across * s.xy - plane.below * s.zy;
-  plane.off_plane = std::sqrt(std::max(0.0, left) / (s.xx + s.yy + s.zz));
-  return plane;
+AttitudeRecovery::Outcome AttitudeRecovery::assess() const {
+  Recovered recovered(flight_->startTime());
+  for (std::vector<PassBin>& bins : passesOf(bins_)) recovered.add(bins);
+  return recovered.outcome(flight_, false);
 }
 
 AttitudeRecovery::Outcome AttitudeRecovery::recover() const {
-  const std::map<std::int64_t, Sums> in_order(bins_.begin(), bins_.end());
-  std::vector<Attitude> known;
-  std::vector<double> off_plane;
-  for (const auto& [bin, own] : in_order) {
-    Sums sums = own;
-    for (const std::int64_t neighbour : {bin - 1, bin + 1}) {
-      const auto other = in_order.find(neighbour);
-      if (other != in_order.end()) sums.add(other->second, kSmoothing);
-    }
-    if (sums.n < kFewest || !(sums.xx + sums.zz > 0.0)) continue;
-    const Plane plane = planeOf(sums);
-    const double crab = std::atan(plane.across);
-    known.push_back({flight_->startTime() + static_cast<double>(bin) * kBin + own.t / own.n,
-                     {std::atan(-plane.below * std::cos(crab)), crab}});
-    off_plane.push_back(planeOf(own).off_plane);
-  }
-  Outcome outcome;
-  outcome.flight = flight_;
-  if (known.empty()) {
-    outcome.remark = "attitude not recovered from the points: too few of them";
-    return outcome;
-  }
-  outcome.off_plane = medianInPlace(off_plane);
-  if (outcome.off_plane > kOffPlane) {
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "attitude not recovered: the pulses lie in no plane (%.2f degrees off it), so "
-                  "this is no linear scanner, or the trajectory is another flight's",
-                  outcome.off_plane / kRadiansPerDegree);
-    outcome.remark = text;
-    return outcome;
-  }
-  outcome.found = true;
-  for (const auto& [time, angles] : known) {
-    outcome.size += angles.pitch * angles.pitch + angles.crab * angles.crab;
-  }
-  outcome.size = std::sqrt(outcome.size / static_cast<double>(known.size()));
-  outcome.remark = found(known, outcome.off_plane);
-  outcome.flight = std::make_shared<const Trajectory>(
-      flight_->withAttitude([&](double time) { return interpolated(known, time); }));
-  return outcome;
+  Recovered recovered(flight_->startTime());
+  for (std::vector<PassBin>& bins : passesOf(bins_)) recovered.add(bins);
+  return recovered.outcome(flight_, true);
+}
+
+std::string AttitudeRecovery::describe(const Range& pitch, const Range& crab) {
+  char text[120];
+  std::snprintf(text, sizeof text, "pitch %.2f ... %.2f, crab %.2f ... %.2f degrees",
+                pitch.low / kRadiansPerDegree, pitch.high / kRadiansPerDegree,
+                crab.low / kRadiansPerDegree, crab.high / kRadiansPerDegree);
+  return text;
 }
 
 }  // namespace pcl_als

@@ -25,6 +25,9 @@ void checkOptions(const Trajectory::Options& options) {
     throw UsageError("trajectory: gap_threshold must be 0 or a positive number of seconds, not " +
                      std::to_string(options.gap_threshold));
   }
+  if (options.use_attitude && options.nominal_attitude) {
+    throw UsageError("trajectory: the attitude is either that of the samples or nominal");
+  }
 }
 
 /// Unit vectors to the right of plan velocities; standing samples take the last (or, at the
@@ -89,6 +92,7 @@ Trajectory::Options trajectoryOptions(const CalibrationResult& calibration) {
     options.line_fit_half_width = calibration.line_fit_half_width;
   }
   options.use_attitude = calibration.attitude == AttitudeSource::trajectory;
+  options.nominal_attitude = calibration.attitude == AttitudeSource::nominal;
   return options;
 }
 
@@ -112,6 +116,7 @@ Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& opt
   findGaps(samples);
   fitDirections(samples);
   if (options.use_attitude) takeAttitude(samples);
+  if (options.nominal_attitude) has_attitude_ = nominal_ = true;
   buildIndex();
 }
 
@@ -166,6 +171,24 @@ Trajectory Trajectory::withAttitude(
                                            Eigen::AngleAxisd(a.pitch, Eigen::Vector3d::UnitX()));
   }
   return turned;
+}
+
+Trajectory Trajectory::withoutAttitude() const {
+  std::vector<TrajectorySample> samples(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    samples[i].time = nodes_[i].time;
+    samples[i].position = nodes_[i].position;
+  }
+  Options options;
+  options.line_fit_half_width = half_width_;
+  options.gap_threshold = gap_threshold_;
+  return {std::move(samples), options};
+}
+
+Trajectory Trajectory::withNominalAttitude() const {
+  Trajectory level = withoutAttitude();
+  level.has_attitude_ = level.nominal_ = true;
+  return level;
 }
 
 void Trajectory::buildIndex() {

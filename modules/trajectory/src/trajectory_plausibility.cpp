@@ -10,6 +10,8 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
+#include "attitude_comparison.h"
+
 namespace pcl_als {
 namespace {
 
@@ -36,8 +38,16 @@ const char* const kRemedy =
 
 }  // namespace
 
+TrajectoryPlausibility::TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight)
+    : flight_(std::move(flight)) {
+  if (flight_->hasAttitude() && !flight_->attitudeIsNominal()) {
+    path_ = std::make_shared<const Trajectory>(flight_->withoutAttitude());
+  }
+}
+
 int TrajectoryPlausibility::addStrip(const std::string& name) {
   strips_.emplace_back().name = name;
+  if (path_) strips_.back().recovery.emplace(path_);
   return static_cast<int>(strips_.size()) - 1;
 }
 
@@ -50,6 +60,7 @@ void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& 
     return;
   }
   ++s.count;
+  if (s.recovery) s.recovery->add(time, point);
   const double step = std::abs(time - s.last_time);
   if (step > 0.0) s.shortest_step = std::min(s.shortest_step, step);
   s.last_time = time;
@@ -179,7 +190,7 @@ void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
     highest = std::max(highest, view.height);
     spread = std::max(spread, view.spread);
   }
-  const double angle = (flight_->hasAttitude() ? 1.0 : 5.0) * kRadiansPerDegree;
+  const double angle = (path_ ? 1.0 : 5.0) * kRadiansPerDegree;
   const double doubt = spread > 2.0 * std::tan(angle) ? 2.0 * spread : std::tan(angle);
   const Eigen::Vector2d found = offset(views);
   if (found.norm() <= doubt * highest) return;
@@ -215,12 +226,23 @@ void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const 
   findings.push_back({true, text});
 }
 
+void TrajectoryPlausibility::checkRollAndPitch(std::vector<Finding>& findings) const {
+  if (!path_) return;
+  detail::AttitudeComparison comparison(*flight_, *path_);
+  for (const Strip& strip : strips_) {
+    if (strip.used) comparison.add(strip.recovery->assess().instants);
+  }
+  const detail::AttitudeComparison::Result found = comparison.result();
+  if (!found.text.empty()) findings.push_back({found.wrong, found.text});
+}
+
 std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() const {
   std::vector<Finding> findings;
   checkStrips(findings);
   if (!findings.empty()) return findings;  // what follows would repeat it
   checkTimes(findings);
   checkHeading(findings);
+  if (findings.empty()) checkRollAndPitch(findings);
   if (findings.empty()) checkOffset(findings);
   return findings;
 }

@@ -73,6 +73,8 @@ class QuasiRigorousCalibration {
   const std::vector<double>& informationShares() const { return information_; }
   std::size_t loadedPoints() const;
   std::vector<StripPair> const& pairs() const { return pairs_; }
+  /// What was recovered of the attitude, a line for each strip; after chooseAreas().
+  const std::vector<std::string>& attitudeRemarks() const { return attitude_remarks_; }
   /// The trajectory that is used: after chooseAreas() with recovered attitude.
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
 
@@ -84,6 +86,8 @@ class QuasiRigorousCalibration {
   void checkTrajectory();
   void checkTimes() const;
   void recoverAttitude();
+  void describeAttitudes();
+  void takeNonLinear(const std::string& remark);
   void choosePairs();
   int stripNamed(const std::string& id) const;
   void prepare();
@@ -137,7 +141,7 @@ class QuasiRigorousCalibration {
   std::unique_ptr<AreaIndex> index_;
   std::vector<AreaMatcher> matchers_;
   std::vector<double> information_;  ///< by area
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, attitude_remarks_;
   std::function<void(const CalibrationIteration&)> progress_;
 };
 

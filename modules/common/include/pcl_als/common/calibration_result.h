@@ -23,6 +23,7 @@ enum class AttitudeSource {
   none,        ///< nowhere: vertical, looking along the line of flight (quasi-rigorous)
   points,      ///< pitch and crab from the points (quasi-rigorous, AttitudeRecovery)
   trajectory,  ///< roll, pitch and heading of the trajectory (rigorous)
+  nominal,     ///< level, heading along the course (rigorous, for scanners that are not linear)
 };
 
 /// One system parameter of a calibration, in internal units (m, rad, 1). bias = assumed - true.
@@ -127,7 +128,7 @@ struct CalibrationResult {
 
 std::string_view toString(ParameterStatus status);
 std::string_view toString(AttitudeSource attitude);
-/// "rigorous" where the attitude is the trajectory's, else "quasi_rigorous".
+/// "rigorous" where the attitude is the trajectory's or nominal, else "quasi_rigorous".
 std::string_view modelName(AttitudeSource attitude);
 
 }  // namespace pcl_als

@@ -4,30 +4,56 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
 
+namespace detail {
+
+/// Sums over the unit vectors of pulses (right, forward, up of the local flight line).
+struct PulseSums {
+  double n = 0.0, time = 0.0;  ///< time: since the bin's start, seconds
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  /// Extent across: x / -z of the outermost pulses.
+  double leftmost = std::numeric_limits<double>::infinity();
+  double rightmost = -std::numeric_limits<double>::infinity();
+
+  void add(const PulseSums& other);
+};
+
+}  // namespace detail
+
 /** \brief Pitch and crab of the laser unit from the points it measured and the flight's positions.
  *
  * A linear scanner's pulses lie in one plane of its body, x-z. In the frame of the local flight
  * line (x right, y forward, z up; of a pulse d from the firing point to the ground point) a body
  * turned by crab c and pitch p has that plane where y = tan(c) x - tan(p) / cos(c) z. Both are
- * found by least squares for every tenth of a second (smoothed over its neighbours), so they are
- * smooth functions of time; roll turns the plane into itself and cannot be seen.
+ * estimated for every tenth of a second as a random walk of 2.5 mrad per step, so that times at
+ * which few pulses were recorded take the angles of their neighbours; roll turns the plane into
+ * itself and cannot be seen.
  *
- * The plane found is that of the laser unit as it was mounted: a scanner that looks ahead or is
- * turned in its mount has its offset in pitch or crab, which is where it matters. With the points'
- * noise the angles are good to some arc-seconds; the effect of biases on a point needs them to a
- * hundred times less.
+ * A short arc of a conical scanner is plane as well, and so is each plane of a scanner with
+ * several. Whether the scanner is linear is therefore decided over whole passes (uninterrupted
+ * pieces of flight, usually strips): by the deviation from one plane against that from one cone, by
+ * the range of the angles and by their rates, none of which depends on the length of a bin. The
+ * limits are those of survey flights, helicopters and drones that fly forward.
+ *
+ * The plane found is that of the laser unit as it was mounted: a scanner that is tilted or turned
+ * in its mount has its offset in pitch or crab, which is where it matters. The effect of biases on
+ * a point needs the angles to some arc-minutes.
  *
  * Add some points of all flight lines (one in ten will do), in any order; parts made in different
- * threads can be merged. Memory: 80 bytes for every tenth of a second with points.
+ * threads can be merged. Memory: 140 bytes for every tenth of a second with points.
  */
 class AttitudeRecovery {
  public:
@@ -38,30 +64,60 @@ class AttitudeRecovery {
   void add(double time, const Eigen::Vector3d& point);
   void merge(const AttitudeRecovery& other);
 
+  /// From the 2nd to the 98th percentile over time, radians.
+  struct Range {
+    double low = 0.0, high = 0.0;
+  };
+  enum class Verdict {
+    linear,
+    undetermined,  ///< too few pulses, or too narrow a part of the swath
+    conical,       ///< the pulses lie on a cone
+    not_planar,    ///< in no plane, even for a tenth of a second: several planes, or another flight
+    implausible,   ///< in planes for a tenth of a second, but with angles that nobody flies
+  };
+  /// An uninterrupted piece of flight.
+  struct Pass {
+    double from = 0.0, to = 0.0;  ///< seconds
+    double points = 0.0;
+    Verdict verdict = Verdict::undetermined;
+    Range pitch, crab;
+    double off_plane = 0.0;     ///< radians, RMS from the plane of each bin, median
+    double off_constant = 0.0;  ///< radians, RMS from one plane over the whole pass
+    double off_cone = 0.0;      ///< radians, RMS from one cone over the whole pass
+    double cone_angle = 0.0;    ///< radians, half the angle of that cone
+  };
+  /// What the pulses of a well-covered tenth of a second show.
+  struct Instant {
+    double time = 0.0;
+    double pitch = 0.0, crab = 0.0;  ///< radians, smoothed
+    double swath_middle = 0.0;       ///< radians, to the right: between the outermost pulses
+    std::size_t pass = 0;
+  };
+
   struct Outcome {
-    /// The flight with the attitude found; without it, where the points lie in no plane.
+    /// The flight with the attitude found; without it, where nothing was.
     std::shared_ptr<const Trajectory> flight;
     bool found = false;
+    bool linear = true;  ///< false: the scanner is not a linear one (or the flight is another)
     /// Radians, RMS angle of a bin's pulses with their plane, median over time: mostly motion
     /// within the tenth of a second.
     double off_plane = 0.0;
     double size = 0.0;   ///< radians, RMS over time of pitch and crab together
     std::string remark;  ///< what was found, or why nothing was
+    std::vector<Pass> passes;
+    std::vector<Instant> instants;  ///< of the passes that are linear
   };
   Outcome recover() const;
+  /// The same without the flight (a copy of the trajectory): the scanner, ranges and instants.
+  Outcome assess() const;
+
+  /// "pitch -1.20 ... 2.35, crab 0.10 ... 3.02 degrees"
+  static std::string describe(const Range& pitch, const Range& crab);
 
  private:
-  /// Sums over points in the frame of the flight line, metres; time since the bin's start.
-  struct Sums {
-    double n = 0.0, t = 0.0, xx = 0.0, xz = 0.0, zz = 0.0, xy = 0.0, zy = 0.0, yy = 0.0;
-    void add(const Sums& other, double weight);
-  };
-  struct Plane;
-  static Plane planeOf(const Sums& sums);
-
   std::shared_ptr<const Trajectory> flight_;
   std::size_t cursor_ = 0;
-  std::unordered_map<std::int64_t, Sums> bins_;
+  std::unordered_map<std::int64_t, detail::PulseSums> bins_;
 };
 
 }  // namespace pcl_als

@@ -76,6 +76,9 @@ class Trajectory {
         0.0;  ///< seconds without a sample that are a gap; 0: max(1 s, 5 median steps)
     /// Take the samples' roll, pitch and heading (rigorous); InputError where one has none.
     bool use_attitude = false;
+    /// Take the body as level, its heading along the local flight line (rigorous, for scanners
+    /// that see ahead and back): unlike none, y of a point counts. Not with use_attitude.
+    bool nominal_attitude = false;
   };
   enum class Coverage { covered, before_start, after_end, in_gap };
   struct Gap {
@@ -99,6 +102,13 @@ class Trajectory {
   bool hasAttitude() const {
     return has_attitude_;
   }  ///< poses have more than a direction of flight
+
+  bool attitudeIsNominal() const { return nominal_; }  ///< level along the flight line
+
+  /// The same flight without attitude.
+  Trajectory withoutAttitude() const;
+  /// The same flight with nominal attitude.
+  Trajectory withNominalAttitude() const;
 
   /// Pitch (nose up) and crab (turn of the body against the line of flight, counter-clockwise),
   /// rad.
@@ -153,7 +163,7 @@ class Trajectory {
   std::vector<std::uint32_t> buckets_;  ///< of equal duration: the first node at or after its start
   double buckets_per_second_ = 0.0;
   double gap_threshold_ = 0.0, half_width_ = 0.0;
-  bool samples_have_attitude_ = false, has_attitude_ = false;
+  bool samples_have_attitude_ = false, has_attitude_ = false, nominal_ = false;
 };
 
 /// How to make the trajectory that a calibration's biases are applied with: its window, and

@@ -6,11 +6,13 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/heading_check.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -22,8 +24,9 @@ namespace pcl_als {
  * same times. Points then lie above the sensor, beyond any scan angle, or far ahead of or behind
  * the place they were measured from; each is a share of the points, and more than half of them
  * decides. A trajectory that is displaced by less shows where strips of several courses see it from
- * different sides. Times of coarse steps leave the firing point open by the distance flown in a
- * step.
+ * different sides. The heading is compared with the course, pitch and roll
+ * with those that the points show. Times of coarse steps leave the firing point open by the
+ * distance flown in a step.
  *
  * Give some points of every strip; one in a hundred will do. Points at times outside the trajectory
  * are ignored. add() may run in several threads for different strips.
@@ -36,8 +39,7 @@ namespace pcl_als {
  */
 class TrajectoryPlausibility {
  public:
-  explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight)
-      : flight_(std::move(flight)) {}
+  explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight);
 
   int addStrip(const std::string& name);
   void add(int strip, double time, const Eigen::Vector3d& point);
@@ -75,6 +77,7 @@ class TrajectoryPlausibility {
     double shortest_step = std::numeric_limits<double>::infinity();  ///< seconds
     std::size_t path_cursor = 0;
     HeadingCheck heading;
+    std::optional<AttitudeRecovery> recovery;  ///< where the trajectory's attitude is used
   };
   /// What a strip's points lie like on average, seen from where they were measured.
   struct View {
@@ -90,9 +93,11 @@ class TrajectoryPlausibility {
   void checkTimes(std::vector<Finding>& findings) const;
   void checkOffset(std::vector<Finding>& findings) const;
   void checkHeading(std::vector<Finding>& findings) const;
+  void checkRollAndPitch(std::vector<Finding>& findings) const;
   Eigen::Vector2d offset(const std::vector<View>& views) const;
 
   std::shared_ptr<const Trajectory> flight_;
+  std::shared_ptr<const Trajectory> path_;  ///< without attitude; null where none is compared
   std::deque<Strip> strips_;
 };
 
