@@ -149,6 +149,7 @@ class Classification {
       // Beside the output, where there is room for it; it goes when the run ends, however it does.
       scratch_.emplace(line_.text("output"));
       raster_path_ = scratch_->temporaryPath();
+      options.named = line_.text("output");
       options.overviews = options.cloud_optimised = options.compress = false;
     }
     options.threads = line_.threads();

@@ -25,7 +25,13 @@ GDALDriverH gdalDriver(const char* name) {
   return GDALGetDriverByName(name);
 }
 
-GdalReports::GdalReports(std::filesystem::path path) : path_(std::move(path)) {
+GdalReports::GdalReports(std::filesystem::path path,
+                         const std::vector<std::filesystem::path>& temporaries)
+    : path_(std::move(path)) {
+  // Drivers name the file with its folder or without.
+  for (const std::filesystem::path& temporary : temporaries)
+    for (const std::string& name : {temporary.string(), temporary.filename().string()})
+      temporaries_.push_back(name);
   CPLErrorReset();
   CPLPushErrorHandlerEx(&GdalReports::report, this);
 }
@@ -44,7 +50,11 @@ void GdalReports::report(CPLErr level, CPLErrorNum, const char* text) {
 
 void GdalReports::check(bool good, const std::string& what) const {
   if (good && failure_.empty()) return;
-  throw InputError(path_.string() + ": " + what + (failure_.empty() ? "" : ": " + failure_));
+  std::string words = failure_;
+  for (const std::string& name : temporaries_)
+    for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name))
+      words.replace(at, name.size(), path_.filename().string());
+  throw InputError(path_.string() + ": " + what + (words.empty() ? "" : ": " + words));
 }
 
 }  // namespace pcl_als::detail

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <cpl_error.h>
 #include <gdal.h>
@@ -31,7 +32,9 @@ GDALDriverH gdalDriver(const char* name);
  */
 class GdalReports {
  public:
-  explicit GdalReports(std::filesystem::path path);
+  /// \param temporaries names that GDAL works under: reports name \a path in their place
+  explicit GdalReports(std::filesystem::path path,
+                       const std::vector<std::filesystem::path>& temporaries = {});
   ~GdalReports();
   GdalReports(const GdalReports&) = delete;
   GdalReports& operator=(const GdalReports&) = delete;
@@ -43,6 +46,7 @@ class GdalReports {
   static void CPL_STDCALL report(CPLErr level, CPLErrorNum number, const char* text);
 
   std::filesystem::path path_;
+  std::vector<std::string> temporaries_;
   std::string failure_;
 };
 

@@ -20,7 +20,7 @@ void writePngImage(const fs::path& path, const PngImage& image) {
     throw UsageError("an image whose pixels do not fit its size and channels");
   AtomicFile file(path);
   {
-    const GdalReports reports(path);
+    const GdalReports reports(path, {file.temporaryPath()});
     const Dataset memory(GDALCreate(detail::gdalDriver("MEM"), "", image.width, image.height,
                                     image.channels, GDT_Byte, nullptr));
     reports.check(memory != nullptr, "cannot be written");

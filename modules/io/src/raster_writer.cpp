@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
@@ -59,13 +60,19 @@ void checkLayout(const RasterLayout& layout) {
 
 struct RasterWriter::State {
   State(const fs::path& target, RasterLayout what, RasterOptions how)
-      : path(target), layout(std::move(what)), options(how), final_file(target) {}
+      : path(target), layout(std::move(what)), options(std::move(how)), final_file(target) {}
 
   ~State() {
-    const GdalReports reports(path);  // dropped: what closing reports is of no interest
+    const GdalReports dropped = reports();  // what closing reports is of no interest
     dataset.reset();
   }
 
+  /// Messages name the file that the user named, not those that GDAL works on.
+  GdalReports reports() const {
+    std::vector<fs::path> temporaries{final_file.temporaryPath()};
+    if (draft) temporaries.push_back(draft->temporaryPath());
+    return GdalReports(options.named.empty() ? path : options.named, temporaries);
+  }
   bool bytes() const { return layout.type == RasterLayout::Type::byte; }
   void create();
   void buildOverviews(const GdalReports& reports);
@@ -84,8 +91,8 @@ struct RasterWriter::State {
 };
 
 void RasterWriter::State::create() {
-  const GdalReports reports(path);
   if (options.cloud_optimised && detail::gdalDriver("COG") != nullptr) draft.emplace(path);
+  const GdalReports reports = this->reports();
   CreationOptions creation;
   creation.add("TILED=YES");
   creation.add("BLOCKXSIZE=" + std::to_string(kTile));
@@ -132,7 +139,7 @@ void RasterWriter::State::copyCloudOptimised(const GdalReports& reports) {
 
 RasterWriter::RasterWriter(const fs::path& path, RasterLayout layout, RasterOptions options) {
   checkLayout(layout);
-  state_ = std::make_unique<State>(path, std::move(layout), options);
+  state_ = std::make_unique<State>(path, std::move(layout), std::move(options));
   state_->create();
 }
 
@@ -149,7 +156,7 @@ void RasterWriter::write(std::size_t band, const RasterWindow& window, const flo
   const auto no_data = static_cast<float>(state_->layout.no_data);
   for (float& value : filled)
     if (std::isnan(value)) value = no_data;
-  const GdalReports reports(state_->path);
+  const GdalReports reports = state_->reports();
   const CPLErr outcome =
       GDALRasterIO(GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1), GF_Write,
                    window.column, window.row, window.columns, window.rows, filled.data(),
@@ -160,7 +167,7 @@ void RasterWriter::write(std::size_t band, const RasterWindow& window, const flo
 void RasterWriter::write(std::size_t band, const RasterWindow& window, const std::uint8_t* values) {
   detail::checkWindow(state_->layout, band, window);
   if (!state_->bytes()) throw UsageError("bytes for a raster of floats");
-  const GdalReports reports(state_->path);
+  const GdalReports reports = state_->reports();
   const CPLErr outcome =
       GDALRasterIO(GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1), GF_Write,
                    window.column, window.row, window.columns, window.rows,
@@ -172,7 +179,7 @@ void RasterWriter::commit() {
   if (state_->dataset == nullptr)
     throw InputError(state_->path.string() + ": was already completed");
   {
-    const GdalReports reports(state_->path);
+    const GdalReports reports = state_->reports();
     GDALFlushCache(state_->dataset.get());
     reports.check(true, "cannot be written");
     if (state_->options.overviews) state_->buildOverviews(reports);

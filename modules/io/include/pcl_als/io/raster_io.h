@@ -35,6 +35,7 @@ struct RasterOptions {
       true;              ///< where the installed GDAL can (3.1); else plain tiles of 512 cells
   bool compress = true;  ///< without loss; cloud-optimised files always are
   int threads = 0;       ///< that compress; 0: as many as there are. The file does not depend on it
+  std::filesystem::path named;  ///< of a scratch file: the output that messages name in its place
 };
 
 /** \brief Writes a GeoTIFF block by block, for rasters larger than memory.
