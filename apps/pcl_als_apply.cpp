@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "command_line.h"
@@ -160,9 +160,10 @@ int apply(int argc, char** argv) {
     }
     correction.trajectory_errors = std::make_shared<TrajectoryErrors>(calibration.strip_errors);
   }
-  correction.trajectory =
-      app::readFlight(line, PointReader::open(files[0])->info().crs,
-                      calibration.line_fit_half_width, attitudeUse(line, calibration));
+  const PointReference reference = commonReference(std::vector<std::string>{files[0]});
+  app::remarks(line, reference.remarks);
+  correction.trajectory = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
+                                          attitudeUse(line, calibration));
   correction.recover_attitude =
       !correction.trajectory->hasAttitude() && calibration.attitude == AttitudeSource::points;
   app::remark(line,

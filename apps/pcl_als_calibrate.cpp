@@ -36,6 +36,7 @@ CommandLine commandLine() {
                    "-output calibration.json");
   app::addFlightOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
+  app::addUnitsOption(line, "control", "the control file");
   app::addStripOptions(line);
   line.addOptional(
       "pairs",
@@ -245,7 +246,8 @@ int calibrate(int argc, char** argv) {
   Step step("Reading " + counted(files.size(), "point file"), line.quiet());
   app::SurveyReader survey(files, line.threads());
   step.done(grouped(survey.pointCount()) + " points");
-  const auto trajectory = app::readFlight(line, survey.crs(), 0.0, attitude);
+  app::remarks(line, survey.reference().remarks);
+  const auto trajectory = app::readFlight(line, survey.reference().crs, 0.0, attitude);
   for (const std::string& text :
        survey.choose(choice, {trajectory.get(), app::gpsWeek(line), true})) {
     app::remark(line, text);
@@ -254,7 +256,8 @@ int calibrate(int argc, char** argv) {
   QuasiRigorousCalibration calibration(trajectory, settings, survey.corner());
   std::vector<std::string> warnings;
   calibration.setPairs(usablePairs(pairs, survey, warnings));
-  if (line.has("control")) calibration.setControl(readControl(line.text("control")));
+  if (line.has("control"))
+    calibration.setControl(readControl(line.text("control"), app::unitOption(line, "control")));
   app::CalibrationPage page(survey, line.has("report"));
   CalibrationResult result = calibrateSurvey(line, survey, page, calibration);
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());

@@ -46,6 +46,7 @@ CommandLine commandLine() {
       "are reported side by side");
   app::addStripOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
+  app::addUnitsOption(line, "control", "the control file");
   line.addOptional("output", "quality.json to write (needed)");
   line.addOptional(
       "report",
@@ -69,7 +70,8 @@ app::CheckSettings settingsOf(const CommandLine& line) {
   settings.control_sigma = line.number("control_sigma", 0.0, 10.0, "m");
   settings.force = line.has("force");
   settings.threads = line.threads();
-  if (line.has("control")) settings.control = readControl(line.text("control"));
+  if (line.has("control"))
+    settings.control = readControl(line.text("control"), app::unitOption(line, "control"));
   return settings;
 }
 
@@ -142,7 +144,8 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
       wanted > 0.0
           ? wanted
           : qualityLevels()[static_cast<std::size_t>(qualityLevel(line))].separation_image_cell;
-  RasterGrid grid = app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.crs());
+  RasterGrid grid =
+      app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.reference().crs);
   if (grid.cell > cell)
     app::remark(line, "so large a block gets a swath separation image of " +
                           std::to_string(static_cast<int>(grid.cell)) + " m cells");
@@ -157,9 +160,10 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
   Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
   app::SurveyReader survey(files, line.threads());
   reading.done(grouped(survey.pointCount()) + " points");
+  app::remarks(line, survey.reference().remarks);
   std::shared_ptr<const Trajectory> trajectory;
   if (line.has("trajectory")) {
-    trajectory = app::readFlight(line, survey.crs(), 0.0, app::AttitudeUse::where_given);
+    trajectory = app::readFlight(line, survey.reference().crs, 0.0, app::AttitudeUse::where_given);
   }
   // The trajectory serves for scan angles only: points that it does not cover are compared, too.
   for (const std::string& text :

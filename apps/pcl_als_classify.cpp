@@ -11,6 +11,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/class_io.h>
+#include <pcl_als/io/crs.h>
 
 #include "accuracy_report.h"
 #include "class_maps.h"
@@ -49,6 +50,8 @@ class Classification {
         priors_(priorsOf(line)),
         files_(surveyFiles(line.inputs(1, std::numeric_limits<std::size_t>::max()))) {
     checkOptions();
+    if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
+    remarks_ = files_.remarks;
     const std::string crs = line.has("crs") ? line.text("crs") : files_.crs;
     grid_ = gridOf(line, files_.min_x, files_.min_y, files_.max_x, files_.max_y, crs);
     readSites();
@@ -122,8 +125,9 @@ class Classification {
   }
 
   void readSites() {
-    if (line_.has("training")) training_ = readClassSites(line_.text("training"));
-    if (line_.has("checkpoints")) checks_ = readClassSites(line_.text("checkpoints"));
+    const LengthUnit unit = unitOption(line_, "sites");
+    if (line_.has("training")) training_ = readClassSites(line_.text("training"), unit);
+    if (line_.has("checkpoints")) checks_ = readClassSites(line_.text("checkpoints"), unit);
     for (const std::vector<ClassSite>* sites : {&training_, &checks_})
       for (const ClassSite& site : *sites)
         if (site.name == kUnclassified)

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reference.h>
 #include <pcl_als/registration/patch_alignment.h>
 
 #include "alignment_report.h"
@@ -110,10 +111,6 @@ std::string boxText(const Eigen::AlignedBox3d& box) {
 /// The box in plan that both strips have points in, with what they may be apart.
 AlignedBox2d commonBox(const Request& request, const app::StripFileInfo& source,
                        const app::StripFileInfo& target, double reach) {
-  if (source.crs.rfind("EPSG:", 0) == 0 && target.crs.rfind("EPSG:", 0) == 0 &&
-      source.crs != target.crs)
-    throw InputError(request.target.name() + ": is in " + target.crs + ", " +
-                     request.source.name() + " in " + source.crs + "; reproject one of them");
   const auto wide = [reach](const Eigen::AlignedBox3d& box) {
     return AlignedBox2d(box.min().head<2>().array() - reach, box.max().head<2>().array() + reach);
   };
@@ -150,6 +147,9 @@ int icpatch(int argc, char** argv) {
   Step reading("Reading " + request.source.name() + " and " + request.target.name(), line.quiet());
   const app::StripFileInfo source_info = stripFileInfo(request.source);
   const app::StripFileInfo target_info = stripFileInfo(request.target);
+  std::vector<PointFileInfo> files = source_info.files;
+  files.insert(files.end(), target_info.files.begin(), target_info.files.end());
+  const PointReference reference = commonReference(files);
   const AlignedBox2d box =
       commonBox(request, source_info, target_info, settings.search_distance + 10.0);
   settings.resolution = std::min(source_info.resolution, target_info.resolution);
@@ -160,6 +160,7 @@ int icpatch(int argc, char** argv) {
   const app::StripPoints target = readStripPoints(request.target, box, origin);
   reading.done(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
                " points in common reach");
+  app::remarks(line, reference.remarks);
 
   Step aligning("Aligning", line.quiet());
   const PatchAlignmentResult result = alignPatches(source.view(), target.view(), settings);

@@ -5,7 +5,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "command_line.h"
@@ -101,8 +101,9 @@ void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport
   }
   if (line.has("targets")) {
     Step step("Reading " + line.text("targets"), line.quiet());
-    const ReferenceResult& reference = run.refer(readReferenceTargets(line.text("targets")),
-                                                 line.number("target_radius", 0.01, 1000.0, "m"));
+    const ReferenceResult& reference =
+        run.refer(readReferenceTargets(line.text("targets"), app::unitOption(line, "targets")),
+                  line.number("target_radius", 0.01, 1000.0, "m"));
     step.done(grouped(reference.targets.size()) + " targets");
     if (!line.quiet()) std::cout << app::referenceText(reference);
     report.reference = reference;
@@ -159,8 +160,9 @@ int intensity(int argc, const char* const* argv) {
   // What can be known to fail should fail before the work, not after it.
   if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
   if (line.has("json")) app::checkWritable(line.text("json"));
-  const auto flight = app::readFlight(line, PointReader::open(files.inputs[0])->info().crs, 0.0,
-                                      app::AttitudeUse::ignore);
+  const PointReference reference = commonReference(files.inputs);
+  app::remarks(line, reference.remarks);
+  const auto flight = app::readFlight(line, reference.crs, 0.0, app::AttitudeUse::ignore);
 
   Step looking("Reading " + counted(files.inputs.size(), "file"), line.quiet());
   app::IntensityRun run(files.inputs, flight, settings);

@@ -155,6 +155,7 @@ int profile(int argc, char** argv) {
                     source.strips(), chosen);
   }
   step.done(grouped(source.pointCount()) + " points");
+  app::remarks(line, source.remarks());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (before[i].seen() == 0) {
       throw InputError("no point lies in the section; the files cover " +

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/crs.h>
 #include <pcl_als/simulation/simulation_options.h>
 #include <pcl_als/simulation/simulator.h>
 
@@ -59,7 +60,10 @@ CommandLine declare() {
   line.addOptional("origin",
                    "X,Y,Z: ground coordinates of the block's middle, m (default: "
                    "700000,5660000,1000)");
-  line.add<std::string>("crs", "CRS written to the files", "EPSG:32611");
+  line.add<std::string>("crs",
+                        "CRS written to the strips, whose coordinates are in its unit; trajectory, "
+                        "control and sites are in metres",
+                        "EPSG:32611");
   line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
   line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
   line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
@@ -133,6 +137,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.vertical = line.has("vertical");
   if (line.has("origin")) options.origin = parseOrigin(line.text("origin"));
   options.crs = line.text("crs");
+  requireProjectedCrs(options.crs, "option -crs");
   options.scene.relief = line.number("relief", 0.0, 1.5, "(factor)");
   options.scene.buildings = line.number("buildings", 0.0, 1.0, "(factor)");
   options.scene.trees = line.number("trees", 0.0, 4.0, "(factor)");

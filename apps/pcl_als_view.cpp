@@ -194,6 +194,7 @@ int view(int argc, char** argv) {
       grouped(source.pointCount()) + " points, " + grouped(points.seen()) + " in the picture, " +
       grouped(points.shown()) + " shown" +
       (points.invalid() > 0 ? ", " + grouped(points.invalid()) + " without coordinates" : ""));
+  app::remarks(line, source.remarks());
   if (line.has("window")) {
     showWindow(line, source, selection, attribute, points, coloring);
     return app::kDone;

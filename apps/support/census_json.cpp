@@ -60,11 +60,24 @@ Json lasParts(const std::filesystem::path& path) {
   return json;
 }
 
+/// Lengths of one unit of the file in metres, and what states them; null where nothing does.
+Json unitsJson(const PointFileInfo& info) {
+  const auto unit = [](const LengthUnit& length, const std::string& source) {
+    Json json{{"name", length.name}, {"metres", length.metres}, {"stated_by", nullptr}};
+    if (!source.empty()) json["stated_by"] = source;
+    return json;
+  };
+  if (info.crs_kind == CrsKind::geographic) return "degrees";
+  return {{"horizontal", unit(info.units.horizontal, info.units.source)},
+          {"vertical", unit(info.units.vertical, info.units.vertical_source)}};
+}
+
 Json fileJson(const FileCensus& file) {
   Json json;
   json["path"] = file.info.path.string();
   json["format"] = file.info.format;
   json["crs"] = file.info.crs;
+  json["units"] = unitsJson(file.info);
   json["time_kind"] = timeKindName(file.info.time_kind);
   json["resolution"] = vector(file.info.resolution);
   json["header_minimum"] = vector(file.info.minimum);

@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/io/las_file.h>
+#include <pcl_als/io/point_reference.h>
 
 #include "census_report.h"
 #include "command_line.h"
@@ -114,6 +115,10 @@ std::string fileText(const FileCensus& file) {
   if (info.format.rfind("PCD", 0) != 0) text += lasText(info.path);
   text += entry("points", grouped(s.points));
   text += entry("CRS", crs);
+  if (!info.crs.empty() && !describeCrs(info.crs).name.empty())
+    text += entry("CRS name", describeCrs(info.crs).name);
+  text += entry(
+      "unit", describeUnits(info) + (info.units.metric() ? "" : "; everything below is in metres"));
   text += entry("resolution", format("%g m x %g m x %g m", info.resolution.x(), info.resolution.y(),
                                      info.resolution.z()));
   if (s.points > 0) {

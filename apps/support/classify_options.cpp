@@ -57,10 +57,13 @@ CommandLine declareClassify() {
   line.addOptional("training", "training sites: CSV x,y,class or GeoJSON with property class");
   line.addOptional("model", "statistics of the classes from -save_model instead of training");
   line.addOptional("checkpoints", "check sites, as training");
+  addUnitsOption(line, "sites", "-training and -checkpoints");
   addOutputs(line);
   line.add<double>("cell", "side of the cells, m", 1.0);
   line.addOptional("extent", "WEST,SOUTH,EAST,NORTH: of the rasters, m (default: all points)");
-  line.addOptional("crs", "CRS of the rasters (default: that of the point files)");
+  line.addOptional("crs",
+                   "CRS of the rasters, which are georeferenced in its unit (default: that of the "
+                   "point files); heights are in metres");
   line.add<std::string>("bands",
                         "that classes are told by: of surface, terrain, height, intensity, slope, "
                         "roughness, multiple_returns, height_range, density",

@@ -194,6 +194,24 @@ void Step::done(const std::string& counts) {
   std::cout << what_ << " … " << counts << ", " << ms << " ms" << std::endl;
 }
 
+void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what) {
+  const std::string help =
+      "unit of the coordinates in " + what + ": m, ft (international) or us_ft (US survey foot)";
+  line.add<std::string>((of + "_units").c_str(), help.c_str(), "m");
+}
+
+LengthUnit unitOption(const CommandLine& line, const std::string& of) {
+  return lengthUnitNamed(line.text((of + "_units").c_str()), "option -" + of + "_units");
+}
+
+void remark(const CommandLine& line, const std::string& text) {
+  if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
+}
+
+void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) remark(line, text);
+}
+
 int run(const char* tool, const std::function<int()>& body) {
   const auto failed = [tool](const char* message, int status) {
     std::cerr << tool << ": " << message << std::endl;

@@ -12,6 +12,8 @@
 
 #include <boost/program_options.hpp>
 
+#include <pcl_als/common/linear_units.h>
+
 namespace pcl_als::app {
 
 /// Exit statuses of every tool.
@@ -92,6 +94,15 @@ class Step {
   int last_percent_ = -1;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// Declares -OF_units: the unit of length of a file of coordinates that does not state one.
+void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what);
+/// The unit that -OF_units gives; metre without it. UsageError for another word.
+LengthUnit unitOption(const CommandLine& line, const std::string& of);
+
+/// Prints an indented line of explanation, unless -quiet or empty.
+void remark(const CommandLine& line, const std::string& text);
+void remarks(const CommandLine& line, const std::vector<std::string>& texts);
 
 /// Runs a tool's body and turns exceptions into one line on stderr ("pcl_als_info: …") and the exit
 /// status.

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/crs.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/trajectory/heading_check.h>
 
@@ -40,6 +40,7 @@ void addFlightOptions(CommandLine& line, const char* use) {
   line.addOptional("trajectory", help.c_str());
   line.addOptional("crs",
                    "CRS of the points for an SBET, e.g. EPSG:32611 (default: the point file's)");
+  addUnitsOption(line, "trajectory", "a trajectory CSV");
   line.addOptional("gps_week", "GPS week of times that are seconds of the week (default: found)");
   line.addOptional(
       "line_fit",
@@ -74,10 +75,6 @@ std::optional<int> gpsWeek(const CommandLine& line) {
     throw UsageError("option -gps_week: must be a whole number from 0 to 9999");
   }
   return static_cast<int>(week);
-}
-
-void remark(const CommandLine& line, const std::string& text) {
-  if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
 }
 
 void addForceOption(CommandLine& line, const std::string& reason) {
@@ -122,10 +119,11 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
           "straight within it");
     }
   }
+  if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
   const std::string path = line.text("trajectory");
   Step step("Reading " + path, line.quiet());
   const std::string crs = line.has("crs") ? line.text("crs") : points_crs;
-  TrajectoryFile file = readTrajectoryFile(path, crs);
+  TrajectoryFile file = readTrajectoryFile(path, crs, unitOption(line, "trajectory"));
   const std::string yaw = decideYaw(file);
   std::vector<TrajectorySample>& samples = file.samples;
   const bool complete =

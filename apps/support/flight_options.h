@@ -40,7 +40,4 @@ SystemParameter parameterNamed(const std::string& name, const std::string& what)
 /// A finite number; UsageError that names \a what otherwise.
 double numberIn(const std::string& text, const std::string& what);
 
-/// Prints an indented line of explanation, unless -quiet or empty.
-void remark(const CommandLine& line, const std::string& text);
-
 }  // namespace pcl_als::app

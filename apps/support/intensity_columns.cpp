@@ -77,8 +77,8 @@ RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t fi
     : evaluator_(run.trajectory(), run.model()),
       alignment_(run.timeAlignment(file)),
       layout_(run.input(file).las()->layout()),
-      metres_per_step_(run.input(file).las()->header().scale),
-      offset_(run.input(file).las()->header().offset),
+      metres_per_step_(run.input(file).las()->toMetres().scale),
+      offset_(run.input(file).las()->toMetres().offset),
       scale_(scale),
       saturation_(run.saturation()),
       original_at_(original_at) {

@@ -43,7 +43,7 @@ class SurfacePoints {
   std::uint16_t source_ = 0;
 };
 
-/// Where one strip's points of a block lie, in units of the file.
+/// Where one strip's points of a block lie, in coordinate steps of the file.
 struct BlockBox {
   std::uint32_t block = 0;
   std::uint16_t source = 0;
@@ -69,8 +69,8 @@ class LasInput : public IntensityInput {
         file_(path),
         layout_(file_.layout()),
         length_(file_.header().record_length),
-        scale_(file_.header().scale),
-        offset_(file_.header().offset) {
+        scale_(file_.toMetres().scale),
+        offset_(file_.toMetres().offset) {
     window_ = options.window;
     survey_.sources.info = file_.info();
     survey_.has_time = layout_.gps_time >= 0;
@@ -238,8 +238,7 @@ class LasInput : public IntensityInput {
       if (i >= first_box_[window] && i < first_box_[window + 1]) continue;
       const auto margin = margins.find(boxes_[i].source);
       if (margin == margins.end()) continue;
-      const double x = margin->second / file_.header().scale.x();
-      const double y = margin->second / file_.header().scale.y();
+      const double x = margin->second / scale_.x(), y = margin->second / scale_.y();
       for (std::size_t own = first_box_[window]; own < first_box_[window + 1]; ++own) {
         if (!boxes_[i].near(boxes_[own], x, y)) continue;
         blocks.insert(boxes_[i].block);

@@ -67,6 +67,7 @@ void addOverlapOptions(CommandLine& line) {
   line.add<double>("cell", "of the comparison of strips, m; 0: that of 6 points", 0.0);
   line.addOptional("radiometry", "JSON of an earlier run: its model, gains and constant are used");
   line.addOptional("targets", "CSV x,y,reflectance[,id][,sigma]: output becomes reflectance, too");
+  addUnitsOption(line, "targets", "-targets");
   line.add<double>("target_radius", "points this close belong to a target, m", 1.0);
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reference.h>
 
 #include "section_places.h"
 
@@ -87,6 +88,9 @@ PictureSource::PictureSource(const std::vector<std::string>& paths, bool split) 
       first_time_ = std::min(first_time_, source.first_time);
     }
   }
+  std::vector<PointFileInfo> infos;
+  for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
+  remarks_ = commonReference(infos).remarks;
   arrangement_.emplace(files_, StripChoice{{}, {}, split, true}, FlownTimes());
   if (!minimum_.allFinite()) {
     throw InputError(paths.front() + (paths.size() > 1 ? " and the other files hold" : ": holds") +

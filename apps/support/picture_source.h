@@ -35,6 +35,8 @@ class PictureSource {
   const Eigen::Vector3d& maximum() const { return maximum_; }
   double firstTime() const { return first_time_; }
   const std::vector<SurveyedFile>& files() const { return files_; }
+  /// Units that are converted or assumed, one line each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Cells for a SectionSearch among the chosen strips.
   double sectionCell(const std::vector<bool>& chosen) const;
@@ -57,6 +59,7 @@ class PictureSource {
  private:
   std::vector<SurveyedFile> files_;
   std::optional<StripArrangement> arrangement_;
+  std::vector<std::string> remarks_;
   Eigen::Vector3d minimum_, maximum_;
   double first_time_ = 0.0;
 };

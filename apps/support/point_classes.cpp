@@ -61,7 +61,7 @@ PointClassCounts classifyPcd(const std::filesystem::path& input,
 /// Changes the class of records; returns how many keep theirs.
 std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_t>& codes,
                               const LasRecordBlock& block, PointClasses& classes) {
-  const LasHeader& header = file.header();
+  const LasScaling metres = file.toMetres();
   const LasRecordLayout& layout = file.layout();
   std::vector<PointClasses::Point> points;
   points.reserve(block.count);
@@ -70,7 +70,7 @@ std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_
     double place[3];
     for (int axis = 0; axis < 3; ++axis)
       place[axis] =
-          loadLas<std::int32_t>(record + 4 * axis) * header.scale[axis] + header.offset[axis];
+          loadLas<std::int32_t>(record + 4 * axis) * metres.scale[axis] + metres.offset[axis];
     const double intensity = loadLas<std::uint16_t>(record + 12);
     points.push_back({place[0], place[1], place[2], intensity});
   }

@@ -81,6 +81,7 @@ template <typename Visit>
 void visitSome(const LasFile& file, const Visit& visit) {
   constexpr std::uint64_t kEvery = 512, kRun = 32;
   const LasHeader& header = file.header();
+  const LasScaling metres = file.toMetres();
   const std::size_t length = header.record_length;
   std::vector<std::byte> records(kRun * length);
   for (std::uint64_t first = 0; first < header.point_count; first += kEvery) {
@@ -91,7 +92,7 @@ void visitSome(const LasFile& file, const Visit& visit) {
       Eigen::Vector3d point;
       for (int axis = 0; axis < 3; ++axis) {
         point[axis] =
-            loadLas<std::int32_t>(record + 4 * axis) * header.scale[axis] + header.offset[axis];
+            loadLas<std::int32_t>(record + 4 * axis) * metres.scale[axis] + metres.offset[axis];
       }
       visit(loadLas<double>(record + file.layout().gps_time), point);
     }
@@ -243,12 +244,12 @@ class Tally {
 IntegerBiasCorrection integerCorrection(const LasFile& file, const PointFileCorrection& correction,
                                         std::shared_ptr<const Trajectory> trajectory,
                                         TimeAlignment alignment) {
-  const LasHeader& header = file.header();
+  const LasScaling metres = file.toMetres();
   return {file.path().string(),
           std::make_shared<BiasEvaluator>(std::move(trajectory), correction.biases,
                                           correction.trajectory_errors),
-          {header.record_length, static_cast<std::size_t>(file.layout().gps_time), header.scale,
-           header.offset},
+          {file.header().record_length, static_cast<std::size_t>(file.layout().gps_time),
+           metres.scale, metres.offset},
           std::move(alignment),
           correction.invert};
 }

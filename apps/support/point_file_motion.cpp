@@ -28,7 +28,8 @@ std::string extensionOf(const fs::path& path) {
 std::uint64_t moveLas(const fs::path& input, const fs::path& output, const RigidMotion& motion,
                       int threads) {
   const LasFile file(input);
-  const Vector3d scale = file.header().scale, offset = file.header().offset;
+  const LasScaling metres = file.toMetres();
+  const Vector3d scale = metres.scale, offset = metres.offset;
   const Vector3d c = motion.centroid;
   const Eigen::Affine3d moving = motion.transformation(c, c);
   const LasEdit edit = [&](const LasRecordBlock& block) {

@@ -31,7 +31,8 @@ void addMap(const CommandLine& line, const StripCoverage& coverage,
   std::string caption = "Outlines of the strips and how many see a place";
   if (!areas.empty()) caption += ", areas that were used";
   if (line.has("control")) {
-    const std::vector<ControlPoint> control = readControl(line.text("control"));
+    const std::vector<ControlPoint> control =
+        readControl(line.text("control"), unitOption(line, "control"));
     std::vector<Eigen::Vector2d> places;
     places.reserve(control.size());
     for (const ControlPoint& point : control) places.emplace_back(point.position.head<2>());

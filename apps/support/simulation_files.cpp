@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/io/atomic_file.h>
+#include <pcl_als/io/crs.h>
 #include <pcl_als/io/las_writer.h>
 #include <pcl_als/simulation/radiometry.h>
 
@@ -27,8 +28,8 @@ using Columns = std::vector<std::vector<double>>;
 LasWriterOptions lasOptionsOf(const SimulationOptions& options, std::uint16_t strip,
                               const StripFileOptions& files) {
   LasWriterOptions las;
-  las.offset = options.origin.array().floor();
   las.crs = options.crs;
+  las.offset = options.origin.cwiseQuotient(unitsOfCrs(las.crs).metres()).array().floor();
   las.time_kind = files.adjusted_time ? TimeKind::adjusted_standard : TimeKind::week_seconds;
   las.file_source_id = strip;
   las.system_id = "SIMULATION";

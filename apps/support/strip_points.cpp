@@ -31,7 +31,7 @@ StripFileInfo stripFileInfo(const StripFiles& strip) {
   for (const std::filesystem::path& file : strip.files) {
     const PointFileInfo one = PointReader::open(file)->info();
     info.points += one.point_count;
-    if (info.crs.empty()) info.crs = one.crs;
+    info.files.push_back(one);
     info.resolution = std::clamp(one.resolution.head<2>().minCoeff(), 1e-4, 0.01);
     if (one.point_count == 0) continue;
     info.box.extend(one.minimum);

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/registration/point_view.h>
 
 namespace pcl_als::app {
@@ -26,7 +27,7 @@ struct StripFiles {
 /// A strip before its points are read.
 struct StripFileInfo {
   Eigen::AlignedBox3d box;  ///< metres, as the files' headers say
-  std::string crs;          ///< of the first file that has one
+  std::vector<PointFileInfo> files;
   double resolution = 0.001;
   std::uint64_t points = 0;
 };

@@ -11,6 +11,7 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/point_reference.h>
 
 namespace pcl_als::app {
 namespace {
@@ -27,10 +28,6 @@ struct BoxedFile {
            min_y <= grid.north;
   }
 };
-
-bool isEpsg(const std::string& crs) {
-  return crs.compare(0, 5, "EPSG:") == 0;
-}
 
 /// As many threads as tiles have room at once in half of the memory.
 int threadsFor(const RasterTile& tile, int threads) {
@@ -106,7 +103,7 @@ StripFiles surveyFiles(const std::vector<std::string>& paths) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   StripFiles files;
   files.min_x = files.min_y = kFar, files.max_x = files.max_y = -kFar;
-  std::string crs_file;
+  std::vector<PointFileInfo> infos;
   for (const std::string& path : paths) {
     const auto reader = PointReader::open(path);
     const PointFileInfo& info = reader->info();
@@ -117,13 +114,11 @@ StripFiles surveyFiles(const std::vector<std::string>& paths) {
     files.min_y = std::min(files.min_y, info.minimum.y());
     files.max_x = std::max(files.max_x, info.maximum.x());
     files.max_y = std::max(files.max_y, info.maximum.y());
-    if (files.crs.empty()) {
-      files.crs = info.crs;
-      crs_file = path;
-    } else if (isEpsg(files.crs) && isEpsg(info.crs) && info.crs != files.crs) {
-      throw InputError(path + ": is in " + info.crs + ", " + crs_file + " in " + files.crs);
-    }
+    infos.push_back(info);
   }
+  PointReference reference = commonReference(infos);
+  files.crs = std::move(reference.crs);
+  files.remarks = std::move(reference.remarks);
   if (files.points == 0)
     throw InputError(paths.front() + (paths.size() > 1 ? " and the others: hold" : ": holds") +
                      " no points");

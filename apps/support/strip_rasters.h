@@ -16,11 +16,12 @@ namespace pcl_als::app {
 struct StripFiles {
   std::vector<std::filesystem::path> paths;
   std::uint64_t points = 0;
-  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;
-  std::string crs;  ///< of the first file that has one
+  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< metres
+  std::string crs;                                            ///< of the first file that has one
+  std::vector<std::string> remarks;  ///< units that are converted or assumed
 };
 
-/// Opens every file once. InputError for files without points and for different EPSG codes.
+/// Opens every file once. InputError for files without points or that commonReference() refuses.
 StripFiles surveyFiles(const std::vector<std::string>& paths);
 
 struct RasterCounts {

@@ -17,6 +17,10 @@ SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
     : threads_(threads), files_(paths.size()), times_(paths.size()) {
   parallelFor(paths.size(), threads,
               [&](std::size_t file) { files_[file] = surveyFile(paths[file]); });
+  std::vector<PointFileInfo> infos;
+  infos.reserve(files_.size());
+  for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
+  reference_ = commonReference(infos);
   arrangement_.emplace(files_, StripChoice(), FlownTimes());
 }
 
@@ -24,13 +28,6 @@ std::uint64_t SurveyReader::pointCount() const {
   std::uint64_t count = 0;
   for (const SurveyedFile& file : files_) count += file.sources.info.point_count;
   return count;
-}
-
-std::string SurveyReader::crs() const {
-  for (const SurveyedFile& file : files_) {
-    if (!file.sources.info.crs.empty()) return file.sources.info.crs;
-  }
-  return {};
 }
 
 Eigen::AlignedBox2d SurveyReader::extent() const {

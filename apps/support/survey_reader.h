@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/trajectory/trajectory.h>
@@ -45,7 +46,8 @@ class SurveyReader {
     bool needed = true;
   };
 
-  /// Reads all files once (ids, times, extents). InputError for a file that cannot be read.
+  /// Reads all files once (ids, times, extents). InputError for a file that cannot be read,
+  /// or that commonReference() refuses.
   SurveyReader(const std::vector<std::string>& paths, int threads);
 
   /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
@@ -59,8 +61,8 @@ class SurveyReader {
   const std::vector<std::uint64_t>& pointsByStrip() const { return arrangement_->expectedPoints(); }
   /// What the last complete reading left out.
   const std::vector<LeftOutPoints>& leftOut() const { return left_out_; }
-  /// CRS of the first file that has one; empty when none has.
-  std::string crs() const;
+  /// CRS that the files have in common, and what is converted or assumed of their units.
+  const PointReference& reference() const { return reference_; }
   /// Box of all points in plan, metres; empty when there are none.
   Eigen::AlignedBox2d extent() const;
   /// South-west corner of all points, metres.
@@ -89,6 +91,7 @@ class SurveyReader {
   int threads_;
   std::vector<SurveyedFile> files_;
   std::optional<StripArrangement> arrangement_;
+  PointReference reference_;
   std::vector<TimeAlignment> times_;
   mutable std::vector<LeftOutPoints> left_out_;
 };

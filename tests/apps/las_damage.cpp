@@ -33,7 +33,7 @@ const std::map<std::string, Field> kFields{
     {"record_length", {105, 2, false}},   {"scale_x", {131, 8, true}},
     {"offset_x", {155, 8, true}},         {"evlr_start", {235, 8, false}},
     {"evlr_count", {243, 4, false}},      {"point_count", {247, 8, false}},
-    {"vlr_length", {375 + 20, 2, false}},
+    {"vlr_length", {375 + 20, 2, false}}, {"vlr_record", {375 + 18, 2, false}},
 };
 
 template <typename T>

@@ -155,7 +155,7 @@ expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -
 expect 2 'folder does not exist' classify "${strips[@]}" -training "$training" -output bad.tif -map none/bad.png
 expect 1 'option -reject' classify "${strips[@]}" -training "$training" -output bad.tif -reject 0.9
 expect 2 'no point lies in the rasters' classify "${strips[@]}" -training "$training" -output bad.tif -extent 0,0,100,100
-expect 2 'CRS EPSG:1 is not known' classify "${strips[@]}" -training "$training" -output bad.tif -crs EPSG:1 -cell 5
+expect 1 "option -crs: 'EPSG:1' is not known to PROJ" classify "${strips[@]}" -training "$training" -output bad.tif -crs EPSG:1 -cell 5
 expect 1 'option -output is needed' accuracy table6.csv
 expect 1 'table6.csv is also an input' accuracy table6.csv -output table6.csv
 expect 2 'no such file' accuracy none.csv -output bad.json

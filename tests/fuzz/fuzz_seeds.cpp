@@ -35,6 +35,33 @@ std::string geoKeysVlr() {
   return LasBytes::vlr("LASF_Projection", 34735, keys.str());
 }
 
+/// A file of LAS 1.2 or 1.4 with records of the CRS as deliveries in other units have them.
+std::string withCrs(bool wkt, const std::string& record, const std::string& doubles = "") {
+  LasBytes las;
+  las.minor = wkt ? 4 : 2;
+  las.format = wkt ? 6 : 1;
+  las.encoding = wkt ? 17 : 0;
+  las.vlrs = {LasBytes::vlr("LASF_Projection", wkt ? 2112 : 34735, record)};
+  if (!doubles.empty()) las.vlrs.push_back(LasBytes::vlr("LASF_Projection", 34736, doubles));
+  return las.str();
+}
+
+std::vector<std::string> crsSeeds() {
+  Bytes feet, own, degrees;
+  feet.u16(1).u16(1).u16(0).u16(4).u16(1024).u16(0).u16(1).u16(1);
+  feet.u16(3072).u16(0).u16(1).u16(32128).u16(3076).u16(0).u16(1).u16(9003);
+  feet.u16(4099).u16(0).u16(1).u16(9002);
+  own.u16(1).u16(1).u16(0).u16(3).u16(3076).u16(0).u16(1).u16(32767);
+  own.u16(3077).u16(34736).u16(1).u16(0).u16(4096).u16(0).u16(1).u16(6360);
+  degrees.u16(1).u16(1).u16(0).u16(2).u16(1024).u16(0).u16(1).u16(2);
+  degrees.u16(2048).u16(0).u16(1).u16(4326);
+  const std::string compound =
+      "COMPD_CS[\"a\",LOCAL_CS[\"b\",UNIT[\"Foot_US\",0.3048006096012192]],VERT_CS[\"c\","
+      "VERT_DATUM[\"d\",2005],UNIT[\"foot\",0.3048],AXIS[\"Up\",UP]]]";
+  return {withCrs(false, feet.str()), withCrs(false, own.str(), Bytes().f64(0.3048006).str()),
+          withCrs(false, degrees.str()), withCrs(true, compound), withCrs(true, "EPSG:2227+6360")};
+}
+
 std::string binaryPcd(const std::string& kind, const std::string& data) {
   return "# .PCD v0.7\n# pcl_als strip 7\nVERSION 0.7\nFIELDS x y z gps_time point_source_id\n"
          "SIZE 4 4 4 8 2\nTYPE F F F F U\nCOUNT 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
@@ -63,6 +90,7 @@ std::vector<std::string> lasSeeds() {
   none.extra = 2;
   none.vlrs = {extraFieldsVlr()};
   seeds.push_back(none.str());
+  for (std::string& seed : crsSeeds()) seeds.push_back(std::move(seed));
   return seeds;
 }
 

@@ -192,6 +192,29 @@ TEST(LasWriter, StoresTheCrs) {
   EXPECT_EQ(LasFile(folder / "code.las").crs(), "EPSG:28992");
 }
 
+TEST(LasWriter, StoresFeetWhereTheCrsCountsInFeet) {
+  const auto folder = test::scratch("las_writer_feet");
+  for (const int format : {1, 6}) {  // GeoTIFF keys and WKT
+    LasWriterOptions options = around(4, format);
+    options.crs = "EPSG:2227";
+    options.offset = {6000000.0, 2000000.0, 0.0};  // feet
+    LasWriter writer(folder / "feet.las", options);
+    PointChunk points = somePoints(1);
+    points.x[0] = 6000100.0 * writer.units().horizontal.metres;
+    points.y[0] = 2000100.0 * writer.units().horizontal.metres;
+    points.z[0] = 30.48;
+    writer.append(points);
+    writer.finish();
+    const LasFile file(folder / "feet.las");
+    EXPECT_EQ(file.units().horizontal.name, "US survey foot");
+    EXPECT_NEAR(file.header().minimum.x(), 6000100.0, 1e-6);
+    // 100 international feet are 99.9998 US survey feet; steps are 0.001.
+    EXPECT_NEAR(file.header().minimum.z(), 99.9998, 0.000501);
+    EXPECT_NEAR(file.info().minimum.x(), points.x[0], 1e-6);
+    EXPECT_EQ(file.units().verticalKnown(), format == 1);
+  }
+}
+
 TEST(LasWriter, StoresTheKindOfTime) {
   const auto folder = test::scratch("las_writer_time");
   LasWriterOptions options = around(4, 6);

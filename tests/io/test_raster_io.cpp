@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/crs.h>
 #include <pcl_als/io/raster_io.h>
 
 #include "las_bytes.h"
@@ -102,6 +103,32 @@ TEST(RasterIo, KeepsACrsOfWktAndNone) {
   const std::string local = R"(LOCAL_CS["quarry",UNIT["metre",1]])";
   writeRaster(folder / "wkt.tif", numbered(3, 2, local));
   EXPECT_NE(readRaster(folder / "wkt.tif").grid.crs.find("quarry"), std::string::npos);
+}
+
+/// Whether the bytes of a double are in a file, as tags of a GeoTIFF keep them.
+bool holdsNumber(const fs::path& path, double number) {
+  const std::string bytes(reinterpret_cast<const char*>(&number), sizeof number);
+  return test::readBytes(path).find(bytes) != std::string::npos;
+}
+
+TEST(RasterIo, IsGeoreferencedInTheUnitOfItsCrs) {
+  const fs::path folder = test::scratch("raster_feet");
+  const double foot = 12.0 / 39.37;
+  for (const std::string& crs :
+       {std::string("EPSG:2271"), crsInUnit("EPSG:32128", lengthUnitOf(foot)),
+        localCrs(lengthUnitOf(foot))}) {
+    const Raster raster = numbered(37, 23, crs);
+    writeRaster(folder / "feet.tif", raster);
+    // Scale and corner of the file: EPSG:2271 and the others count in US survey feet.
+    EXPECT_TRUE(holdsNumber(folder / "feet.tif", 0.5 / foot)) << crs;
+    EXPECT_TRUE(holdsNumber(folder / "feet.tif", 512000.5 / foot)) << crs;
+    const RasterGrid grid = readRaster(folder / "feet.tif").grid;
+    EXPECT_DOUBLE_EQ(grid.cell, 0.5) << crs;
+    EXPECT_DOUBLE_EQ(grid.west, raster.grid.west) << crs;
+    EXPECT_DOUBLE_EQ(grid.north, raster.grid.north) << crs;
+    EXPECT_TRUE(sameGroundFrame(grid.crs, crs)) << grid.crs;
+    EXPECT_DOUBLE_EQ(unitsOfCrs(grid.crs).horizontal.metres, foot) << grid.crs;
+  }
 }
 
 TEST(RasterIo, HasOverviewsOfMeansAndIsCloudOptimised) {

@@ -107,13 +107,39 @@ TEST(Sbet, RefusesARecordThatLies) {
   }
 }
 
-TEST(Sbet, RefusesACrsThatIsNoMapInMetres) {
+TEST(Sbet, RefusesACrsThatIsNoMap) {
   const std::vector<Record> records{record(1.0)};
   EXPECT_NE(refusal(records, "EPSG:999999").find("PROJ does not know it"), std::string::npos);
   EXPECT_NE(refusal(records, "nonsense").find("'nonsense'"), std::string::npos);
   EXPECT_NE(refusal(records, "EPSG:4326").find("not a projected CRS"), std::string::npos);
   EXPECT_NE(refusal(records, "EPSG:4978").find("not a projected CRS"), std::string::npos);
-  EXPECT_NE(refusal(records, "EPSG:2227").find("metres are needed"), std::string::npos);
+}
+
+/// Over 37.77 north, 119.02 west: within zone 3 of California, given in feet and in metres.
+TEST(Sbet, IsInMetresWhateverTheCrsCountsIn) {
+  const std::vector<Record> records{record(1.0)};
+  const TrajectorySample metres = readTrajectory(file(records), "EPSG:26943")[0];
+  // Easting of the zone: 2 000 000 m at 120.5 degrees west.
+  ASSERT_NEAR(metres.position.x(), 2130000.0, 10000.0);
+  const TrajectorySample feet = readTrajectory(file(records), "EPSG:2227")[0];
+  // 2e-4 m: the false easting of the zone in feet is rounded to 0.001 ft.
+  EXPECT_NEAR(feet.position.x(), metres.position.x(), 2e-4);
+  EXPECT_NEAR(feet.position.y(), metres.position.y(), 2e-4);
+  EXPECT_DOUBLE_EQ(feet.position.z(), 3000.0);
+  EXPECT_NEAR(feet.heading, metres.heading, 1e-9);
+}
+
+/// Heights above a geoid in feet: in metres where its grid is installed, refused where not.
+TEST(Sbet, HeightsInFeetAreBroughtToMetres) {
+  const auto path = file({record(1.0)});
+  const std::string message = test::messageOf<InputError>([&] {
+    const double height = readTrajectory(path, "EPSG:26943+6360")[0].position.z();
+    EXPECT_NEAR(height, 3000.0, 100.0);  // the geoid's height
+    EXPECT_NE(height, 3000.0);
+  });
+  if (message != "no error") {
+    EXPECT_NE(message.find("geoid grid"), std::string::npos) << message;
+  }
 }
 
 TEST(Sbet, ATimeAcrossTheEndOfTheWeekRunsOn) {

@@ -90,12 +90,21 @@ void remarkHeader(const LasHeader& h, const PointStatistics& s, std::vector<std:
         std::to_string(h.point_count) + "; the second is used");
 }
 
-void remarkCrs(const std::string& crs, std::vector<std::string>& remarks) {
-  if (crs.empty())
+void remarkCrs(const PointFileInfo& info, std::vector<std::string>& remarks) {
+  if (info.crs.empty())
     remarks.emplace_back("the coordinate reference system is unknown (no WKT, no EPSG code)");
-  const bool degrees = crs.size() == 9 && crs.rfind("EPSG:4", 0) == 0;
-  if (degrees || crs.rfind("GEOGCS", 0) == 0)
-    remarks.emplace_back("the coordinates are degrees: project them to a metric system first");
+  if (info.crs_kind == CrsKind::geographic)
+    remarks.emplace_back(
+        "the coordinates are degrees: project them to a metric system first; lengths and areas "
+        "here count degrees as metres");
+  else if (info.crs_kind == CrsKind::geocentric)
+    remarks.emplace_back("the coordinates are geocentric: project them to a metric system first");
+  else if (!info.units.known() && !info.crs.empty())
+    remarks.emplace_back("PROJ knows no unit of length for the CRS; metres are assumed");
+  else if (!info.units.known())
+    remarks.emplace_back("the unit of length is not stated; metres are assumed");
+  else if (!info.units.metric() && !info.units.verticalKnown())
+    remarks.emplace_back("the unit of the heights is not stated; that of the plan is assumed");
 }
 
 void remarkFile(FileCensus& file) {
@@ -118,7 +127,7 @@ void remarkFile(FileCensus& file) {
   remarkCount(remarks, s.withheld, s.points, "is flagged as withheld", "are flagged as withheld");
   if (s.largest_intensity == 0.0F && s.least_intensity == 0.0F)
     remarks.emplace_back("every intensity is zero");
-  remarkCrs(file.info.crs, remarks);
+  remarkCrs(file.info, remarks);
 }
 
 /// Rounded times: an aircraft is metres to tens of metres further when they change.

@@ -127,13 +127,18 @@ class GeoJsonSites {
 
 }  // namespace
 
-std::vector<ClassSite> readClassSites(const fs::path& path) {
+std::vector<ClassSite> readClassSites(const fs::path& path, const LengthUnit& unit) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const bool json = extension == ".geojson" || extension == ".json";
   std::vector<ClassSite> sites = json ? GeoJsonSites(path).sites : sitesOfCsv(path);
   if (sites.empty()) throw InputError(path.string() + ": holds no sites");
+  for (ClassSite& site : sites) {
+    site.place *= unit.metres;
+    for (auto& ring : site.rings)
+      for (Eigen::Vector2d& corner : ring) corner *= unit.metres;
+  }
   return sites;
 }
 

@@ -13,7 +13,7 @@ constexpr double kLargestSigma = 100.0;  // metres: such a point says nothing of
 
 }  // namespace
 
-std::vector<ControlPoint> readControl(const std::filesystem::path& path) {
+std::vector<ControlPoint> readControl(const std::filesystem::path& path, const LengthUnit& unit) {
   detail::CsvTable table(path);
   const std::size_t id = table.required("id");
   const std::size_t x = table.required("x"), y = table.required("y"), z = table.required("z");
@@ -24,8 +24,9 @@ std::vector<ControlPoint> readControl(const std::filesystem::path& path) {
     point.id = table.text(id);
     if (point.id.empty()) table.refuse(id, "must name the point");
     point.position = {table.number(x), table.number(y), table.number(z)};
+    point.position *= unit.metres;
     if (sigma != detail::CsvTable::npos && !table.text(sigma).empty()) {
-      point.sigma = table.number(sigma);
+      point.sigma = table.number(sigma) * unit.metres;
       if (point.sigma < 0.0) table.refuse(sigma, "must not be negative");
       if (point.sigma > kLargestSigma) table.refuse(sigma, "must not exceed 100 m");
     }

@@ -4,19 +4,28 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "las_bytes.h"
+
+#ifdef PCL_ALS_HAVE_PROJ
+#include "proj_object.h"
+#endif
 
 namespace pcl_als::detail {
 namespace {
 
 constexpr std::uint16_t kModelType = 1024, kGeographic = 2048, kEllipsoid = 2056;
+constexpr std::uint16_t kGeodeticUnit = 2052, kGeodeticUnitSize = 2053;
 constexpr std::uint16_t kSemiMajorAxis = 2057, kInverseFlattening = 2059;
 constexpr std::uint16_t kProjected = 3072, kProjection = 3074;
+constexpr std::uint16_t kProjectedUnit = 3076, kProjectedUnitSize = 3077;
+constexpr std::uint16_t kVertical = 4096, kVerticalUnit = 4099;
 constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kModelGeocentric = 3;
 constexpr std::uint16_t kUserDefined = 32767;
 constexpr std::uint16_t kDoublesRecord = 34736;
 constexpr std::uint16_t kWgs84 = 4326, kWgs84Ellipsoid = 7030;
+constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;
 
 /// A directory of (key, place, count, value); the value is an index where it lies in a record.
 class Directory {
@@ -60,27 +69,117 @@ unsigned utmCode(const Directory& keys) {
   return 0;
 }
 
+std::string epsg(unsigned code) {
+  return code == 0 || code == kUserDefined ? std::string() : "EPSG:" + std::to_string(code);
+}
+
+/// The unit of an EPSG code of units of length.
+std::optional<LengthUnit> unitOfCode(std::uint16_t code) {
+  if (code == kMetre) return LengthUnit();
+  if (code == kFoot) return lengthUnitOf(0.3048);
+  if (code == kSurveyFoot) return lengthUnitOf(12.0 / 39.37);
+#ifdef PCL_ALS_HAVE_PROJ
+  const ProjContext context = quietProjContext();
+  const char *name = nullptr, *category = nullptr;
+  double metres = 0.0;
+  if (proj_uom_get_info_from_database(context.get(), "EPSG", std::to_string(code).c_str(), &name,
+                                      &metres, &category) != 0 &&
+      category != nullptr && std::string(category) == "linear" && std::isfinite(metres) &&
+      metres > 0.0)
+    return lengthUnitOf(metres, name == nullptr ? "" : name);
+#endif
+  return std::nullopt;
+}
+
+/// The unit that a key states by code, or \a size_key by its length in metres (0: no such key).
+std::optional<StatedUnit> statedUnit(const Directory& keys, std::uint16_t key,
+                                     std::uint16_t size_key) {
+  const std::uint16_t code = keys.code(key);
+  if (code == 0) return std::nullopt;
+  if (code != kUserDefined) {
+    const auto unit = unitOfCode(code);
+    if (!unit) return std::nullopt;
+    return StatedUnit{*unit, "GeoTIFF key " + std::to_string(key)};
+  }
+  const double metres = size_key == 0 ? 0.0 : keys.number(size_key);
+  if (!(std::isfinite(metres) && metres > 0.0)) return std::nullopt;
+  return StatedUnit{lengthUnitOf(metres), "GeoTIFF key " + std::to_string(size_key)};
+}
+
+std::optional<StatedUnit> verticalUnit(const Directory& keys) {
+  if (auto unit = statedUnit(keys, kVerticalUnit, 0)) return unit;
+  // Codes of GeoTIFF 1.0 that stand for a datum only are no CRS to PROJ.
+  const std::string crs = epsg(keys.code(kVertical));
+  const CrsDescription description = describeCrs(crs);
+  if (description.kind != CrsKind::unknown || !description.vertical) return std::nullopt;
+  return StatedUnit{*description.vertical, "GeoTIFF key 4096 (" + crs + ")"};
+}
+
+CrsKind kindOf(const Directory& keys) {
+  switch (keys.code(kModelType)) {
+    case kModelProjected:
+      return CrsKind::projected;
+    case kModelGeographic:
+      return CrsKind::geographic;
+    case kModelGeocentric:
+      return CrsKind::geocentric;
+    default:
+      if (keys.code(kProjected) != 0) return CrsKind::projected;
+      return keys.code(kGeographic) != 0 ? CrsKind::geographic : CrsKind::unknown;
+  }
+}
+
+/// Codes 4000-4999 are those of geographic systems in GeoTIFF 1.0.
+bool isGeographicCode(unsigned code) {
+  return code >= 4000 && code < 5000;
+}
+
+std::uint16_t codeOfUnit(const LengthUnit& unit) {
+  if (unit.isMetre()) return kMetre;
+  for (const std::uint16_t code : {kFoot, kSurveyFoot})
+    if (unitOfCode(code)->metres == unit.metres) return code;
+  return 0;
+}
+
 }  // namespace
 
-std::string epsgOfGeoKeys(const std::vector<std::byte>& directory,
-                          const std::vector<std::byte>& doubles) {
+GeoKeys readGeoKeys(const std::vector<std::byte>& directory,
+                    const std::vector<std::byte>& doubles) {
   const Directory keys(directory, doubles);
-  if (keys.code(kModelType) == kModelGeocentric) return {};  // the code is that of the datum
-  unsigned code = keys.code(kProjected);
-  if (code == 0) code = keys.code(kGeographic);
-  if (code == kUserDefined) code = utmCode(keys);
-  return code == 0 ? std::string() : "EPSG:" + std::to_string(code);
+  GeoKeys found;
+  found.kind = kindOf(keys);
+  unsigned code = 0;  // a geocentric system's is that of its datum
+  if (found.kind == CrsKind::projected) {
+    code = keys.code(kProjected);
+    if (code == 0 || code == kUserDefined) code = utmCode(keys);
+  } else if (found.kind == CrsKind::geographic) {
+    code = keys.code(kGeographic);
+  }
+  found.crs = epsg(code);
+  found.horizontal = statedUnit(keys, kProjectedUnit, kProjectedUnitSize);
+  if (!found.horizontal && found.crs.empty())
+    found.horizontal = statedUnit(keys, kGeodeticUnit, kGeodeticUnitSize);
+  found.vertical = verticalUnit(keys);
+  return found;
 }
 
 std::vector<std::byte> geoKeysOfEpsg(unsigned code) {
-  // Codes 4000-4999 are those of geographic systems in GeoTIFF 1.0.
-  const bool geographic = code >= 4000 && code < 5000;
-  const std::uint16_t model = geographic ? kModelGeographic : kModelProjected;
-  const std::uint16_t key = geographic ? kGeographic : kProjected;
-  const std::uint16_t numbers[] = {1, 1,     0,   2, kModelType, 0,
-                                   1, model, key, 0, 1,          static_cast<std::uint16_t>(code)};
+  const bool geographic = isGeographicCode(code);
+  std::vector<std::pair<std::uint16_t, std::uint16_t>> keys;
+  keys.emplace_back(kModelType, geographic ? kModelGeographic : kModelProjected);
+  keys.emplace_back(geographic ? kGeographic : kProjected, static_cast<std::uint16_t>(code));
+  const CrsDescription description = describeCrs(epsg(code));
+  const std::uint16_t unit = description.horizontal ? codeOfUnit(*description.horizontal) : kMetre;
+  if (unit != kMetre && unit != 0) {
+    keys.emplace_back(kProjectedUnit, unit);
+    keys.emplace_back(kVerticalUnit, unit);
+  }
   std::vector<std::byte> bytes;
-  for (const std::uint16_t number : numbers) putNumber(bytes, number);
+  for (const std::size_t number : {std::size_t{1}, std::size_t{1}, std::size_t{0}, keys.size()})
+    putNumber(bytes, static_cast<std::uint16_t>(number));
+  for (const auto& [key, value] : keys)
+    for (const std::uint16_t number : {key, std::uint16_t{0}, std::uint16_t{1}, value})
+      putNumber(bytes, number);
   return bytes;
 }
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "las_crs.h"
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <pcl_als/common/errors.h>
 
-#ifdef PCL_ALS_HAVE_PROJ
-#include <proj.h>
-#endif
-
 #include "geo_keys.h"
 #include "las_bytes.h"
-#include "las_crs.h"
+
+#ifdef PCL_ALS_HAVE_PROJ
+#include "proj_object.h"
+#endif
 
 namespace pcl_als::detail {
 namespace {
@@ -36,13 +38,86 @@ std::string wktOf(const LasFile& file) {
   return wkt;
 }
 
-std::string epsgOf(const LasFile& file) {
+GeoKeys geoKeysOf(const LasFile& file) {
   const LasVlrEntry* directory = findRecord(file, kGeoKeyRecord);
   if (directory == nullptr) return {};
   const LasVlrEntry* doubles = findRecord(file, kGeoDoublesRecord);
-  return epsgOfGeoKeys(
+  return readGeoKeys(
       file.payload(*directory, kLargestRecord),
       doubles == nullptr ? std::vector<std::byte>() : file.payload(*doubles, kLargestRecord));
+}
+
+LasReference referenceOfWkt(const std::string& wkt) {
+  LasReference reference;
+  reference.crs = wkt;
+  reference.kind = describeCrs(wkt).kind;
+  reference.units = unitsOfCrs(wkt, "WKT");
+  return reference;
+}
+
+/// The horizontal unit that keys state stands above the one that the CRS implies.
+void setHorizontal(const StatedUnit& stated, LasReference& reference) {
+  LinearUnits& units = reference.units;
+  const LinearUnits implied = units;
+  units.horizontal = stated.unit;
+  units.source = stated.source;
+  if (implied.known() && implied.horizontal.metres == stated.unit.metres) return;
+  if (reference.crs.empty()) {
+    if (!stated.unit.isMetre()) reference.crs = localCrs(stated.unit);
+    return;
+  }
+  if (!implied.known()) return;
+  units.source += "; " + reference.crs + " by itself counts in " + implied.horizontal.name;
+  const std::string altered = crsInUnit(reference.crs, stated.unit);
+  if (!altered.empty()) reference.crs = altered;
+}
+
+/// The vertical unit: that of the keys, else that of the CRS, else the horizontal one.
+void setVertical(const GeoKeys& keys, LasReference& reference) {
+  LinearUnits& units = reference.units;
+  if (keys.vertical) {
+    units.vertical = keys.vertical->unit;
+    units.vertical_source = keys.vertical->source;
+  } else if (!units.verticalKnown()) {
+    units.vertical = units.horizontal;
+  }
+}
+
+LasReference referenceOfKeys(const GeoKeys& keys) {
+  LasReference reference;
+  reference.crs = keys.crs;
+  reference.kind = keys.kind;
+  // A code says more than the model type beside it.
+  const CrsKind kind = describeCrs(keys.crs).kind;
+  if (kind != CrsKind::unknown) reference.kind = kind;
+  if (reference.kind == CrsKind::geographic || reference.kind == CrsKind::geocentric)
+    return reference;
+  reference.units = unitsOfCrs(keys.crs);
+  if (keys.horizontal) setHorizontal(*keys.horizontal, reference);
+  setVertical(keys, reference);
+  return reference;
+}
+
+/// Longitudes may run to 360 degrees.
+bool mayBeDegrees(const LasHeader& h) {
+  return h.minimum.x() >= -360.0 && h.maximum.x() <= 360.0 && h.minimum.y() >= -90.0 &&
+         h.maximum.y() <= 90.0;
+}
+
+/// Coordinates in steps of a micrometre with heights in steps of a millimetre are no lengths.
+bool hasStepsOfDegrees(const LasHeader& h) {
+  constexpr double kLargestStep = 1e-6, kLeastRatio = 1e3;
+  const double step = std::max(h.scale.x(), h.scale.y());
+  return step <= kLargestStep && h.scale.z() >= kLeastRatio * step;
+}
+
+void checkDegrees(const LasHeader& h, LasReference& reference) {
+  if (reference.kind == CrsKind::geographic && !mayBeDegrees(h)) {
+    reference = LasReference();
+  } else if (reference.kind == CrsKind::unknown && !reference.units.known() && mayBeDegrees(h) &&
+             hasStepsOfDegrees(h)) {
+    reference.kind = CrsKind::geographic;
+  }
 }
 
 bool isEpsg(const std::string& crs) {
@@ -59,29 +134,34 @@ LasVlr wktRecord(const std::string& wkt) {
 
 #ifdef PCL_ALS_HAVE_PROJ
 std::string wktFromProj(const std::string& crs) {
-  PJ_CONTEXT* context = proj_context_create();
-  proj_log_level(context, PJ_LOG_NONE);
-  PJ* definition = proj_create(context, crs.c_str());
+  const ProjContext context = quietProjContext();
+  const ProjObject definition(proj_create(context.get(), crs.c_str()));
   const char* const options[] = {"MULTILINE=NO", nullptr};
   const char* text =
-      definition == nullptr ? nullptr : proj_as_wkt(context, definition, PJ_WKT1_GDAL, options);
-  std::string wkt = text == nullptr ? "" : text;
-  proj_destroy(definition);
-  proj_context_destroy(context);
-  if (wkt.empty()) throw UsageError("CRS " + crs + ": is not known to PROJ");
-  return wkt;
+      definition ? proj_as_wkt(context.get(), definition.get(), PJ_WKT1_GDAL, options) : nullptr;
+  if (text == nullptr || *text == '\0') throw UsageError("CRS " + crs + ": is not known to PROJ");
+  return text;
 }
 #endif
 
 }  // namespace
 
-std::string readLasCrs(const LasFile& file) {
-  if ((file.header().global_encoding & kLasWkt) != 0) {
-    const std::string wkt = wktOf(file);
-    return wkt.empty() ? epsgOf(file) : wkt;
+LasReference readLasReference(const LasFile& file) {
+  const bool prefers_wkt = (file.header().global_encoding & kLasWkt) != 0;
+  const std::string wkt = wktOf(file);
+  const GeoKeys keys = geoKeysOf(file);
+  const bool keys_tell = !keys.crs.empty() || keys.horizontal;
+  const bool by_wkt = !wkt.empty() && (prefers_wkt || !keys_tell);
+  LasReference reference = by_wkt ? referenceOfWkt(wkt) : referenceOfKeys(keys);
+  // The records that the encoding does not prefer may tell what the others leave open.
+  if (by_wkt && reference.kind == CrsKind::unknown && keys_tell) {
+    const LasReference by_keys = referenceOfKeys(keys);
+    reference.kind = by_keys.kind;
+    reference.units = by_keys.units;
   }
-  const std::string epsg = epsgOf(file);
-  return epsg.empty() ? wktOf(file) : epsg;
+  if (by_wkt && !reference.units.verticalKnown()) setVertical(keys, reference);
+  checkDegrees(file.header(), reference);
+  return reference;
 }
 
 std::vector<LasVlr> lasCrsRecords(const std::string& crs, [[maybe_unused]] bool wkt_wanted) {

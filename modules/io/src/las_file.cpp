@@ -5,6 +5,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/las_file.h>
+#include <pcl_als/io/point_reference.h>
 
 #include "input_file.h"
 #include "las_bytes.h"
@@ -21,6 +22,7 @@ struct LasFile::State {
   std::vector<LasVlrEntry> vlrs;
   std::vector<LasExtraField> extra_fields;
   std::unique_ptr<LazPointReader> laz;
+  detail::LasReference reference;
 
   explicit State(std::filesystem::path p) : path(std::move(p)), file(path) {}
 };
@@ -109,6 +111,7 @@ LasFile::LasFile(std::filesystem::path path, unsigned laz_fields)
   readExtendedEntries(s.file, s.header, s.vlrs);
   if (s.header.compressed)
     s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields);
+  s.reference = detail::readLasReference(*this);
   const auto extra = std::find_if(s.vlrs.begin(), s.vlrs.end(), [](const LasVlrEntry& entry) {
     return isRecord(entry, "LASF_Spec", 4) && entry.length <= kLargestExtraRecord;
   });
@@ -135,7 +138,13 @@ const std::vector<LasExtraField>& LasFile::extraFields() const {
   return state_->extra_fields;
 }
 std::string LasFile::crs() const {
-  return detail::readLasCrs(*this);
+  return state_->reference.crs;
+}
+CrsKind LasFile::crsKind() const {
+  return state_->reference.kind;
+}
+const LinearUnits& LasFile::units() const {
+  return state_->reference.units;
 }
 std::uint64_t LasFile::fileSize() const {
   return state_->file.size();
@@ -144,15 +153,24 @@ int LasFile::descriptor() const {
   return state_->file.descriptor();
 }
 
+LasScaling LasFile::toMetres() const {
+  requireMapCoordinates(info());
+  const Eigen::Vector3d metres = units().metres();
+  return {header().scale.cwiseProduct(metres), header().offset.cwiseProduct(metres)};
+}
+
 PointFileInfo LasFile::info() const {
   const LasHeader& h = header();
+  const Eigen::Vector3d metres = units().metres();
   PointFileInfo info;
   info.path = path();
   info.point_count = h.point_count;
-  info.minimum = h.minimum;
-  info.maximum = h.maximum;
-  info.resolution = h.scale;
+  info.minimum = h.minimum.cwiseProduct(metres);
+  info.maximum = h.maximum.cwiseProduct(metres);
+  info.resolution = h.scale.cwiseProduct(metres);
   info.crs = crs();
+  info.crs_kind = crsKind();
+  info.units = units();
   if (layout().gps_time >= 0)
     info.time_kind = (h.global_encoding & kLasAdjustedStandardTime) != 0
                          ? TimeKind::adjusted_standard

@@ -20,6 +20,7 @@ struct LasWriter::State {
   std::string name;
   LasHeader header;
   LasRecordLayout layout;
+  LinearUnits units;
   std::vector<LasExtraField> extra_fields;
   detail::LasTally tally;
   std::vector<std::byte> buffer;
@@ -40,7 +41,7 @@ void checkOptions(const LasWriterOptions& options) {
                      std::to_string(options.point_format));
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(options.scale[axis]) || options.scale[axis] <= 0.0)
-      throw UsageError("LAS scale must be a positive number of metres");
+      throw UsageError("LAS scale must be a positive number");
     if (!std::isfinite(options.offset[axis])) throw UsageError("LAS offset must be a number");
   }
 }
@@ -113,6 +114,7 @@ LasWriter::LasWriter(const std::filesystem::path& path, const LasWriterOptions& 
   State& s = *state_;
   s.name = path.string();
   s.layout = LasRecordLayout::of(options.point_format);
+  s.units = unitsOfCrs(options.crs);
   s.extra_fields = options.extra_fields;
   const std::uint16_t length = placeExtraFields(s.layout, s.extra_fields);
   const std::vector<LasVlr> vlrs = collectVlrs(options, s.extra_fields);
@@ -137,6 +139,9 @@ const LasHeader& LasWriter::header() const {
 const LasRecordLayout& LasWriter::layout() const {
   return state_->layout;
 }
+const LinearUnits& LasWriter::units() const {
+  return state_->units;
+}
 const std::vector<LasExtraField>& LasWriter::extraFields() const {
   return state_->extra_fields;
 }
@@ -152,8 +157,9 @@ void LasWriter::append(const PointChunk& chunk,
                      std::to_string(s.extra_fields.size()) + " extra fields");
   const std::size_t length = s.header.record_length;
   s.buffer.resize(chunk.size() * length);
-  encodeLasRecords(chunk, length, s.layout, s.header.scale, s.header.offset, s.tally.points, s.name,
-                   s.buffer.data());
+  const Eigen::Vector3d metres = s.units.metres();
+  encodeLasRecords(chunk, length, s.layout, s.header.scale.cwiseProduct(metres),
+                   s.header.offset.cwiseProduct(metres), s.tally.points, s.name, s.buffer.data());
   for (std::size_t k = 0; k < extra_columns.size(); ++k) {
     if (extra_columns[k].size() != chunk.size())
       throw UsageError(s.name + ": extra column " + s.extra_fields[k].name +

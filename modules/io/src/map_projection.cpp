@@ -6,9 +6,10 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/crs.h>
 
 #ifdef PCL_ALS_HAVE_PROJ
-#include <proj.h>
+#include "proj_object.h"
 #endif
 
 namespace pcl_als::detail {
@@ -16,88 +17,50 @@ namespace pcl_als::detail {
 #ifdef PCL_ALS_HAVE_PROJ
 namespace {
 
-struct FreeContext {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-};
-struct FreeObject {
-  void operator()(PJ* object) const { proj_destroy(object); }
-};
-using Object = std::unique_ptr<PJ, FreeObject>;
-
-/// "EPSG:32611" as it is; of a long WKT its beginning.
+/// "CRS 'EPSG:32611'", of a long WKT its beginning.
 std::string nameOf(const std::string& crs) {
-  constexpr std::size_t kLongest = 60;
-  return "CRS '" + (crs.size() > kLongest ? crs.substr(0, kLongest) + "..." : crs) + "'";
-}
-
-/// Whether the first axis of a CRS counts in metres; \a unit receives what it counts in.
-bool inMetres(PJ_CONTEXT* context, const PJ* crs, std::string& unit) {
-  const Object system(proj_crs_get_coordinate_system(context, crs));
-  double metres = 0.0;
-  const char* name = nullptr;
-  if (!system || proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr, &metres,
-                                       &name, nullptr, nullptr) == 0) {
-    return false;
-  }
-  unit = name == nullptr ? "an unknown unit" : name;
-  return metres == 1.0;
-}
-
-/// The CRS without what PROJ wraps around it: a datum shift to WGS 84.
-Object unbound(PJ_CONTEXT* context, Object crs) {
-  if (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS) {
-    return Object(proj_get_source_crs(context, crs.get()));
-  }
-  return crs;
+  return "CRS '" + shortCrsName(crs) + "'";
 }
 
 }  // namespace
 
 struct MapProjection::State {
-  std::unique_ptr<PJ_CONTEXT, FreeContext> context{proj_context_create()};
-  Object transformation;
+  ProjContext context = quietProjContext();
+  ProjObject transformation;
   std::string crs;
+  Eigen::Vector3d metres = Eigen::Vector3d::Ones();  ///< length of a unit of what PROJ returns
   bool needs_geoid = false;
 
   void inspect();
   Eigen::Vector3d map(double latitude, double longitude, double height) const;
 };
 
-/// Refuses what is not a map in metres; finds out whether its heights are above a geoid.
+/// Refuses what is not a map; finds out its units and whether its heights are above a geoid.
 void MapProjection::State::inspect() {
-  PJ_CONTEXT* ctx = context.get();
-  Object object = unbound(ctx, Object(proj_create(ctx, crs.c_str())));
-  if (!object) throw InputError(nameOf(crs) + ": PROJ does not know it; give one with -crs");
-  std::string unit;
-  if (proj_get_type(object.get()) == PJ_TYPE_COMPOUND_CRS) {
-    const Object vertical = unbound(ctx, Object(proj_crs_get_sub_crs(ctx, object.get(), 1)));
-    if (vertical && !inMetres(ctx, vertical.get(), unit)) {
-      throw InputError(nameOf(crs) + ": its heights are in " + unit + "; metres are needed");
-    }
-    needs_geoid = vertical != nullptr;
-    object = unbound(ctx, Object(proj_crs_get_sub_crs(ctx, object.get(), 0)));
-  }
-  if (!object || proj_get_type(object.get()) != PJ_TYPE_PROJECTED_CRS) {
+  const CrsDescription description = describeCrs(crs);
+  if (description.kind == CrsKind::unknown && description.name.empty())
+    throw InputError(nameOf(crs) + ": PROJ does not know it; give one with -crs");
+  if (description.kind != CrsKind::projected || !description.horizontal)
     throw InputError(nameOf(crs) + ": is not a projected CRS; give one with -crs");
-  }
-  if (!inMetres(ctx, object.get(), unit)) {
-    throw InputError(nameOf(crs) + ": counts in " + unit + "; metres are needed");
-  }
+  needs_geoid = openCrs(context.get(), crs).vertical != nullptr;
+  metres.head<2>().setConstant(description.horizontal->metres);
+  // Without a vertical axis PROJ hands the ellipsoidal height through, in metres.
+  if (description.vertical) metres.z() = description.vertical->metres;
 }
 
 Eigen::Vector3d MapProjection::State::map(double latitude, double longitude, double height) const {
   const PJ_COORD geodetic =
       proj_coord(longitude / kRadiansPerDegree, latitude / kRadiansPerDegree, height, HUGE_VAL);
   const PJ_COORD mapped = proj_trans(transformation.get(), PJ_FWD, geodetic);
-  return {mapped.xyzt.x, mapped.xyzt.y, mapped.xyzt.z};
+  return Eigen::Vector3d(mapped.xyzt.x, mapped.xyzt.y, mapped.xyzt.z).cwiseProduct(metres);
 }
 
 MapProjection::MapProjection(const std::string& crs) : state_(std::make_unique<State>()) {
   PJ_CONTEXT* context = state_->context.get();
-  proj_log_level(context, PJ_LOG_NONE);
   state_->crs = crs;
   state_->inspect();
-  const Object authority_order(proj_create_crs_to_crs(context, "EPSG:4979", crs.c_str(), nullptr));
+  const ProjObject authority_order(
+      proj_create_crs_to_crs(context, "EPSG:4979", crs.c_str(), nullptr));
   if (authority_order) {
     state_->transformation.reset(proj_normalize_for_visualization(context, authority_order.get()));
   }
@@ -118,7 +81,8 @@ MapProjection::Result MapProjection::project(double latitude, double longitude,
   const Eigen::Vector3d north = state_->map(latitude + kStep, longitude, height) -
                                 state_->map(latitude - kStep, longitude, height);
   result.north_azimuth = std::atan2(north.x(), north.y());
-  if (state_->needs_geoid && result.position.z() == height) {
+  // A height that is the ellipsoidal one to rounding of its unit was handed through.
+  if (state_->needs_geoid && std::abs(result.position.z() - height) < 1e-7) {
     throw InputError(
         nameOf(state_->crs) +
         ": the geoid grid of its heights is not installed for PROJ; if the points have "

@@ -11,8 +11,10 @@ namespace pcl_als::detail {
 
 /** \brief Geodetic WGS 84 (ITRF) positions to a projected CRS, with PROJ.
  *
- * InputError when PROJ does not know the CRS, when it is not a projected one in metres, or when its
- * heights need a geoid grid that is not installed. In a build without PROJ every construction is an
+ * The result is in metres, whatever unit the CRS counts in.
+ *
+ * InputError when PROJ does not know the CRS, when it is not a projected one, or when its heights
+ * need a geoid grid that is not installed. In a build without PROJ every construction is an
  * InputError that says so. An object is used by one thread at a time.
  */
 class MapProjection {

@@ -6,6 +6,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/point_reference.h>
 
 #include "file_kind.h"
 #include "pcd_file.h"
@@ -24,8 +25,13 @@ constexpr unsigned kColumns = kLazZ | kLazClassification | kLazFlags | kLazInten
 
 class LasPointReader : public PointReader {
  public:
-  explicit LasPointReader(const std::filesystem::path& path)
-      : file_(path, kColumns), info_(file_.info()) {}
+  LasPointReader(const std::filesystem::path& path, OtherCoordinates other)
+      : file_(path, kColumns), info_(file_.info()) {
+    if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
+    const Eigen::Vector3d metres = info_.units.metres();
+    scaling_ = {file_.header().scale.cwiseProduct(metres),
+                file_.header().offset.cwiseProduct(metres)};
+  }
 
   const PointFileInfo& info() const override { return info_; }
 
@@ -36,8 +42,8 @@ class LasPointReader : public PointReader {
     const std::size_t count = std::min<std::uint64_t>(most, header.point_count - position_);
     buffer_.resize(count * header.record_length);
     file_.readRecords(position_, count, buffer_.data());
-    decodeLasRecords(buffer_.data(), count, header.record_length, file_.layout(), header.scale,
-                     header.offset, chunk);
+    decodeLasRecords(buffer_.data(), count, header.record_length, file_.layout(), scaling_.scale,
+                     scaling_.offset, chunk);
     position_ += count;
     return count > 0;
   }
@@ -45,6 +51,7 @@ class LasPointReader : public PointReader {
  private:
   LasFile file_;
   PointFileInfo info_;
+  LasScaling scaling_;
   std::uint64_t position_ = 0;
   std::vector<std::byte> buffer_;
 };
@@ -55,6 +62,8 @@ class PcdPointReader : public PointReader {
   explicit PcdPointReader(const std::filesystem::path& path) : file_(path) {
     info_.path = path;
     info_.crs = file_.header().crs;
+    info_.crs_kind = describeCrs(info_.crs).kind;
+    info_.units.source = info_.units.vertical_source = "PCD";
     info_.format = std::string("PCD ") + file_.header().dataName();
     survey();
     file_.rewind();
@@ -106,10 +115,12 @@ class PcdPointReader : public PointReader {
 
 }  // namespace
 
-std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path) {
+std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path,
+                                               OtherCoordinates other) {
   const std::string extension = detail::lowerExtension(path);
   if (extension == ".pcd") return std::make_unique<PcdPointReader>(path);
-  if (extension == ".las" || extension == ".laz") return std::make_unique<LasPointReader>(path);
+  if (extension == ".las" || extension == ".laz")
+    return std::make_unique<LasPointReader>(path, other);
   throw InputError(path.string() + ": is no point file by its name (.las, .laz or .pcd)");
 }
 

@@ -11,6 +11,7 @@ void samplePoints(const LasFile& file, SampleSize size,
                   const std::function<void(const PointChunk&)>& visit) {
   constexpr std::size_t kMostPlaces = 16;  // of a compressed file
   const LasHeader& header = file.header();
+  const LasScaling metres = file.toMetres();
   const std::uint64_t all = header.point_count;
   if (all == 0 || size.runs == 0 || size.points_per_run == 0) return;
   if (header.compressed && size.runs > kMostPlaces) {
@@ -29,8 +30,8 @@ void samplePoints(const LasFile& file, SampleSize size,
                                             : (all - length) / (runs - 1) * run;
     const std::uint64_t count = std::min(length, all - first);
     file.readRecords(first, count, records.data());
-    decodeLasRecords(records.data(), count, header.record_length, file.layout(), header.scale,
-                     header.offset, chunk);
+    decodeLasRecords(records.data(), count, header.record_length, file.layout(), metres.scale,
+                     metres.offset, chunk);
     visit(chunk);
   }
 }

@@ -9,7 +9,8 @@
 
 namespace pcl_als {
 
-std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& path) {
+std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& path,
+                                                  const LengthUnit& unit) {
   detail::CsvTable table(path);
   const std::size_t x = table.required("x"), y = table.required("y");
   const std::size_t reflectance = table.required("reflectance");
@@ -19,8 +20,8 @@ std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& p
     ReferenceTarget target;
     target.id = id != detail::CsvTable::npos ? std::string(table.text(id))
                                              : std::to_string(targets.size() + 1);
-    target.x = table.number(x);
-    target.y = table.number(y);
+    target.x = table.number(x) * unit.metres;
+    target.y = table.number(y) * unit.metres;
     target.reflectance = table.number(reflectance);
     if (target.reflectance <= 0.0 || target.reflectance > 2.0)
       table.refuse(reflectance, "is no reflectance (more than 0, at most 2)");

@@ -10,6 +10,7 @@
 #include <cpl_string.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/crs.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -19,8 +20,14 @@ constexpr const char* kClassItem = "CLASS_";
 // A square cell as other programs write it may differ in the last digits of its sides.
 constexpr double kSquareTolerance = 1e-9;
 
+/// Length of the unit that places count in in a file of that CRS, metres.
+double metresPerUnit(const std::string& crs) {
+  return unitsOfCrs(crs).horizontal.metres;
+}
+
 void setReference(GDALDatasetH dataset, const RasterGrid& grid, const GdalReports& reports) {
-  double transform[] = {grid.west, grid.cell, 0.0, grid.north, 0.0, -grid.cell};
+  const double metres = metresPerUnit(grid.crs), cell = grid.cell / metres;
+  double transform[] = {grid.west / metres, cell, 0.0, grid.north / metres, 0.0, -cell};
   reports.check(GDALSetGeoTransform(dataset, transform) == CE_None, "cannot be georeferenced");
   if (grid.crs.empty()) return;
   const SpatialReference reference(OSRNewSpatialReference(nullptr));
@@ -85,12 +92,13 @@ RasterGrid gridOf(GDALDatasetH dataset, const GdalReports& reports) {
   reports.check(std::abs(transform[1] + transform[5]) <= kSquareTolerance * transform[1],
                 "its cells are not square; warp it first");
   RasterGrid grid;
-  grid.west = transform[0];
-  grid.north = transform[3];
-  grid.cell = transform[1];
+  grid.crs = crsOf(dataset);
+  const double metres = metresPerUnit(grid.crs);
+  grid.west = transform[0] * metres;
+  grid.north = transform[3] * metres;
+  grid.cell = transform[1] * metres;
   grid.columns = GDALGetRasterXSize(dataset);
   grid.rows = GDALGetRasterYSize(dataset);
-  grid.crs = crsOf(dataset);
   return grid;
 }
 

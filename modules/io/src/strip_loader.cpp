@@ -4,6 +4,7 @@
 #include <map>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/strip_naming.h>
 
@@ -67,18 +68,11 @@ class StripBuilder {
   std::map<Square, Strip<PointLidar>> parts_;
 };
 
-/// The CRS that all files share, as far as they say.
 std::string commonCrs(const std::vector<PointFileSources>& files) {
-  const PointFileInfo* first = nullptr;
-  for (const PointFileSources& file : files) {
-    if (file.info.crs.empty()) continue;
-    if (first == nullptr) first = &file.info;
-    const bool codes = first->crs.rfind("EPSG:", 0) == 0 && file.info.crs.rfind("EPSG:", 0) == 0;
-    if (codes && first->crs != file.info.crs)
-      throw InputError(file.info.path.string() + ": is in " + file.info.crs + " but " +
-                       first->path.string() + " in " + first->crs + "; reproject one of them");
-  }
-  return first == nullptr ? std::string() : first->crs;
+  std::vector<PointFileInfo> infos;
+  infos.reserve(files.size());
+  for (const PointFileSources& file : files) infos.push_back(file.info);
+  return commonReference(infos).crs;
 }
 
 void checkTimes(const std::vector<PointFileSources>& files) {

@@ -23,6 +23,8 @@ using detail::SourceTally;
 constexpr std::size_t kMostBlocks = std::size_t{1} << 17U;
 constexpr unsigned kMostDoublings = 40;  // then everything is in one block
 constexpr double kPointsPerCell = 20.0;
+// The census describes what other jobs refuse.
+constexpr auto kAnyCoordinates = PointReader::OtherCoordinates::as_stored;
 
 class Census {
  public:
@@ -30,7 +32,7 @@ class Census {
          const std::function<void(double)>& progress)
       : progress_(progress) {
     for (const auto& path : paths) {
-      survey_.files.push_back({PointReader::open(path)->info(), {}, {}});
+      survey_.files.push_back({PointReader::open(path, kAnyCoordinates)->info(), {}, {}});
       total_ += survey_.files.back().info.point_count;
     }
     survey_.cell = cell > 0.0 ? cell : usualCell();
@@ -63,7 +65,7 @@ class Census {
   }
 
   void readFile(std::size_t f) {
-    const auto reader = PointReader::open(survey_.files[f].info.path);
+    const auto reader = PointReader::open(survey_.files[f].info.path, kAnyCoordinates);
     PointChunk chunk;
     while (reader->read(chunk)) {
       addChunk(f, chunk);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "sbet.h"
@@ -19,20 +20,25 @@ bool isSbet(const std::filesystem::path& path) {
 
 }  // namespace
 
-TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs) {
+TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs,
+                                  const LengthUnit& unit) {
   TrajectoryFile file;
   if (isSbet(path)) {
+    if (!unit.isMetre())
+      throw UsageError(path.string() + ": an SBET is in degrees and metres; its unit is not " +
+                       unit.name);
     file.samples = detail::readSbet(path, crs);
   } else {
     file = detail::readTrajectoryCsv(path);
   }
+  for (TrajectorySample& sample : file.samples) sample.position *= unit.metres;
   detail::unwrapWeek(file.samples);
   return file;
 }
 
 std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
-                                             const std::string& crs) {
-  return readTrajectoryFile(path, crs).samples;
+                                             const std::string& crs, const LengthUnit& unit) {
+  return readTrajectoryFile(path, crs, unit).samples;
 }
 
 }  // namespace pcl_als

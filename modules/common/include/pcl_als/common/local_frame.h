@@ -21,7 +21,9 @@ namespace pcl_als {
  */
 struct LocalFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, ground frame
-  std::string crs;                                   ///< WKT or "EPSG:…"; empty when unknown
+  /// WKT or "EPSG:…"; empty when unknown. It may count in another unit: the frame is in metres
+  /// along its axes.
+  std::string crs;
 
   /// Distance from its origin (metres, in plan) up to which a float cloud is kept in one part.
   static constexpr double kReach = 4000.0;

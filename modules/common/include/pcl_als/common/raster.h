@@ -22,7 +22,8 @@ struct RasterGrid {
   double west = 0.0, north = 0.0;  ///< metres, ground frame: outer edges
   double cell = 1.0;               ///< side of a cell, metres, > 0
   int columns = 0, rows = 0;
-  std::string crs;  ///< WKT or "EPSG:…"; empty when unknown
+  std::string crs;  ///< WKT or "EPSG:…"; empty when unknown. It may count in another unit: a file
+                    ///< of the raster is georeferenced in that unit, places here are metres
 
   /// The smallest grid that holds the box; its edges are multiples of the cell size, so that grids
   /// of one cell size fit together. UsageError for a cell size or box that gives no usable grid.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <pcl_als/common/class_site.h>
+#include <pcl_als/common/linear_units.h>
 
 namespace pcl_als {
 
@@ -22,8 +23,11 @@ std::string classNameFault(std::string_view name);
  * "class" and a Point, MultiPoint, Polygon or MultiPolygon in the ground frame. InputError names
  * file and line or feature; also for a GeoJSON in degrees, which is to be reprojected first, and
  * for a name with classNameFault().
+ *
+ * \param unit that the file's coordinates count in; sites are in metres
  */
-std::vector<ClassSite> readClassSites(const std::filesystem::path& path);
+std::vector<ClassSite> readClassSites(const std::filesystem::path& path,
+                                      const LengthUnit& unit = {});
 
 /// A confusion matrix as its file has it, classes in the order of the header.
 struct CountTable {

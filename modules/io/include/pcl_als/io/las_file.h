@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/linear_units.h>
+#include <pcl_als/io/crs.h>
 #include <pcl_als/io/las_extra.h>
 #include <pcl_als/io/las_header.h>
 #include <pcl_als/io/las_record.h>
@@ -16,11 +18,19 @@
 
 namespace pcl_als {
 
+/// How raw integer coordinates become metres: metres = raw * scale + offset.
+struct LasScaling {
+  Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< metres per step
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< metres, ground frame
+};
+
 /** \brief A .las or .laz file opened for reading its raw point records.
  *
  * The constructor checks header, VLRs, EVLRs and point range against the size of the file; nothing
  * in the file is trusted. Memory does not grow with the file. Records of a .laz are packed as the
  * plain LAS records they came from.
+ *
+ * header() is in the file's own unit; toMetres() is what coordinates are computed with.
  * \code
  * LasFile file("strip1.las");
  * std::vector<std::byte> records(n * file.header().record_length);
@@ -41,6 +51,11 @@ class LasFile {
   const std::vector<LasVlrEntry>& vlrs() const;  ///< VLRs, then EVLRs, in file order
   const std::vector<LasExtraField>& extraFields() const;
   std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not say
+  CrsKind crsKind() const;
+  /// What the coordinates count in; of geographic and geocentric ones the default.
+  const LinearUnits& units() const;
+  /// InputError for a file whose coordinates are no map coordinates: degrees or geocentric.
+  LasScaling toMetres() const;
   std::uint64_t fileSize() const;
   PointFileInfo info() const;
 

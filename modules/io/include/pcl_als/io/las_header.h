@@ -23,6 +23,7 @@ enum LasGlobalEncoding : std::uint16_t {
 
 /** \brief The public header block of a LAS file, version 1.0 to 1.4.
  *
+ * Coordinates are in the unit of the file's CRS, as stored; see LasFile::toMetres().
  * Counts are those that hold: 64-bit where the version has them, the legacy ones otherwise.
  */
 struct LasHeader {
@@ -43,9 +44,9 @@ struct LasHeader {
   std::uint64_t point_count = 0;
   std::uint64_t legacy_point_count = 0;                      ///< as stored, for checks
   std::array<std::uint64_t, 15> points_by_return{};          ///< [0] is return 1
-  Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< metres per unit
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< metres, ground frame
-  Eigen::Vector3d minimum = Eigen::Vector3d::Zero();         ///< metres, ground frame, as stored
+  Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< units per step
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< units of the file
+  Eigen::Vector3d minimum = Eigen::Vector3d::Zero();         ///< units of the file
   Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
   std::uint64_t waveform_start = 0;  ///< 1.3 and later
   std::uint64_t evlr_start = 0;      ///< 1.4

@@ -19,8 +19,8 @@ namespace pcl_als {
 struct LasWriterOptions {
   int version_minor = 4;
   int point_format = 6;                                      ///< 1.2: 0-3, 1.3: 0-5, 1.4: 0-10
-  Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< metres per unit
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< metres, ground frame
+  Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< per step, unit of crs
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< unit of crs
   std::string crs;  ///< WKT or "EPSG:…"; empty: no record
   TimeKind time_kind = TimeKind::adjusted_standard;
   std::uint16_t file_source_id = 0;         ///< flight line number, 0 for none or several
@@ -31,6 +31,9 @@ struct LasWriterOptions {
 };
 
 /** \brief Creates a LAS file (LAZ by extension): append points, finish().
+ *
+ * Points are given in metres and stored in the unit of the CRS (unitsOfCrs()): with a CRS in feet
+ * the coordinates in the file are feet.
  *
  * Counts, returns by number and the bounding box are fixed by finish(); without it no file appears
  * (see AtomicFile). Constant memory.
@@ -49,6 +52,7 @@ class LasWriter {
 
   const LasHeader& header() const;
   const LasRecordLayout& layout() const;
+  const LinearUnits& units() const;                       ///< that the coordinates are stored in
   const std::vector<LasExtraField>& extraFields() const;  ///< with their positions
 
   /// Appends points and one column of values per extra field (none: zeros). InputError names the

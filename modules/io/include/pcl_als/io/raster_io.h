@@ -40,10 +40,12 @@ struct RasterOptions {
 
 /** \brief Writes a GeoTIFF block by block, for rasters larger than memory.
  *
- * The file has the CRS, the no-data value (bytes: 0), names of bands, a colour table, overviews, is
- * compressed without loss and appears under its name at commit() only; see AtomicFile. Blocks come
- * in any order, those of 512 rows in order are fastest; cells never written have no value. Until
- * commit() an uncompressed copy of the raster lies beside the file.
+ * Places are given in metres and georeferenced in the unit of the CRS (unitsOfCrs()); values are
+ * written as they are, heights in metres. The file has the CRS, the no-data value (bytes: 0), names
+ * of bands, a colour table, overviews, is compressed without loss and appears under its name at
+ * commit() only; see AtomicFile. Blocks come in any order, those of 512 rows in order are fastest;
+ * cells never written have no value. Until commit() an uncompressed copy of the raster lies beside
+ * the file.
  *
  * Memory: GDAL's cache of blocks (5 % of the machine's memory at most). Everything that fails is an
  * InputError that names the file; a CRS that PROJ does not know, too.
@@ -68,6 +70,7 @@ class RasterWriter {
 
 /** \brief Reads a GeoTIFF window by window.
  *
+ * Places are brought to metres from the unit of the file's CRS.
  * Bands of any number type are read as float (no-data as NaN) or, those of bytes, as bytes.
  * InputError for a file that is no GeoTIFF, not north up, without georeference, whose cells are not
  * square, whose header promises more cells than such a file can hold (65536 per byte) or whose

@@ -16,7 +16,8 @@ namespace pcl_als {
  * the same id, cut by a grid of 5 km, each relative to the centre of its square. Memory: 48 bytes
  * per point. Files are read twice.
  *
- * InputError when files declare different kinds of GPS time or different EPSG codes.
+ * InputError when files declare different kinds of GPS time or CRS that do not agree
+ * (commonReference()). Coordinates are in metres, whatever unit the files count in.
  */
 std::vector<Strip<PointLidar>> loadStrips(const std::vector<std::filesystem::path>& files);
 

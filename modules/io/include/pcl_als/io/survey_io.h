@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
@@ -31,20 +32,28 @@ struct TrajectoryFile {
  *
  * InputError names file, line (or record) and column. SBET without \a crs is a UsageError that
  * names the option.
+ *
+ * \param unit that the coordinates of a CSV count in; samples are in metres. An SBET is brought to
+ * metres from the unit of \a crs
  */
-TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs = {});
+TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs = {},
+                                  const LengthUnit& unit = {});
 
 /// The samples of readTrajectoryFile().
 std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,
-                                             const std::string& crs = {});
+                                             const std::string& crs = {},
+                                             const LengthUnit& unit = {});
 
-/// Reads control points: CSV id,x,y,z[,sigma], columns found by name. InputError names file, line
-/// and column.
-std::vector<ControlPoint> readControl(const std::filesystem::path& path);
+/// Reads control points: CSV id,x,y,z[,sigma], columns found by name, all four in \a unit.
+/// InputError names file, line and column.
+std::vector<ControlPoint> readControl(const std::filesystem::path& path,
+                                      const LengthUnit& unit = {});
 
 /// Reads places of known reflectance: CSV x,y,reflectance[,id][,sigma], columns found by name; a
-/// target without an id is called by its number. InputError names file, line and column.
-std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& path);
+/// target without an id is called by its number; places in \a unit. InputError names file, line and
+/// column.
+std::vector<ReferenceTarget> readReferenceTargets(const std::filesystem::path& path,
+                                                  const LengthUnit& unit = {});
 
 /// Reads the gain of a receiver by the value of its gain control: CSV value,gain (gain > 0), sorted
 /// by value. InputError names file, line and column, or a value that comes twice.

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/io/point_reader.h>
+
+namespace pcl_als {
+
+/// InputError with the remedy for a file whose coordinates are degrees or geocentric.
+void requireMapCoordinates(const PointFileInfo& info);
+
+/// The CRS and units that the point files of one job have in common.
+struct PointReference {
+  std::string crs;                   ///< of the first file that has one; empty when none has
+  std::vector<std::string> remarks;  ///< units that are converted or assumed, one line each
+};
+
+/** \brief Finds what files have in common, and refuses those that do not belong together.
+ *
+ * Files in different units of length belong together when their CRS are the same in metres.
+ * InputError for map coordinates of different systems (EPSG codes; other descriptions of a CRS are
+ * not compared, for two texts may mean one system), for degrees, and for a file that states no unit
+ * beside one that is in feet.
+ */
+PointReference commonReference(const std::vector<PointFileInfo>& files);
+/// The same of files that are opened for it.
+PointReference commonReference(const std::vector<std::string>& paths);
+
+/// What is known of the units, for reports: "US survey foot (GeoTIFF key 3076), heights as well
+/// (not stated)".
+std::string describeUnits(const PointFileInfo& info);
+
+}  // namespace pcl_als

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <utility>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reference.h>
+
+namespace pcl_als {
+namespace {
+
+bool isCode(const std::string& crs) {
+  return crs.rfind("EPSG:", 0) == 0;
+}
+
+void requireSameCrs(const PointFileInfo& first, const PointFileInfo& other) {
+  if (first.crs == other.crs || !isCode(first.crs) || !isCode(other.crs)) return;
+  if (sameGroundFrame(first.crs, other.crs)) return;
+  throw InputError(other.path.string() + ": is in " + other.crs + " but " + first.path.string() +
+                   " in " + first.crs + "; reproject one of them");
+}
+
+/// A file that states no unit, beside one in feet, could be in either.
+void requireKnownUnits(const std::vector<PointFileInfo>& files) {
+  const auto stated = std::find_if(files.begin(), files.end(), [](const PointFileInfo& file) {
+    return file.units.known() && !file.units.metric();
+  });
+  const auto silent = std::find_if(files.begin(), files.end(),
+                                   [](const PointFileInfo& file) { return !file.units.known(); });
+  if (stated == files.end() || silent == files.end()) return;
+  throw InputError(silent->path.string() + ": states no unit of length, but " +
+                   stated->path.string() + " is in " + stated->units.horizontal.name +
+                   "; give both files their CRS");
+}
+
+std::string assumption(const PointFileInfo& file) {
+  const std::string why =
+      file.crs.empty() ? "no CRS and no unit of length are stated"
+                       : "PROJ knows no unit of length for the CRS " + shortCrsName(file.crs);
+  return why + "; coordinates are taken as metres";
+}
+
+/// Empty where there is nothing to say: metres, stated.
+std::string remarkOf(const PointFileInfo& file) {
+  if (!file.units.known()) return assumption(file);
+  if (file.units.metric()) return {};
+  return "coordinates in " + describeUnits(file) +
+         " are brought to metres; point files are written in their own units";
+}
+
+}  // namespace
+
+void requireMapCoordinates(const PointFileInfo& info) {
+  const bool geographic = info.crs_kind == CrsKind::geographic;
+  if (!geographic && info.crs_kind != CrsKind::geocentric) return;
+  std::string crs = info.crs.empty() ? "" : " (" + shortCrsName(info.crs) + ")";
+  if (geographic && info.crs.empty()) crs = " by their range and steps";
+  throw InputError(info.path.string() + ": its coordinates are " +
+                   (geographic ? "degrees" : "geocentric") + crs +
+                   "; reproject it to a map projection in metres or feet first");
+}
+
+PointReference commonReference(const std::vector<PointFileInfo>& files) {
+  PointReference common;
+  const PointFileInfo* first = nullptr;
+  std::vector<std::pair<std::string, std::vector<const PointFileInfo*>>> remarks;
+  for (const PointFileInfo& file : files) {
+    requireMapCoordinates(file);
+    if (first != nullptr && !file.crs.empty()) requireSameCrs(*first, file);
+    if (first == nullptr && !file.crs.empty()) first = &file;
+    const std::string remark = remarkOf(file);
+    if (remark.empty()) continue;
+    const auto known = std::find_if(remarks.begin(), remarks.end(),
+                                    [&](const auto& entry) { return entry.first == remark; });
+    if (known == remarks.end())
+      remarks.push_back({remark, {&file}});
+    else
+      known->second.push_back(&file);
+  }
+  requireKnownUnits(files);
+  if (first != nullptr) common.crs = first->crs;
+  for (const auto& [remark, of] : remarks) {
+    std::string name = of.front()->path.filename().string();
+    if (of.size() > 1) name += " and " + std::to_string(of.size() - 1) + " more";
+    common.remarks.push_back(name + ": " + remark);
+  }
+  return common;
+}
+
+PointReference commonReference(const std::vector<std::string>& paths) {
+  std::vector<PointFileInfo> files;
+  files.reserve(paths.size());
+  for (const std::string& path : paths) files.push_back(PointReader::open(path)->info());
+  return commonReference(files);
+}
+
+std::string describeUnits(const PointFileInfo& info) {
+  if (info.crs_kind == CrsKind::geographic) return "degrees";
+  const LinearUnits& units = info.units;
+  if (!units.known() && !units.verticalKnown()) return "not stated, taken as metre";
+  std::string text = units.horizontal.name;
+  text += units.known() ? " (" + units.source + ")" : " (not stated, assumed)";
+  const bool same = units.vertical.metres == units.horizontal.metres;
+  if (!units.verticalKnown()) return text + ", heights as well (not stated, assumed)";
+  return text + ", heights " + (same ? std::string("as well") : "in " + units.vertical.name) +
+         (units.vertical_source == units.source ? "" : " (" + units.vertical_source + ")");
+}
+
+}  // namespace pcl_als
