@@ -57,7 +57,7 @@ expect 0 "1 & 2" check a.pcd b.pcd lifted.pcd -output lifted.json
 check "a lifted strip is named beside good ones" grep -q 'strips 2 and 6 overlap, but 2 lies' lifted.json
 # Strips that cannot be compared do not keep the others from it.
 expect 0 "1 & 2" check a.pcd b.pcd edge.pcd point.pcd -output some.json
-check "a strip of one point is named" grep -q 'strip 5 has only 1 points' some.json
+check "a strip of one point is named" grep -q 'strip 5 has only 1 point' some.json
 check "a pair at the edge is listed" grep -q '"too_little"' some.json
 check "the offset of 1 cm is found" awk '/"mean_m"/ { gsub(/[^-0-9.e]/, "", $2)
   exit !($2 + 0 < -0.008 && $2 + 0 > -0.012) }' some.json
