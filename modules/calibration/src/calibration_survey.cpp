@@ -30,6 +30,7 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
   plausibility_.addStrip(id);
+  times_.emplace_back();
   if (attitude_ == AttitudeSource::none) recoveries_.emplace_back(trajectory_);
   return map_.addStrip();
 }
@@ -37,6 +38,9 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
 void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
                                       std::size_t count) {
   map_.add(strip, points, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::isfinite(points[i].time)) times_[static_cast<std::size_t>(strip)].add(points[i].time);
+  }
   constexpr std::size_t kEveryChecked = 32;
   for (std::size_t i = 0; i < count; i += kEveryChecked) {
     plausibility_.add(strip, points[i].time, points[i].position);
@@ -120,6 +124,36 @@ void QuasiRigorousCalibration::leaveOutSmallStrips() {
   }
 }
 
+void QuasiRigorousCalibration::leaveOutRoundedTimes() {
+  std::string last;
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    const double step = times_[strip].step();
+    if (!used_[strip] || step == 0.0) continue;
+    SensorPose from, to;
+    std::size_t cursor = 0;
+    const double start = map_.startTime(static_cast<int>(strip)),
+                 end = map_.endTime(static_cast<int>(strip));
+    // Where the trajectory does not reach, checkTrajectory() says so.
+    if (!trajectory_->poseAt(start, from, cursor) || !trajectory_->poseAt(end, to, cursor))
+      continue;
+    const double speed = end > start ? (to.position - from.position).norm() / (end - start) : 0.0;
+    // Uniformly distributed within a step.
+    const double along = speed * std::min(step, std::max(1.0, end - start)) / std::sqrt(12.0);
+    if (end > start && along < settings_.shared_errors.position) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << "strip " << ids_[strip] << ": its GPS times are rounded (" << times_[strip].distinct()
+         << " distinct values in " << times_[strip].points() << " points";
+    if (std::isfinite(step)) text << ", a step of " << step << " s, " << along << " m of flight";
+    text << "); lever_arm_y and boresight_pitch would be wrong";
+    last = text.str();
+    used_[strip] = false;
+    warnings_.push_back(last + ": the strip is left out; give files with the original times");
+  }
+  if (last.empty() || std::count(used_.begin(), used_.end(), true) > 1) return;
+  throw InputError(last + ": fewer than two strips are left; give files with the original times");
+}
+
 void QuasiRigorousCalibration::checkTimes() const {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     if (!used_[strip]) continue;
@@ -193,6 +227,7 @@ void QuasiRigorousCalibration::choosePairs() {
 void QuasiRigorousCalibration::chooseAreas() {
   leaveOutUnpaired();
   leaveOutSmallStrips();
+  leaveOutRoundedTimes();
   checkTimes();
   checkTrajectory();
   recoverAttitude();

@@ -12,6 +12,7 @@
 #include <pcl_als/calibration/pair_selection.h>
 #include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/strip_error_check.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
@@ -252,6 +253,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   result.misfit = misfit.change(state.observations, result.biases());
   diagnose(result);
   judgeControl(result);
+  assessStripErrors(settings_.shared_errors, result);
   judgeCalibration(settings_.estimate, open ? whyOpen(state, result) : "", result);
   return result;
 }

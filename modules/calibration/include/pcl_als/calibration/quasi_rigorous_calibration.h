@@ -13,6 +13,7 @@
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/calibration_settings.h>
 #include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/calibration/time_resolution.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
@@ -83,6 +84,9 @@ class QuasiRigorousCalibration {
 
   void leaveOutUnpaired();
   void leaveOutSmallStrips();
+  /// Those whose times are rounded to steps in which the sensor moves by more than a trajectory's
+  /// error.
+  void leaveOutRoundedTimes();
   void checkTrajectory();
   void checkTimes() const;
   void recoverAttitude();
@@ -129,6 +133,7 @@ class QuasiRigorousCalibration {
   AttitudeSource attitude_ = AttitudeSource::none;
   SurveyMap map_;
   TrajectoryPlausibility plausibility_;
+  std::deque<TimeResolution> times_;         ///< by strip
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is wanted
   std::vector<std::string> ids_;
   std::vector<bool> used_;

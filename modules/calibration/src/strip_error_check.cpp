@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <pcl_als/calibration/strip_error_check.h>
+
+namespace pcl_als {
+namespace {
+
+// RMS over a strip against the a priori standard deviation. Of a Gaussian error that is constant
+// over the strip, 3 is exceeded by chance in 0.3 % of components; 5 never.
+constexpr double kNoticeable = 3.0, kContradiction = 5.0;
+constexpr std::size_t kListed = 5;
+
+struct Component {
+  const char* name;
+  bool angle;
+  const char* option;
+  const char* causes;
+};
+constexpr const char* kPlanCauses = "datum, projection or reference point of the trajectory";
+constexpr const char* kHeightCauses =
+    "unit or vertical datum of the trajectory's heights, or its reference point";
+constexpr const char* kAttitudeCauses = "attitude of the trajectory, its unit and its time";
+constexpr std::array<Component, 6> kComponents{{
+    {"east", false, "-position_sigma", kPlanCauses},
+    {"north", false, "-position_sigma", kPlanCauses},
+    {"height", false, "-position_sigma", kHeightCauses},
+    {"pitch", true, "-roll_pitch_sigma", kAttitudeCauses},
+    {"roll", true, "-roll_pitch_sigma", kAttitudeCauses},
+    {"heading", true, "-heading_sigma", kAttitudeCauses},
+}};
+
+std::string sizeText(double value, bool angle) {
+  char text[48];
+  if (angle) {
+    std::snprintf(text, sizeof text, "%.0f arcsec", value / kRadiansPerArcsec);
+  } else {
+    std::snprintf(text, sizeof text, "%.0f mm", 1000.0 * value);
+  }
+  return text;
+}
+
+std::string describe(const StripErrorSize& error) {
+  const Component& component = kComponents[static_cast<std::size_t>(error.component)];
+  char ratio[32];
+  std::snprintf(ratio, sizeof ratio, "%.1f", error.ratio());
+  return "strip " + error.strip + ": trajectory correction in " + component.name + " of " +
+         sizeText(error.rms, component.angle) + " (RMS over the strip), " + ratio +
+         " times its a priori standard deviation of " + sizeText(error.sigma, component.angle) +
+         "; check the " + component.causes + ", or state what it is worth with " + component.option;
+}
+
+/// Root mean square over all pairs of strips.
+double overall(const CalibrationResult& result, double PairFit::*rms) {
+  double squares = 0.0, count = 0.0;
+  for (const PairFit& pair : result.pairs) {
+    const auto weight = static_cast<double>(pair.correspondences);
+    squares += weight * pair.*rms * (pair.*rms);
+    count += weight;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+/// Small trajectory errors may be all that is left of a calibrated system: alone, this is no
+/// objection.
+void assessNeed(bool corrections_are_large, CalibrationResult& result) {
+  constexpr double kNoBetter = 0.98, kMuchBetter = 0.7;  // of the misfit as delivered
+  const double before = overall(result, &PairFit::rms_before);
+  const double after = overall(result, &PairFit::rms_after);
+  const double strips = overall(result, &PairFit::rms_strips);
+  if (after < kNoBetter * before || strips > kMuchBetter * before || strips <= 0.0) return;
+  const std::string text =
+      "only corrections of the trajectory make the strips agree (" + sizeText(before, false) +
+      " as delivered, " + sizeText(after, false) + " with the biases, " + sizeText(strips, false) +
+      " with strip corrections): what is left is not the effect of system biases";
+  result.warnings.push_back(text);
+  if (corrections_are_large) result.verdict.object(CalibrationStatus::parameters_affected, text);
+}
+
+}  // namespace
+
+std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& strips,
+                                             const SharedErrorModel& model, double ratio) {
+  const std::array<double, 6> sigmas{model.position,   model.position,   model.position,
+                                     model.roll_pitch, model.roll_pitch, model.heading};
+  std::vector<StripErrorSize> large;
+  for (const StripErrors& strip : strips) {
+    Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
+    for (const TrajectoryErrorKnot& knot : strip.knots) {
+      squares.head<3>() += knot.position.cwiseAbs2();
+      squares.tail<3>() += knot.angles.cwiseAbs2();
+    }
+    const double count = std::max<double>(1.0, static_cast<double>(strip.knots.size()));
+    for (int i = 0; i < 6; ++i) {
+      const StripErrorSize error{strip.id, i, std::sqrt(squares[i] / count),
+                                 sigmas[static_cast<std::size_t>(i)]};
+      if (error.ratio() > ratio) large.push_back(error);
+    }
+  }
+  std::stable_sort(large.begin(), large.end(),
+                   [](const auto& a, const auto& b) { return a.ratio() > b.ratio(); });
+  return large;
+}
+
+void assessStripErrors(const SharedErrorModel& model, CalibrationResult& result) {
+  const std::vector<StripErrorSize> large =
+      largeStripErrors(result.strip_errors, model, kNoticeable);
+  for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
+    result.warnings.push_back(describe(large[i]));
+  if (large.size() > kListed) {
+    result.warnings.push_back(std::to_string(large.size() - kListed) +
+                              " further trajectory corrections exceed three a priori standard "
+                              "deviations");
+  }
+  if (!large.empty() && large.front().ratio() > kContradiction)
+    result.verdict.object(CalibrationStatus::parameters_affected, describe(large.front()));
+  assessNeed(!large.empty(), result);
+}
+
+}  // namespace pcl_als
