@@ -53,7 +53,7 @@ check "the original is kept" test "$(od -An -tu2 -j"$(at x.las 1 34)" -N2 x.las 
 expect 0 'beyond 65535 after correction: 1 points' intensity values.las x.las "${flight[@]}" "${nothing[@]}" -scale 2
 check "beyond 65535" test "$(intensity_of x.las 1)" = 65535
 check "scale" test "$(intensity_of x.las 2)" = 510
-expect 0 'under 0.5 after correction' intensity values.las dark.las "${flight[@]}" "${nothing[@]}" -scale 1e-6
+expect 3 '2 908 of 2 908 intensities are under 0.5 after correction' intensity values.las dark.las "${flight[@]}" "${nothing[@]}" -scale 1e-6
 expect 2 'all intensities are zero' intensity dark.las x.las "${flight[@]}"
 
 # 8-bit data: none is beyond 255, which is saturated then.
@@ -74,8 +74,8 @@ expect 2 'point format 0 has no GPS time' intensity format0.las y.las "${flight[
 "$damage" block/strip1.las zero.las zero_times
 expect 2 'zero.las: *time' intensity zero.las y.las "${flight[@]}"
 poke values.las 4 22 '\x00\x00\x00\x00\x00\x00\x00\x00'
-expect 2 'does not cover the times of 1 of' intensity values.las y.las "${flight[@]}"
-expect 0 '1 points without a trajectory' intensity values.las x.las "${flight[@]}" -keep_uncovered
+# One point in a hundred may be without a trajectory; more only with -keep_uncovered.
+expect 0 '1 points without a trajectory' intensity values.las x.las "${flight[@]}"
 check "without a trajectory" test "$(intensity_of x.las 4)" = "$(intensity_of values.las 4)"
 
 # Without surfaces points are computed in columns; a gain control of 1 everywhere makes the tool take them one by one, as

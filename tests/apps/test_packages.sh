@@ -15,12 +15,13 @@ for tool in "$build"/bin/pcl_als_*; do
   name=$(basename -- "$tool") page=$build/man/$(basename -- "$tool").1
   [[ -s $page ]] || { failed "$name has no manual page"; continue; }
   "$tool" -h >help.txt
+  sed 's/\\-/-/g' "$page" >page.txt
   for section in NAME SYNOPSIS OPTIONS EXAMPLE "EXIT STATUS"; do
     grep -qx ".SH $section" "$page" || failed "$name.1 has no section $section"
   done
   # Every option is a paragraph of its own.
   while read -r option; do
-    sed 's/\\-/-/g' "$page" | grep -qE -- "^\.B -($option|h, -help)( |$)" || failed "$name.1 lacks -$option"
+    grep -qE -- "^\.B -($option|h, -help)( |$)" page.txt || failed "$name.1 lacks -$option"
   done < <(sed -nE 's/^  --([a-z_]+).*/\1/p' help.txt)
   # Defaults are written as people write them: no digits of the nearest double.
   grep -nE '[0-9]\.[0-9]*(0{6}|9{6})' help.txt && failed "$name -h prints a number with too many digits"

@@ -43,7 +43,7 @@ rm -f strip?.las
 # settle did not converge in 20 iterations, of the whole block and of its southern half.
 if [[ -d $data/real/bcts ]]; then
   unpack real/bcts
-  for tiles in bcts_?.las 'bcts_[12].las'; do
+  for tiles in "bcts_?.las" "bcts_[12].las"; do
     expect 0 "lever_arm_y is not determined" calibrate $tiles -trajectory "$data/real/bcts/trajectory.csv" -output bcts.json
   done
   rm -f bcts_?.las
@@ -52,7 +52,7 @@ fi
 # Two tiles of AHN3: strips joined across tiles by id, one strip of 50 points, no control, a single height.
 unpack delft_ahn3
 flight=$data/delft_ahn3/trajectory.csv
-expect 0 '57140 has only 50 points' calibrate ahn3_cropped_?.las -trajectory "$flight" -output base.json
+expect 0 "strip 57140: 50 of 50 points" calibrate ahn3_cropped_?.las -trajectory "$flight" -output base.json
 for name in lever_arm_y range_bias; do
   checks=$((checks + 1))
   [[ $(value base.json $name status) == not_estimable ]] || failed "Delft: $name is $(value base.json $name status)"

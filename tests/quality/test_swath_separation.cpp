@@ -83,7 +83,9 @@ TEST(SwathSeparation, LastReturnsOnlyAndNothingThatIsLeftOut) {
   int strips = 0;
   for (const auto& cell : cells) {
     strips += cell.strips;
-    if (cell.strips > 0) EXPECT_EQ(cell.intensity, 100.0F);
+    if (cell.strips > 0) {
+      EXPECT_EQ(cell.intensity, 100.0F);
+    }
   }
   EXPECT_EQ(strips, 1);
 }
