@@ -175,6 +175,10 @@ class Block:
             result = out / "calibration.json"
             yield "calibrate", [*files, *self.trajectory, *self.control, *split, "-output", result,
                                 "-report", out / "report"], result, summary_of_calibration
+            if self.name == "stbarth":  # conical: no attitude can be recovered from the points
+                nominal = out / "nominal.json"
+                yield "calibrate (nominal)", [*files, *self.trajectory, "-model", "nominal",
+                                              "-output", nominal], nominal, summary_of_calibration
             yield "apply", [files[0], out / "applied.las", *self.trajectory, "-calibration",
                             result], None, no_summary
             yield "intensity", [files[0], out / "intensity.las", *self.trajectory], None, no_summary
@@ -196,7 +200,8 @@ def measure(build, block, out):
     out.mkdir(parents=True, exist_ok=True)
     rows = {}
     for tool, arguments, result, summary in block.jobs(out):
-        status, seconds, message, text = run([build / "bin" / f"pcl_als_{tool}", *arguments])
+        status, seconds, message, text = run([build / "bin" / f"pcl_als_{tool.split()[0]}",
+                                              *arguments])
         lines = summary(load(result) if result else None, text)
         if status != 0:
             lines.append(message.replace(str(block.folder), "").replace(str(out.parent), ""))
