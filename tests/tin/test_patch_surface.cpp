@@ -232,7 +232,8 @@ TEST(PatchSurface, PointsMovedAcrossEachOtherStillHaveAnEnd) {
 }
 
 /// 2026-11-22: where corrections moved points past each other, walks through inverted triangles
-/// ended in a search of all triangles: 291 s instead of 7 s for 388,000 points of a conical scanner.
+/// ended in a search of all triangles: 291 s instead of 7 s for 388,000 points of a conical
+/// scanner.
 TEST(PatchSurface, PointsThatPassEachOtherAreTriangulatedAgain) {
   std::vector<Vector3d> points = test::scenePoints(4000, 0.0, 5);
   PatchSurface surface{Tin(points)};

@@ -5,26 +5,19 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/las/laz_schema.h>
 
+#include "point_context.h"
+
 namespace pcl_als {
 namespace {
+
+using laz::load;
+using laz::store;
 
 constexpr std::size_t kFixedPart = 34, kItemPart = 6;
 constexpr std::size_t kCompressor = 0, kCoder = 2, kVersion = 4, kOptions = 8, kChunkSize = 12,
                       kSpecialEvlrs = 16, kItemCount = 32;
 // The version of LASzip's format that has everything written here.
 constexpr std::uint8_t kMajor = 3, kMinor = 4;
-
-template <typename T>
-T load(const std::uint8_t* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
-
-template <typename T>
-void store(std::uint8_t* at, T value) {
-  std::memcpy(at, &value, sizeof value);
-}
 
 /// Size and versions of an item; size 0: any.
 struct Kind {

@@ -59,8 +59,8 @@ struct PatchAlignmentResult {
   /// the surface, no rigid motion is the whole truth, and no scatter inside the smooth ones shows
   /// it.
   Eigen::Matrix<double, kParameters, 1> surface_std = Eigen::Matrix<double, kParameters, 1>::Zero();
-  /// Metres, radians: what the pairs still ask for where the iteration went round in a cycle and was
-  /// damped; zero where it converged by itself. Part of covariance.
+  /// Metres, radians: what the pairs still ask for where the iteration went round in a cycle and
+  /// was damped; zero where it converged by itself. Part of covariance.
   Eigen::Matrix<double, kParameters, 1> convergence_std =
       Eigen::Matrix<double, kParameters, 1>::Zero();
   double scale_std = 0.0;  ///< of motion.scale; 0 where the scale is not estimated
