@@ -137,8 +137,8 @@ void QuasiRigorousCalibration::openIteration(State& state, const CalibrationResu
   const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
   if (arrives) state.coarse = false;
   if (state.coarse) ++state.coarse_iterations;
-  // The levels are looked for where the geometry has come to rest, for what is left of the biases
-  // looks like errors of the trajectory; and they must rest for the iteration to converge.
+  // The variance components are estimated after the geometry has converged, because remaining
+  // biases resemble errors of the trajectory; the iteration converges when they no longer change.
   const bool look_due = !state.coarse && rests && !state.looked();
   // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
   // The noise of the few is no measure of the levels.

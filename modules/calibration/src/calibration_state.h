@@ -61,7 +61,7 @@ struct QuasiRigorousCalibration::State {
   bool levels_rest = false;  ///< whether the last look left them as they were
   AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
   bool choose_again = false;   ///< of all pairs, in the next iteration
-  bool chosen_at_end = false;  ///< whether that was done where all had come to rest, levels too
+  bool chosen_at_end = false;  ///< chosen after the variance components converged
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

@@ -133,7 +133,7 @@ void QuasiRigorousCalibration::leaveOutRoundedTimes() {
     std::size_t cursor = 0;
     const double start = map_.startTime(static_cast<int>(strip)),
                  end = map_.endTime(static_cast<int>(strip));
-    // Where the trajectory does not reach, checkTrajectory() says so.
+    // Strips beyond the trajectory are reported by checkTrajectory().
     if (!trajectory_->poseAt(start, from, cursor) || !trajectory_->poseAt(end, to, cursor))
       continue;
     const double speed = end > start ? (to.position - from.position).norm() / (end - start) : 0.0;

@@ -23,7 +23,7 @@ struct LasReference {
 /** \brief Reads the reference of a file, as its global encoding prefers.
  *
  * A unit that GeoTIFF keys state stands above the one that the EPSG code implies
- * (GeoTIFF 1.1, 7.5); the CRS is given with that unit then. A CRS in degrees is not believed of
+ * (GeoTIFF 1.1, 7.5); the CRS is given with that unit then. A CRS in degrees is ignored for
  * coordinates that cannot be degrees; coordinates within the range of degrees with steps of a
  * micrometre at most, a thousandth of the step of the heights, are degrees where no CRS says
  * otherwise.
