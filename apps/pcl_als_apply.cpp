@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -10,10 +7,10 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/file_correction.h>
 
 #include "command_line.h"
 #include "flight_options.h"
-#include "point_file_correction.h"
 
 namespace {
 
@@ -89,7 +86,6 @@ CalibrationResult biasesOf(const CommandLine& line) {
   const SystemVector biases = parseBiases(line.text("biases"));
   for (int i = 0; i < kSystemParameterCount; ++i) result.parameters[i].bias = biases[i];
   result.converged = true;
-  result.attitude = AttitudeSource::points;  // where the trajectory has none
   return result;
 }
 
@@ -108,29 +104,6 @@ app::AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& c
   return app::AttitudeUse::ignore;
 }
 
-/// The attitude of a part of a strip is not quite that of the whole, so tiles of a strip that are
-/// corrected one by one differ a little; the calibration knows how long its strips are.
-void reportParts(const CommandLine& line, const std::vector<AttitudeRecovery::Pass>& passes,
-                 const CalibrationResult& calibration) {
-  constexpr double kWhole = 0.98;  // of a strip's time
-  for (const AttitudeRecovery::Pass& pass : passes) {
-    for (const StripErrors& strip : calibration.strip_errors) {
-      if (strip.knots.empty()) continue;
-      const double from = strip.knots.front().time, to = strip.knots.back().time;
-      const double common = std::min(to, pass.to) - std::max(from, pass.from);
-      if (common <= 0.0 || common > kWhole * (to - from)) continue;
-      std::ostringstream text;
-      text << std::fixed << std::setprecision(1)
-           << "pitch and crab are recovered from a part of strip " << strip.id << " only ("
-           << common << " of " << to - from
-           << " s): its other tiles get a slightly different attitude; correct whole strips, or "
-              "give a "
-              "trajectory with attitude";
-      app::remark(line, text.str());
-    }
-  }
-}
-
 std::string biasText(const SystemVector& biases) {
   std::ostringstream text;
   for (const SystemParameterInfo& info : systemParameters()) {
@@ -142,43 +115,55 @@ std::string biasText(const SystemVector& biases) {
   return text.tellp() > 0 ? text.str() : "all biases are zero";
 }
 
+FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult& calibration) {
+  FileCorrectionOptions options;
+  options.strip_corrections = line.has("strip_corrections");
+  if (options.strip_corrections && calibration.strip_errors.empty()) {
+    throw UsageError("option -strip_corrections: the calibration has no strip corrections");
+  }
+  options.invert = line.has("invert");
+  options.keep_uncovered = line.has("keep_uncovered");
+  options.force = line.has("force");
+  options.gps_week = app::gpsWeek(line);
+  options.threads = line.threads();
+  return options;
+}
+
+/// Biases that are given by themselves are used with the attitude of the trajectory, where it has
+/// one.
+AttitudeSource attitudeOf(const Trajectory& flight) {
+  if (!flight.hasAttitude()) return AttitudeSource::points;
+  return flight.attitudeIsNominal() ? AttitudeSource::nominal : AttitudeSource::trajectory;
+}
+
 int apply(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
   const std::vector<std::string>& files = line.inputs(2, 2);
-  const CalibrationResult calibration = biasesOf(line);
-  app::PointFileCorrection correction;
-  correction.gps_week = app::gpsWeek(line);
-  correction.biases = calibration.biases();
-  correction.invert = line.has("invert");
-  correction.keep_uncovered = line.has("keep_uncovered");
-  correction.force = line.has("force");
-  correction.threads = line.threads();
-  if (line.has("strip_corrections")) {
-    if (calibration.strip_errors.empty()) {
-      throw UsageError("option -strip_corrections: the calibration has no strip corrections");
-    }
-    correction.trajectory_errors = std::make_shared<TrajectoryErrors>(calibration.strip_errors);
-  }
+  CalibrationResult calibration = biasesOf(line);
+  const FileCorrectionOptions options = optionsOf(line, calibration);
   const PointReference reference = commonReference(std::vector<std::string>{files[0]});
   app::remarks(line, reference.remarks);
-  correction.trajectory = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
-                                          attitudeUse(line, calibration));
-  correction.recover_attitude =
-      !correction.trajectory->hasAttitude() && calibration.attitude == AttitudeSource::points;
+  const auto flight = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
+                                      attitudeUse(line, calibration));
+  if (line.has("biases")) calibration.attitude = attitudeOf(*flight);
   app::remark(line,
-              (correction.invert ? "putting in: " : "taking out: ") + biasText(correction.biases));
+              (options.invert ? "putting in: " : "taking out: ") + biasText(calibration.biases()));
 
   Step step("Writing " + files[1], line.quiet());
-  const app::PointFileCorrectionResult result = app::correctPointFile(
-      files[0], files[1], correction, [&step](double fraction) { step.progress(fraction); });
+  const FileCorrectionResult result =
+      correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(step));
   step.done(grouped(result.points) + " points");
   app::remark(line, result.time_remark);
   for (const std::string& warning : result.warnings) app::remark(line, "warning: " + warning);
-  app::remark(line, result.attitude_remark);
-  reportParts(line, result.passes, calibration);
+  if (!result.attitude_remark.empty()) {
+    app::remark(line, result.attitude_remark);
+    app::remark(line,
+                "the calibration holds no attitude for these times, it is recovered from this "
+                "file: other tiles of its strips may get a slightly different one");
+  }
   if (result.coverage.missed() > 0) {
-    app::remark(line, "left as they are: " + result.coverage.describe(*correction.trajectory));
+    app::remark(line, "left as they are: " + result.coverage.describe(*flight));
   }
   return app::kDone;
 }

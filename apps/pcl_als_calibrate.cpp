@@ -7,6 +7,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/file_correction.h>
 
 #include "adjustment_options.h"
 #include "calibration_page.h"
@@ -14,7 +15,6 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
-#include "point_file_correction.h"
 #include "strip_options.h"
 #include "survey_reader.h"
 
@@ -202,25 +202,24 @@ CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& su
 }
 
 void writeCorrected(const CommandLine& line, const std::vector<std::string>& files,
-                    std::shared_ptr<const Trajectory> trajectory, const CalibrationResult& result) {
-  app::PointFileCorrection correction;
-  correction.trajectory = std::move(trajectory);  // with the attitude that was calibrated with
-  correction.biases = result.biases();
-  if (line.has("strip_corrections")) {
-    correction.trajectory_errors = std::make_shared<TrajectoryErrors>(result.strip_errors);
-  }
-  correction.gps_week = app::gpsWeek(line);
-  correction.threads = line.threads();
-  correction.check_trajectory = false;  // done with all strips together
-  correction.keep_uncovered = true;  // strips too small to calibrate may lie outside the trajectory
+                    const std::shared_ptr<const Trajectory>& flight,
+                    const CalibrationResult& result) {
+  FileCorrectionOptions options;
+  options.strip_corrections = line.has("strip_corrections");
+  options.gps_week = app::gpsWeek(line);
+  options.threads = line.threads();
+  options.force = line.has("force");
+  options.check_trajectory = false;  // done with all strips together
+  options.keep_uncovered = true;     // strips too small to calibrate may lie outside the trajectory
   for (const std::string& file : files) {
     const fs::path output = fs::path(line.text("corrected")) / fs::path(file).filename();
     Step step("Writing " + output.string(), line.quiet());
-    const auto corrected = app::correctPointFile(file, output, correction,
-                                                 [&](double fraction) { step.progress(fraction); });
+    const FileCorrectionResult corrected =
+        correctPointFile(file, output, result, flight, options, app::progressOf(step));
     step.done(grouped(corrected.points) + " points");
+    app::remark(line, corrected.attitude_remark);
     if (corrected.coverage.missed() == 0) continue;
-    app::remark(line, "left as they are: " + corrected.coverage.describe(*correction.trajectory));
+    app::remark(line, "left as they are: " + corrected.coverage.describe(*flight));
   }
 }
 
@@ -275,7 +274,7 @@ int calibrate(int argc, char** argv) {
     std::cerr << "pcl_als_calibrate: no corrected files are written; -force writes them"
               << std::endl;
   } else if (line.has("corrected")) {
-    writeCorrected(line, files, calibration.trajectory(), result);
+    writeCorrected(line, files, trajectory, result);
   }
   return usable ? app::kDone : app::kNoReliableAnswer;
 }

@@ -204,6 +204,13 @@ LengthUnit unitOption(const CommandLine& line, const std::string& of) {
   return lengthUnitNamed(line.text((of + "_units").c_str()), "option -" + of + "_units");
 }
 
+ProgressCallback progressOf(Step& step) {
+  return [&step](const JobProgress& progress) {
+    step.progress(progress.fraction);
+    return true;
+  };
+}
+
 void remark(const CommandLine& line, const std::string& text) {
   if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
 }
@@ -211,6 +218,32 @@ void remark(const CommandLine& line, const std::string& text) {
 void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) remark(line, text);
 }
+
+namespace {
+
+/// How a tool calls what would let it go on.
+std::string optionFor(Remedy remedy) {
+  switch (remedy) {
+    case Remedy::none:
+      break;
+    case Remedy::force:
+      return "; -force goes on all the same";
+    case Remedy::force_level:
+      return "; -force takes the sensor as level";
+    case Remedy::keep_uncovered:
+      return "; -keep_uncovered leaves them as they are";
+    case Remedy::nominal_model:
+      return "; or use -model nominal, which takes the sensor as level with its heading along the "
+             "course";
+    case Remedy::crs:
+      return "; give one with -crs";
+    case Remedy::max_distance:
+      return "; -max_distance compares surfaces further apart";
+  }
+  return {};
+}
+
+}  // namespace
 
 int run(const char* tool, const std::function<int()>& body) {
   const auto failed = [tool](const char* message, int status) {
@@ -227,6 +260,8 @@ int run(const char* tool, const std::function<int()>& body) {
                   kUnusableInput);
   } catch (const UsageError& error) {
     return failed(error.what(), kWrongUsage);
+  } catch (const InputError& error) {
+    return failed((error.what() + optionFor(error.remedy())).c_str(), kUnusableInput);
   } catch (const std::bad_alloc&) {
     return failed("not enough memory", kUnusableInput);
   } catch (const std::exception& error) {

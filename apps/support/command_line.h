@@ -13,6 +13,7 @@
 #include <boost/program_options.hpp>
 
 #include <pcl_als/common/linear_units.h>
+#include <pcl_als/common/progress.h>
 
 namespace pcl_als::app {
 
@@ -94,6 +95,9 @@ class Step {
   int last_percent_ = -1;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// Shows a job's progress as that of a step.
+ProgressCallback progressOf(Step& step);
 
 /// Declares -OF_units: the unit of length of a file of coordinates that does not state one.
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what);

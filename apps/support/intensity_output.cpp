@@ -12,9 +12,9 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/survey/coverage_limit.h>
 
 #include "intensity_columns.h"
-#include "uncovered_points.h"
 
 namespace pcl_als::app {
 namespace {

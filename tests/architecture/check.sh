@@ -17,6 +17,7 @@ declare -A may=(
   [calibration]="common trajectory tin registration" [radiometry]="common trajectory tin"
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common tin registration trajectory"
+  [processing]="common io trajectory survey filters"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )
 

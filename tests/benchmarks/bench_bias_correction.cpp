@@ -111,11 +111,9 @@ void integerRecords(benchmark::State& state) {
     std::memcpy(&records[i * kLength], raw, sizeof raw);
     std::memcpy(&records[i * kLength + 22], &points.time[i], sizeof(double));
   }
-  const auto evaluator =
-      std::make_shared<BiasEvaluator>(flight(), biases(static_cast<int>(state.range(0))));
   const IntegerBiasCorrection correction(
-      "bench", evaluator, {kLength, 22, Eigen::Vector3d::Constant(1e-3), Eigen::Vector3d::Zero()},
-      TimeAlignment(), false);
+      "bench", SystemCorrection(biases(static_cast<int>(state.range(0))), flight()),
+      {kLength, 22, Eigen::Vector3d::Constant(1e-3), Eigen::Vector3d::Zero()});
   const std::vector<std::byte> original = records;
   for (auto _ : state) {
     records = original;  // as reading a block would

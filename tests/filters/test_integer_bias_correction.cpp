@@ -57,12 +57,12 @@ SwathPoint pointAt(const Records& records, std::size_t point) {
   return result;
 }
 
-std::shared_ptr<const BiasEvaluator> evaluator(const SystemVector& biases) {
-  return std::make_shared<BiasEvaluator>(flownNorth(kOrigin, 20.0), biases);
+SystemCorrection systemCorrection(const SystemVector& biases, bool invert = false) {
+  return {biases, flownNorth(kOrigin, 20.0), invert};
 }
 
 IntegerBiasCorrection correction(const SystemVector& biases, bool invert = false) {
-  return {"strip.las", evaluator(biases), kLayout, TimeAlignment(), invert};
+  return {"strip.las", systemCorrection(biases, invert), kLayout};
 }
 
 TEST(IntegerBiasCorrection, MovesEachIntegerByTheRoundedEffect) {
@@ -72,11 +72,10 @@ TEST(IntegerBiasCorrection, MovesEachIntegerByTheRoundedEffect) {
   const CoverageCount coverage = engine.apply(after.data(), 1000, 0);
   EXPECT_EQ(coverage.points, 1000U);
   EXPECT_EQ(coverage.missed(), 0U);
-  const auto reference = evaluator(typicalBiases());
+  const auto reference = flownNorth(kOrigin, 20.0);
   int moved = 0;
   for (std::size_t i = 0; i < 1000; ++i) {
-    const Eigen::Vector3d effect =
-        effectAt(reference->trajectory(), pointAt(before, i), typicalBiases());
+    const Eigen::Vector3d effect = effectAt(*reference, pointAt(before, i), typicalBiases());
     for (int axis = 0; axis < 3; ++axis) {
       const int change = rawAt(after, i, axis) - rawAt(before, i, axis);
       // Half a unit, and 1e-7 of one for the way the effect is computed.
@@ -143,8 +142,7 @@ TEST(IntegerBiasCorrection, HundredKilometresAreRightToAMillimetre) {
   const auto points = swath(kOrigin, kSeconds, 60000);
   Records records = recordsOf(points);
   const Records before = records;
-  IntegerBiasCorrection("strip.las", std::make_shared<BiasEvaluator>(trajectory, typicalBiases()),
-                        kLayout, TimeAlignment(), false)
+  IntegerBiasCorrection("strip.las", SystemCorrection(typicalBiases(), trajectory), kLayout)
       .apply(records.data(), points.size(), 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SwathPoint biased = pointAt(before, i);
@@ -178,8 +176,9 @@ TEST(IntegerBiasCorrection, TimesAreAlignedAndKept) {
   }
   TimeAlignment alignment;
   alignment.offset = -604800.0;
-  IntegerBiasCorrection("strip.las", evaluator(typicalBiases()), kLayout, alignment, false)
-      .apply(after.data(), 600, 0);
+  SystemCorrection aligned = systemCorrection(typicalBiases());
+  aligned.setTimeAlignment(alignment);
+  IntegerBiasCorrection("strip.las", aligned, kLayout).apply(after.data(), 600, 0);
   for (std::size_t i = 0; i < 600; ++i) {
     EXPECT_GE(pointAt(after, i).time, 604800.0);
     // Times of 6e5 s are rounded to 1e-10 s: 6e-9 m.
@@ -221,10 +220,10 @@ TEST(IntegerBiasCorrection, RefusesAScaleThatIsNone) {
   for (const double scale : {0.0, -0.001, std::nan(""), std::numeric_limits<double>::infinity()}) {
     auto layout = kLayout;
     layout.scale.y() = scale;
-    EXPECT_THROW(IntegerBiasCorrection("a.las", evaluator(typicalBiases()), layout, {}, false),
+    EXPECT_THROW(IntegerBiasCorrection("a.las", systemCorrection(typicalBiases()), layout),
                  InputError);
   }
-  EXPECT_THROW(IntegerBiasCorrection("a.las", nullptr, kLayout, {}, false), UsageError);
+  EXPECT_THROW(SystemCorrection(typicalBiases(), nullptr), UsageError);
 }
 
 }  // namespace

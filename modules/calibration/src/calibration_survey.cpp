@@ -103,6 +103,7 @@ void QuasiRigorousCalibration::recoverAttitude() {
   }
   trajectory_ = outcome.flight;
   if (outcome.found) {
+    recovered_attitude_ = outcome.attitude;
     attitude_ = AttitudeSource::points;
   } else {
     warnings_.push_back(outcome.remark);

@@ -234,6 +234,7 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   result.redundancy = state.redundancy();
   result.warnings = warnings_;
   result.attitude = attitude_;
+  result.recovered_attitude = recovered_attitude_;
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   report.addStrips(errors, used_, state.choice.solution, result);

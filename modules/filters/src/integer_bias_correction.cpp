@@ -44,14 +44,14 @@ void toMetres(const IntegerColumn& raw, double scale, double offset, Column& met
   for (std::size_t i = 0; i < count; ++i) metres[i] = raw[i] * scale + offset;
 }
 
-/// Moves raw values by effects, rounded: \a effect becomes the results, and so does \a raw where
+/// Moves raw values by changes, rounded: \a change becomes the results, and so does \a raw where
 /// all fit an int32; false else.
-bool move(double steps_per_metre, Column& effect, IntegerColumn& raw, std::size_t count) {
+bool move(double steps_per_metre, Column& change, IntegerColumn& raw, std::size_t count) {
   std::uint64_t outside = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double steps = (effect[i] * steps_per_metre + kShift) - kShift;
+    const double steps = (change[i] * steps_per_metre + kShift) - kShift;
     const double value = raw[i] + steps;
-    effect[i] = value;
+    change[i] = value;
     outside |= toInteger(value, raw[i]);
   }
   return outside == 0;
@@ -61,19 +61,12 @@ bool move(double steps_per_metre, Column& effect, IntegerColumn& raw, std::size_
 
 struct IntegerBiasCorrection::Tile {
   IntegerColumn raw[3];
-  Column time, x, y, z, effect[3];
+  Column time, x, y, z, change[3];
 };
 
-IntegerBiasCorrection::IntegerBiasCorrection(std::string name,
-                                             std::shared_ptr<const BiasEvaluator> evaluator,
-                                             const Layout& layout, TimeAlignment alignment,
-                                             bool invert)
-    : name_(std::move(name)),
-      evaluator_(std::move(evaluator)),
-      layout_(layout),
-      alignment_(std::move(alignment)),
-      invert_(invert) {
-  if (!evaluator_) throw UsageError(name_ + ": no biases are set");
+IntegerBiasCorrection::IntegerBiasCorrection(std::string name, SystemCorrection correction,
+                                             const Layout& layout)
+    : name_(std::move(name)), correction_(std::move(correction)), layout_(layout) {
   if (!(layout_.scale.minCoeff() >= 1e-9) || !layout_.scale.allFinite()) {
     throw InputError(name_ + ": the scale of its coordinates is not a number of 1e-9 m or more");
   }
@@ -91,16 +84,15 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
   toMetres(tile.raw[0], layout_.scale.x(), layout_.offset.x(), tile.x, count);
   toMetres(tile.raw[1], layout_.scale.y(), layout_.offset.y(), tile.y, count);
   toMetres(tile.raw[2], layout_.scale.z(), layout_.offset.z(), tile.z, count);
-  if (alignment_.identity()) return;
-  for (std::size_t i = 0; i < count; ++i) tile.time[i] = alignment_(tile.time[i]);
+  if (correction_.timeAlignment().identity()) return;
+  for (std::size_t i = 0; i < count; ++i) tile.time[i] = correction_.flightTime(tile.time[i]);
 }
 
 void IntegerBiasCorrection::scatter(std::byte* records, std::size_t count, std::uint64_t first,
                                     Tile& tile) const {
-  const double sign = invert_ ? 1.0 : -1.0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!move(sign / layout_.scale[axis], tile.effect[axis], tile.raw[axis], count)) {
-      refuseOverflow(tile.effect[axis].data(), first, axis);
+    if (!move(1.0 / layout_.scale[axis], tile.change[axis], tile.raw[axis], count)) {
+      refuseOverflow(tile.change[axis].data(), first, axis);
     }
   }
   for (std::size_t i = 0; i < count; ++i, records += layout_.record_length) {
@@ -126,16 +118,12 @@ CoverageCount IntegerBiasCorrection::apply(std::byte* records, std::size_t count
   CoverageCount coverage;
   Tile tile;
   const PointColumns points{tile.time.data(), tile.x.data(), tile.y.data(), tile.z.data()};
-  const EffectColumns effect{tile.effect[0].data(), tile.effect[1].data(), tile.effect[2].data()};
+  const EffectColumns change{tile.change[0].data(), tile.change[1].data(), tile.change[2].data()};
   for (std::size_t at = 0; at < count; at += kTile) {
     const std::size_t size = std::min(kTile, count - at);
     std::byte* tile_records = records + at * layout_.record_length;
     gather(tile_records, size, tile);
-    if (invert_) {
-      evaluator_->inverseEffect(points, size, effect, coverage);
-    } else {
-      evaluator_->effect(points, size, effect, coverage);
-    }
+    correction_.change(points, size, change, coverage);
     scatter(tile_records, size, first + at, tile);
   }
   return coverage;

@@ -278,6 +278,25 @@ void readStripErrors(const Node& strips, CalibrationResult& result) {
   }
 }
 
+void readRecoveredAttitude(const Node& passes, CalibrationResult& result) {
+  constexpr double kRightAngle = 324000.0;  // arc-seconds
+  for (const Node& node : passes.items()) {
+    const std::vector<Node> times = node["times"].items(), pitch = node["pitch_arcsec"].items(),
+                            crab = node["crab_arcsec"].items();
+    if (times.empty() || times.size() != pitch.size() || times.size() != crab.size()) {
+      node.refuse("must have as many times as pitch_arcsec and crab_arcsec, one at least");
+    }
+    RecoveredAttitude::Pass pass(times.size());
+    for (std::size_t i = 0; i < pass.size(); ++i) {
+      pass[i].time = times[i].number();
+      pass[i].angles = {pitch[i].within(kRightAngle, "arcsec") * kRadiansPerArcsec,
+                        crab[i].within(kRightAngle, "arcsec") * kRadiansPerArcsec};
+      if (i > 0 && !(pass[i].time > pass[i - 1].time)) times[i].refuse("must be later");
+    }
+    result.recovered_attitude.addPass(std::move(pass));
+  }
+}
+
 std::vector<std::string> textsOf(const Node& list) {
   std::vector<std::string> texts;
   for (const Node& node : list.items()) texts.push_back(node.text());
@@ -328,6 +347,9 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   if (root.has("control_points")) readControlPoints(root["control_points"], result);
   if (root.has("strip_offsets")) readStripOffsets(root["strip_offsets"], result);
   if (root.has("strip_corrections")) readStripErrors(root["strip_corrections"], result);
+  if (root.has("recovered_attitude")) {
+    readRecoveredAttitude(root["recovered_attitude"], result);
+  }
   if (root.has("observability")) result.observability = textsOf(root["observability"]);
   if (root.has("warnings")) result.warnings = textsOf(root["warnings"]);
   if (root.has("inputs")) result.inputs = textsOf(root["inputs"]);

@@ -22,6 +22,11 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+/// RecoveredAttitude::rounded() is what is written.
+double roundedArcseconds(double radians) {
+  return std::round(1e6 * (radians / kRadiansPerArcsec)) / 1e6;
+}
+
 Json parametersOf(const CalibrationResult& result) {
   Json parameters = Json::object();
   for (const SystemParameterInfo& info : systemParameters()) {
@@ -104,6 +109,23 @@ Json stripErrorsOf(const CalibrationResult& result) {
     strips.push_back(Json{{"strip", strip.id}, {"knots", std::move(knots)}});
   }
   return strips;
+}
+
+/// Lists by column: a knot of a long flight takes a fifth of what an object with names would.
+Json recoveredAttitudeOf(const CalibrationResult& result) {
+  Json passes = Json::array();
+  for (const RecoveredAttitude::Pass& pass : result.recovered_attitude.passes()) {
+    Json times = Json::array(), pitch = Json::array(), crab = Json::array();
+    for (const RecoveredAttitude::Knot& knot : pass) {
+      times.push_back(knot.time);
+      pitch.push_back(roundedArcseconds(knot.angles.pitch));
+      crab.push_back(roundedArcseconds(knot.angles.crab));
+    }
+    passes.push_back(Json{{"times", std::move(times)},
+                          {"pitch_arcsec", std::move(pitch)},
+                          {"crab_arcsec", std::move(crab)}});
+  }
+  return passes;
 }
 
 Json verdictOf(const CalibrationVerdict& verdict) {
@@ -191,6 +213,9 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["control_points"] = controlPointsOf(result);
   root["strip_offsets"] = stripOffsetsOf(result);
   root["strip_corrections"] = stripErrorsOf(result);
+  if (!result.recovered_attitude.empty()) {
+    root["recovered_attitude"] = recoveredAttitudeOf(result);
+  }
   root["observability"] = result.observability;
   root["warnings"] = result.warnings;
   root["left_out"] = leftOutOf(result);

@@ -23,23 +23,6 @@ using detail::PulseSums;
 constexpr double kPassGap = 20.0;
 constexpr double kFewNotLinear = 0.3;  // share of the points that other passes outvote
 
-struct Attitude {
-  double time = 0.0;
-  Trajectory::PitchAndCrab angles;
-};
-
-Trajectory::PitchAndCrab interpolated(const std::vector<Attitude>& known, double time) {
-  const auto after =
-      std::lower_bound(known.begin(), known.end(), time,
-                       [](const Attitude& a, double value) { return a.time < value; });
-  if (after == known.begin()) return after->angles;
-  const Attitude& a = *(after - 1);
-  if (after == known.end()) return a.angles;
-  const double share = (time - a.time) / (after->time - a.time);
-  return {a.angles.pitch + share * (after->angles.pitch - a.angles.pitch),
-          a.angles.crab + share * (after->angles.crab - a.angles.crab)};
-}
-
 /// Bins in order of time, cut where a pass ends.
 std::vector<std::vector<PassBin>> passesOf(
     const std::unordered_map<std::int64_t, PulseSums>& bins) {
@@ -67,13 +50,15 @@ class Recovered {
     AttitudeRecovery::Pass pass = detail::judgePass(bins);
     pass.from = timeOf(bins.front()), pass.to = timeOf(bins.back());
     const bool linear = pass.verdict == AttitudeRecovery::Verdict::linear;
+    RecoveredAttitude::Pass knots;
     for (const PassBin& bin : bins) {
       // A pass that shows nothing is level, and takes nothing from its neighbours.
-      Attitude attitude{timeOf(bin), {}};
-      if (linear) attitude.angles = {bin.pitch(), bin.crab()};
-      known_.push_back(attitude);
+      const PitchAndCrab angles = linear ? PitchAndCrab{bin.pitch(), bin.crab()} : PitchAndCrab();
+      const RecoveredAttitude::Knot knot = RecoveredAttitude::rounded(timeOf(bin), angles);
+      if (knots.empty() || knot.time > knots.back().time) knots.push_back(knot);
       if (linear && bin.well_determined) addInstant(bin);
     }
+    known_.addPass(std::move(knots));
     passes_.push_back(pass);
   }
 
@@ -92,7 +77,7 @@ class Recovered {
   const AttitudeRecovery::Pass* objectingPass() const;
 
   double start_;
-  std::vector<Attitude> known_;
+  RecoveredAttitude known_;
   std::vector<AttitudeRecovery::Pass> passes_;
   std::vector<AttitudeRecovery::Instant> instants_;
 };
@@ -121,6 +106,19 @@ AttitudeRecovery::Range united(const std::vector<AttitudeRecovery::Pass>& passes
   return all;
 }
 
+/// Of pitch and crab together over time, radians.
+double rootMeanSquare(const RecoveredAttitude& attitude) {
+  double sum = 0.0, knots = 0.0;
+  for (const RecoveredAttitude::Pass& pass : attitude.passes()) {
+    for (const RecoveredAttitude::Knot& knot : pass) {
+      const PitchAndCrab& a = knot.angles;
+      sum += a.pitch * a.pitch + a.crab * a.crab;
+    }
+    knots += static_cast<double>(pass.size());
+  }
+  return std::sqrt(sum / knots);
+}
+
 AttitudeRecovery::Outcome Recovered::outcome(const std::shared_ptr<const Trajectory>& flight,
                                              bool turned) {
   using Pass = AttitudeRecovery::Pass;
@@ -143,10 +141,7 @@ AttitudeRecovery::Outcome Recovered::outcome(const std::shared_ptr<const Traject
     return outcome;
   }
   outcome.found = true;
-  for (const Attitude& a : known_) {
-    outcome.size += a.angles.pitch * a.angles.pitch + a.angles.crab * a.angles.crab;
-  }
-  outcome.size = std::sqrt(outcome.size / static_cast<double>(known_.size()));
+  outcome.size = rootMeanSquare(known_);
   char plane[80];
   std::snprintf(plane, sizeof plane, " (pulses in a plane to %.4f degrees)",
                 outcome.off_plane / kRadiansPerDegree);
@@ -157,7 +152,8 @@ AttitudeRecovery::Outcome Recovered::outcome(const std::shared_ptr<const Traject
   outcome.instants = std::move(instants_);
   if (!turned) return outcome;
   outcome.flight = std::make_shared<const Trajectory>(
-      flight->withAttitude([this](double time) { return interpolated(known_, time); }));
+      flight->withAttitude([this](double time) { return known_.at(time); }));
+  outcome.attitude = std::move(known_);
   return outcome;
 }
 

@@ -58,6 +58,7 @@ void CoverageCount::merge(const CoverageCount& other) {
   after_end += other.after_end;
   in_gap += other.in_gap;
   without_time += other.without_time;
+  without_attitude += other.without_attitude;
   unsolved += other.unsolved;
   first_missed = std::min(first_missed, other.first_missed);
   last_missed = std::max(last_missed, other.last_missed);
@@ -73,8 +74,11 @@ std::string CoverageCount::describe(const Trajectory& trajectory) const {
   add(after_end, " after its end");
   add(in_gap, " in its gaps");
   add(without_time, " without a time");
+  add(without_attitude, " at times whose pitch and crab are not known");
   const std::string of = " of " + std::to_string(points) + " points ";
-  if (missed() > 0) text = std::to_string(missed()) + of + "have no trajectory: " + text;
+  if (missed() > 0)
+    text = std::to_string(missed()) + of +
+           (missed() == without_attitude ? "are not covered: " : "have no trajectory: ") + text;
   if (first_missed <= last_missed) {
     char times[200];
     std::snprintf(times, sizeof times,

@@ -131,6 +131,7 @@ class QuasiRigorousCalibration {
   std::shared_ptr<const Trajectory> trajectory_;
   CalibrationSettings settings_;
   AttitudeSource attitude_ = AttitudeSource::none;
+  RecoveredAttitude recovered_attitude_;
   SurveyMap map_;
   TrajectoryPlausibility plausibility_;
   std::deque<TimeResolution> times_;         ///< by strip

@@ -11,6 +11,7 @@
 
 #include <pcl_als/common/calibration_verdict.h>
 #include <pcl_als/common/left_out.h>
+#include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -100,6 +101,7 @@ struct StripErrors {
 struct CalibrationResult {
   CalibrationVerdict verdict;  ///< whether to apply it
   AttitudeSource attitude = AttitudeSource::none;
+  RecoveredAttitude recovered_attitude;  ///< of the strips; where attitude is that of points
   std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
   std::vector<SystemParameter> correlation_order;                   ///< the estimated ones
   Eigen::MatrixXd correlation;                                      ///< in that order

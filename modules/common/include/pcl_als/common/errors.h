@@ -20,11 +20,28 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// What a caller may set to go on where an input is refused. Messages do not name options: a tool
+/// adds the name of its own.
+enum class Remedy {
+  none,
+  force,           ///< to go on all the same, with a warning
+  force_level,     ///< force, which takes the sensor as level
+  keep_uncovered,  ///< to leave points without trajectory as they are
+  nominal_model,   ///< the model with a level sensor whose heading is the course
+  crs,             ///< to state the CRS of the points
+  max_distance,    ///< to compare surfaces that are further apart
+};
+
 /// Input that cannot be used: missing, corrupt, without time, without overlap. Tools end with exit
 /// status 2.
 class InputError : public Error {
  public:
-  using Error::Error;
+  explicit InputError(const std::string& message, Remedy remedy = Remedy::none)
+      : Error(message), remedy_(remedy) {}
+  Remedy remedy() const { return remedy_; }
+
+ private:
+  Remedy remedy_;
 };
 
 // A numerical outcome (too few pairs, rank deficiency, no convergence) is not an exception: it is a

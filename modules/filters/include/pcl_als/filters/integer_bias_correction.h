@@ -4,13 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 
 #include <Eigen/Core>
 
-#include <pcl_als/common/time_alignment.h>
-#include <pcl_als/trajectory/bias_evaluator.h>
+#include <pcl_als/trajectory/system_correction.h>
 
 namespace pcl_als {
 
@@ -18,8 +16,9 @@ namespace pcl_als {
  *
  * The engine of LAS to LAS correction. A record begins with X, Y, Z (int32, little-endian); ground
  * = raw scale + offset. The effect A(point) delta is computed in double, divided by the scale,
- * rounded to the nearest integer and subtracted (added with invert): no other byte changes, and
- * zero biases change none. Points without a trajectory are counted and left as they are.
+ * rounded to the nearest integer and subtracted (added where the correction is inverted): no other
+ * byte changes, and zero biases change none. Points without a trajectory are counted and left as
+ * they are.
  *
  * Undoing a correction (invert after apply) returns each integer to within one unit: either way
  * rounds once.
@@ -37,10 +36,8 @@ class IntegerBiasCorrection {
   /// Points that are computed together; their columns fit the first-level cache.
   static constexpr std::size_t kTile = 256;
 
-  /// \a name: the file, for messages. UsageError without an evaluator, InputError for a scale that
-  /// is not positive and finite.
-  IntegerBiasCorrection(std::string name, std::shared_ptr<const BiasEvaluator> evaluator,
-                        const Layout& layout, TimeAlignment alignment, bool invert);
+  /// \a name: the file, for messages. InputError for a scale that is not positive and finite.
+  IntegerBiasCorrection(std::string name, SystemCorrection correction, const Layout& layout);
 
   /// Corrects \a count records. \a first: index of the first one in the file. InputError naming the
   /// point whose new coordinate does not fit an int32; records before it are changed then.
@@ -53,10 +50,8 @@ class IntegerBiasCorrection {
   [[noreturn]] void refuseOverflow(const double* values, std::uint64_t first, int axis) const;
 
   std::string name_;
-  std::shared_ptr<const BiasEvaluator> evaluator_;
+  SystemCorrection correction_;
   Layout layout_;
-  TimeAlignment alignment_;
-  bool invert_;
 };
 
 }  // namespace pcl_als

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <pcl/filters/filter.h>
 
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/common/errors.h>
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/point_types.h>
-#include <pcl_als/common/time_alignment.h>
-#include <pcl_als/trajectory/bias_evaluator.h>
+#include <pcl_als/trajectory/system_correction.h>
 
 namespace pcl_als {
 
@@ -21,8 +20,10 @@ namespace pcl_als {
  * point's time; with setInvert(true) the exact inverse, which puts the biases in.
  *
  * Points are relative to the LocalFrame, the trajectory is in the ground frame (east, north, up,
- * metres). Biases are assumed - true (m, rad, 1). Any point type with x, y, z (float) and gps_time
- * (double) will do; for one's own, include impl/system_bias_correction.hpp.
+ * metres). A calibration brings its model and attitude (SystemCorrection); biases by themselves
+ * (assumed - true; m, rad, 1) take the attitude of the trajectory as it is. Any point type with x,
+ * y, z (float) and gps_time (double) will do; for one's own, include
+ * impl/system_bias_correction.hpp.
  *
  * Every other field keeps its bits, the input is not changed. A point that is not finite is passed
  * on as it is; with indices set, points outside them, too. A point without a trajectory is an
@@ -46,8 +47,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
 
   SystemBiasCorrection() { this->filter_name_ = "SystemBiasCorrection"; }
 
-  /// The flight; must have been made with the window of the calibration
-  /// (CalibrationResult::line_fit_half_width).
+  /// The flight as delivered, made with trajectoryOptions(calibration).
   void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
     trajectory_ = std::move(trajectory);
   }
@@ -57,24 +57,32 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
-  /// Biases, assumed - true: m, rad, 1. UsageError (in filter()) for values no scanner has.
-  void setBiases(const SystemVector& biases) { biases_ = biases; }
+  /// Biases, assumed - true: m, rad, 1, in place of a calibration. UsageError (in filter()) for
+  /// values no scanner has.
+  void setBiases(const SystemVector& biases) {
+    biases_ = biases;
+    calibration_.reset();
+  }
   const SystemVector& getBiases() const { return biases_; }
-  /// The biases of a calibration; its strip corrections only by setTrajectoryErrors(). UsageError
-  /// unless its verdict is usable; setBiases(result.biases()) takes any.
+  /// A calibration with its model and attitude. UsageError unless its verdict is usable; in
+  /// filter(), InputError where it lacks what the correction needs.
   void setCalibration(const CalibrationResult& result) {
-    if (!result.verdict.usable()) {
-      throw UsageError("this calibration should not be applied, " + result.verdict.text());
-    }
-    setBiases(result.biases());
+    SystemCorrection::requireUsable(result);
+    biases_ = result.biases();
+    calibration_ = result;
   }
 
-  /// Strip corrections: what the calibration found wrong with the trajectory, taken out together
-  /// with the biases; default none.
-  void setTrajectoryErrors(std::shared_ptr<const TrajectoryErrors> errors) {
-    trajectory_errors_ = std::move(errors);
-  }
-  std::shared_ptr<const TrajectoryErrors> getTrajectoryErrors() const { return trajectory_errors_; }
+  /// A correction by itself, in place of the trajectory, calibration, attitude, inversion and time
+  /// alignment that are set.
+  void setCorrection(const SystemCorrection& correction) { correction_ = correction; }
+
+  /// Takes out what the calibration found wrong with the trajectory, too; default false.
+  void setStripCorrections(bool use) { strip_corrections_ = use; }
+  bool getStripCorrections() const { return strip_corrections_; }
+
+  /// Pitch and crab at times of which the calibration has none (AttitudeRecovery); default none.
+  void setFurtherAttitude(const RecoveredAttitude& attitude) { further_attitude_ = attitude; }
+  const RecoveredAttitude& getFurtherAttitude() const { return further_attitude_; }
 
   /// Puts the biases in instead of taking them out; default false.
   void setInvert(bool invert) { invert_ = invert; }
@@ -105,15 +113,18 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void applyFilter(PointCloud& output) override;
 
  private:
-  CoverageCount correctChunk(const BiasEvaluator& evaluator, std::size_t first, std::size_t last,
-                             PointCloud& output) const;
+  SystemCorrection usedCorrection() const;
+  CoverageCount correctChunk(const SystemCorrection& correction, std::size_t first,
+                             std::size_t last, PointCloud& output) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
-  std::shared_ptr<const TrajectoryErrors> trajectory_errors_;
+  std::optional<CalibrationResult> calibration_;
+  std::optional<SystemCorrection> correction_;
+  RecoveredAttitude further_attitude_;
   LocalFrame frame_;
   SystemVector biases_ = SystemVector::Zero();
   TimeAlignment alignment_;
-  bool invert_ = false, keep_uncovered_ = false;
+  bool invert_ = false, strip_corrections_ = false, keep_uncovered_ = false;
   int threads_ = 1;
   CoverageCount coverage_;
 };

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -97,6 +98,7 @@ class AttitudeRecovery {
   struct Outcome {
     /// The flight with the attitude found; without it, where nothing was.
     std::shared_ptr<const Trajectory> flight;
+    RecoveredAttitude attitude;  ///< that flight's; only of recover(), and where it was found
     bool found = false;
     bool linear = true;  ///< false: the scanner is not a linear one (or the flight is another)
     /// Radians, RMS angle of a bin's pulses with their plane, median over time: mostly motion

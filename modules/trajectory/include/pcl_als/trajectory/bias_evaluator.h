@@ -25,13 +25,17 @@ struct EffectColumns {
 struct CoverageCount {
   std::size_t points = 0;  ///< all that were looked at
   std::size_t before_start = 0, after_end = 0, in_gap = 0;
-  std::size_t without_time = 0;  ///< time not finite
-  std::size_t unsolved = 0;      ///< inverse only: not found to 1e-6 m
-  /// Earliest and latest time among those of before_start, after_end and in_gap, seconds.
+  std::size_t without_time = 0;      ///< time not finite
+  std::size_t without_attitude = 0;  ///< no pitch and crab are known for their time
+  std::size_t unsolved = 0;          ///< inverse only: not found to 1e-6 m
+  /// Earliest and latest time among those of before_start, after_end, in_gap and without_attitude,
+  /// seconds.
   double first_missed = std::numeric_limits<double>::infinity();
   double last_missed = -std::numeric_limits<double>::infinity();
 
-  std::size_t missed() const { return before_start + after_end + in_gap + without_time; }
+  std::size_t missed() const {
+    return before_start + after_end + in_gap + without_time + without_attitude;
+  }
   void merge(const CoverageCount& other);
   /// "12 of 500 points have no trajectory: 10 before its start, 2 in gaps (their times …)"; for use
   /// in messages when missed() or unsolved is not zero.

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
@@ -110,11 +111,6 @@ class Trajectory {
   /// The same flight with nominal attitude.
   Trajectory withNominalAttitude() const;
 
-  /// Pitch (nose up) and crab (turn of the body against the line of flight, counter-clockwise),
-  /// rad.
-  struct PitchAndCrab {
-    double pitch = 0.0, crab = 0.0;
-  };
   /// The same flight with the body turned against the local flight line; roll stays zero.
   Trajectory withAttitude(const std::function<PitchAndCrab(double time)>& attitude) const;
 
@@ -167,8 +163,8 @@ class Trajectory {
 };
 
 /// How to make the trajectory that a calibration's biases are applied with: its window, and
-/// attitude where its model is the rigorous one. Where its attitude is that of the points
-/// (AttitudeSource::points), AttitudeRecovery adds it.
+/// attitude where its model is the rigorous one. SystemCorrection adds the attitude that was
+/// recovered from the points (AttitudeSource::points).
 Trajectory::Options trajectoryOptions(const CalibrationResult& calibration);
 
 }  // namespace pcl_als

@@ -12,32 +12,43 @@
 namespace pcl_als {
 
 template <typename PointT>
+SystemCorrection SystemBiasCorrection<PointT>::usedCorrection() const {
+  if (correction_) return *correction_;
+  if (!trajectory_) throw UsageError("SystemBiasCorrection: no trajectory is set");
+  SystemCorrection correction =
+      calibration_ ? SystemCorrection(*calibration_, trajectory_,
+                                      {strip_corrections_, invert_, false, further_attitude_})
+                   : SystemCorrection(biases_, trajectory_, invert_);
+  correction.setTimeAlignment(alignment_);
+  return correction;
+}
+
+template <typename PointT>
 void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
   // Divides the work; a fixed size, so that threads change no bit.
   constexpr std::size_t kChunk = 16384;
   coverage_ = CoverageCount();
-  if (!trajectory_) throw UsageError("SystemBiasCorrection: no trajectory is set");
-  const BiasEvaluator evaluator(trajectory_, biases_, trajectory_errors_);
+  const SystemCorrection correction = usedCorrection();
   const std::size_t count = this->indices_->size();
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   std::vector<CoverageCount> coverage(chunks);
   output = *this->input_;
   parallelFor(chunks, threads_, [&](std::size_t chunk) {
     const std::size_t first = chunk * kChunk;
-    coverage[chunk] = correctChunk(evaluator, first, std::min(first + kChunk, count), output);
+    coverage[chunk] = correctChunk(correction, first, std::min(first + kChunk, count), output);
   });
   for (const CoverageCount& part : coverage) coverage_.merge(part);
   if (coverage_.unsolved > 0 || (coverage_.missed() > 0 && !keep_uncovered_)) {
-    throw InputError("SystemBiasCorrection: " + coverage_.describe(*trajectory_));
+    throw InputError("SystemBiasCorrection: " + coverage_.describe(*correction.flight()));
   }
 }
 
 template <typename PointT>
-CoverageCount SystemBiasCorrection<PointT>::correctChunk(const BiasEvaluator& evaluator,
+CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection& correction,
                                                          std::size_t first, std::size_t last,
                                                          PointCloud& output) const {
   std::vector<std::size_t> chosen;
-  std::vector<double> columns[4], effects[3];
+  std::vector<double> columns[4], changes[3];
   chosen.reserve(last - first);
   for (std::vector<double>& column : columns) column.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
@@ -45,28 +56,23 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const BiasEvaluator& ev
     const PointT& point = (*this->input_)[index];
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) continue;
     chosen.push_back(index);
-    columns[0].push_back(alignment_(point.gps_time));
+    columns[0].push_back(correction.flightTime(point.gps_time));
     columns[1].push_back(frame_.origin.x() + static_cast<double>(point.x));
     columns[2].push_back(frame_.origin.y() + static_cast<double>(point.y));
     columns[3].push_back(frame_.origin.z() + static_cast<double>(point.z));
   }
-  for (std::vector<double>& effect : effects) effect.resize(chosen.size());
+  for (std::vector<double>& change : changes) change.resize(chosen.size());
   const PointColumns points{columns[0].data(), columns[1].data(), columns[2].data(),
                             columns[3].data()};
-  const EffectColumns effect{effects[0].data(), effects[1].data(), effects[2].data()};
+  const EffectColumns change{changes[0].data(), changes[1].data(), changes[2].data()};
   CoverageCount coverage;
-  if (invert_) {
-    evaluator.inverseEffect(points, chosen.size(), effect, coverage);
-  } else {
-    evaluator.effect(points, chosen.size(), effect, coverage);
-  }
-  const double sign = invert_ ? 1.0 : -1.0;
+  correction.change(points, chosen.size(), change, coverage);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const PointT& from = (*this->input_)[chosen[i]];
     PointT& to = output[chosen[i]];
-    to.x = static_cast<float>(static_cast<double>(from.x) + sign * effects[0][i]);
-    to.y = static_cast<float>(static_cast<double>(from.y) + sign * effects[1][i]);
-    to.z = static_cast<float>(static_cast<double>(from.z) + sign * effects[2][i]);
+    to.x = static_cast<float>(static_cast<double>(from.x) + changes[0][i]);
+    to.y = static_cast<float>(static_cast<double>(from.y) + changes[1][i]);
+    to.z = static_cast<float>(static_cast<double>(from.z) + changes[2][i]);
   }
   return coverage;
 }

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace pcl_als::app {
+namespace pcl_als {
 
 /// Whether points of a file that no trajectory covers may stay as they are without being asked for:
 /// a few at the ends of a flight line are usual, more are the trajectory of another flight.
@@ -13,4 +13,4 @@ inline bool fewUncovered(std::uint64_t uncovered, std::uint64_t points) {
   return static_cast<double>(uncovered) <= kFew * static_cast<double>(points);
 }
 
-}  // namespace pcl_als::app
+}  // namespace pcl_als

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <vector>
+
+namespace pcl_als {
+
+/// Pitch (nose up) and crab (turn of the body against the line of flight, counter-clockwise), rad.
+struct PitchAndCrab {
+  double pitch = 0.0, crab = 0.0;
+};
+
+/** \brief Pitch and crab of the laser unit over time, as they were found from points.
+ *
+ * Linear in time between the knots of a pass (an uninterrupted piece of flight), constant for
+ * kReach before its first and after its last knot. Times are those of the trajectory, seconds.
+ * Memory: 24 bytes for each knot, ten knots per second of flight.
+ */
+class RecoveredAttitude {
+ public:
+  static constexpr double kReach = 2.0;  ///< seconds
+
+  struct Knot {
+    double time = 0.0;  ///< seconds
+    PitchAndCrab angles;
+  };
+  using Pass = std::vector<Knot>;
+
+  /// A knot whose numbers a result file holds exactly: microseconds and 1e-6 arc-seconds.
+  static Knot rounded(double time, const PitchAndCrab& angles);
+
+  /// Adds a pass, after those that are there. InputError unless it has knots, their times increase
+  /// and all values are finite.
+  void addPass(Pass pass);
+  /// Adds the passes of \a other for the times that no pass covers as yet.
+  void addPasses(const RecoveredAttitude& other);
+
+  bool empty() const { return passes_.empty(); }
+  const std::vector<Pass>& passes() const { return passes_; }  ///< in order of their addition
+
+  /// The pass that covers a time, the first that was added; null where none does.
+  const Pass* passAt(double time) const;
+  bool covers(double time) const { return passAt(time) != nullptr; }
+  /// The angles at a time; where no pass covers it, those of the nearest knot in time; zero without
+  /// any pass. Where several passes cover it, the first that was added counts.
+  PitchAndCrab at(double time) const;
+
+ private:
+  std::vector<Pass> passes_;
+};
+
+}  // namespace pcl_als

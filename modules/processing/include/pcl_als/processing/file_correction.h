@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/progress.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+struct FileCorrectionOptions {
+  bool strip_corrections = false;  ///< take out the errors of the trajectory as well
+  bool invert = false;             ///< put the biases in instead of taking them out
+  bool keep_uncovered = false;     ///< points without trajectory stay; else at most 1 %
+  /// Refuse a trajectory that the points cannot have been measured from.
+  bool check_trajectory = true;
+  /// Go on, with warnings, where that check refuses, where the verdict of the calibration is not
+  /// "usable", and, level, where the scanner is not linear and has no attitude.
+  bool force = false;
+  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: found
+  int threads = 0;              ///< 0: all cores; the result does not depend on it
+};
+
+struct FileCorrectionResult {
+  std::uint64_t points = 0;
+  CoverageCount coverage;
+  std::string time_remark;  ///< how point times were matched to the flight's; may be empty
+  std::vector<std::string> warnings;  ///< of the trajectory's check
+  /// What was recovered of the attitude from this file, where the calibration holds none for its
+  /// times; else empty.
+  std::string attitude_remark;
+};
+
+/** \brief Takes a calibration out of a point file: .las and .laz in constant memory on the raw
+ * integers, with every other byte kept, .pcd through SystemBiasCorrection.
+ *
+ * Where the calibration's attitude is that of the points, the one it holds is used, so that a strip
+ * and its tiles are corrected alike. For times of which it holds none (another flight, a
+ * calibration of an earlier version) pitch and crab are recovered from the points of this file.
+ *
+ * \param flight as delivered, made with trajectoryOptions(calibration)
+ *
+ * UsageError for input and output of different kinds or the same file, and for a calibration that
+ * should not be applied; InputError for what the files cannot serve; Cancelled. The output appears
+ * only when it is complete.
+ */
+FileCorrectionResult correctPointFile(const std::filesystem::path& input,
+                                      const std::filesystem::path& output,
+                                      const CalibrationResult& calibration,
+                                      std::shared_ptr<const Trajectory> flight,
+                                      const FileCorrectionOptions& options = {},
+                                      const ProgressCallback& progress = {});
+
+}  // namespace pcl_als

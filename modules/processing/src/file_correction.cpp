@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cctype>
+#include <mutex>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/filters/integer_bias_correction.h>
+#include <pcl_als/filters/system_bias_correction.h>
+#include <pcl_als/io/las_file.h>
+#include <pcl_als/io/las_rewriter.h>
+#include <pcl_als/io/pcd_io.h>
+#include <pcl_als/processing/file_correction.h>
+#include <pcl_als/survey/coverage_limit.h>
+#include <pcl_als/trajectory/system_correction.h>
+
+#include "file_attitude.h"
+#include "file_times.h"
+#include "flight_check.h"
+
+namespace pcl_als {
+namespace {
+
+namespace fs = std::filesystem;
+using Flight = std::shared_ptr<const Trajectory>;
+
+/// What is given for one file, and what is found out about it.
+struct Job {
+  fs::path input, output;
+  const CalibrationResult& calibration;
+  Flight flight;
+  const FileCorrectionOptions& options;
+  ProgressReport& progress;
+  TimeAlignment alignment;
+  RecoveredAttitude further_attitude;
+  bool attitude_recovered = false;  ///< from this file, with success or without
+  bool level = false;               ///< the scanner is not linear, and options.force
+  FileCorrectionResult result;
+
+  std::string name() const { return input.string(); }
+};
+
+SystemCorrection correctionOf(const Job& job) {
+  SystemCorrection::Options options;
+  options.strip_corrections = job.options.strip_corrections;
+  options.invert = job.options.invert;
+  options.force = job.options.force;
+  options.further_attitude = job.further_attitude;
+  CalibrationResult nominal;
+  if (job.level) {
+    nominal = job.calibration;
+    nominal.attitude = AttitudeSource::nominal;
+  }
+  SystemCorrection correction(job.level ? nominal : job.calibration, job.flight, options);
+  correction.setTimeAlignment(job.alignment);
+  return correction;
+}
+
+/// What the points of the file show of the attitude; a scanner that is not linear is refused, with
+/// force taken as level.
+template <typename Points>
+void recoverAttitude(Job& job, const Points& points) {
+  AttitudeRecovery::Outcome outcome = detail::recoveredAttitude(points, job.alignment, job.flight);
+  job.attitude_recovered = true;
+  job.result.attitude_remark = outcome.remark;
+  if (outcome.linear) {
+    job.further_attitude = std::move(outcome.attitude);
+    // Where nothing shows, the sensor counts as level.
+    if (job.further_attitude.empty()) {
+      job.further_attitude.addPass({{job.flight->startTime(), {}}, {job.flight->endTime(), {}}});
+    }
+    return;
+  }
+  if (!job.options.force) {
+    throw InputError(job.name() + ": " + outcome.remark +
+                         ": give a trajectory with roll, pitch and heading, and biases that were "
+                         "estimated with it",
+                     Remedy::force_level);
+  }
+  job.result.warnings.push_back("the sensor is taken as level with its heading along the course");
+  job.level = true;
+}
+
+/// Points that the correction could not serve end the job, unless they are few or may stay as they
+/// are.
+void checkCoverage(const Job& job, const CoverageCount& coverage) {
+  const bool stay = job.options.keep_uncovered || fewUncovered(coverage.missed(), coverage.points);
+  if (coverage.unsolved == 0 && stay) return;
+  throw InputError(job.name() + ": " + coverage.describe(*job.flight),
+                   coverage.unsolved == 0 ? Remedy::keep_uncovered : Remedy::none);
+}
+
+/// Ends a first attempt at which times turn up whose attitude the calibration does not hold.
+struct AttitudeIsMissing {};
+
+/// Adds up what blocks report, from any thread.
+class Tally {
+ public:
+  Tally(std::uint64_t expected, Job& job) : expected_(expected), job_(job) {}
+
+  void add(const CoverageCount& part) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    coverage_.merge(part);
+    if (coverage_.without_attitude > 0 && !job_.attitude_recovered) throw AttitudeIsMissing();
+    job_.progress.advance(static_cast<double>(coverage_.points) / static_cast<double>(expected_));
+    // With the counts of all points, but before the output gets its name.
+    if (coverage_.points == expected_) checkCoverage(job_, coverage_);
+  }
+  const CoverageCount& coverage() const { return coverage_; }
+
+ private:
+  std::mutex mutex_;
+  CoverageCount coverage_;
+  std::uint64_t expected_;
+  Job& job_;
+};
+
+void rewrite(Job& job, const LasFile& file) {
+  const LasScaling metres = file.toMetres();
+  const IntegerBiasCorrection engine(
+      job.name(), correctionOf(job),
+      {file.header().record_length, static_cast<std::size_t>(file.layout().gps_time), metres.scale,
+       metres.offset});
+  Tally tally(file.header().point_count, job);
+  const LasEdit edit = [&](const LasRecordBlock& block) {
+    tally.add(engine.apply(block.records, block.count, block.first));
+  };
+  job.result.points = rewriteLas(file, job.output, edit, job.options.threads).points;
+  job.result.coverage = tally.coverage();
+}
+
+bool lacksAttitude(const Job& job) {
+  return job.calibration.attitude == AttitudeSource::points &&
+         job.calibration.recovered_attitude.empty();
+}
+
+void correctLas(Job& job) {
+  const LasFile file(job.input);
+  if (file.layout().gps_time < 0) {
+    throw InputError(job.name() + ": point format " + std::to_string(file.layout().format) +
+                     " has no GPS time; the correction needs it");
+  }
+  job.alignment = detail::alignmentOf(file, *job.flight, job.options.gps_week);
+  job.result.time_remark = job.alignment.remark;
+  if (job.options.check_trajectory) {
+    job.result.warnings = detail::checkFlight(file, job.alignment, job.flight, job.options.force);
+  }
+  if (lacksAttitude(job)) recoverAttitude(job, file);
+  try {
+    rewrite(job, file);
+  } catch (const AttitudeIsMissing&) {
+    recoverAttitude(job, file);
+    rewrite(job, file);
+  }
+}
+
+CoverageCount correctCloud(const Job& job, Strip<PointLidar>& strip,
+                           pcl::PointCloud<PointLidar>& corrected) {
+  SystemBiasCorrection<PointLidar> filter;
+  filter.setCorrection(correctionOf(job));
+  filter.setLocalFrame(strip.frame);
+  filter.setKeepUncovered(true);  // checked by the caller, with the file's name
+  filter.setNumberOfThreads(job.options.threads);
+  filter.setInputCloud(strip.cloud);
+  filter.filter(corrected);
+  return filter.getCoverage();
+}
+
+void correctPcd(Job& job) {
+  std::error_code absent;
+  if (fs::equivalent(job.input, job.output, absent)) {
+    throw UsageError(job.output.string() + ": input and output are the same file");
+  }
+  Strip<PointLidar> strip = loadPcd(job.input);
+  job.result.points = strip.cloud->size();
+  job.alignment = detail::alignmentOf(job.name(), strip, *job.flight, job.options.gps_week);
+  job.result.time_remark = job.alignment.remark;
+  if (job.options.check_trajectory) {
+    job.result.warnings =
+        detail::checkFlight(job.name(), strip, job.alignment, job.flight, job.options.force);
+  }
+  if (lacksAttitude(job)) recoverAttitude(job, strip);
+  pcl::PointCloud<PointLidar>::Ptr corrected(new pcl::PointCloud<PointLidar>);
+  job.result.coverage = correctCloud(job, strip, *corrected);
+  if (job.result.coverage.without_attitude > 0 && !job.attitude_recovered) {
+    recoverAttitude(job, strip);
+    job.result.coverage = correctCloud(job, strip, *corrected);
+  }
+  checkCoverage(job, job.result.coverage);
+  strip.cloud = corrected;
+  savePcd(job.output, strip);
+}
+
+std::string extensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& output,
+                                      const CalibrationResult& calibration, Flight flight,
+                                      const FileCorrectionOptions& options,
+                                      const ProgressCallback& progress) {
+  const bool pcd_in = extensionOf(input) == ".pcd", pcd_out = extensionOf(output) == ".pcd";
+  if (pcd_in != pcd_out) {
+    throw UsageError(output.string() + ": input and output must be of one kind, .las/.laz or .pcd");
+  }
+  if (!flight) throw UsageError("correction of " + input.string() + ": no trajectory is given");
+  ProgressReport report(progress);
+  report.begin("writing " + output.string());
+  Job job{input, output, calibration, std::move(flight), options, report, {}, {}, false, false, {}};
+  if (pcd_in) {
+    correctPcd(job);
+  } else {
+    correctLas(job);
+  }
+  return std::move(job.result);
+}
+
+}  // namespace pcl_als

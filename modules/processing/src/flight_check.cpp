@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "flight_check.h"
+
+#include <algorithm>
+#include <map>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/point_sample.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
+
+namespace pcl_als::detail {
+namespace {
+
+/// Whether the points can have been measured from the trajectory, by source id.
+class FlightCheck {
+ public:
+  explicit FlightCheck(std::shared_ptr<const Trajectory> flight) : check_(std::move(flight)) {}
+
+  void add(std::uint16_t source, double time, const Eigen::Vector3d& point) {
+    const auto [at, fresh] = strips_.try_emplace(source, 0);
+    if (fresh) at->second = check_.addStrip(std::to_string(source));
+    check_.add(at->second, time, point);
+  }
+  /// Warnings; a refusal is an InputError that names the file.
+  std::vector<std::string> result(const std::string& name, bool force) const {
+    try {
+      return check_.check(force);
+    } catch (const InputError& error) {
+      throw InputError(name + ": " + error.what());
+    }
+  }
+
+ private:
+  TrajectoryPlausibility check_;
+  std::map<std::uint16_t, int> strips_;
+};
+
+}  // namespace
+
+std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& alignment,
+                                     const std::shared_ptr<const Trajectory>& flight, bool force) {
+  FlightCheck check(flight);
+  // The attitude shows in more points than the positions.
+  SampleSize size;
+  if (flight->hasAttitude()) size.runs = 4096;
+  samplePoints(file, size, [&](const PointChunk& chunk) {
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      check.add(chunk.point_source_id[i], alignment(chunk.gps_time[i]),
+                {chunk.x[i], chunk.y[i], chunk.z[i]});
+    }
+  });
+  return check.result(file.path().string(), force);
+}
+
+std::vector<std::string> checkFlight(const std::string& name, const Strip<PointLidar>& strip,
+                                     const TimeAlignment& alignment,
+                                     const std::shared_ptr<const Trajectory>& flight, bool force) {
+  constexpr std::size_t kSample = 4096;
+  FlightCheck check(flight);
+  const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / kSample);
+  for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
+    const PointLidar& point = (*strip.cloud)[i];
+    check.add(point.point_source_id, alignment(point.gps_time),
+              strip.frame.origin + point.getVector3fMap().cast<double>());
+  }
+  return check.result(name, force);
+}
+
+}  // namespace pcl_als::detail

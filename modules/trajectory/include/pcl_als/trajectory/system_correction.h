@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
+
+namespace pcl_als {
+
+/** \brief What a calibration changes in points: its model, attitude, biases, strip corrections and
+ * the alignment of times, for everyone who applies it.
+ *
+ * corrected = biased - A(biased) delta (Habib et al. 2011, Eq. (13), not linearised), with the
+ * attitude by which the calibration was estimated: the trajectory's, nominal, none, or the pitch
+ * and crab that the calibration recovered from its points (CalibrationResult::recovered_attitude).
+ * The result for a point depends on nothing but the point, the calibration and the flight.
+ *
+ * Const member functions may be called from several threads. A copy shares the flight.
+ */
+class SystemCorrection {
+ public:
+  struct Options {
+    bool strip_corrections = false;  ///< take out the errors of the trajectory as well
+    bool invert = false;             ///< put the biases in instead of taking them out
+    bool force = false;              ///< accept a calibration whose verdict is not usable
+    /// Pitch and crab at times of which the calibration has none (other flights, files of earlier
+    /// versions): AttitudeRecovery::Outcome::attitude.
+    RecoveredAttitude further_attitude;
+  };
+
+  /// \a flight: as delivered, made with trajectoryOptions(calibration). UsageError for a
+  /// calibration that should not be applied or has values no scanner has; InputError for one that
+  /// lacks what is needed: strip corrections, recovered attitude, or the attitude of the
+  /// trajectory.
+  SystemCorrection(const CalibrationResult& calibration, std::shared_ptr<const Trajectory> flight,
+                   const Options& options);
+  SystemCorrection(const CalibrationResult& calibration, std::shared_ptr<const Trajectory> flight)
+      : SystemCorrection(calibration, std::move(flight), Options()) {}
+  /// Biases (assumed - true; m, rad, 1) by themselves, with the attitude of \a flight as it is.
+  SystemCorrection(const SystemVector& biases, std::shared_ptr<const Trajectory> flight,
+                   bool invert = false);
+
+  /// UsageError with the reason where the verdict of a calibration is not usable.
+  static void requireUsable(const CalibrationResult& calibration);
+
+  /// The flight with the attitude that is used.
+  const std::shared_ptr<const Trajectory>& flight() const { return flight_; }
+  bool inverted() const { return invert_; }
+
+  /// How times of points become the flight's; default: they are the same.
+  void setTimeAlignment(TimeAlignment alignment) { alignment_ = std::move(alignment); }
+  const TimeAlignment& timeAlignment() const { return alignment_; }
+  double flightTime(double point_time) const { return alignment_(point_time); }
+
+  /// Whether the attitude at a time of the flight is known; true for models that need none.
+  bool knowsAttitude(double flight_time) const;
+
+  /// What is to be added to each point, metres. Times are the flight's (flightTime()). Points that
+  /// cannot be served are counted, their change is zero. Columns of an axis may be the same.
+  void change(const PointColumns& points, std::size_t count, const EffectColumns& change,
+              CoverageCount& coverage) const;
+
+ private:
+  /// Zero changes where the attitude is not known.
+  void keepUnknown(const PointColumns& points, std::size_t count, const EffectColumns& change,
+                   CoverageCount& coverage) const;
+
+  std::shared_ptr<const Trajectory> flight_;
+  RecoveredAttitude attitude_;
+  bool needs_recovered_ = false;  ///< the model's attitude is that of attitude_
+  bool invert_ = false;
+  TimeAlignment alignment_;
+  std::shared_ptr<const BiasEvaluator> evaluator_;
+};
+
+}  // namespace pcl_als
