@@ -5,8 +5,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/class_io.h>
+#include <pcl_als/report/accuracy_report.h>
 
-#include "accuracy_report.h"
 #include "command_line.h"
 
 namespace pcl_als::app {

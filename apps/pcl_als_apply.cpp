@@ -16,7 +16,6 @@ namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
 using app::Step;
 
 CommandLine commandLine() {

@@ -8,21 +8,21 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/file_correction.h>
+#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/report/calibration_page.h>
+#include <pcl_als/report/calibration_tables.h>
 
 #include "adjustment_options.h"
-#include "calibration_page.h"
-#include "calibration_tables.h"
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "report_options.h"
 #include "strip_options.h"
-#include "survey_reader.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
 using app::Step;
 namespace fs = std::filesystem;
 
@@ -85,7 +85,7 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
 
 /// Without the pairs of strips that have no usable points; those are named in \a warnings.
 std::vector<std::pair<std::string, std::string>> usablePairs(
-    const std::vector<std::pair<std::string, std::string>>& pairs, const app::SurveyReader& survey,
+    const std::vector<std::pair<std::string, std::string>>& pairs, const SurveyReader& survey,
     std::vector<std::string>& warnings) {
   const auto missing = [&](const std::string& name) -> const StripArrangement::Label* {
     const std::vector<std::string>& strips = survey.strips();
@@ -160,9 +160,8 @@ std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
 }
 
 /// Both looks at the points and the adjustment.
-CalibrationResult calibrateSurvey(const CommandLine& line, app::SurveyReader& survey,
-                                  app::CalibrationPage& page,
-                                  QuasiRigorousCalibration& calibration) {
+CalibrationResult calibrateSurvey(const CommandLine& line, SurveyReader& survey,
+                                  CalibrationPage& page, QuasiRigorousCalibration& calibration) {
   for (const std::string& id : survey.strips()) calibration.addStrip(id);
   {
     Step step("Surveying the block", line.quiet());
@@ -223,14 +222,21 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   }
 }
 
+/// Its inputs are listed in the result.
+ReportOrigin originOf(const CommandLine& line) {
+  ReportOrigin origin = app::reportOrigin(line, {"control"});
+  origin.inputs.clear();
+  return origin;
+}
+
 void writeReport(const CommandLine& line, const CalibrationResult& result,
-                 const QuasiRigorousCalibration& calibration, const app::CalibrationPage& page) {
+                 const QuasiRigorousCalibration& calibration, const CalibrationPage& page) {
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  app::writeCalibrationCsv(folder, result, calibration.areas(), calibration.informationShares());
-  page.write(line, result, calibration.areas(), calibration.trajectory());
-  step.done(app::CalibrationPage::draws() ? "report.html with pictures, report.md"
-                                          : "report.md; no report.html: built without VTK");
+  writeCalibrationCsv(folder, result, calibration.areas(), calibration.informationShares());
+  page.write(originOf(line), result, calibration.areas(), calibration.trajectory());
+  step.done(CalibrationPage::draws() ? "report.html with pictures, report.md"
+                                     : "report.md; no report.html: built without VTK");
 }
 
 int calibrate(int argc, char** argv) {
@@ -243,7 +249,7 @@ int calibrate(int argc, char** argv) {
   const app::AttitudeUse attitude = attitudeToUse(line);
   checkOutputs(line);
   Step step("Reading " + counted(files.size(), "point file"), line.quiet());
-  app::SurveyReader survey(files, line.threads());
+  SurveyReader survey(files, line.threads());
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   const auto trajectory = app::readFlight(line, survey.reference().crs, 0.0, attitude);
@@ -257,14 +263,14 @@ int calibrate(int argc, char** argv) {
   calibration.setPairs(usablePairs(pairs, survey, warnings));
   if (line.has("control"))
     calibration.setControl(readControl(line.text("control"), app::unitOption(line, "control")));
-  app::CalibrationPage page(survey, line.has("report"));
+  CalibrationPage page(survey, line.has("report"));
   CalibrationResult result = calibrateSurvey(line, survey, page, calibration);
   result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   result.inputs = files;
   result.inputs.push_back(line.text("trajectory"));
   if (line.has("control")) result.inputs.push_back(line.text("control"));
   writeCalibration(line.text("output"), result);
-  if (!line.quiet()) std::cout << '\n' << app::calibrationTables(result) << std::endl;
+  if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;
   if (line.has("report")) writeReport(line, result, calibration, page);
   const bool usable = result.verdict.usable();
   if (!usable) {

@@ -12,25 +12,26 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/separation_image.h>
+#include <pcl_als/report/quality_page.h>
+#include <pcl_als/report/quality_report.h>
 
-#include "block_check.h"
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
-#include "quality_page.h"
-#include "quality_report.h"
+#include "report_options.h"
 #include "strip_options.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
 using app::Step;
 namespace fs = std::filesystem;
 
 CommandLine commandLine() {
-  const app::CheckSettings defaults;
+  const CheckSettings defaults;
   CommandLine line("pcl_als_check",
                    "measures how well overlapping strips fit each other and control, and judges it "
                    "by the USGS Lidar Base Specification and the ASPRS standards.",
@@ -62,8 +63,8 @@ CommandLine commandLine() {
   return line;
 }
 
-app::CheckSettings settingsOf(const CommandLine& line) {
-  app::CheckSettings settings;
+CheckSettings settingsOf(const CommandLine& line) {
+  CheckSettings settings;
   settings.limits.maximum_distance = line.number("max_distance", 0.05, 50.0, "m");
   settings.selection.point_budget =
       static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
@@ -131,9 +132,8 @@ void checkOutputs(const CommandLine& line) {
 }
 
 /// The grid for a swath separation image; null where none is wanted, or none can be written.
-std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
-                                              const app::SurveyReader& survey,
-                                              const app::BlockCheck& check) {
+std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line, const SurveyReader& survey,
+                                              const BlockCheck& check) {
   if (!line.has("report") || check.overlaps().empty()) return nullptr;
   if (!PCL_ALS_WITH_GDAL) {
     app::remark(line, "built without GDAL: no swath separation image");
@@ -145,7 +145,7 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
           ? wanted
           : qualityLevels()[static_cast<std::size_t>(qualityLevel(line))].separation_image_cell;
   RasterGrid grid =
-      app::separationGrid(survey.extent(), check.coveredArea(), cell, survey.reference().crs);
+      separationGrid(survey.extent(), check.coveredArea(), cell, survey.reference().crs);
   if (grid.cell > cell)
     app::remark(line, "so large a block gets a swath separation image of " +
                           std::to_string(static_cast<int>(grid.cell)) + " m cells");
@@ -154,11 +154,11 @@ std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line,
 
 /// Checks one set; \a image: name of its swath separation image, without extension; \a areas: those
 /// to use, filled when empty; \a page: gets every point, may be null.
-app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
-                             const app::CheckSettings& settings, const std::string& image,
-                             std::vector<SurveyArea>& areas, app::QualityPage* page) {
+CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
+                        const CheckSettings& settings, const std::string& image,
+                        std::vector<SurveyArea>& areas, QualityPage* page) {
   Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
-  app::SurveyReader survey(files, line.threads());
+  SurveyReader survey(files, line.threads());
   reading.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   std::shared_ptr<const Trajectory> trajectory;
@@ -169,7 +169,7 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
   for (const std::string& text :
        survey.choose(app::stripChoice(line), {trajectory.get(), app::gpsWeek(line), false}))
     app::remark(line, text);
-  app::BlockCheck check(survey, settings, trajectory);
+  BlockCheck check(survey, settings, trajectory);
   {
     Step step("Surveying the block", line.quiet());
     check.surveyBlock();
@@ -198,15 +198,15 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
     step.done(grouped(check.loadedPoints()) + " points");
   }
   Step step("Measuring", line.quiet());
-  app::CheckedBlock block = check.assess([&](double fraction) { step.progress(fraction); });
+  CheckedBlock block = check.assess([&](double fraction) { step.progress(fraction); });
   block.files = files;
   block.left_out = survey.leftOut();
   for (const std::string& text : describe(block.left_out)) block.warnings.push_back(text);
   step.done(counted(block.pairs.size(), "pair"));
   if (separation) {
     Step writing("Writing " + image, line.quiet());
-    block.separation = app::writeSeparation(line.text("report"), image, *separation,
-                                            qualityLevel(line), line.threads());
+    block.separation = writeSeparation(line.text("report"), image, *separation, qualityLevel(line),
+                                       line.threads());
     writing.done(std::to_string(separation->grid().columns) + " x " +
                  std::to_string(separation->grid().rows) + " cells");
   }
@@ -214,22 +214,23 @@ app::CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::str
 }
 
 /// Why there is nothing to rely on, in one line.
-std::string whyNot(const app::CheckedBlock& block) {
-  for (const app::CheckedPair& pair : block.pairs) {
+std::string whyNot(const CheckedBlock& block) {
+  for (const CheckedPair& pair : block.pairs) {
     if (!pair.assessment.reason.empty())
       return "strips " + pair.a + " and " + pair.b + ": " + pair.assessment.reason;
   }
   return "no strip covers a control point";
 }
 
-void writeReport(const CommandLine& line, const app::QualityReport& report,
-                 const std::vector<SurveyArea>& areas, const app::QualityPage& page) {
+void writeReport(const CommandLine& line, const QualityReport& report,
+                 const std::vector<SurveyArea>& areas, const QualityPage& page) {
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  app::writeQualityTables(folder, report);
-  if (page.wantsPoints()) page.write(line, report, areas);
-  step.done(app::QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
-                                      : "quality.md, CSV; no report.html: built without VTK");
+  writeQualityTables(folder, report);
+  if (page.wantsPoints())
+    page.write(app::reportOrigin(line, {"control", "trajectory"}), report, areas);
+  step.done(QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
+                                 : "quality.md, CSV; no report.html: built without VTK");
 }
 
 double peakMemory() {
@@ -242,8 +243,8 @@ int check(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
   const std::vector<std::string>& files = line.inputs(1, 100000);
-  const app::CheckSettings settings = settingsOf(line);
-  app::QualityReport report;
+  const CheckSettings settings = settingsOf(line);
+  QualityReport report;
   report.quality_level = qualityLevel(line);
   checkOutputs(line);
   refuseRepeated(files);
@@ -253,15 +254,15 @@ int check(int argc, char** argv) {
     refuseRepeated(before);
   }
   std::vector<SurveyArea> areas;
-  app::QualityPage page(line.has("report"));
+  QualityPage page(line.has("report"));
   report.block = checkBlock(line, files, settings, "swath_separation", areas, &page);
   if (!before.empty())
     report.before = checkBlock(line, before, settings, "swath_separation_before", areas, nullptr);
   report.peak_memory_mb = peakMemory();
-  writeFile(line.text("output"), app::qualityJson(report));
-  if (!line.quiet()) std::cout << app::qualityText(report) << std::endl;
+  writeFile(line.text("output"), qualityJson(report));
+  if (!line.quiet()) std::cout << qualityText(report) << std::endl;
   if (line.has("report")) writeReport(line, report, areas, page);
-  if (!app::hasAnswer(report.block)) {
+  if (!hasAnswer(report.block)) {
     std::cerr << "pcl_als_check: no reliable answer: " << whyNot(report.block) << std::endl;
     return app::kNoReliableAnswer;
   }

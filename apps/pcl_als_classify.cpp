@@ -12,15 +12,16 @@
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/class_io.h>
 #include <pcl_als/io/crs.h>
+#include <pcl_als/processing/class_maps.h>
+#include <pcl_als/processing/class_model_file.h>
+#include <pcl_als/processing/land_cover.h>
+#include <pcl_als/processing/point_classes.h>
+#include <pcl_als/processing/strip_rasters.h>
+#include <pcl_als/report/accuracy_report.h>
+#include <pcl_als/report/land_cover_picture.h>
 
-#include "accuracy_report.h"
-#include "class_maps.h"
-#include "class_model_json.h"
 #include "classify_options.h"
-#include "land_cover.h"
 #include "output_check.h"
-#include "point_classes.h"
-#include "strip_rasters.h"
 
 namespace pcl_als::app {
 namespace {

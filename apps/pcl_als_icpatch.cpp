@@ -7,20 +7,18 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/processing/file_motion.h>
+#include <pcl_als/processing/strip_positions.h>
 #include <pcl_als/registration/patch_alignment.h>
+#include <pcl_als/report/alignment_report.h>
 
-#include "alignment_report.h"
 #include "command_line.h"
-#include "point_file_motion.h"
-#include "strip_points.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
 using app::Step;
-using app::StripFiles;
 using Eigen::AlignedBox2d;
 
 CommandLine commandLine() {
@@ -109,8 +107,8 @@ std::string boxText(const Eigen::AlignedBox3d& box) {
 }
 
 /// The box in plan that both strips have points in, with what they may be apart.
-AlignedBox2d commonBox(const Request& request, const app::StripFileInfo& source,
-                       const app::StripFileInfo& target, double reach) {
+AlignedBox2d commonBox(const Request& request, const StripFileInfo& source,
+                       const StripFileInfo& target, double reach) {
   const auto wide = [reach](const Eigen::AlignedBox3d& box) {
     return AlignedBox2d(box.min().head<2>().array() - reach, box.max().head<2>().array() + reach);
   };
@@ -141,12 +139,11 @@ int icpatch(int argc, char** argv) {
   const Request request = requestOf(line);
   PatchAlignmentSettings settings = settingsOf(line);
   if (!line.has("output")) throw UsageError("option -output is needed");
-  if (line.has("transformed"))
-    app::checkMovable(request.source.files.front(), line.text("transformed"));
+  if (line.has("transformed")) checkMovable(request.source.files.front(), line.text("transformed"));
 
   Step reading("Reading " + request.source.name() + " and " + request.target.name(), line.quiet());
-  const app::StripFileInfo source_info = stripFileInfo(request.source);
-  const app::StripFileInfo target_info = stripFileInfo(request.target);
+  const StripFileInfo source_info = stripFileInfo(request.source);
+  const StripFileInfo target_info = stripFileInfo(request.target);
   std::vector<PointFileInfo> files = source_info.files;
   files.insert(files.end(), target_info.files.begin(), target_info.files.end());
   const PointReference reference = commonReference(files);
@@ -156,8 +153,8 @@ int icpatch(int argc, char** argv) {
   Eigen::Vector3d origin;
   origin << box.center(), target_info.box.center().z();
   origin = origin.array().round();
-  const app::StripPoints source = readStripPoints(request.source, box, origin);
-  const app::StripPoints target = readStripPoints(request.target, box, origin);
+  const StripPoints source = readStripPoints(request.source, box, origin);
+  const StripPoints target = readStripPoints(request.target, box, origin);
   reading.done(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
                " points in common reach");
   app::remarks(line, reference.remarks);
@@ -169,14 +166,14 @@ int icpatch(int argc, char** argv) {
   if (result.status == PatchAlignmentResult::Status::no_overlap)
     throw InputError(request.source.name() + " and " + request.target.name() + ": " +
                      result.message);
-  app::writeAlignment(line.text("output"), result,
-                      {request.source.name(), request.target.name(), source.positions.size(),
-                       target.positions.size()});
-  if (!line.quiet()) std::cout << '\n' << app::alignmentTable(result) << std::endl;
+  writeAlignment(line.text("output"), result,
+                 {request.source.name(), request.target.name(), source.positions.size(),
+                  target.positions.size()});
+  if (!line.quiet()) std::cout << '\n' << alignmentTable(result) << std::endl;
   if (result.hasConverged() && line.has("transformed")) {
     Step writing("Writing " + line.text("transformed"), line.quiet());
-    const auto moved = app::movePointFile(request.source.files.front(), line.text("transformed"),
-                                          result.motion, line.threads());
+    const auto moved = movePointFile(request.source.files.front(), line.text("transformed"),
+                                     result.motion, line.threads());
     writing.done(grouped(moved) + " points");
   }
   if (result.hasConverged() && result.allDetermined()) return app::kDone;

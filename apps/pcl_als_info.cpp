@@ -7,9 +7,9 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_census.h>
+#include <pcl_als/report/census_report.h>
 #include <pcl_als/survey/strip_arrangement.h>
 
-#include "census_report.h"
 #include "command_line.h"
 
 namespace pcl_als::app {

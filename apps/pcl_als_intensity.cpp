@@ -7,22 +7,22 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/report/intensity_page.h>
+#include <pcl_als/report/intensity_report.h>
 
 #include "command_line.h"
 #include "flight_options.h"
 #include "intensity_options.h"
-#include "intensity_output.h"
-#include "intensity_page.h"
-#include "intensity_report.h"
-#include "intensity_run.h"
 #include "output_check.h"
+#include "report_options.h"
 #include "strip_options.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
 using app::Step;
 
 CommandLine commandLine() {
@@ -72,9 +72,9 @@ Files filesOf(const CommandLine& line) {
   return files;
 }
 
-void useStored(const CommandLine& line, app::IntensityRun& run) {
+void useStored(const CommandLine& line, IntensityRun& run) {
   if (!line.has("radiometry")) return;
-  const app::StoredRadiometry stored = app::readIntensityJson(line.text("radiometry"));
+  const StoredRadiometry stored = readIntensityJson(line.text("radiometry"));
   run.useModel(stored.model);
   run.useConstant(stored.constant);
   std::vector<double> gains;
@@ -88,14 +88,14 @@ void useStored(const CommandLine& line, app::IntensityRun& run) {
 }
 
 /// What is to be learned before anything can be written.
-void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport& report) {
+void learn(const CommandLine& line, IntensityRun& run, IntensityReport& report) {
   const bool estimates = line.has("estimate");
   if (estimates || (run.settings().statistics && run.strips().size() > 1)) {
     Step step("Comparing strips", line.quiet());
     const OverlapResult& overlaps =
         run.adjust([&step](double fraction) { step.progress(fraction); });
     step.done(grouped(overlaps.cells) + " smooth cells seen by several strips");
-    if (!line.quiet()) std::cout << app::overlapText(overlaps, run.strips());
+    if (!line.quiet()) std::cout << overlapText(overlaps, run.strips());
     report.overlaps = overlaps;
     for (const std::string& warning : overlaps.warnings) report.warnings.push_back(warning);
   }
@@ -105,7 +105,7 @@ void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport
         run.refer(readReferenceTargets(line.text("targets"), app::unitOption(line, "targets")),
                   line.number("target_radius", 0.01, 1000.0, "m"));
     step.done(grouped(reference.targets.size()) + " targets");
-    if (!line.quiet()) std::cout << app::referenceText(reference);
+    if (!line.quiet()) std::cout << referenceText(reference);
     report.reference = reference;
     for (const std::string& warning : reference.warnings) report.warnings.push_back(warning);
     if (reference.constant <= 0.0)
@@ -115,31 +115,31 @@ void learn(const CommandLine& line, app::IntensityRun& run, app::IntensityReport
 }
 
 /// Counts of all files.
-app::IntensityCounts allCounts(const app::IntensityOutcome& outcome) {
-  app::IntensityCounts all;
-  for (const app::IntensityCounts& counts : outcome.counts) all.merge(counts);
+IntensityCounts allCounts(const IntensityOutcome& outcome) {
+  IntensityCounts all;
+  for (const IntensityCounts& counts : outcome.counts) all.merge(counts);
   return all;
 }
 
 /// In one line, the reasons of each are in the tables; empty where all asked for is answered.
-std::string whyNot(const CommandLine& line, const app::IntensityReport& report) {
-  const app::LostIntensities lost = app::lostIntensities(allCounts(*report.outcome));
-  if (lost.share > app::LostIntensities::kAll) return lost.text;
+std::string whyNot(const CommandLine& line, const IntensityReport& report) {
+  const LostIntensities lost = lostIntensities(allCounts(*report.outcome));
+  if (lost.share > LostIntensities::kAll) return lost.text;
   if (report.reference && !(report.reference->constant > 0.0)) {
     return "no reference target was seen: intensities are relative";
   }
   if (!line.has("estimate") || report.overlaps->reliable()) return "";
   return "not all that -estimate asks for is determined by the overlaps (" +
-         app::notEstimable(*report.overlaps, report.run->strips()) +
-         "): the given values were kept";
+         notEstimable(*report.overlaps, report.run->strips()) + "): the given values were kept";
 }
 
-void writeReport(const CommandLine& line, const app::IntensityReport& report,
-                 const app::IntensityPage* page, bool reliable) {
+void writeReport(const CommandLine& line, const IntensityReport& report, const IntensityPage* page,
+                 bool reliable) {
   const std::filesystem::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  app::writeIntensityReport(folder, report, page == nullptr);
-  if (page != nullptr) page->write(line, report, reliable);
+  writeIntensityReport(folder, report, page == nullptr);
+  if (page != nullptr)
+    page->write(app::reportOrigin(line, {"trajectory", "targets", "radiometry"}), report, reliable);
   step.done(page != nullptr ? "report.html with pictures, report.md, CSV"
                             : "report.md, CSV; no report.html: built without VTK");
 }
@@ -153,9 +153,9 @@ int intensity(int argc, const char* const* argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
   checkCombinations(line);
-  const app::ExtinctionChoice extinction = app::extinctionChoice(line);
-  const app::IntensitySettings settings = app::intensitySettings(line, extinction.per_km);
-  const app::IntensityOutput output = app::intensityOutput(line);
+  const ExtinctionChoice extinction = app::extinctionChoice(line);
+  const IntensitySettings settings = app::intensitySettings(line, extinction.per_km);
+  const IntensityOutput output = app::intensityOutput(line);
   const Files files = filesOf(line);
   // What can be known to fail should fail before the work, not after it.
   if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
@@ -165,28 +165,28 @@ int intensity(int argc, const char* const* argv) {
   const auto flight = app::readFlight(line, reference.crs, 0.0, app::AttitudeUse::ignore);
 
   Step looking("Reading " + counted(files.inputs.size(), "file"), line.quiet());
-  app::IntensityRun run(files.inputs, flight, settings);
+  IntensityRun run(files.inputs, flight, settings);
   looking.done(counted(run.strips().size(), "strip"));
   for (const std::string& remark : run.remarks()) app::remark(line, remark);
   useStored(line, run);
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
 
-  app::IntensityOutcome outcome(run.strips().size());
-  const auto page = line.has("report") ? app::loadIntensityPage(run, outcome) : nullptr;
-  app::IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
+  IntensityOutcome outcome(run.strips().size());
+  const auto page = line.has("report") ? makeIntensityPage(run, outcome) : nullptr;
+  IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
   report.warnings = run.warnings();
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
     Step step("Writing " + files.outputs[i], line.quiet());
-    app::writeCorrected(
+    writeCorrected(
         run, i, files.outputs[i], output, [&step](double fraction) { step.progress(fraction); },
         outcome);
     step.done(grouped(outcome.counts[i].points) + " points");
-    if (!line.quiet()) std::cout << app::countsText(outcome.counts[i], run);
+    if (!line.quiet()) std::cout << countsText(outcome.counts[i], run);
   }
-  if (line.has("json")) app::writeIntensityJson(line.text("json"), report);
-  const app::LostIntensities lost = app::lostIntensities(allCounts(outcome));
-  if (lost.share > app::LostIntensities::kMany) {
+  if (line.has("json")) writeIntensityJson(line.text("json"), report);
+  const LostIntensities lost = lostIntensities(allCounts(outcome));
+  if (lost.share > LostIntensities::kMany) {
     report.warnings.push_back(lost.text);
     app::remark(line, "warning: " + lost.text);
   }

@@ -8,12 +8,12 @@
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/plan_io.h>
+#include <pcl_als/report/plan_report.h>
 
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
-#include "plan_report.h"
 
 namespace {
 
@@ -147,9 +147,9 @@ int plan(int argc, char** argv) {
   if (line.has("output")) {
     std::vector<std::string> inputs{line.text("lines")};
     if (line.has("terrain")) inputs.push_back(line.text("terrain"));
-    app::writePlan(line.text("output"), result, inputs);
+    writePlan(line.text("output"), result, inputs);
   }
-  if (!line.quiet()) std::cout << '\n' << app::planTables(result) << std::flush;
+  if (!line.quiet()) std::cout << '\n' << planTables(result) << std::flush;
   if (result.expected.converged) return app::kDone;
   std::cerr << "pcl_als_plan: no reliable answer: "
             << app::notDetermined(result.expected, "will not be") << std::endl;

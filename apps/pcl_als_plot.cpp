@@ -5,17 +5,16 @@
 #include <set>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/report/picture/result_file_plots.h>
 
 #include "command_line.h"
 #include "output_check.h"
 #include "picture_options.h"
-#include "result_file_plots.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::NamedPlot;
 using app::Step;
 namespace fs = std::filesystem;
 
@@ -38,7 +37,7 @@ std::vector<NamedPlot> chosenPlots(const CommandLine& line, const std::vector<st
   std::vector<NamedPlot> plots;
   std::set<std::string> names;
   for (const std::string& file : files) {
-    for (NamedPlot& plot : app::plotsOf(file)) {
+    for (NamedPlot& plot : plotsOf(file)) {
       const std::string own = fs::path(file).stem().string() + "_" + plot.name;
       if (names.count(plot.name) != 0) plot.name = own;
       for (int i = 2; !names.insert(plot.name).second; ++i) plot.name = own + std::to_string(i);

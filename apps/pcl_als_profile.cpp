@@ -6,6 +6,8 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/processing/picture/picture_source.h>
+#include <pcl_als/processing/picture/section_places.h>
 #include <pcl_als/visualization/section.h>
 #include <pcl_als/visualization/section_search.h>
 #include <pcl_als/visualization/ticks.h>
@@ -13,16 +15,12 @@
 #include "command_line.h"
 #include "output_check.h"
 #include "picture_options.h"
-#include "picture_source.h"
-#include "section_places.h"
 #include "strip_options.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
-using app::PictureSource;
 using app::Step;
 namespace fs = std::filesystem;
 
@@ -146,7 +144,7 @@ int profile(int argc, char** argv) {
 
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const PictureSource source(inputs, line.has("split"));
-  const std::vector<bool> chosen = app::chosenStrips(app::stripChoice(line), source.strips());
+  const std::vector<bool> chosen = chosenStrips(app::stripChoice(line), source.strips());
   if (automatic) places = search(source, chosen, count, width);
   const auto before = collect(source, places, source.strips(), chosen);
   std::vector<SectionPoints> after;
@@ -171,7 +169,7 @@ int profile(int argc, char** argv) {
                   : fs::path(line.text("output"));
     Step drawing("Drawing " + output.string(), line.quiet());
     writePng(output, picture.draw(size).image());
-    drawing.done(automatic ? app::describe(places[i]) : grouped(before[i].seen()) + " points");
+    drawing.done(automatic ? describe(places[i]) : grouped(before[i].seen()) + " points");
   }
   return app::kDone;
 }

@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/processing/picture/picture_source.h>
 #include <pcl_als/visualization/point_picture.h>
 #include <pcl_als/visualization/point_scene.h>
 #include <pcl_als/visualization/private_display.h>
@@ -14,16 +15,12 @@
 
 #include "command_line.h"
 #include "picture_options.h"
-#include "picture_source.h"
 #include "strip_options.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::grouped;
-using app::PictureSource;
-using app::PointAttribute;
 using app::Step;
 
 CommandLine commandLine() {
@@ -83,7 +80,7 @@ struct Selection {
 Selection selectionOf(const CommandLine& line, const PictureSource& source,
                       const PointAttribute& attribute) {
   Selection selection;
-  selection.strips = app::chosenStrips(app::stripChoice(line), source.strips());
+  selection.strips = chosenStrips(app::stripChoice(line), source.strips());
   if (!line.has("strips")) selection.hidden = attribute.hiddenStrip();
   if (line.has("extent")) {
     const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4);

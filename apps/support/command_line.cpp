@@ -280,17 +280,4 @@ std::vector<std::string> splitList(const std::string& list) {
   return parts;
 }
 
-std::string shortText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
-std::string grouped(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<std::size_t>(at), " ");
-  return digits;
-}
-
 }  // namespace pcl_als::app

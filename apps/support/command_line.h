@@ -12,6 +12,7 @@
 
 #include <boost/program_options.hpp>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/progress.h>
 
@@ -114,12 +115,6 @@ int run(const char* tool, const std::function<int()>& body);
 
 /// "a, b, c" → {"a", "b", "c"}, without blanks and empty parts.
 std::vector<std::string> splitList(const std::string& list);
-
-/// At most ten significant digits: 0.3 → "0.3", not the digits of the nearest double.
-std::string shortText(double value);
-
-/// 1843200 → "1 843 200".
-std::string grouped(std::uint64_t count);
 
 }  // namespace pcl_als::app
 

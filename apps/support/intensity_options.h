@@ -6,21 +6,13 @@
 #include <optional>
 #include <string>
 
-#include <pcl_als/radiometry/atmosphere.h>
+#include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/report/intensity_report.h>
 
 #include "command_line.h"
-#include "intensity_output.h"
-#include "intensity_run.h"
 
 namespace pcl_als::app {
-
-/// Where the extinction comes from.
-struct ExtinctionChoice {
-  std::optional<Atmosphere> air;  ///< empty: given directly, switched off, or of another run
-  Extinction parts;               ///< of the air
-  double per_km = 0.0;
-  std::string remark;  ///< one line for a user
-};
 
 /// Declares the options of the model, the air, gains, surfaces, overlaps, targets and output.
 void addIntensityOptions(CommandLine& line);

@@ -36,14 +36,4 @@ StripChoice stripChoice(const CommandLine& line) {
   return choice;
 }
 
-std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips) {
-  std::vector<bool> chosen(strips.size(), choice.only.empty());
-  const auto mark = [&](const std::vector<std::string>& names, const char* option, bool value) {
-    for (const std::string& name : names) chosen[stripNamed(strips, name, option)] = value;
-  };
-  mark(choice.only, "strips", true);
-  mark(choice.without, "without", false);
-  return chosen;
-}
-
 }  // namespace pcl_als::app

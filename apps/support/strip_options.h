@@ -16,7 +16,4 @@ namespace pcl_als::app {
 void addStripOptions(CommandLine& line, bool split = true);
 /// What they say. UsageError for an option without a name, and for a name in both lists.
 StripChoice stripChoice(const CommandLine& line);
-/// Which of all strips they choose; UsageError for a name that no strip has.
-std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips);
-
 }  // namespace pcl_als::app

@@ -6,6 +6,7 @@
 # ends with status 1 if there is one.
 set -euo pipefail
 export LC_ALL=C
+shopt -s extglob
 cd -- "$1"
 breaches=0
 breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
@@ -17,17 +18,18 @@ declare -A may=(
   [calibration]="common trajectory tin registration" [radiometry]="common trajectory tin"
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common tin registration trajectory"
-  [processing]="common io trajectory survey filters"
+  [processing]="common io trajectory survey registration calibration radiometry filters quality classification visualization"
+  [report]="common io registration calibration radiometry quality classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )
 
-# The modules that X declares in its CMakeLists.txt: the words after MODULES. A second library of a
-# module (io_raster) is part of it.
+# The modules that X declares in its CMakeLists.txt: the words after MODULES. Further libraries of a
+# module (io_raster, processing_picture, report_page) are part of it.
 declared() {
   awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
          for (i = 1; i <= NF; ++i) {
            if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
-           else if (on) print $i } }' "modules/${1%_raster}/CMakeLists.txt"
+           else if (on) print $i } }' "modules/${1%_@(raster|picture|page)}/CMakeLists.txt"
 }
 declare -A reach
 closure() {  # X and all that it declares, directly or through others
@@ -49,7 +51,7 @@ for folder in modules/*/; do
   module=$(basename -- "$folder")
   [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
   for other in $(declared "$module"); do
-    [[ " $module ${may[$module]} " == *" ${other%_raster} "* ]] ||
+    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page)} "* ]] ||
       breach "modules/$module/CMakeLists.txt" "must not use module $other"
   done
   grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&

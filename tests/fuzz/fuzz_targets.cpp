@@ -17,9 +17,9 @@
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/class_model_file.h>
+#include <pcl_als/report/accuracy_report.h>
 
-#include "accuracy_report.h"
-#include "class_model_json.h"
 #include "fuzz_seeds.h"
 
 namespace pcl_als::fuzz {
@@ -75,27 +75,27 @@ void readPcd(const std::filesystem::path& path) {
 
 void assess(const ConfusionMatrix& matrix) {
   if (matrix.total() == 0) return;
-  app::AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}};
+  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}};
   report.other = report.result;
   report.comparison = compareAccuracy(matrix, matrix);
-  app::accuracyText(report);
+  accuracyText(report);
 }
 
 void readMatrix(const std::filesystem::path& path) {
   if (holdsCheckedSites(path)) return;
-  assess(app::matrixOf(readCountTable(path)));
+  assess(matrixOf(readCountTable(path)));
 }
 
 void readChecked(const std::filesystem::path& path) {
   const std::vector<CheckedSite> sites = readCheckedSites(path);
-  const app::CountedSites counted = app::countSites(sites, {});
+  const CountedSites counted = countSites(sites, {});
   assess(countPoints(counted.classes, counted.points));
-  app::assessSites(counted);
-  app::matchSites(path.string(), sites, sites);
+  assessSites(counted);
+  matchSites(path.string(), sites, sites);
 }
 
 void useModel(const std::filesystem::path& path) {
-  const GaussianModel model = app::readClassModel(path);
+  const GaussianModel model = readClassModel(path);
   const MaximumLikelihood classifier(model, 0.01);
   std::vector<double> values(model.bands.size(), 1.5);
   classifier.classify(values.data());

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include <pcl_als/io/raster_io.h>
+#include <pcl_als/processing/class_model_file.h>
 
-#include "class_model_json.h"
 #include "fuzz_seeds.h"
 #include "las_bytes.h"
 
@@ -85,7 +85,7 @@ std::vector<std::string> classModelSeeds() {
     model.classes.push_back({name, Eigen::Vector2d(model.classes.empty() ? 8.0 : 0.5, 50.0),
                              Eigen::Matrix2d(Eigen::Vector2d(2.0, 1e2).asDiagonal()), 0.5, 60,
                              0.0});
-  return {bytesOf([&](const fs::path& path) { app::writeClassModel(path, model, {"a remark"}); })};
+  return {bytesOf([&](const fs::path& path) { writeClassModel(path, model, {"a remark"}); })};
 }
 
 std::vector<std::string> geoTiffSeeds() {

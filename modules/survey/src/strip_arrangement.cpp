@@ -45,6 +45,16 @@ std::size_t stripNamed(const std::vector<std::string>& strips, const std::string
   throw UsageError("option -" + option + ": there is no strip '" + name + "'; there are " + all);
 }
 
+std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips) {
+  std::vector<bool> chosen(strips.size(), choice.only.empty());
+  const auto mark = [&](const std::vector<std::string>& names, const char* option, bool value) {
+    for (const std::string& name : names) chosen[stripNamed(strips, name, option)] = value;
+  };
+  mark(choice.only, "strips", true);
+  mark(choice.without, "without", false);
+  return chosen;
+}
+
 /// Points of a strip: of these ids, from one time (aligned) until another.
 struct StripArrangement::Piece {
   std::string name;

@@ -30,6 +30,9 @@ struct StripChoice {
 std::size_t stripNamed(const std::vector<std::string>& strips, const std::string& name,
                        const std::string& option);
 
+/// Which of all strips a choice names; UsageError for a name that no strip has.
+std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips);
+
 /// What the points are tied to, if anything.
 struct FlownTimes {
   const Trajectory* trajectory = nullptr;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "report_options.h"
+
+#include <pcl_als/io/survey_io.h>
+
+namespace pcl_als::app {
+
+ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*>& inputs) {
+  ReportOrigin origin;
+  origin.folder = line.text("report");
+  origin.program = line.toolAndVersion();
+  for (const auto& [name, value] : line.settings()) origin.settings.emplace_back(name, value);
+  for (const char* option : inputs) {
+    if (!line.has(option)) continue;
+    origin.inputs.push_back(line.text(option));
+    if (std::string(option) == "control")
+      origin.control = readControl(line.text(option), unitOption(line, "control"));
+  }
+  return origin;
+}
+
+}  // namespace pcl_als::app

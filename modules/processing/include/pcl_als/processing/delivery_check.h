@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/processing/separation_image.h>
+#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/quality/area_offsets.h>
+#include <pcl_als/quality/control_check.h>
+#include <pcl_als/quality/pair_assessment.h>
+#include <pcl_als/quality/strip_alignment.h>
+#include <pcl_als/quality/strip_course.h>
+#include <pcl_als/trajectory/trajectory.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
+
+namespace pcl_als {
+
+/// What to check and how.
+struct CheckSettings {
+  SurfaceLimits limits;
+  SurveyMap::Selection selection;
+  std::vector<ControlPoint> control;
+  double control_sigma = 0.02;        ///< metres, where the file gives none
+  std::size_t minimum_points = 1000;  ///< strips with fewer are left out
+  double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed, not measured
+  std::size_t candidates = 100'000;   ///< places looked at, all areas, level and steep each
+  bool force = false;                 ///< go on with a trajectory that cannot be the points'
+  int threads = 0;
+};
+
+/// One pair in a report.
+struct CheckedPair {
+  std::string a, b;
+  double overlap_area = 0.0;  ///< m^2
+  std::size_t areas = 0;      ///< that were looked at
+  PairAssessment assessment;
+  std::optional<PatchAlignmentResult> alignment;  ///< where it was tried
+  std::vector<OffsetSample> samples;              ///< at most kScatter, evenly, for scatter plots
+  std::size_t points_a = 0, points_b = 0;
+  double milliseconds = 0.0;  ///< spent on this pair, all threads
+  double memory_mb = 0.0;     ///< of its points and surfaces
+
+  static constexpr std::size_t kScatter = 5000;
+};
+
+struct CheckedStrip {
+  std::string id;
+  std::uint64_t points = 0;
+  std::optional<Eigen::Vector2d> course;
+  double repeated = 0.0;  ///< share of points that lie on another of the strip
+};
+
+/// Everything that a check of one set of strips found.
+struct CheckedBlock {
+  std::vector<std::string> files;
+  std::vector<CheckedStrip> strips;
+  std::vector<CheckedPair> pairs;
+  std::vector<TriangleClosure> triangles;  ///< of vertical offsets
+  std::vector<MotionClosure> motions;      ///< of alignments
+  std::optional<ControlAssessment> control;
+  std::optional<SeparationSummary> separation;  ///< of the images that were written
+  double roughness_limit = 0.0;                 ///< metres: smooth
+  std::vector<std::string> warnings;
+  std::vector<LeftOutPoints> left_out;  ///< points that took no part
+};
+
+/** \brief Checks one set of strips: three looks at the files, memory for the chosen areas only. */
+class BlockCheck {
+ public:
+  BlockCheck(SurveyReader& survey, const CheckSettings& settings,
+             std::shared_ptr<const Trajectory> trajectory);
+
+  /// First look: which strips see which ground. InputError when there is nothing to compare.
+  void surveyBlock();
+  const std::vector<SurveyMap::Overlap>& overlaps() const { return overlaps_; }
+  /// m^2 that each strip covers, summed.
+  double coveredArea() const;
+
+  /// Chooses areas, or takes those of another set of the same block.
+  void chooseAreas();
+  void setAreas(std::vector<SurveyArea> areas);
+  const std::vector<SurveyArea>& areas() const { return areas_; }
+
+  /// Second look, point by point; \a also gets every point, too, strip by strip.
+  using PointSink = std::function<void(int strip, const SwathPoint& point)>;
+  void load(const PointSink& also);
+  std::size_t loadedPoints() const;
+
+  CheckedBlock assess(const std::function<void(double)>& progress);
+
+ private:
+  SwathPoint swathPoint(const SurveyReader::Run& run, std::size_t row, std::size_t& cursor) const;
+  void checkTrajectory();
+  void findRoughness();
+  void measureAreas();
+  void measureControl(CheckedBlock& block);
+  CheckedPair assessOverlap(std::size_t overlap, CellMeans& cells);
+
+  SurveyReader& survey_;
+  CheckSettings settings_;
+  std::shared_ptr<const Trajectory> trajectory_;
+  std::optional<TrajectoryPlausibility> plausibility_;  ///< with a trajectory
+  SurveyMap map_;
+  std::vector<StripCourse> courses_;
+  std::vector<bool> used_;
+  std::vector<SurveyMap::Overlap> overlaps_;
+  std::vector<SurveyArea> areas_;
+  std::vector<AreaOffsets> offsets_;                             ///< of the areas
+  std::vector<AreaOffsets> control_offsets_;                     ///< around the control points
+  std::vector<std::vector<std::vector<OffsetSample>>> samples_;  ///< by area, then by overlap
+  std::vector<std::vector<double>> milliseconds_;                ///< the same
+  std::vector<double> repeated_;                                 ///< by strip
+  std::vector<std::string> warnings_;
+  mutable std::atomic<std::uint64_t> uncovered_{0};  ///< points without a place of the trajectory
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include <pcl_als/registration/rigid_motion.h>
+
+namespace pcl_als {
+
+/** \brief Moves the points of a file into another of the same kind: .las and .laz on the raw
+ * integers, everything else byte for byte, in constant memory; .pcd with all fields.
+ *
+ * UsageError for files of different kinds, InputError for a point that leaves the range of the
+ * file's coordinates. \return the number of points.
+ */
+std::uint64_t movePointFile(const std::filesystem::path& input, const std::filesystem::path& output,
+                            const RigidMotion& motion, int threads);
+
+/// UsageError where movePointFile() would refuse input and output for their names.
+void checkMovable(const std::filesystem::path& input, const std::filesystem::path& output);
+
+}  // namespace pcl_als

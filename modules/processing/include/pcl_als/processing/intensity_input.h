@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/strip.h>
+#include <pcl_als/io/las_file.h>
+#include <pcl_als/io/strip_naming.h>
+
+namespace pcl_als {
+
+/// A point as the radiometric correction needs it; positions relative to IntensityWindow::origin.
+struct IntensityPoint {
+  double time = 0.0;  ///< as the file has it
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  float intensity = 0.0F;
+  std::uint16_t source = 0;
+  std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
+};
+
+/// Some points of a file, and those around them that surfaces are found with.
+struct IntensityWindow {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, ground frame
+  std::vector<IntensityPoint> points;
+  /// By point source id: single and last returns, of the window and around it.
+  std::map<std::uint16_t, std::vector<Eigen::Vector3f>> surface_points;
+  std::vector<double> gain_control;  ///< by point; empty where none is read
+};
+
+/// What a first look at a file found.
+struct IntensitySurvey {
+  PointFileSources sources;
+  bool has_time = true;
+  std::uint64_t zeros = 0;  ///< points of intensity 0
+  double largest = 0.0;     ///< intensity
+  double first_time = 0.0, last_time = 0.0;
+};
+
+/// What of a window is wanted.
+struct WindowRequest {
+  /// Whether surfaces will be sought: points of other windows within these metres of the points of
+  /// each source come along; sources without a margin get none.
+  bool surfaces = true;
+  std::map<std::uint16_t, double> margins;
+  /// The window's records, where the caller has them already (LAS): the file is not read again.
+  const std::byte* records = nullptr;
+  std::size_t record_length = 0;
+};
+
+/** \brief A point file, read window by window.
+ *
+ * LAS: windows are runs of records. The first look keeps a box for every 4096 records and strip (32
+ * bytes each); a window is read with the records of those blocks that lie within a margin of its
+ * own. So a file in order of time or of place needs the memory of a window; one whose windows have
+ * more than kMostNeighbours points around them is in no order and an InputError says so. PCD: one
+ * window, the whole file.
+ */
+class IntensityInput {
+ public:
+  static constexpr std::size_t kWindow = std::size_t{1} << 17;
+  /// Without surfaces nothing is gained by more than a processor's cache holds.
+  static constexpr std::size_t kSmallWindow = std::size_t{1} << 13;
+  static constexpr std::size_t kMostNeighbours = std::size_t{1} << 22;
+
+  virtual ~IntensityInput() = default;
+  struct Options {
+    std::string gain_control;  ///< name of an extra field to read; empty: none
+    std::size_t window = kWindow;
+    int threads = 1;
+  };
+  /// By extension.
+  static std::unique_ptr<IntensityInput> open(const std::string& path, const Options& options);
+
+  const std::string& path() const { return path_; }
+  const IntensitySurvey& survey() const { return survey_; }
+  virtual std::size_t windows() const = 0;
+  std::size_t windowSize() const { return window_; }  ///< points
+  virtual void load(std::size_t window, const WindowRequest& request,
+                    IntensityWindow& out) const = 0;
+  /// The file behind it; null for a PCD.
+  virtual const LasFile* las() const { return nullptr; }
+  /// The whole cloud; null for a LAS.
+  virtual const Strip<PointLidar>* strip() const { return nullptr; }
+
+ protected:
+  explicit IntensityInput(std::string path) : path_(std::move(path)) {}
+  std::string path_;
+  std::size_t window_ = kWindow;
+  IntensitySurvey survey_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/processing/intensity_input.h>
+#include <pcl_als/radiometry/intensity_statistics.h>
+#include <pcl_als/radiometry/overlap_adjustment.h>
+#include <pcl_als/radiometry/reference_targets.h>
+#include <pcl_als/survey/strip_arrangement.h>
+
+namespace pcl_als {
+
+/// What the user wants of a radiometric correction.
+struct IntensitySettings {
+  RadiometricModel model;
+  LocalSurfaceSettings surfaces;
+  double footprint_mrad = 0.3;  ///< beam divergence: surfaces are at least this large
+  OverlapSettings overlaps;
+  double cell = 0.0;                          ///< metres; 0: found
+  std::size_t most_cells = 200000;            ///< of the plan, kept for the overlaps
+  std::map<std::string, double> gains;        ///< by strip: known factors on what it received
+  std::map<std::string, double> pulse_rates;  ///< by strip, Hz: energy is in inverse proportion
+  std::string gain_control;                   ///< name of the extra field
+  std::vector<GainStep> gain_steps;
+  double saturation = 0.0;  ///< digital number; 0: 255 for 8-bit data, else 65535
+  bool keep_uncovered = false;
+  bool statistics = false;
+  bool force = false;         ///< go on with a trajectory that cannot be the points'
+  bool find_surfaces = true;  ///< false: no incidence angles are wanted by anyone
+  StripChoice strips;         ///< points of other strips stay as they are; it is not split
+  std::optional<int> gps_week;
+  int threads = 0;
+};
+
+/// Counts over a file that a user has to know.
+struct IntensityCounts {
+  std::array<std::uint64_t, kRadiometryStatusCount> status{};
+  std::uint64_t points = 0, zeros = 0, saturated = 0;
+  std::uint64_t excluded = 0;         ///< of strips that were not chosen: in no status
+  std::uint64_t clipped = 0;          ///< beyond 65535 after correction: written as 65535
+  std::uint64_t rounded_to_zero = 0;  ///< not 0 before, under 0.5 after
+  void merge(const IntensityCounts& other);
+};
+
+/// A window with what was found out about its points.
+struct EvaluatedWindow {
+  IntensityWindow window;
+  std::vector<PointRadiometry> radiometry;
+  std::vector<LocalSurface> surfaces;  ///< empty where none are sought
+  std::vector<int> strip;              ///< of each point; -1: not chosen
+  std::vector<double> divisor;  ///< of each point's intensity: gains, pulse energy, gain control
+};
+
+/// What of a window to evaluate, and from what.
+struct WindowChoice {
+  std::function<bool(double x, double y)> wanted;  ///< whether a point needs it; empty: all do
+  const std::byte* records = nullptr;              ///< as WindowRequest
+  std::size_t record_length = 0;
+};
+
+/** \brief Point files and their flight, ready for estimating and correcting.
+ *
+ * Memory: what IntensityInput keeps, a window for each thread, and sums for at most
+ * IntensitySettings::most_cells cells of the plan.
+ */
+class IntensityRun {
+ public:
+  /// Looks at all files. InputError for what they cannot serve.
+  IntensityRun(const std::vector<std::string>& paths, std::shared_ptr<const Trajectory> trajectory,
+               const IntensitySettings& settings);
+
+  /// Those that were chosen.
+  const std::vector<std::string>& strips() const { return strips_; }
+  const IntensityInput& input(std::size_t file) const { return *inputs_[file]; }
+  std::size_t files() const { return inputs_.size(); }
+  const IntensitySettings& settings() const { return settings_; }
+  const std::vector<std::string>& remarks() const { return remarks_; }
+  /// Of the check of the trajectory.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
+  const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
+  /// By point source id; -1: not chosen.
+  const std::map<std::uint16_t, int>& stripsOf(std::size_t file) const { return strip_of_[file]; }
+  bool allChosen(std::size_t file) const;
+  double saturation() const { return saturation_; }
+  double cellSize() const { return cell_size_; }
+  double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }
+
+  /// Estimates what the settings ask for and uses it from now on.
+  const OverlapResult& adjust(const std::function<void(double)>& progress);
+  /// Finds the factor to reflectance and uses it from now on.
+  const ReferenceResult& refer(std::vector<ReferenceTarget> targets, double radius);
+
+  void useModel(const RadiometricModel& model) { model_ = model; }
+  /// Estimated gains by strip (of an earlier run).
+  void useGains(const std::vector<double>& gains) { estimated_gains_ = gains; }
+  void useConstant(double constant) { constant_ = constant; }
+  const RadiometricModel& model() const { return model_; }
+  const std::vector<double>& estimatedGains() const { return estimated_gains_; }
+  /// What all intensities of a strip are divided by: known gain, pulse energy, estimated gain.
+  double gain(int strip) const {
+    return known_gains_[static_cast<std::size_t>(strip)] *
+           estimated_gains_[static_cast<std::size_t>(strip)];
+  }
+  double constant() const { return constant_; }  ///< corrected intensity of reflectance 1; 0: none
+
+  void evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
+                const WindowChoice& choice = WindowChoice()) const;
+  bool usable(float intensity) const { return intensity > 0.0F && intensity < saturation_; }
+
+ private:
+  void openFiles(const std::vector<std::string>& paths);
+  void nameStrips(const std::vector<PointFileSources>& sources);
+  void alignTimes();
+  void checkTrajectory();
+  void chooseRadii();
+  void chooseCells();
+  std::map<std::uint16_t, LocalSurfaces> surfacesOf(std::size_t file,
+                                                    const IntensityWindow& window) const;
+  double knownGain(const std::string& strip) const;
+  double gainControl(double value, const std::string& path) const;
+
+  IntensitySettings settings_;
+  std::shared_ptr<const Trajectory> trajectory_;
+  std::vector<std::unique_ptr<IntensityInput>> inputs_;
+  std::vector<std::string> strips_;
+  std::vector<std::map<std::uint16_t, int>> strip_of_;  ///< by file and source id
+  std::vector<TimeAlignment> times_;
+  std::vector<double> radii_, known_gains_, estimated_gains_;
+  std::vector<std::string> remarks_, warnings_;
+  RadiometricModel model_;
+  double saturation_ = 65535.0, cell_size_ = 2.0, constant_ = 0.0;
+  std::uint32_t one_cell_in_ = 1;
+  OverlapResult overlaps_;
+  ReferenceResult reference_;
+};
+
+}  // namespace pcl_als

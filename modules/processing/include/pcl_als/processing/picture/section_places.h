@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/visualization/section_search.h>
+
+namespace pcl_als {
+
+/// How densely a strip's points lie, from the boxes of its files: a slanting strip fills its box in
+/// part, and counts as sparser.
+struct StripDensity {
+  double area = 0.0;  ///< m^2
+  std::uint64_t points = 0;
+
+  /// Side of a cell in which so many points are on average, 0.5 to 20 m.
+  double cellFor(double points_in_it) const;
+};
+/// In the order of StripArrangement::names().
+std::vector<StripDensity> stripDensities(const std::vector<SurveyedFile>& files,
+                                         const StripArrangement& arrangement);
+
+/// Cells for a SectionSearch among the chosen strips, metres.
+double sectionCell(const std::vector<StripDensity>& strips, const std::vector<bool>& chosen);
+
+/// "gable at 1234.5, 6789.0, 3 strips, heights differ by 0.123 m"; gable, opposite slopes or slope.
+std::string describe(const SectionSearch::Place& place);
+
+}  // namespace pcl_als

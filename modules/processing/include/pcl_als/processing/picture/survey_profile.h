@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <optional>
+
+#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
+#include <pcl_als/visualization/section_search.h>
+
+namespace pcl_als {
+
+/// A section through a survey before and after a correction, by strip.
+struct SurveyProfile {
+  SectionSearch::Place place;
+  SectionPoints before, after;
+};
+
+/** \brief The gable roof or slope of a survey where a misfit of its strips shows best; empty where
+ * no two strips see one.
+ *
+ * Reads all points twice. Memory: that of SectionSearch while it looks, then the section's points.
+ */
+std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
+                                         const BiasEvaluator& correction);
+
+}  // namespace pcl_als

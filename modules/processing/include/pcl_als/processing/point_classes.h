@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <pcl_als/classification/land_cover_filter.h>
+#include <pcl_als/processing/land_cover.h>
+
+namespace pcl_als {
+
+struct PointClassCounts {
+  std::uint64_t points = 0, unclassified = 0;
+};
+
+/// Classes of points by a raster file of which only the parts under them are in memory.
+class PointClasses {
+ public:
+  struct Point {
+    double x, y, z, intensity;  ///< metres, ground frame
+  };
+
+  PointClasses(std::shared_ptr<const MaximumLikelihood> classifier,
+               const std::filesystem::path& raster);
+  /// Index of each point's class, or MaximumLikelihood::kNoClass. Thread-safe.
+  std::vector<int> classify(const std::vector<Point>& points);
+  const GaussianModel& model() const { return classifier_->model(); }
+
+ private:
+  struct Group;
+  void classify(const std::vector<Point>& points, const Group& group, std::vector<int>& classes);
+
+  std::shared_ptr<const MaximumLikelihood> classifier_;
+  BandReader bands_;
+  std::mutex reading_;
+};
+
+/** \brief A copy of a point file with the ASPRS codes of land cover in its classification.
+ *
+ * .las and .laz record by record in constant memory, all else byte for byte. A point without a
+ * class keeps its code, and so do those of noise (7, 18).
+ */
+PointClassCounts classifyPointFile(const std::filesystem::path& input,
+                                   const std::filesystem::path& output, PointClasses& classes,
+                                   int threads);
+
+}  // namespace pcl_als

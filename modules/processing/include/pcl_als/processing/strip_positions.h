@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/registration/point_view.h>
+
+namespace pcl_als {
+
+/// Where the points of a strip are: files, and the point source id where these hold several.
+struct StripFiles {
+  std::vector<std::filesystem::path> files;
+  std::optional<std::uint16_t> id;
+
+  std::string name() const;  ///< "strip1.las", "strip 3"
+};
+
+/// A strip before its points are read.
+struct StripFileInfo {
+  Eigen::AlignedBox3d box;  ///< metres, as the files' headers say
+  std::vector<PointFileInfo> files;
+  double resolution = 0.001;
+  std::uint64_t points = 0;
+};
+
+/// InputError for a file that cannot be read.
+StripFileInfo stripFileInfo(const StripFiles& strip);
+
+/** \brief Positions of a strip inside a plan box: 12 bytes each, floats relative to an origin in
+ * the middle of the box. First of several returns, vegetation (classes 3 to 5), noise (7 and 18)
+ * and withheld points are left out.
+ */
+struct StripPoints {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3f> positions;
+  std::uint64_t read = 0;  ///< points of the strip, inside or not
+
+  PointView view() const;
+};
+StripPoints readStripPoints(const StripFiles& strip, const Eigen::AlignedBox2d& box,
+                            const Eigen::Vector3d& origin);
+
+}  // namespace pcl_als

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/classification/surface_rasters.h>
+#include <pcl_als/io/raster_io.h>
+
+namespace pcl_als {
+
+/// What files hold, from their headers.
+struct StripFiles {
+  std::vector<std::filesystem::path> paths;
+  std::uint64_t points = 0;
+  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< metres
+  std::string crs;                                            ///< of the first file that has one
+  std::vector<std::string> remarks;  ///< units that are converted or assumed
+};
+
+/// Opens every file once. InputError for files without points or that commonReference() refuses.
+StripFiles surveyFiles(const std::vector<std::string>& paths);
+
+struct RasterCounts {
+  std::uint64_t points = 0;  ///< that lie in the raster and are no noise
+  CellCounts surface, terrain;
+};
+
+/** \brief Makes the rasters of SurfaceAccumulator from point files, tile by tile.
+ *
+ * Each tile reads the files whose box meets it, so the memory is that of a tile per thread, however
+ * many points there are. \a progress is called by one thread at a time.
+ */
+RasterCounts rasterizeStrips(const StripFiles& files, const SurfaceOptions& options, int tile_side,
+                             int threads, RasterWriter& writer,
+                             const std::function<void(double)>& progress);
+
+}  // namespace pcl_als

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/io/point_reference.h>
+#include <pcl_als/io/time_reference.h>
+#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+/** \brief The point files of a survey as strips: read again and again, chunk by chunk.
+ *
+ * Strips are those of StripArrangement; points that it leaves out are counted and not handed on.
+ * Files that share a strip are read one after the other in the given order, others at the same
+ * time: what a strip sees does not depend on the number of threads.
+ */
+class SurveyReader {
+ public:
+  using Sink = std::function<void(int strip, const CalibrationPoint* points, std::size_t count)>;
+  /// Points [from, to) of a chunk, all of one strip, with every field.
+  struct Run {
+    const PointChunk& chunk;
+    std::size_t from, to;
+    const TimeAlignment& time;  ///< to the trajectory's clock
+
+    CalibrationPoint point(std::size_t row) const;
+  };
+  using RunSink = std::function<void(int strip, const Run& run)>;
+
+  /// What is known of the flight, for choose().
+  struct Flight {
+    const Trajectory* trajectory = nullptr;
+    std::optional<int> gps_week;
+    /// Whether points without trajectory are left out; else they are read with the others.
+    bool needed = true;
+  };
+
+  /// Reads all files once (ids, times, extents). InputError for a file that cannot be read,
+  /// or that commonReference() refuses.
+  SurveyReader(const std::vector<std::string>& paths, int threads);
+
+  /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
+  /// them. Returns how times were matched to the trajectory's, one line each. UsageError for an
+  /// unknown strip, InputError where no point is left.
+  std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
+
+  const std::vector<std::string>& strips() const { return arrangement_->names(); }
+  std::uint64_t pointCount() const;
+  /// By strip: points that are read, about.
+  const std::vector<std::uint64_t>& pointsByStrip() const { return arrangement_->expectedPoints(); }
+  /// What the last complete reading left out.
+  const std::vector<LeftOutPoints>& leftOut() const { return left_out_; }
+  /// CRS that the files have in common, and what is converted or assumed of their units.
+  const PointReference& reference() const { return reference_; }
+  /// Box of all points in plan, metres; empty when there are none.
+  Eigen::AlignedBox2d extent() const;
+  /// South-west corner of all points, metres.
+  Eigen::Vector2d corner() const;
+  /// North-east corner of all points, metres.
+  Eigen::Vector2d farCorner() const;
+  /// Finest coordinate step of the files, metres.
+  double resolution() const;
+
+  const std::vector<SurveyedFile>& files() const { return files_; }
+  const StripArrangement& arrangement() const { return *arrangement_; }
+
+  /// Calls \a sink with all points, in runs of one strip; from several threads for different
+  /// strips.
+  void read(const Sink& sink) const;
+  /// The same with all that the files know of the points.
+  void readRuns(const RunSink& sink) const;
+
+ private:
+  std::vector<std::string> alignTimes(const Flight& flight);
+  void checkAnyLeft(const Flight& flight) const;
+  /// Adds the points of each label to \a counts.
+  void readFile(std::size_t file, const RunSink& sink, std::vector<std::uint64_t>& counts) const;
+  std::vector<std::vector<std::size_t>> groupsOfFiles() const;
+
+  int threads_;
+  std::vector<SurveyedFile> files_;
+  std::optional<StripArrangement> arrangement_;
+  PointReference reference_;
+  std::vector<TimeAlignment> times_;
+  mutable std::vector<LeftOutPoints> left_out_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/quality/height_gap.h>
+#include <pcl_als/trajectory/scan_geometry.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kCourseEvery = 64;     // of the points show the course
+constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
+constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
+constexpr double kLeastRoughness = 0.02;     // metres
+constexpr double kControlArea = 4.0;         // metres: the patch around a point is enough
+// What ICPatch looks at of each strip of a pair: enough for its deviations, seconds for a pair.
+constexpr std::size_t kAlignmentPoints = 400'000, kAlignmentPairs = 60'000;
+constexpr double kRepeated = 0.2;  // share of repeated points worth a warning
+constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // and its part of the TIN
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Scan angles of LAS: positive to the right of flight.
+float lookAngle(const ScanGeometry& geometry) {
+  return static_cast<float>(-geometry.beta / kRadiansPerDegree);
+}
+
+/// At most \a most, evenly.
+std::vector<OffsetSample> thinned(std::vector<OffsetSample> samples, std::size_t most) {
+  if (samples.size() <= most) return samples;
+  std::vector<OffsetSample> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(samples[i * samples.size() / most]);
+  return some;
+}
+
+}  // namespace
+
+BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
+                       std::shared_ptr<const Trajectory> trajectory)
+    : survey_(survey),
+      settings_(settings),
+      trajectory_(std::move(trajectory)),
+      map_(survey.corner()),
+      courses_(survey.strips().size()),
+      used_(survey.strips().size(), true) {
+  if (trajectory_) plausibility_.emplace(trajectory_);
+  for (const std::string& id : survey.strips()) {
+    map_.addStrip();
+    if (plausibility_) plausibility_->addStrip(id);
+  }
+}
+
+SwathPoint BlockCheck::swathPoint(const SurveyReader::Run& run, std::size_t row,
+                                  std::size_t& cursor) const {
+  const PointChunk& chunk = run.chunk;
+  SwathPoint point;
+  point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
+  point.time = run.time(chunk.gps_time[row]);
+  point.intensity = chunk.intensity[row];
+  point.scan_angle = chunk.scan_angle[row];
+  point.return_number = chunk.return_number[row];
+  point.number_of_returns = chunk.number_of_returns[row];
+  point.classification = chunk.classification[row];
+  point.flags = chunk.flags[row];
+  SensorPose pose;
+  if (!trajectory_) return point;
+  if (trajectory_->poseAt(point.time, pose, cursor)) {
+    point.scan_angle = lookAngle(scanGeometry(pose, point.position));
+  } else {
+    ++uncovered_;
+  }
+  return point;
+}
+
+void BlockCheck::surveyBlock() {
+  survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
+    thread_local std::vector<CalibrationPoint> points;
+    points.clear();
+    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
+    map_.add(strip, points.data(), points.size());
+    std::size_t cursor = 0;
+    for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
+      const SwathPoint point = swathPoint(run, row, cursor);
+      if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
+      if (plausibility_) plausibility_->add(strip, point.time, point.position);
+    }
+  });
+  for (std::size_t strip = 0; strip < used_.size(); ++strip) {
+    const int index = static_cast<int>(strip);
+    const std::string& id = survey_.strips()[strip];
+    if (map_.invalidCount(index) > 0)
+      warnings_.push_back("strip " + id + ": " + counted(map_.invalidCount(index), "point") +
+                          " with a time or coordinate that is not finite left out");
+    used_[strip] = map_.pointCount(index) >= settings_.minimum_points;
+    if (!used_[strip])
+      warnings_.push_back("strip " + id + " has only " + counted(map_.pointCount(index), "point") +
+                          " and is left out");
+  }
+  checkTrajectory();
+  for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
+    if (used_[overlap.strips.first] && used_[overlap.strips.second]) overlaps_.push_back(overlap);
+  }
+  if (!overlaps_.empty() || !settings_.control.empty()) return;
+  const auto used = std::count(used_.begin(), used_.end(), true);
+  throw InputError(
+      used < 2 ? "fewer than two strips with enough points and no control: nothing to compare"
+               : "no two strips overlap and there is no control: nothing to compare");
+}
+
+void BlockCheck::checkTrajectory() {
+  if (!plausibility_) return;
+  for (std::size_t strip = 0; strip < used_.size(); ++strip) {
+    if (!used_[strip]) plausibility_->leaveOut(static_cast<int>(strip));
+  }
+  for (const std::string& warning : plausibility_->check(settings_.force)) {
+    warnings_.push_back(warning);
+  }
+}
+
+double BlockCheck::coveredArea() const {
+  double area = 0.0;
+  for (std::size_t strip = 0; strip < used_.size(); ++strip)
+    area += map_.coveredArea(static_cast<int>(strip));
+  return area;
+}
+
+void BlockCheck::chooseAreas() {
+  std::vector<StripPair> pairs;
+  for (const SurveyMap::Overlap& overlap : overlaps_) {
+    if (overlap.area >= settings_.minimum_overlap) pairs.push_back(overlap.strips);
+  }
+  setAreas(map_.selectAreas(pairs, settings_.selection));
+}
+
+void BlockCheck::setAreas(std::vector<SurveyArea> areas) {
+  areas_ = std::move(areas);
+  offsets_.clear();
+  control_offsets_.clear();
+  for (const SurveyArea& area : areas_) offsets_.emplace_back(area, courses_.size());
+  for (const ControlPoint& point : settings_.control) {
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlArea);
+    control_offsets_.emplace_back(
+        SurveyArea{point.position.head<2>() - half, kControlArea, settings_.selection.margin},
+        courses_.size());
+  }
+  const std::size_t spread = std::max<std::size_t>(1, areas_.size());
+  settings_.limits.candidates = std::clamp<std::size_t>(settings_.candidates / spread, 100, 4000);
+}
+
+void BlockCheck::load(const PointSink& also) {
+  std::vector<AreaOffsets*> targets;
+  std::vector<SurveyArea> squares;
+  for (std::vector<AreaOffsets>* some : {&offsets_, &control_offsets_}) {
+    for (AreaOffsets& offsets : *some) {
+      const SurveyArea& area = offsets.area();
+      targets.push_back(&offsets);
+      squares.push_back({area.minimum, area.size, area.margin});
+    }
+  }
+  const AreaIndex index(squares);
+  uncovered_ = 0;
+  survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
+    if (!used_[static_cast<std::size_t>(strip)]) return;
+    std::size_t cursor = 0;
+    for (std::size_t row = run.from; row < run.to; ++row) {
+      const Eigen::Vector3d position(run.chunk.x[row], run.chunk.y[row], run.chunk.z[row]);
+      if (!position.allFinite()) continue;
+      const std::vector<int>& holding = index.candidates(position);
+      if (holding.empty() && !also) continue;
+      const SwathPoint point = swathPoint(run, row, cursor);
+      for (const int area : holding) targets[static_cast<std::size_t>(area)]->add(strip, point);
+      if (also) also(strip, point);
+    }
+  });
+  if (uncovered_ > 0)
+    warnings_.push_back("the trajectory does not cover " + std::to_string(uncovered_) +
+                        " of the points looked at: their scan angles are the file's");
+}
+
+std::size_t BlockCheck::loadedPoints() const {
+  std::size_t count = 0;
+  for (const AreaOffsets& area : offsets_) count += area.pointCount();
+  for (const AreaOffsets& area : control_offsets_) count += area.pointCount();
+  return count;
+}
+
+void BlockCheck::findRoughness() {
+  const std::size_t looked = std::min(areas_.size(), kRoughnessAreas);
+  std::vector<std::vector<double>> found(looked);
+  parallelFor(looked, settings_.threads, [&](std::size_t i) {
+    AreaOffsets& area = offsets_[i * areas_.size() / looked];
+    area.build(settings_.limits, survey_.resolution());
+    found[i] = area.roughness();
+    area.release();
+  });
+  std::vector<double> all;
+  for (const auto& values : found) all.insert(all.end(), values.begin(), values.end());
+  if (all.empty()) return;
+  settings_.limits.roughness = std::clamp(kRoughnessFactor * medianInPlace(all), kLeastRoughness,
+                                          settings_.limits.roughness);
+}
+
+void BlockCheck::measureAreas() {
+  samples_.assign(areas_.size(), std::vector<std::vector<OffsetSample>>(overlaps_.size()));
+  milliseconds_.assign(areas_.size(), std::vector<double>(overlaps_.size(), 0.0));
+  std::vector<std::vector<double>> repeated(areas_.size());
+  parallelFor(areas_.size(), settings_.threads, [&](std::size_t i) {
+    AreaOffsets& area = offsets_[i];
+    const Clock::time_point start = Clock::now();
+    area.build(settings_.limits, survey_.resolution());
+    const double building = millisecondsSince(start);
+    for (std::size_t strip = 0; strip < courses_.size(); ++strip)
+      repeated[i].push_back(area.repeatedShare(static_cast<int>(strip)) *
+                            static_cast<double>(area.points(static_cast<int>(strip)).size()));
+    for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+      const auto& [a, b] = overlaps_[k].strips;
+      if (area.points(a).empty() || area.points(b).empty()) continue;
+      const Clock::time_point begin = Clock::now();
+      samples_[i][k] = area.offsets(a, b);
+      const double share = static_cast<double>(area.points(a).size() + area.points(b).size()) /
+                           static_cast<double>(area.pointCount());
+      milliseconds_[i][k] = millisecondsSince(begin) + building * share;
+    }
+    area.release();
+  });
+  repeated_.assign(courses_.size(), 0.0);
+  for (std::size_t strip = 0; strip < courses_.size(); ++strip) {
+    double points = 0.0;
+    for (std::size_t i = 0; i < areas_.size(); ++i) {
+      repeated_[strip] += repeated[i][strip];
+      points += static_cast<double>(offsets_[i].points(static_cast<int>(strip)).size());
+    }
+    repeated_[strip] /= std::max(points, 1.0);
+  }
+}
+
+void BlockCheck::measureControl(CheckedBlock& block) {
+  const std::size_t count = settings_.control.size();
+  if (count == 0) return;
+  std::vector<std::vector<ControlDifference>> found(count);
+  parallelFor(count, settings_.threads, [&](std::size_t i) {
+    AreaOffsets& area = control_offsets_[i];
+    area.build(settings_.limits, survey_.resolution());
+    found[i] = controlDifferences(area, settings_.control[i], survey_.strips());
+    area.release();
+  });
+  std::vector<ControlDifference> all;
+  for (const auto& of_point : found) all.insert(all.end(), of_point.begin(), of_point.end());
+  block.control =
+      assessControl(std::move(all), settings_.control, survey_.strips(), settings_.control_sigma);
+}
+
+CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
+  const Clock::time_point start = Clock::now();
+  const auto& [a, b] = overlaps_[k].strips;
+  CheckedPair pair;
+  pair.a = survey_.strips()[a];
+  pair.b = survey_.strips()[b];
+  pair.overlap_area = overlaps_[k].area;
+  std::vector<OffsetSample> samples;
+  for (std::size_t i = 0; i < areas_.size(); ++i) {
+    const auto& found = samples_[i][k];
+    samples.insert(samples.end(), found.begin(), found.end());
+    samples_[i][k] = {};
+    pair.milliseconds += milliseconds_[i][k];
+    if (offsets_[i].points(a).empty() || offsets_[i].points(b).empty()) continue;
+    ++pair.areas;
+    pair.points_a += offsets_[i].points(a).size();
+    pair.points_b += offsets_[i].points(b).size();
+  }
+  pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
+                               courses_[static_cast<std::size_t>(b)].direction());
+  if (const auto gap = heightGap(offsets_, a, b)) {
+    const std::string text = describeGap(*gap, pair.a, pair.b, settings_.limits.maximum_distance);
+    if (!text.empty()) {
+      warnings_.push_back("strips " + pair.a + " and " + pair.b + " overlap, but " + text);
+      if (pair.assessment.status == PairAssessment::Status::too_little)
+        pair.assessment.reason += "; " + text;
+    }
+  }
+  cells = cellMeans(samples);
+  if (pair.overlap_area >= settings_.minimum_overlap &&
+      pair.assessment.status != PairAssessment::Status::copy) {
+    PatchAlignmentSettings alignment;
+    alignment.points = kAlignmentPoints;
+    alignment.pairs = kAlignmentPairs;
+    alignment.resolution = survey_.resolution();
+    alignment.threads = settings_.threads;
+    pair.alignment = alignStrips(offsets_, a, b, alignment);
+  }
+  pair.samples = thinned(std::move(samples), CheckedPair::kScatter);
+  pair.memory_mb = 1e-6 * kBytesPerPoint * static_cast<double>(pair.points_a + pair.points_b);
+  pair.milliseconds += millisecondsSince(start);
+  return pair;
+}
+
+CheckedBlock BlockCheck::assess(const std::function<void(double)>& progress) {
+  CheckedBlock block;
+  findRoughness();
+  block.roughness_limit = settings_.limits.roughness;
+  measureAreas();
+  measureControl(block);
+  std::vector<PairOffset> means;
+  std::vector<PairMotion> motions;
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    CellMeans cells;
+    block.pairs.push_back(assessOverlap(k, cells));
+    const CheckedPair& pair = block.pairs.back();
+    if (pair.assessment.status == PairAssessment::Status::judged)
+      means.push_back({pair.a, pair.b, std::move(cells)});
+    if (pair.alignment) motions.push_back({pair.a, pair.b, *pair.alignment});
+    if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(overlaps_.size()));
+  }
+  block.triangles = closeTriangles(means);
+  block.motions = closeMotions(motions);
+  for (std::size_t strip = 0; strip < courses_.size(); ++strip) {
+    const std::string& id = survey_.strips()[strip];
+    block.strips.push_back({id, map_.pointCount(static_cast<int>(strip)),
+                            courses_[strip].direction(), repeated_[strip]});
+    if (repeated_[strip] > kRepeated)
+      warnings_.push_back("strip " + id + ": " +
+                          std::to_string(std::lround(100.0 * repeated_[strip])) +
+                          " % of its points lie on others of its own: is a file given twice?");
+  }
+  block.warnings = warnings_;
+  return block;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/las_rewriter.h>
+#include <pcl_als/io/pcd_io.h>
+#include <pcl_als/processing/file_motion.h>
+
+namespace pcl_als {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+std::string extensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::uint64_t moveLas(const fs::path& input, const fs::path& output, const RigidMotion& motion,
+                      int threads) {
+  const LasFile file(input);
+  const LasScaling metres = file.toMetres();
+  const Vector3d scale = metres.scale, offset = metres.offset;
+  const Vector3d c = motion.centroid;
+  const Eigen::Affine3d moving = motion.transformation(c, c);
+  const LasEdit edit = [&](const LasRecordBlock& block) {
+    for (std::size_t i = 0; i < block.count; ++i) {
+      std::byte* record = block.records + i * block.record_length;
+      Vector3d raw;
+      for (int axis = 0; axis < 3; ++axis) raw[axis] = loadLas<std::int32_t>(record + 4 * axis);
+      const Vector3d ground = raw.cwiseProduct(scale) + offset;
+      const Vector3d moved = (c + moving * (ground - c) - offset).cwiseQuotient(scale);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double value = std::round(moved[axis]);
+        if (!(std::abs(value) <= std::numeric_limits<std::int32_t>::max()))
+          throw InputError(input.string() + ": point " + std::to_string(block.first + i) +
+                           " would leave the range of the file's coordinates");
+        storeLas(record + 4 * axis, static_cast<std::int32_t>(value));
+      }
+    }
+  };
+  return rewriteLas(file, output, edit, threads).points;
+}
+
+std::uint64_t movePcd(const fs::path& input, const fs::path& output, const RigidMotion& motion) {
+  Strip<PointLidar> strip = loadPcd(input);
+  const Eigen::Affine3d local = motion.transformation(strip.frame.origin, strip.frame.origin);
+  for (PointLidar& point : *strip.cloud)
+    point.getVector3fMap() = (local * point.getVector3fMap().cast<double>()).cast<float>();
+  savePcd(output, strip);
+  return strip.cloud->size();
+}
+
+}  // namespace
+
+void checkMovable(const fs::path& input, const fs::path& output) {
+  if ((extensionOf(input) == ".pcd") != (extensionOf(output) == ".pcd"))
+    throw UsageError(output.string() +
+                     ": source and output must be of one kind, .las/.laz or .pcd");
+}
+
+std::uint64_t movePointFile(const fs::path& input, const fs::path& output,
+                            const RigidMotion& motion, int threads) {
+  checkMovable(input, output);
+  return extensionOf(input) == ".pcd" ? movePcd(input, output, motion)
+                                      : moveLas(input, output, motion, threads);
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/io/pcd_io.h>
+#include <pcl_als/processing/intensity_input.h>
+
+#include "intensity_survey.h"
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kBlock = 4096;  ///< records that share a box
+constexpr std::size_t kIntensity = 12, kReturns = 14;
+
+/// X, Y, Z and the four bytes behind them, which are ignored, as one vector.
+using Lanes = std::int32_t __attribute__((vector_size(16)));
+
+/// Sorts single and last returns by strip; the map is asked when the strip changes.
+class SurfacePoints {
+ public:
+  explicit SurfacePoints(IntensityWindow& window) : window_(window) {}
+  void add(const IntensityPoint& point) {
+    if (point.return_number < point.number_of_returns) return;
+    if (last_ == nullptr || source_ != point.source) {
+      source_ = point.source;
+      last_ = &window_.surface_points[source_];
+    }
+    last_->push_back(point.position);
+  }
+
+ private:
+  IntensityWindow& window_;
+  std::vector<Eigen::Vector3f>* last_ = nullptr;
+  std::uint16_t source_ = 0;
+};
+
+/// Where one strip's points of a block lie, in coordinate steps of the file.
+struct BlockBox {
+  std::uint32_t block = 0;
+  std::uint16_t source = 0;
+  std::int32_t min_x = 0, min_y = 0, max_x = 0, max_y = 0;
+
+  void add(const BlockBox& other) {
+    min_x = std::min(min_x, other.min_x);
+    min_y = std::min(min_y, other.min_y);
+    max_x = std::max(max_x, other.max_x);
+    max_y = std::max(max_y, other.max_y);
+  }
+  bool near(const BlockBox& other, double margin_x, double margin_y) const {
+    return source == other.source && min_x <= other.max_x + margin_x &&
+           max_x >= other.min_x - margin_x && min_y <= other.max_y + margin_y &&
+           max_y >= other.min_y - margin_y;
+  }
+};
+
+class LasInput : public IntensityInput {
+ public:
+  LasInput(const std::string& path, const Options& options)
+      : IntensityInput(path),
+        file_(path),
+        layout_(file_.layout()),
+        length_(file_.header().record_length),
+        scale_(file_.toMetres().scale),
+        offset_(file_.toMetres().offset) {
+    window_ = options.window;
+    survey_.sources.info = file_.info();
+    survey_.has_time = layout_.gps_time >= 0;
+    findGainControl(options.gain_control);
+    look(file_.header().compressed ? 1 : options.threads);
+  }
+
+  std::size_t windows() const override {
+    return (file_.header().point_count + window_ - 1) / window_;
+  }
+  const LasFile* las() const override { return &file_; }
+
+  void load(std::size_t window, const WindowRequest& request, IntensityWindow& out) const override {
+    const std::uint64_t first = window * std::uint64_t{window_};
+    const std::size_t count = std::min<std::uint64_t>(window_, file_.header().point_count - first);
+    thread_local std::vector<std::byte> own;
+    const std::byte* records = request.records;
+    if (records == nullptr) read(first, count, own), records = own.data();
+    const std::size_t step = request.records == nullptr ? length_ : request.record_length;
+    out.origin = positionOf(records);
+    out.points.resize(count);
+    for (std::size_t i = 0; i < count; ++i) out.points[i] = pointOf(records + i * step, out.origin);
+    out.gain_control.clear();
+    if (gain_control_ >= 0)
+      decodeLasExtraField(records, count, step,
+                          file_.extraFields()[static_cast<std::size_t>(gain_control_)],
+                          out.gain_control);
+    out.surface_points.clear();
+    if (!request.surfaces) return;
+    SurfacePoints surface_points(out);
+    for (const IntensityPoint& point : out.points) surface_points.add(point);
+    loadNeighbours(window, request.margins, out);
+  }
+
+ private:
+  void read(std::uint64_t first, std::size_t count, std::vector<std::byte>& records) const {
+    records.resize(count * length_);
+    file_.readRecords(first, count, records.data());
+  }
+
+  void findGainControl(const std::string& name) {
+    if (name.empty()) return;
+    const std::vector<LasExtraField>& fields = file_.extraFields();
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (fields[i].name == name && fields[i].type != LasExtraType::undocumented)
+        gain_control_ = static_cast<int>(i);
+    }
+    if (gain_control_ >= 0) return;
+    std::string names;
+    for (const LasExtraField& field : fields) names += " " + field.name;
+    throw InputError(path_ + ": has no extra field " + name + " for -agc_field" +
+                     (names.empty() ? "; it has none at all" : "; it has" + names));
+  }
+
+  Eigen::Vector3d positionOf(const std::byte* record) const {
+    return metres({loadLas<std::int32_t>(record), loadLas<std::int32_t>(record + 4),
+                   loadLas<std::int32_t>(record + 8)});
+  }
+  Eigen::Vector3d metres(const std::array<std::int32_t, 3>& raw) const {
+    return Eigen::Vector3d(raw[0], raw[1], raw[2]).cwiseProduct(scale_) + offset_;
+  }
+
+  std::uint16_t sourceOf(const std::byte* record) const {
+    return loadLas<std::uint16_t>(record + layout_.point_source_id);
+  }
+
+  IntensityPoint pointOf(const std::byte* record, const Eigen::Vector3d& origin) const {
+    IntensityPoint point;
+    point.position = (positionOf(record) - origin).cast<float>();
+    if (layout_.gps_time >= 0) point.time = loadLas<double>(record + layout_.gps_time);
+    point.intensity = loadLas<std::uint16_t>(record + kIntensity);
+    point.source = sourceOf(record);
+    const auto returns = loadLas<std::uint8_t>(record + kReturns);
+    point.return_number = layout_.extended ? returns & 15U : returns & 7U;
+    point.number_of_returns = layout_.extended ? returns >> 4U : (returns >> 3U) & 7U;
+    const auto code = loadLas<std::uint8_t>(record + layout_.classification);
+    point.classification = layout_.extended ? code : code & 31U;
+    return point;
+  }
+
+  /// The first look: survey and boxes, window by window.
+  void look(int threads) {
+    std::vector<SurveyTally> tallies(windows());
+    std::vector<std::vector<BlockBox>> boxes(windows());
+    parallelFor(windows(), threads, [&](std::size_t window) {
+      thread_local std::vector<std::byte> records;
+      const std::uint64_t first = window * std::uint64_t{window_};
+      const std::size_t count =
+          std::min<std::uint64_t>(window_, file_.header().point_count - first);
+      read(first, count, records);
+      for (std::size_t at = 0; at < count; at += kBlock)
+        lookAtBlock(static_cast<std::uint32_t>((first + at) / kBlock), &records[at * length_],
+                    std::min(kBlock, count - at), tallies[window], boxes[window]);
+    });
+    SurveyTally sum;
+    for (const SurveyTally& tally : tallies) sum.merge(tally);
+    sum.store(survey_);
+    for (const std::vector<BlockBox>& part : boxes) {
+      first_box_.push_back(boxes_.size());
+      boxes_.insert(boxes_.end(), part.begin(), part.end());
+    }
+    first_box_.push_back(boxes_.size());
+  }
+
+  void lookAtBlock(std::uint32_t block, const std::byte* records, std::size_t count,
+                   SurveyTally& tally, std::vector<BlockBox>& boxes) const {
+    const std::size_t first_of_block = boxes.size();
+    for (std::size_t at = 0; at < count;) {
+      BlockBox box;
+      PointRun run;
+      at += lookAtRun(records + at * length_, count - at, box, run);
+      tally.add(run);
+      box.block = block;
+      const auto same =
+          std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block), boxes.end(),
+                       [&run](const BlockBox& b) { return b.source == run.source; });
+      if (same == boxes.end())
+        boxes.push_back(box);
+      else
+        same->add(box);
+    }
+  }
+
+  /// Looks at the records of the first one's strip; returns how many there are in a row.
+  std::size_t lookAtRun(const std::byte* records, std::size_t count, BlockBox& box,
+                        PointRun& run) const {
+    const auto time_at = static_cast<std::size_t>(std::max(0, layout_.gps_time));
+    const std::uint16_t source = sourceOf(records);
+    auto least = loadLas<Lanes>(records), most = least;
+    // In locals: a compiler must expect that bytes of records are those of the result.
+    std::uint16_t largest = 0;
+    std::uint64_t zeros = 0, zero_times = 0;
+    TimeRange times;
+    std::size_t i = 0;
+    for (; i < count && sourceOf(records) == source; ++i, records += length_) {
+      const auto value = loadLas<Lanes>(records);
+      least = value < least ? value : least;
+      most = value > most ? value : most;
+      const auto intensity = loadLas<std::uint16_t>(records + kIntensity);
+      largest = std::max(largest, intensity);
+      zeros += intensity == 0 ? 1 : 0;
+      const double time = survey_.has_time ? loadLas<double>(records + time_at) : 0.0;
+      if (time == 0.0)
+        ++zero_times;
+      else
+        times.add(time);
+    }
+    run.source = source;
+    run.points = i;
+    run.zeros = zeros;
+    run.zero_time = zero_times > 0;
+    run.times = times;
+    run.largest = largest;
+    run.minimum = metres({least[0], least[1], least[2]});
+    run.maximum = metres({most[0], most[1], most[2]});
+    box = {0, source, least[0], least[1], most[0], most[1]};
+    return i;
+  }
+
+  /// Blocks outside the window with points within the margin of a block of the same strip in it.
+  std::set<std::uint32_t> blocksAround(std::size_t window,
+                                       const std::map<std::uint16_t, double>& margins) const {
+    std::set<std::uint32_t> blocks;
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (i >= first_box_[window] && i < first_box_[window + 1]) continue;
+      const auto margin = margins.find(boxes_[i].source);
+      if (margin == margins.end()) continue;
+      const double x = margin->second / scale_.x(), y = margin->second / scale_.y();
+      for (std::size_t own = first_box_[window]; own < first_box_[window + 1]; ++own) {
+        if (!boxes_[i].near(boxes_[own], x, y)) continue;
+        blocks.insert(boxes_[i].block);
+        break;
+      }
+    }
+    if (blocks.size() * kBlock > kMostNeighbours)
+      throw InputError(path_ + ": its points are in no order of time or place (around " +
+                       std::to_string(window_) + " of them lie more than " +
+                       std::to_string(kMostNeighbours) + " others); sort it by time");
+    return blocks;
+  }
+
+  void loadNeighbours(std::size_t window, const std::map<std::uint16_t, double>& margins,
+                      IntensityWindow& out) const {
+    if (margins.empty()) return;
+    std::map<std::uint16_t, Eigen::AlignedBox2f> reach;
+    for (const IntensityPoint& point : out.points)
+      reach[point.source].extend(Eigen::Vector2f(point.position.head<2>()));
+    for (auto& [source, box] : reach) {
+      const auto margin = margins.find(source);
+      const auto metres = static_cast<float>(margin == margins.end() ? 0.0 : margin->second);
+      box.min().array() -= metres;
+      box.max().array() += metres;
+    }
+    std::vector<std::byte> records;
+    SurfacePoints surface_points(out);
+    for (const std::uint32_t block : blocksAround(window, margins)) {
+      const std::uint64_t first = block * std::uint64_t{kBlock};
+      const std::size_t count = std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
+      read(first, count, records);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto box = reach.find(sourceOf(&records[i * length_]));
+        if (box == reach.end()) continue;
+        const IntensityPoint point = pointOf(&records[i * length_], out.origin);
+        if (box->second.contains(Eigen::Vector2f(point.position.head<2>())))
+          surface_points.add(point);
+      }
+    }
+  }
+
+  LasFile file_;
+  const LasRecordLayout layout_;  ///< of the file, as are the next three
+  const std::size_t length_;
+  const Eigen::Vector3d scale_, offset_;
+  int gain_control_ = -1;  ///< index of the extra field
+  std::vector<BlockBox> boxes_;
+  std::vector<std::size_t> first_box_;  ///< of each window, and the end
+};
+
+class PcdInput : public IntensityInput {
+ public:
+  PcdInput(const std::string& path, const Options& options)
+      : IntensityInput(path), strip_(loadPcd(path)) {
+    if (!options.gain_control.empty())
+      throw UsageError(path + ": is a PCD; gain control is read from LAS");
+    survey_.sources.info = PointReader::open(path)->info();
+    SurveyTally tally;
+    for (const PointLidar& point : *strip_.cloud) tally.add(runOf(point));
+    tally.store(survey_);
+  }
+
+  std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
+  const Strip<PointLidar>* strip() const override { return &strip_; }
+
+  void load(std::size_t, const WindowRequest&, IntensityWindow& out) const override {
+    out.origin = strip_.frame.origin;
+    out.points.clear();
+    out.surface_points.clear();
+    out.gain_control.clear();
+    for (const PointLidar& p : *strip_.cloud) {
+      out.points.push_back({p.gps_time, p.getVector3fMap(), p.intensity, p.point_source_id,
+                            p.return_number, p.number_of_returns, p.classification});
+      if (p.return_number >= p.number_of_returns)
+        out.surface_points[p.point_source_id].push_back(p.getVector3fMap());
+    }
+  }
+
+ private:
+  PointRun runOf(const PointLidar& point) const {
+    PointRun run;
+    run.source = point.point_source_id;
+    run.points = 1;
+    run.zeros = point.intensity == 0.0F ? 1 : 0;
+    run.largest = static_cast<double>(point.intensity);
+    run.zero_time = point.gps_time == 0.0;
+    if (!run.zero_time) run.times.add(point.gps_time);
+    run.minimum = run.maximum = strip_.frame.toGround(point.getVector3fMap());
+    return run;
+  }
+
+  Strip<PointLidar> strip_;
+};
+
+}  // namespace
+
+std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
+                                                     const Options& options) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".pcd") return std::make_unique<PcdInput>(path, options);
+  if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
+  throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/point_sample.h>
+#include <pcl_als/io/time_reference.h>
+#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/trajectory/trajectory_plausibility.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kProbes = 8;      ///< windows looked at for the spacing of points
+constexpr double kPointsPerCell = 6.0;  ///< of the sparsest strip
+constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxes hold, roughly
+
+}  // namespace
+
+void IntensityCounts::merge(const IntensityCounts& other) {
+  for (std::size_t i = 0; i < status.size(); ++i) status[i] += other.status[i];
+  points += other.points;
+  excluded += other.excluded;
+  zeros += other.zeros;
+  saturated += other.saturated;
+  clipped += other.clipped;
+  rounded_to_zero += other.rounded_to_zero;
+}
+
+IntensityRun::IntensityRun(const std::vector<std::string>& paths,
+                           std::shared_ptr<const Trajectory> trajectory,
+                           const IntensitySettings& settings)
+    : settings_(settings), trajectory_(std::move(trajectory)), model_(settings.model) {
+  model_.check();
+  settings_.surfaces.check();
+  openFiles(paths);
+  alignTimes();
+  checkTrajectory();
+  chooseRadii();
+  chooseCells();
+}
+
+void IntensityRun::openFiles(const std::vector<std::string>& paths) {
+  std::vector<PointFileSources> sources;
+  double largest = 0.0;
+  IntensityInput::Options options;
+  options.gain_control = settings_.gain_control;
+  options.threads = settings_.threads;
+  if (!settings_.find_surfaces) options.window = IntensityInput::kSmallWindow;
+  for (const std::string& path : paths) {
+    inputs_.push_back(IntensityInput::open(path, options));
+    const IntensitySurvey& survey = inputs_.back()->survey();
+    if (!survey.has_time) {
+      throw InputError(path + ": point format " +
+                       std::to_string(inputs_.back()->las()->layout().format) +
+                       " has no GPS time; the range of a point needs it");
+    }
+    if (!survey.sources.sources.empty() && survey.largest == 0.0)
+      throw InputError(path + ": all intensities are zero; there is nothing to correct");
+    largest = std::max(largest, survey.largest);
+    sources.push_back(survey.sources);
+  }
+  saturation_ = settings_.saturation > 0.0 ? settings_.saturation
+                : largest <= 255.0         ? 255.0
+                                           : 65535.0;
+  nameStrips(sources);
+  for (const auto* given : {&settings_.gains, &settings_.pulse_rates}) {
+    for (const auto& [name, value] : *given) {
+      if (std::find(strips().begin(), strips().end(), name) == strips().end())
+        throw UsageError(std::string(given == &settings_.gains ? "gains" : "pulse rates") +
+                         ": there is no strip " + name);
+    }
+  }
+  for (const std::string& strip : strips()) known_gains_.push_back(knownGain(strip));
+  estimated_gains_.assign(strips().size(), 1.0);
+}
+
+void IntensityRun::nameStrips(const std::vector<PointFileSources>& sources) {
+  const StripNaming naming(sources);
+  const std::vector<bool> chosen = chosenStrips(settings_.strips, naming.names());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (chosen[i]) strips_.push_back(naming.names()[i]);
+  }
+  if (strips_.empty()) throw InputError("no strip is left: all are excluded");
+  for (std::size_t file = 0; file < sources.size(); ++file) {
+    std::map<std::uint16_t, int>& strips = strip_of_.emplace_back();
+    for (const PointSource& source : sources[file].sources) {
+      const auto at = std::find(strips_.begin(), strips_.end(), naming.nameOf(file, source.id));
+      strips[source.id] = at == strips_.end() ? -1 : static_cast<int>(at - strips_.begin());
+    }
+  }
+}
+
+bool IntensityRun::allChosen(std::size_t file) const {
+  return std::all_of(strip_of_[file].begin(), strip_of_[file].end(),
+                     [](const auto& strip) { return strip.second >= 0; });
+}
+
+/// Given gain, times the energy of a pulse against the mean of the strips' (constant power).
+double IntensityRun::knownGain(const std::string& strip) const {
+  double gain = 1.0;
+  const auto given = settings_.gains.find(strip);
+  if (given != settings_.gains.end()) gain = given->second;
+  if (settings_.pulse_rates.empty()) return gain;
+  const auto rate = settings_.pulse_rates.find(strip);
+  if (rate == settings_.pulse_rates.end())
+    throw UsageError("pulse rates: strip " + strip + " has none; give all or none");
+  double logs = 0.0;
+  for (const auto& [name, hertz] : settings_.pulse_rates) logs += std::log(hertz);
+  const double mean = std::exp(logs / static_cast<double>(settings_.pulse_rates.size()));
+  return gain * mean / rate->second;
+}
+
+void IntensityRun::alignTimes() {
+  const TimeRange flight{trajectory_->startTime(), trajectory_->endTime()};
+  std::string objection;
+  std::size_t met = 0;
+  for (const auto& input : inputs_) {
+    TimeAlignment& alignment = times_.emplace_back();
+    const IntensitySurvey& survey = input->survey();
+    if (survey.sources.sources.empty()) continue;
+    try {
+      alignment = reconcileTimes(input->path(), {survey.first_time, survey.last_time},
+                                 survey.sources.info.time_kind, flight, settings_.gps_week);
+      ++met;
+    } catch (const InputError& error) {
+      if (objection.empty()) objection = error.what();
+    }
+    if (!alignment.remark.empty()) remarks_.push_back(alignment.remark);
+  }
+  if (objection.empty()) return;
+  if (met == 0 || !settings_.keep_uncovered) throw InputError(objection);
+  remarks_.push_back(objection + ": left as it is");
+}
+
+/// Ranges from a trajectory of another flight, or in other units, are numbers without meaning.
+void IntensityRun::checkTrajectory() {
+  TrajectoryPlausibility check(trajectory_);
+  for (const std::string& strip : strips()) check.addStrip(strip);
+  for (std::size_t file = 0; file < files(); ++file) {
+    const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point) {
+      const int strip = strip_of_[file].at(source);
+      if (strip >= 0) check.add(strip, times_[file](time), point);
+    };
+    if (const LasFile* las = inputs_[file]->las()) {
+      samplePoints(*las, SampleSize(), [&add](const PointChunk& chunk) {
+        for (std::size_t i = 0; i < chunk.size(); ++i) {
+          add(chunk.point_source_id[i], chunk.gps_time[i], {chunk.x[i], chunk.y[i], chunk.z[i]});
+        }
+      });
+      continue;
+    }
+    const Strip<PointLidar>& strip = *inputs_[file]->strip();
+    const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / 4096);
+    for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
+      const PointLidar& point = (*strip.cloud)[i];
+      add(point.point_source_id, point.gps_time,
+          strip.frame.origin + point.getVector3fMap().cast<double>());
+    }
+  }
+  warnings_ = check.check(settings_.force);
+}
+
+/// The radius of each strip's surfaces: from the spacing of its points in some windows, and at
+/// least half the footprint.
+void IntensityRun::chooseRadii() {
+  std::vector<std::vector<double>> found(strips().size());
+  for (std::size_t file = 0; settings_.find_surfaces && file < files(); ++file) {
+    const std::size_t windows = inputs_[file]->windows();
+    const std::size_t probes = std::min(windows, kProbes);
+    for (std::size_t probe = 0; probe < probes; ++probe) {
+      IntensityWindow window;
+      inputs_[file]->load(probe * windows / probes, WindowRequest(), window);
+      std::size_t cursor = 0;
+      for (const auto& [source, points] : window.surface_points) {
+        if (strip_of_[file].at(source) < 0) continue;
+        double radius = LocalSurfaces::radiusFor(points);
+        const auto first =
+            std::find_if(window.points.begin(), window.points.end(),
+                         [id = source](const IntensityPoint& p) { return p.source == id; });
+        SensorPose pose;
+        if (trajectory_->poseAt(times_[file](first->time), pose, cursor)) {
+          const double range =
+              (pose.position - window.origin - first->position.cast<double>()).norm();
+          radius = std::max(radius, 0.5e-3 * settings_.footprint_mrad * range);
+        }
+        found[static_cast<std::size_t>(strip_of_[file].at(source))].push_back(radius);
+      }
+    }
+  }
+  for (std::vector<double>& radii : found) {
+    double radius = radii.empty() ? 2.0 : medianInPlace(radii);
+    if (settings_.surfaces.radius > 0.0) radius = settings_.surfaces.radius;
+    radii_.push_back(radius);
+  }
+}
+
+/// Cells hold some points of the sparsest strip; so many are left out that memory stays bounded.
+void IntensityRun::chooseCells() {
+  const double widest = radii_.empty() ? 2.0 : *std::max_element(radii_.begin(), radii_.end());
+  const double sparsest = 16.0 / (kPi * widest * widest);
+  cell_size_ = settings_.cell;
+  if (cell_size_ == 0.0) cell_size_ = std::clamp(std::sqrt(kPointsPerCell / sparsest), 0.5, 20.0);
+  double area = 0.0;
+  for (const auto& input : inputs_) {
+    for (const PointSource& source : input->survey().sources.sources) {
+      const Eigen::Vector3d size = source.maximum - source.minimum;
+      area += kCellShare * size.x() * size.y();
+    }
+  }
+  const double cells = area / (cell_size_ * cell_size_);
+  const auto most = static_cast<double>(settings_.most_cells);
+  one_cell_in_ = static_cast<std::uint32_t>(std::clamp(std::ceil(cells / most), 1.0, 1e9));
+}
+
+double IntensityRun::gainControl(double value, const std::string& path) const {
+  const std::vector<GainStep>& steps = settings_.gain_steps;
+  if (!(value >= steps.front().value && value <= steps.back().value)) {
+    throw InputError(path + ": a gain control value of " + std::to_string(value) +
+                     " lies outside the table of -agc_gain (" +
+                     std::to_string(steps.front().value) + " to " +
+                     std::to_string(steps.back().value) + ")");
+  }
+  const auto above =
+      std::lower_bound(steps.begin(), steps.end(), value,
+                       [](const GainStep& step, double v) { return step.value < v; });
+  if (above->value == value) return above->gain;
+  const GainStep& below = *(above - 1);
+  const double t = (value - below.value) / (above->value - below.value);
+  return below.gain + t * (above->gain - below.gain);
+}
+
+std::map<std::uint16_t, LocalSurfaces> IntensityRun::surfacesOf(
+    std::size_t file, const IntensityWindow& window) const {
+  std::map<std::uint16_t, LocalSurfaces> surfaces;
+  for (const auto& [source, neighbours] : window.surface_points) {
+    if (strip_of_[file].at(source) < 0) continue;
+    LocalSurfaceSettings settings = settings_.surfaces;
+    settings.radius = radius(strip_of_[file].at(source));
+    surfaces.emplace(source, LocalSurfaces(neighbours, settings));
+  }
+  return surfaces;
+}
+
+void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
+                            const WindowChoice& choice) const {
+  WindowRequest request;
+  request.surfaces = settings_.find_surfaces;
+  request.records = choice.records;
+  request.record_length = choice.record_length;
+  for (const auto& [source, strip] : strip_of_[file])
+    if (request.surfaces && strip >= 0) request.margins[source] = radius(strip);
+  inputs_[file]->load(window, request, out.window);
+  const std::vector<IntensityPoint>& points = out.window.points;
+  const std::map<std::uint16_t, LocalSurfaces> surfaces = surfacesOf(file, out.window);
+  const RadiometricEvaluator evaluator(trajectory_, model_);
+  const TimeAlignment& times = times_[file];
+  out.radiometry.resize(points.size());
+  out.surfaces.assign(request.surfaces ? points.size() : 0, LocalSurface());
+  out.strip.resize(points.size());
+  out.divisor.resize(points.size());
+  RadiometryCursor cursor;
+  const LocalSurface none;
+  const LocalSurfaces* of_strip = nullptr;
+  int strip = -1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const IntensityPoint& point = points[i];
+    const Eigen::Vector3d place = out.window.origin + point.position.cast<double>();
+    if (i == 0 || points[i - 1].source != point.source) {
+      strip = strip_of_[file].at(point.source);
+      const auto at = surfaces.find(point.source);
+      of_strip = at == surfaces.end() ? nullptr : &at->second;
+    }
+    out.strip[i] = strip;
+    out.divisor[i] = 1.0;
+    out.radiometry[i] = PointRadiometry();
+    if (strip < 0) continue;
+    out.divisor[i] = known_gains_[static_cast<std::size_t>(strip)];
+    if (choice.wanted && !choice.wanted(place.x(), place.y())) continue;
+    const bool on_surface = of_strip != nullptr && point.return_number >= point.number_of_returns;
+    if (on_surface) out.surfaces[i] = of_strip->at(point.position);
+    out.radiometry[i] =
+        evaluator.evaluate({times(point.time), place, point.return_number, point.number_of_returns},
+                           on_surface ? out.surfaces[i] : none, cursor);
+    if (!out.window.gain_control.empty())
+      out.divisor[i] *= gainControl(out.window.gain_control[i], inputs_[file]->path());
+  }
+}
+
+const OverlapResult& IntensityRun::adjust(const std::function<void(double)>& progress) {
+  RadiometricCells cells(cell_size_, one_cell_in_);
+  std::size_t all = 0, done = 0;
+  for (const auto& input : inputs_) all += input->windows();
+  // Windows are merged in their order, a few at a time: threads change no sum.
+  const std::size_t at_once = 2 * threadCount(settings_.threads);
+  for (std::size_t file = 0; file < files(); ++file) {
+    const std::size_t windows = inputs_[file]->windows();
+    for (std::size_t first = 0; first < windows; first += at_once) {
+      const std::size_t count = std::min(at_once, windows - first);
+      std::vector<RadiometricCells> parts(count, RadiometricCells(cell_size_, one_cell_in_));
+      parallelFor(count, settings_.threads, [&](std::size_t part) {
+        EvaluatedWindow found;
+        WindowChoice choice;
+        choice.wanted = [&](double x, double y) { return parts[part].wants(x, y); };
+        evaluate(file, first + part, found, choice);
+        for (std::size_t i = 0; i < found.window.points.size(); ++i) {
+          const IntensityPoint& point = found.window.points[i];
+          if (found.strip[i] < 0) continue;
+          const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
+          parts[part].add(found.strip[i], place.x(), place.y(),
+                          static_cast<double>(point.intensity) / found.divisor[i],
+                          usable(point.intensity) && point.number_of_returns <= 1,
+                          found.radiometry[i], found.surfaces[i]);
+        }
+      });
+      for (const RadiometricCells& part : parts) cells.merge(part);
+      done += count;
+      progress(static_cast<double>(done) / static_cast<double>(all));
+    }
+  }
+  overlaps_ = adjustOverlaps(cells.shared(), cell_size_, strips(), model_, settings_.overlaps);
+  model_ = overlaps_.model;
+  estimated_gains_ = overlaps_.gainFactors();
+  return overlaps_;
+}
+
+const ReferenceResult& IntensityRun::refer(std::vector<ReferenceTarget> targets, double radius) {
+  ReferenceCalibration calibration(std::move(targets), radius);
+  for (std::size_t file = 0; file < files(); ++file) {
+    for (std::size_t window = 0; window < inputs_[file]->windows(); ++window) {
+      EvaluatedWindow found;
+      WindowChoice choice;
+      choice.wanted = [&](double x, double y) { return calibration.touches(x, y, x, y); };
+      evaluate(file, window, found, choice);
+      for (std::size_t i = 0; i < found.window.points.size(); ++i) {
+        const IntensityPoint& point = found.window.points[i];
+        if (found.radiometry[i].status != RadiometryStatus::surface || !usable(point.intensity) ||
+            point.number_of_returns > 1)
+          continue;
+        const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
+        const double divisor =
+            found.divisor[i] * estimated_gains_[static_cast<std::size_t>(found.strip[i])];
+        calibration.add(
+            place.x(), place.y(),
+            static_cast<double>(point.intensity) * found.radiometry[i].factor / divisor);
+      }
+    }
+  }
+  reference_ = calibration.solve();
+  constant_ = reference_.constant;
+  return reference_;
+}
+
+}  // namespace pcl_als

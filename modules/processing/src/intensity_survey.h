@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/processing/intensity_input.h>
+
+namespace pcl_als {
+
+/// Points of one strip, one after the other in the file.
+struct PointRun {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::uint16_t source = 0;
+  std::uint64_t points = 0, zeros = 0;
+  double largest = 0.0;    ///< intensity
+  TimeRange times;         ///< without zeros
+  bool zero_time = false;  ///< there are points of time 0
+  Eigen::Vector3d minimum = Eigen::Vector3d::Constant(kInfinity), maximum = -minimum;
+};
+
+/// Collects what a survey says of points.
+class SurveyTally {
+ public:
+  void add(const PointRun& run);
+  void merge(const SurveyTally& other);
+  void store(IntensitySurvey& survey) const;
+
+ private:
+  void add(const PointSource& source);
+
+  std::map<std::uint16_t, PointSource> sources_;
+  TimeRange times_, zero_times_;
+  std::uint64_t zeros_ = 0;
+  double largest_ = 0.0;
+};
+
+}  // namespace pcl_als

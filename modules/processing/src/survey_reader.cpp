@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/processing/survey_reader.h>
+
+namespace pcl_als {
+
+SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
+    : threads_(threads), files_(paths.size()), times_(paths.size()) {
+  parallelFor(paths.size(), threads,
+              [&](std::size_t file) { files_[file] = surveyFile(paths[file]); });
+  std::vector<PointFileInfo> infos;
+  infos.reserve(files_.size());
+  for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
+  reference_ = commonReference(infos);
+  arrangement_.emplace(files_, StripChoice(), FlownTimes());
+}
+
+std::uint64_t SurveyReader::pointCount() const {
+  std::uint64_t count = 0;
+  for (const SurveyedFile& file : files_) count += file.sources.info.point_count;
+  return count;
+}
+
+Eigen::AlignedBox2d SurveyReader::extent() const {
+  Eigen::AlignedBox2d box;
+  for (const SurveyedFile& file : files_) {
+    for (const PointSource& source : file.sources.sources) {
+      box.extend(Eigen::Vector2d(source.minimum.head<2>()));
+      box.extend(Eigen::Vector2d(source.maximum.head<2>()));
+    }
+  }
+  return box;
+}
+
+Eigen::Vector2d SurveyReader::corner() const {
+  const Eigen::Vector2d corner = extent().min();
+  return corner.allFinite() && !extent().isEmpty() ? corner
+                                                   : Eigen::Vector2d(Eigen::Vector2d::Zero());
+}
+
+Eigen::Vector2d SurveyReader::farCorner() const {
+  Eigen::Vector2d corner = Eigen::Vector2d::Constant(-std::numeric_limits<double>::infinity());
+  for (const SurveyedFile& file : files_) {
+    for (const PointSource& source : file.sources.sources) {
+      corner = corner.cwiseMax(source.maximum.head<2>());
+    }
+  }
+  return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
+}
+
+double SurveyReader::resolution() const {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const SurveyedFile& file : files_) {
+    finest = std::min(finest, file.sources.info.resolution.head<2>().minCoeff());
+  }
+  // A TIN counts in steps of this inside areas of some hundred metres: neither finer nor coarser
+  // helps.
+  return std::clamp(finest, 1e-4, 0.01);
+}
+
+std::vector<std::string> SurveyReader::alignTimes(const Flight& flight) {
+  std::vector<std::string> remarks;
+  times_.assign(files_.size(), {});
+  if (flight.trajectory == nullptr) return remarks;
+  const TimeRange flown{flight.trajectory->startTime(), flight.trajectory->endTime()};
+  std::string objection;
+  std::size_t met = 0;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    TimeRange range;
+    for (const PointSource& source : files_[file].sources.sources) {
+      if (!source.hasTimes()) continue;
+      range.add(source.first_time);
+      range.add(source.last_time);
+    }
+    const PointFileInfo& info = files_[file].sources.info;
+    if (range.empty() && info.point_count > 0) range = {0.0, 0.0};
+    try {
+      times_[file] =
+          reconcileTimes(info.path.string(), range, info.time_kind, flown, flight.gps_week);
+      ++met;
+    } catch (const InputError& error) {
+      // Its points are then left out, with the others of their strips in mind: see the tally.
+      if (objection.empty()) objection = error.what();
+    }
+    const std::string& remark = times_[file].remark;
+    if (!remark.empty() && std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) {
+      remarks.push_back(remark);
+    }
+  }
+  if (met == 0) throw InputError(objection);
+  if (!objection.empty()) remarks.push_back(objection);
+  return remarks;
+}
+
+std::vector<std::string> SurveyReader::choose(const StripChoice& choice, const Flight& flight) {
+  std::vector<std::string> remarks = alignTimes(flight);
+  arrangement_.emplace(files_, choice, FlownTimes{flight.trajectory, times_, flight.needed});
+  left_out_.clear();
+  checkAnyLeft(flight);
+  return remarks;
+}
+
+void SurveyReader::checkAnyLeft(const Flight& flight) const {
+  if (!strips().empty()) return;
+  TimeRange range;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : files_[file].sources.sources) {
+      if (!source.hasTimes()) continue;
+      range.add(times_[file](source.first_time));
+      range.add(times_[file](source.last_time));
+    }
+  }
+  if (flight.trajectory == nullptr || range.empty())
+    throw InputError("no strip is left: all are excluded or have no times");
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "no strip is left: the points were measured at %.3f to %.3f s, the trajectory covers "
+      "%.3f to %.3f s%s: give the trajectory of this flight",
+      range.first, range.last, flight.trajectory->startTime(), flight.trajectory->endTime(),
+      flight.trajectory->gaps().empty() ? "" : " with gaps");
+  throw InputError(text);
+}
+
+std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
+  std::vector<std::size_t> group(files_.size());
+  std::iota(group.begin(), group.end(), 0);
+  std::map<int, std::size_t> first_file;
+  const auto join = [&](std::size_t file, int strip) {
+    const auto [known, added] = first_file.try_emplace(strip, file);
+    if (added || group[known->second] == group[file]) return;
+    const std::size_t merged = group[file], into = group[known->second];
+    for (std::size_t& g : group) {
+      if (g == merged) g = into;
+    }
+  };
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : files_[file].sources.sources) {
+      for (const int strip : arrangement_->stripsOf(file, source.id)) join(file, strip);
+    }
+  }
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t file = 0; file < files_.size(); ++file) members[group[file]].push_back(file);
+  std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(members.size());
+  for (auto& entry : members) groups.push_back(std::move(entry.second));
+  return groups;
+}
+
+CalibrationPoint SurveyReader::Run::point(std::size_t row) const {
+  CalibrationPoint point;
+  point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
+  point.time = time(chunk.gps_time[row]);
+  point.return_number = chunk.return_number[row];
+  point.number_of_returns = chunk.number_of_returns[row];
+  point.classification = chunk.classification[row];
+  point.flags = chunk.flags[row];
+  return point;
+}
+
+void SurveyReader::read(const Sink& sink) const {
+  readRuns([&](int strip, const Run& run) {
+    thread_local std::vector<CalibrationPoint> points;
+    points.clear();
+    points.reserve(run.to - run.from);
+    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
+    sink(strip, points.data(), points.size());
+  });
+}
+
+void SurveyReader::readRuns(const RunSink& sink) const {
+  const auto groups = groupsOfFiles();
+  const std::size_t labels = arrangement_->labels().size();
+  std::vector<std::vector<std::uint64_t>> counts(groups.size(), std::vector<std::uint64_t>(labels));
+  parallelFor(groups.size(), threads_, [&](std::size_t group) {
+    for (const std::size_t file : groups[group]) readFile(file, sink, counts[group]);
+  });
+  for (std::size_t group = 1; group < groups.size(); ++group) {
+    for (std::size_t i = 0; i < labels; ++i) counts[0][i] += counts[group][i];
+  }
+  left_out_ = counts.empty() ? std::vector<LeftOutPoints>() : arrangement_->leftOut(counts[0]);
+}
+
+void SurveyReader::readFile(std::size_t file, const RunSink& sink,
+                            std::vector<std::uint64_t>& counts) const {
+  StripArrangement::Sorter sorter(*arrangement_, file);
+  const auto reader = PointReader::open(files_[file].sources.info.path);
+  PointChunk chunk;
+  while (reader->read(chunk)) {
+    for (std::size_t from = 0; from < chunk.size();) {
+      const auto [to, label] = sorter.run(chunk, from);
+      counts[label] += to - from;
+      const int strip = arrangement_->labels()[label].index;
+      if (strip >= 0) sink(strip, Run{chunk, from, to, times_[file]});
+      from = to;
+    }
+  }
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/classification/accuracy_assessment.h>
+#include <pcl_als/common/class_site.h>
+#include <pcl_als/io/class_io.h>
+
+namespace pcl_als {
+
+/// Everything that accuracy.json says.
+struct AccuracyReport {
+  ConfusionMatrix matrix;
+  AccuracyResult result;
+  std::string compared_with;  ///< file of the other classification; empty: none
+  std::optional<AccuracyResult> other;
+  std::optional<AccuracyComparison> comparison;
+  std::vector<std::string> inputs, remarks;
+};
+
+/// The tables that the tools print.
+std::string accuracyText(const AccuracyReport& report);
+void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report);
+
+ConfusionMatrix matrixOf(const CountTable& table);
+
+/// Check points of one or two classifications with a common list of classes. A class that only
+/// check points have, and points without a class, get a row of their own ("unclassified").
+struct CountedSites {
+  std::vector<std::string> classes;
+  std::vector<CheckedPoint> points;
+};
+inline constexpr const char* kUnclassified = "unclassified";
+CountedSites countSites(const std::vector<CheckedSite>& sites, std::vector<std::string> classes);
+
+/// assessAccuracy(), without remarks on the row of points without a class, which is no class.
+AccuracyResult assessSites(const CountedSites& sites);
+
+/// The outcome of the same check points in another classification, found again by their places.
+/// InputError when they are not the same points.
+std::vector<CheckedSite> matchSites(const std::string& file, const std::vector<CheckedSite>& wanted,
+                                    const std::vector<CheckedSite>& sites);
+
+}  // namespace pcl_als

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include <pcl_als/registration/patch_alignment_result.h>
+
+namespace pcl_als {
+
+/// What was aligned with what.
+struct AlignedStrips {
+  std::string source, target;
+  std::uint64_t source_points = 0, target_points = 0;  ///< in the common area
+};
+
+/// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and how the strips fit.
+std::string alignmentTable(const PatchAlignmentResult& result);
+
+/// Writes the result as JSON (module registration's README has the format). Through AtomicFile.
+void writeAlignment(const std::filesystem::path& path, const PatchAlignmentResult& result,
+                    const AlignedStrips& strips);
+
+}  // namespace pcl_als

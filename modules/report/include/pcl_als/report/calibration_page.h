@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/report/report_origin.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+/** \brief The report of a calibration: report.html with pictures, and report.md.
+ *
+ * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is report.md alone.
+ */
+class CalibrationPage {
+ public:
+  /// \param wanted false: add() and memory cost nothing
+  CalibrationPage(const SurveyReader& survey, bool wanted);
+  ~CalibrationPage();
+  CalibrationPage(const CalibrationPage&) = delete;
+  CalibrationPage& operator=(const CalibrationPage&) = delete;
+
+  static bool draws();
+
+  /// Points of one strip, for the map; from several threads for different strips.
+  void add(int strip, const CalibrationPoint* points, std::size_t count);
+  /// Writes into the folder of \a origin.
+  void write(const ReportOrigin& origin, const CalibrationResult& result,
+             const std::vector<SurveyArea>& areas,
+             const std::shared_ptr<const Trajectory>& trajectory) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_als

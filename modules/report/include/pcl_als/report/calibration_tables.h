@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als {
+
+/// The result as tables for a terminal: parameters, pairs, control, warnings.
+std::string calibrationTables(const CalibrationResult& result);
+
+/// Writes pairs.csv, iterations.csv and areas.csv into a folder. \a information: what each area
+/// contributed to the determination, together 1.
+void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
+                         const std::vector<SurveyArea>& areas,
+                         const std::vector<double>& information);
+
+}  // namespace pcl_als

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+
+#include <pcl_als/io/survey_census.h>
+
+namespace pcl_als {
+
+/// The census as text for people.
+std::string censusText(const SurveyCensus& survey);
+
+/// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
+std::string censusJson(const SurveyCensus& survey);
+
+/// Name of an ASPRS class; empty for a code without one.
+std::string className(int code);
+
+std::string timeKindName(TimeKind kind);
+
+}  // namespace pcl_als

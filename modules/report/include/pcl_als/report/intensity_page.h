@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+
+#include <pcl_als/report/intensity_report.h>
+#include <pcl_als/report/report_origin.h>
+
+namespace pcl_als {
+
+/** \brief The report of a radiometric correction for people: report.html with pictures, and
+ * report.md.
+ *
+ * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is no page; writeIntensityReport()
+ * writes report.md and tables all the same.
+ */
+class IntensityPage {
+ public:
+  virtual ~IntensityPage() = default;
+  /// Writes into the folder of \a origin.
+  virtual void write(const ReportOrigin& origin, const IntensityReport& report,
+                     bool reliable) const = 0;
+};
+
+/// A page that sees where the points are that go into \a outcome; null without VTK.
+std::unique_ptr<IntensityPage> makeIntensityPage(const IntensityRun& run,
+                                                 IntensityOutcome& outcome);
+
+}  // namespace pcl_als

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/radiometry/atmosphere.h>
+
+namespace pcl_als {
+
+/// Where the extinction comes from.
+struct ExtinctionChoice {
+  std::optional<Atmosphere> air;  ///< empty: given directly, switched off, or of another run
+  Extinction parts;               ///< of the air
+  double per_km = 0.0;
+  std::string remark;  ///< one line for a user
+};
+
+/// Everything about a run that is printed or written.
+struct IntensityReport {
+  const IntensityRun* run = nullptr;
+  const IntensityOutcome* outcome = nullptr;
+  ExtinctionChoice extinction;
+  IntensityOutput output;
+  std::vector<std::string> outputs;  ///< names, by file
+  std::optional<OverlapResult> overlaps;
+  std::optional<ReferenceResult> reference;
+  std::vector<std::string> warnings;
+};
+
+/// What estimation and targets found, as lines for a user.
+std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips);
+/// The names of what was asked for and is not estimable, or that nothing came to rest.
+std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips);
+std::string referenceText(const ReferenceResult& reference);
+std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
+
+/// Points whose corrected intensity says nothing: saturated, clipped or rounded to zero.
+struct LostIntensities {
+  static constexpr double kAll = 0.99, kMany = 0.1;  ///< shares: no answer; worth a warning
+  double share = 0.0;                                ///< of the points with an intensity
+  std::string text;
+};
+LostIntensities lostIntensities(const IntensityCounts& counts);
+
+/// "10-15", or "no surface".
+std::string slopeName(std::size_t bin);
+
+/// Factor that brings corrected values to the mean of the given ones.
+double meanScale(const BeforeAfter& all);
+
+/// model.json of a run; see the tool's help for what it holds.
+void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
+
+/// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv into a folder, made if missing.
+/// Without \a markdown all but report.md, which the page writes then.
+void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
+                          bool markdown);
+
+/// Model, gains by strip and constant of a JSON of an earlier run.
+struct StoredRadiometry {
+  RadiometricModel model;
+  std::map<std::string, double> gains;
+  double constant = 0.0;
+};
+StoredRadiometry readIntensityJson(const std::filesystem::path& path);
+
+}  // namespace pcl_als

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/visualization/result_plots.h>
+
+namespace pcl_als {
+
+/// A plot that a result file can be drawn as.
+struct NamedPlot {
+  std::string name;  ///< of the file, without .png
+  std::function<Canvas(PictureSize)> draw;
+  std::string file{};  ///< that holds it
+};
+
+/** \brief All plots that a result file holds, whichever tool wrote it.
+ *
+ * calibration.json: parameters, correlation, pairs, convergence, residuals, strip_errors.
+ * quality.json: heights, offset_against_distance, …_time and …_scan_angle of the pairs.
+ * JSON of pcl_als_intensity: variance_to_mean, histograms, strip_gains. accuracy.json: confusion.
+ * Any result: "curves", "histograms" and "confusion" at the top level (README of module
+ * visualization). InputError for a file that is no JSON, is malformed, or has nothing to plot.
+ */
+std::vector<NamedPlot> plotsOf(const std::filesystem::path& file);
+
+}  // namespace pcl_als

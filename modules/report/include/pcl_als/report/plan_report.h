@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/flight_plan.h>
+
+namespace pcl_als {
+
+/// What a plan promises, as tables for a terminal.
+std::string planTables(const FlightPlanResult& result);
+
+/// The same as plan.json: {"format":"pcl_als plan","version":1,…}; lengths in metres, angles of
+/// parameters in arc-seconds, courses in degrees, times in seconds.
+void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
+               const std::vector<std::string>& inputs);
+
+}  // namespace pcl_als

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/report/quality_report.h>
+#include <pcl_als/report/report_origin.h>
+
+namespace pcl_als {
+
+/** \brief The report of a check for people: report.html with pictures, and report.md.
+ *
+ * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is neither; the tables are written all
+ * the same (writeQualityTables).
+ */
+class QualityPage {
+ public:
+  explicit QualityPage(bool wanted);
+  ~QualityPage();
+  QualityPage(const QualityPage&) = delete;
+  QualityPage& operator=(const QualityPage&) = delete;
+
+  static bool draws();
+  /// Whether it needs to see the points.
+  bool wantsPoints() const { return state_ != nullptr; }
+  /// The strips that the map shows.
+  void begin(const SurveyReader& survey);
+  /// From several threads for different strips.
+  void add(int strip, const Eigen::Vector3d& position);
+  /// Writes into the folder of \a origin.
+  void write(const ReportOrigin& origin, const QualityReport& report,
+             const std::vector<SurveyArea>& areas) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/processing/delivery_check.h>
+
+namespace pcl_als {
+
+/// The two sets of a check; before: empty when there is one set only.
+struct QualityReport {
+  CheckedBlock block;
+  std::optional<CheckedBlock> before;
+  int quality_level = 2;  ///< that the strips are to keep
+  double peak_memory_mb = 0.0;
+};
+
+/// A table for people. A row may end early, with a remark for the rest of its cells.
+struct QualityTable {
+  std::string caption;  ///< what it shows, with units
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+/// Heights, movements, shifts, trends, and control where it was given.
+std::vector<QualityTable> qualityTables(const QualityReport& report);
+
+/// The tables and what they come to, for a terminal.
+std::string qualityText(const QualityReport& report);
+
+/// quality.json; its keys are in the README of module quality.
+std::string qualityJson(const QualityReport& report);
+
+/// Writes quality.md, pairs.csv, control.csv, slope_aspect.csv, profiles.csv, offsets.csv and
+/// run.csv (times and memory, which differ from run to run), each complete or not at all.
+void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report);
+
+/// Whether there is any number to rely on: a judged pair, or a control point.
+bool hasAnswer(const CheckedBlock& block);
+
+bool judged(const CheckedPair& pair);
+/// The same pair in the set before; null where there is none.
+const CheckedPair* pairBefore(const QualityReport& report, const CheckedPair& pair);
+
+/// "QL1", or "none" where no level is kept.
+std::string levelName(const std::optional<int>& level);
+
+}  // namespace pcl_als

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/common/survey_types.h>
+
+namespace pcl_als {
+
+/// What a report says of how it was made, and where it goes.
+struct ReportOrigin {
+  std::filesystem::path folder;     ///< that the report is written into
+  std::string program;              ///< "pcl_als_check 0.1.0"
+  std::vector<std::string> inputs;  ///< files besides the points: trajectory, control, …
+  std::vector<std::pair<std::string, std::string>> settings;  ///< names and values
+  std::vector<ControlPoint> control;                          ///< for the map; may be empty
+};
+
+}  // namespace pcl_als

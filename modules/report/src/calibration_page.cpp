@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
+#include <pcl_als/processing/picture/section_places.h>
+#include <pcl_als/processing/picture/survey_profile.h>
+#include <pcl_als/report/calibration_page.h>
+#include <pcl_als/visualization/calibration_plots.h>
+#include <pcl_als/visualization/row_plots.h>
+#include <pcl_als/visualization/ticks.h>
+
+#include "calibration_verdict.h"
+
+namespace pcl_als {
+namespace {
+
+constexpr PictureSize kWide{1400, 640}, kSquare{1200, 900};
+
+ReportTable parameterTable(const CalibrationResult& result) {
+  ReportTable table{"parameters",
+                    "Biases, assumed − true. std: what the pairs share is accounted for; formal "
+                    "std: only the noise of points counted (Habib et al. 2011, Eq. 26)",
+                    {"parameter", "unit", "bias", "std", "formal std", "status"},
+                    {}};
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    const int digits = info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
+    const bool known = estimate.status == ParameterStatus::estimated;
+    const auto cell = [&](double value) {
+      return known ? numberText(value / info.internal_per_unit, digits) : std::string();
+    };
+    std::string status(toString(estimate.status));
+    if (!estimate.reason.empty()) status += ": " + estimate.reason;
+    table.rows.push_back({std::string(info.name), std::string(info.unit), cell(estimate.bias),
+                          cell(estimate.std), cell(estimate.std_formal), status});
+  }
+  return table;
+}
+
+ReportTable pairTable(const CalibrationResult& result) {
+  ReportTable table{"",
+                    "Normal distances of point-patch pairs, m; mean: first strip above the second",
+                    {"strips", "pairs", "RMS before", "RMS after", "mean before", "mean after"},
+                    {}};
+  for (const PairFit& pair : result.pairs) {
+    table.rows.push_back({pair.a + " : " + pair.b, countText(pair.correspondences),
+                          numberText(pair.rms_before, 4), numberText(pair.rms_after, 4),
+                          numberText(pair.mean_before, 4), numberText(pair.mean_after, 4)});
+  }
+  return table;
+}
+
+ReportTable controlTable(const CalibrationResult& result) {
+  ReportTable table{"control",
+                    "Heights of strips above control, m",
+                    {"strip", "points", "RMS before", "RMS after", "mean before", "mean after"},
+                    {}};
+  for (const ControlFit& fit : result.control) {
+    table.rows.push_back({fit.strip, countText(fit.points), numberText(fit.rms_before, 4),
+                          numberText(fit.rms_after, 4), numberText(fit.mean_before, 4),
+                          numberText(fit.mean_after, 4)});
+  }
+  return table;
+}
+
+ReportTable controlPointTable(const CalibrationResult& result) {
+  ReportTable table{"",
+                    "Mean height of the strips above each control point, m",
+                    {"point", "strips", "before", "after", "expected std", "used"},
+                    {}};
+  for (const ControlPointFit& fit : result.control_points) {
+    table.rows.push_back({fit.id, countText(fit.strips), numberText(fit.before, 4),
+                          numberText(fit.after, 4), numberText(fit.expected_std, 4),
+                          fit.used ? "yes" : "no: outlier"});
+  }
+  return table;
+}
+
+void addParameters(HtmlReport& report, const CalibrationResult& result) {
+  report.addSection("Parameters");
+  report.addTable(parameterTable(result));
+  report.addPicture(drawParameters(result, {1400, 900}).image(),
+                    "Estimated biases with 95 % intervals; an interval shorter than its dot is not "
+                    "seen, the figures on the right give it.");
+  if (result.correlation_order.size() > 1) {
+    report.addPicture(drawCorrelation(result, kSquare).image(),
+                      "Correlation of the estimates: near ±1, the block can hardly tell two "
+                      "parameters apart.");
+  }
+  if (!result.observability.empty()) {
+    report.addText("What the block determines:");
+    report.addList(result.observability);
+  }
+}
+
+void addFits(HtmlReport& report, const CalibrationResult& result) {
+  report.addSection("Fit");
+  report.addTable(pairTable(result));
+  if (!result.pairs.empty()) {
+    report.addPicture(drawPairs(result, {1400, heightForRows(result.pairs.size())}).image(),
+                      "Fit of every pair of overlapping strips before and after.");
+  }
+  if (!result.residuals.edges.empty()) {
+    report.addPicture(drawResiduals(result, kWide).image(),
+                      "Normal distances of all pairs before and after.");
+  }
+  if (!result.control.empty()) report.addTable(controlTable(result));
+  if (!result.control_points.empty()) report.addTable(controlPointTable(result));
+  if (!result.iterations.empty()) {
+    report.addPicture(drawConvergence(result, kWide).image(), "Update and fit by iteration.");
+  }
+  if (!result.strip_errors.empty()) {
+    report.addPicture(drawStripErrors(result, {1400, 760}).image(),
+                      "What each strip's trajectory was found to be wrong by, over time.");
+  }
+}
+
+/// A roof before and after, as in Figure 4 of Habib et al. 2011.
+void addProfile(HtmlReport& report, const SurveyReader& survey, const CalibrationResult& result,
+                const std::shared_ptr<const Trajectory>& trajectory) {
+  if (!result.converged) return;
+  report.addSection("Profile");
+  const auto profile = findProfile(survey, BiasEvaluator(trajectory, result.biases()));
+  if (!profile || profile->after.seen() == 0) {
+    report.addText("No two strips see the same gable roof or slope.");
+    return;
+  }
+  SectionPicture picture;
+  picture.setTitle("Where the misfit of the strips shows best");
+  picture.setStrips(survey.strips());
+  picture.addPanel("As delivered", profile->before);
+  picture.addPanel("Calibrated", profile->after);
+  // So high that heights are not drawn smaller than lengths, if a page has room for it.
+  PictureSize size{1400, 800};
+  while (size.height < 1600 && picture.exaggeration(size) < 1.0) size.height += 100;
+  report.addPicture(picture.draw(size).image(),
+                    "Section through a " + describe(profile->place) +
+                        " before; points by strip, as delivered and calibrated on the same axes.");
+}
+
+void addSummary(HtmlReport& report, const CalibrationResult& result) {
+  report.addText("sigma0 " + numberText(result.sigma0, 3) + ", redundancy " +
+                 countText(static_cast<std::size_t>(std::max(0L, result.redundancy))) + ", " +
+                 std::to_string(result.iterations.size()) + " iterations, model " +
+                 std::string(modelName(result.attitude)) + ", " +
+                 (result.converged ? "converged." : "not converged."));
+  report.addText("Verdict: " + result.verdict.text() + ".");
+  addWarnings(result.warnings, report);
+}
+
+}  // namespace
+
+struct CalibrationPage::State {
+  const SurveyReader& survey;
+  StripCoverage coverage;
+};
+
+CalibrationPage::CalibrationPage(const SurveyReader& survey, bool wanted) {
+  if (!wanted) return;
+  state_ = std::make_unique<State>(
+      State{survey, {survey.corner(), survey.farCorner(), survey.strips().size()}});
+}
+
+CalibrationPage::~CalibrationPage() = default;
+
+bool CalibrationPage::draws() {
+  return true;
+}
+
+void CalibrationPage::add(int strip, const CalibrationPoint* points, std::size_t count) {
+  if (!state_) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    state_->coverage.add(points[i].position, static_cast<std::size_t>(strip));
+  }
+}
+
+void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
+                            const std::vector<SurveyArea>& areas,
+                            const std::shared_ptr<const Trajectory>& trajectory) const {
+  HtmlReport report("Calibration of " + std::to_string(state_->survey.strips().size()) + " strips",
+                    origin.program);
+  addVerdict(verdictOf(result), report);
+  addSummary(report, result);
+  addParameters(report, result);
+  addFits(report, result);
+
+  addProfile(report, state_->survey, result, trajectory);
+  addMap(origin.control, state_->coverage, state_->survey.strips(), areas, report);
+  addOrigin(origin, result.inputs, report);
+  report.write(origin.folder);
+}
+
+}  // namespace pcl_als

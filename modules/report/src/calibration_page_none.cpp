@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <filesystem>
+
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/report/calibration_page.h>
+#include <pcl_als/report/calibration_tables.h>
+
+namespace pcl_als {
+
+struct CalibrationPage::State {};
+
+CalibrationPage::CalibrationPage(const SurveyReader& /*survey*/, bool /*wanted*/) {}
+CalibrationPage::~CalibrationPage() = default;
+
+bool CalibrationPage::draws() {
+  return false;
+}
+
+void CalibrationPage::add(int /*strip*/, const CalibrationPoint* /*points*/,
+                          std::size_t /*count*/) {}
+
+void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
+                            const std::vector<SurveyArea>& /*areas*/,
+                            const std::shared_ptr<const Trajectory>& /*trajectory*/) const {
+  writeFile(origin.folder / "report.md", "# Calibration\n\n" + calibrationTables(result));
+}
+
+}  // namespace pcl_als

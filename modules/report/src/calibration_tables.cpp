@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/report/calibration_tables.h>
+
+namespace pcl_als {
+namespace {
+
+/// Digits after the point that suit a parameter's unit.
+int digitsOf(const SystemParameterInfo& info) {
+  return info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
+}
+
+void parameterTable(const CalibrationResult& result, std::ostream& out) {
+  out << "| parameter          |         bias |          std | formal std   | unit   |\n"
+      << "|--------------------|--------------|--------------|--------------|--------|\n";
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    out << "| " << std::left << std::setw(18) << info.name << std::right << " | ";
+    if (estimate.status == ParameterStatus::estimated) {
+      out << std::fixed << std::setprecision(digitsOf(info));
+      for (const double value : {estimate.bias, estimate.std, estimate.std_formal}) {
+        out << std::setw(12) << value / info.internal_per_unit << " | ";
+      }
+    } else {
+      out << std::setw(12) << toString(estimate.status) << " |            - |            - | ";
+    }
+    out << std::left << std::setw(6) << info.unit << std::right << " |\n";
+  }
+}
+
+void pairTable(const CalibrationResult& result, std::ostream& out) {
+  out << "\nNormal distances of point-patch pairs between strips (m; mean: first above second; "
+         "strips: with "
+         "strip corrections)\n\n"
+      << "| strips          |   pairs | rms before | after  | strips | mean before | after   | "
+         "strips "
+         " |\n"
+      << "|-----------------|---------|------------|--------|--------|-------------|---------|-----"
+         "---"
+         "-|\n";
+  out << std::fixed;
+  for (const PairFit& pair : result.pairs) {
+    out << "| " << std::left << std::setw(15) << (pair.a + " : " + pair.b) << std::right << " | "
+        << std::setw(7) << pair.correspondences << " | " << std::setprecision(4) << std::setw(10)
+        << pair.rms_before << " | " << std::setw(6) << pair.rms_after << " | " << std::setw(6)
+        << pair.rms_strips << " | " << std::showpos << std::setw(11) << pair.mean_before << " | "
+        << std::setw(7) << pair.mean_after << " | " << std::setw(7) << pair.mean_strips
+        << std::noshowpos << " |\n";
+  }
+}
+
+void controlTable(const CalibrationResult& result, std::ostream& out) {
+  if (result.control.empty()) return;
+  out << "\nHeights of strips above control (m)\n\n"
+      << "| strip           |  points | rms before | after  | mean before | after   |\n"
+      << "|-----------------|---------|------------|--------|-------------|---------|\n";
+  for (const ControlFit& fit : result.control) {
+    out << "| " << std::left << std::setw(15) << fit.strip << std::right << " | " << std::setw(7)
+        << fit.points << " | " << std::setprecision(4) << std::setw(10) << fit.rms_before << " | "
+        << std::setw(6) << fit.rms_after << " | " << std::showpos << std::setw(11)
+        << fit.mean_before << " | " << std::setw(7) << fit.mean_after << std::noshowpos << " |\n";
+  }
+}
+
+/// Mean and RMS over a strip's knots of what its trajectory was found to be wrong by.
+void stripTable(const CalibrationResult& result, std::ostream& out) {
+  if (result.strip_errors.empty()) return;
+  out << "\nErrors of the trajectory by strip, mean and RMS over time (mm; arcsec)\n\n"
+      << "| strip           |      east |     north |        up |     pitch |      roll |   "
+         "heading "
+         "|\n"
+      << "|-----------------|-----------|-----------|-----------|-----------|-----------|----------"
+         "-"
+         "|\n";
+  for (const StripErrors& strip : result.strip_errors) {
+    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero(), squares = sum;
+    for (const TrajectoryErrorKnot& knot : strip.knots) {
+      Eigen::Matrix<double, 6, 1> errors;
+      errors << 1e3 * knot.position, knot.angles / kRadiansPerArcsec;
+      sum += errors;
+      squares += errors.cwiseAbs2();
+    }
+    const double count = static_cast<double>(strip.knots.size());
+    out << "| " << std::left << std::setw(15) << strip.id << std::right << std::fixed
+        << std::setprecision(1);
+    for (int i = 0; i < 6; ++i) {
+      out << " | " << std::showpos << std::setw(5) << sum[i] / count << std::noshowpos << ' '
+          << std::setw(3) << std::setprecision(0) << std::sqrt(squares[i] / count)
+          << std::setprecision(1);
+    }
+    out << " |\n";
+  }
+}
+
+std::string pairsCsv(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << "a,b,correspondences,rms_before_m,rms_after_m,mean_before_m,mean_after_m\n"
+      << std::setprecision(9);
+  for (const PairFit& pair : result.pairs) {
+    out << pair.a << ',' << pair.b << ',' << pair.correspondences << ',' << pair.rms_before << ','
+        << pair.rms_after << ',' << pair.mean_before << ',' << pair.mean_after << '\n';
+  }
+  return out.str();
+}
+
+std::string iterationsCsv(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << "iteration,correspondences,sigma0,largest_update_m\n" << std::setprecision(9);
+  int number = 0;
+  for (const CalibrationIteration& iteration : result.iterations) {
+    out << ++number << ',' << iteration.correspondences << ',' << iteration.sigma0 << ','
+        << iteration.largest_update << '\n';
+  }
+  return out.str();
+}
+
+std::string areasCsv(const std::vector<SurveyArea>& areas, const std::vector<double>& information) {
+  std::ostringstream out;
+  out << "x_min,y_min,x_max,y_max,information\n" << std::fixed;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const SurveyArea& area = areas[i];
+    out << std::setprecision(3) << area.minimum.x() << ',' << area.minimum.y() << ','
+        << area.minimum.x() + area.size << ',' << area.minimum.y() + area.size << ','
+        << std::setprecision(6) << information[i] << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace
+
+std::string calibrationTables(const CalibrationResult& result) {
+  std::ostringstream out;
+  out << "Biases (assumed - true)\n\n";
+  parameterTable(result, out);
+  pairTable(result, out);
+  controlTable(result, out);
+  stripTable(result, out);
+  if (!result.observability.empty()) out << "\nWhat the block determines\n\n";
+  for (const std::string& text : result.observability) out << "- " << text << '\n';
+  out << "\nsigma0 " << std::setprecision(3) << result.sigma0 << ", redundancy "
+      << result.redundancy << ", " << result.iterations.size() << " iterations, "
+      << (result.converged ? "converged" : "NOT converged")
+      << "\nverdict: " << result.verdict.text() << '\n';
+  for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+  return out.str();
+}
+
+void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
+                         const std::vector<SurveyArea>& areas,
+                         const std::vector<double>& information) {
+  writeFile(folder / "pairs.csv", pairsCsv(result));
+  writeFile(folder / "iterations.csv", iterationsCsv(result));
+  writeFile(folder / "areas.csv", areasCsv(areas, information));
+}
+
+}  // namespace pcl_als

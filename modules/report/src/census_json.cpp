@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <nlohmann/json.hpp>
+
+#include <pcl_als/io/las_file.h>
+#include <pcl_als/report/census_report.h>
+
+namespace pcl_als {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json statistics(const PointStatistics& s) {
+  Json json;
+  json["points"] = s.points;
+  json["first_returns"] = s.first_returns;
+  json["single_returns"] = s.single_returns;
+  json["minimum"] = vector(s.minimum);
+  json["maximum"] = vector(s.maximum);
+  json["time"] = {s.first_time, s.last_time};
+  json["scan_angle_deg"] = {s.least_scan_angle, s.largest_scan_angle};
+  json["intensity"] = {s.least_intensity, s.largest_intensity};
+  json["unsorted_times"] = s.unsorted_times;
+  json["zero_times"] = s.zero_times;
+  json["invalid_times"] = s.invalid_times;
+  json["invalid_coordinates"] = s.invalid_coordinates;
+  json["wrong_returns"] = s.wrong_returns;
+  json["withheld"] = s.withheld;
+  json["synthetic"] = s.synthetic;
+  json["overlap_flags"] = s.overlap_flags;
+  json["returns"] = Json::object();
+  for (std::size_t r = 0; r < s.returns.size(); ++r)
+    if (s.returns[r] > 0) json["returns"][std::to_string(r)] = s.returns[r];
+  json["classes"] = Json::object();
+  for (std::size_t c = 0; c < s.classes.size(); ++c)
+    if (s.classes[c] > 0) json["classes"][std::to_string(c)] = s.classes[c];
+  return json;
+}
+
+Json lasParts(const std::filesystem::path& path) {
+  const LasFile file(path);
+  Json json;
+  json["generating_software"] = file.header().generating_software;
+  json["system"] = file.header().system_id;
+  json["record_length"] = file.header().record_length;
+  json["extra_fields"] = Json::array();
+  for (const LasExtraField& field : file.extraFields())
+    json["extra_fields"].push_back({{"name", field.name}, {"description", field.description}});
+  json["vlrs"] = Json::array();
+  for (const LasVlrEntry& vlr : file.vlrs())
+    json["vlrs"].push_back({{"user", vlr.user_id},
+                            {"record", vlr.record_id},
+                            {"bytes", vlr.length},
+                            {"extended", vlr.extended}});
+  return json;
+}
+
+/// Lengths of one unit of the file in metres, and what states them; null where nothing does.
+Json unitsJson(const PointFileInfo& info) {
+  const auto unit = [](const LengthUnit& length, const std::string& source) {
+    Json json{{"name", length.name}, {"metres", length.metres}, {"stated_by", nullptr}};
+    if (!source.empty()) json["stated_by"] = source;
+    return json;
+  };
+  if (info.crs_kind == CrsKind::geographic) return "degrees";
+  return {{"horizontal", unit(info.units.horizontal, info.units.source)},
+          {"vertical", unit(info.units.vertical, info.units.vertical_source)}};
+}
+
+Json fileJson(const FileCensus& file) {
+  Json json;
+  json["path"] = file.info.path.string();
+  json["format"] = file.info.format;
+  json["crs"] = file.info.crs;
+  json["units"] = unitsJson(file.info);
+  json["time_kind"] = timeKindName(file.info.time_kind);
+  json["resolution"] = vector(file.info.resolution);
+  json["header_minimum"] = vector(file.info.minimum);
+  json["header_maximum"] = vector(file.info.maximum);
+  if (file.info.format.rfind("PCD", 0) != 0) json["las"] = lasParts(file.info.path);
+  json["statistics"] = statistics(file.statistics);
+  json["remarks"] = file.remarks;
+  return json;
+}
+
+Json stripJson(const StripCensus& strip) {
+  Json json;
+  json["id"] = strip.id;
+  json["statistics"] = statistics(strip.statistics);
+  json["density_per_m2"] = strip.density;
+  json["area_m2"] = strip.area;
+  json["gaps"] = Json::array();
+  for (const TimeGap& gap : strip.gaps) json["gaps"].push_back({gap.from, gap.to});
+  json["remarks"] = strip.remarks;
+  return json;
+}
+
+}  // namespace
+
+std::string censusJson(const SurveyCensus& survey) {
+  Json json;
+  json["format"] = "pcl_als info";
+  json["version"] = 1;
+  json["cell_m"] = survey.cell;
+  json["files"] = Json::array();
+  for (const FileCensus& file : survey.files) json["files"].push_back(fileJson(file));
+  json["strips"] = Json::array();
+  for (const StripCensus& strip : survey.strips) json["strips"].push_back(stripJson(strip));
+  json["overlaps"] = Json::array();
+  for (const StripOverlap& overlap : survey.overlaps)
+    json["overlaps"].push_back({{"a", survey.strips[overlap.a].id},
+                                {"b", survey.strips[overlap.b].id},
+                                {"area_m2", overlap.area}});
+  json["area_m2_by_number_of_strips"] = survey.area_by_strips;
+  json["duplicates"] = survey.duplicates;
+  json["duplicates_estimated"] = survey.duplicates_estimated;
+  json["remarks"] = survey.remarks;
+  // Text fields of a file may hold bytes that are no UTF-8.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace pcl_als

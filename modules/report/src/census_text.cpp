@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/io/las_file.h>
+#include <pcl_als/io/point_reference.h>
+#include <pcl_als/report/census_report.h>
+
+namespace pcl_als {
+namespace {
+
+constexpr std::size_t kLongestCrs = 60;
+constexpr std::size_t kMostListed = 20;
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char line[512];
+  std::va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(line, sizeof line, pattern, values);
+  va_end(values);
+  return line;
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::string entry(const char* name, const std::string& value) {
+  return format("  %-12s", name) + value + '\n';
+}
+
+std::string remarksText(const std::vector<std::string>& remarks, const std::string& indent) {
+  std::string text;
+  for (const std::string& remark : remarks) text.append(indent).append("! " + remark + '\n');
+  return text;
+}
+
+std::string extentText(const PointStatistics& s) {
+  const Eigen::Vector3d size = s.maximum - s.minimum;
+  return format("x %.3f … %.3f, y %.3f … %.3f, z %.3f … %.3f (%.1f m x %.1f m x %.1f m)",
+                s.minimum.x(), s.maximum.x(), s.minimum.y(), s.maximum.y(), s.minimum.z(),
+                s.maximum.z(), size.x(), size.y(), size.z());
+}
+
+std::string timeText(const PointFileInfo& info, const PointStatistics& s) {
+  if (info.time_kind == TimeKind::none) return timeKindName(info.time_kind);
+  return timeKindName(info.time_kind) +
+         format(", %.3f … %.3f (%.1f s)", s.first_time, s.last_time, s.last_time - s.first_time);
+}
+
+std::string returnsText(const PointStatistics& s) {
+  std::string text;
+  for (std::size_t r = 0; r < s.returns.size(); ++r)
+    if (s.returns[r] > 0)
+      text += format("%s%zu: %s (%.1f %%)", text.empty() ? "" : ", ", r,
+                     grouped(s.returns[r]).c_str(), percent(s.returns[r], s.points));
+  return text + format("; %.1f %% single", percent(s.single_returns, s.points));
+}
+
+std::string classesText(const PointStatistics& s) {
+  std::string text;
+  for (std::size_t code = 0; code < s.classes.size(); ++code) {
+    if (s.classes[code] == 0) continue;
+    const std::string name = className(static_cast<int>(code));
+    text +=
+        format("%s%zu%s%s: %s (%.1f %%)", text.empty() ? "" : ", ", code, name.empty() ? "" : " ",
+               name.c_str(), grouped(s.classes[code]).c_str(), percent(s.classes[code], s.points));
+  }
+  return text;
+}
+
+std::string typeName(const LasExtraField& field) {
+  static const char* const names[] = {"undocumented", "uint8",  "int8",  "uint16",
+                                      "int16",        "uint32", "int32", "uint64",
+                                      "int64",        "float",  "double"};
+  return names[static_cast<std::size_t>(field.type)];
+}
+
+/// What only LAS files have: software, extra bytes, variable length records.
+std::string lasText(const std::filesystem::path& path) {
+  const LasFile file(path);
+  const LasHeader& h = file.header();
+  std::string text =
+      entry("software", '"' + h.generating_software + "\", system \"" + h.system_id +
+                            format("\", day %d of %d", h.creation_day, h.creation_year));
+  for (const LasExtraField& field : file.extraFields())
+    text += entry("extra field", field.name + " (" + typeName(field) + ")" +
+                                     (field.description.empty() ? "" : ": " + field.description));
+  const std::size_t described = file.extraFields().empty() ? file.layout().length
+                                                           : file.extraFields().back().position +
+                                                                 file.extraFields().back().size;
+  if (described < h.record_length)
+    text += entry("extra bytes",
+                  std::to_string(h.record_length - described) + " per record without description");
+  for (const LasVlrEntry& vlr : file.vlrs())
+    text +=
+        entry(vlr.extended ? "EVLR" : "VLR",
+              vlr.user_id + format(" %d, %s bytes", vlr.record_id, grouped(vlr.length).c_str()) +
+                  (vlr.description.empty() ? "" : " (" + vlr.description + ")"));
+  return text;
+}
+
+std::string fileText(const FileCensus& file) {
+  const PointFileInfo& info = file.info;
+  const PointStatistics& s = file.statistics;
+  std::string crs = info.crs.empty() ? "unknown" : info.crs.substr(0, kLongestCrs);
+  if (info.crs.size() > kLongestCrs) crs += " …";
+  std::string text = info.path.string() + '\n';
+  text += entry("format", info.format);
+  if (info.format.rfind("PCD", 0) != 0) text += lasText(info.path);
+  text += entry("points", grouped(s.points));
+  text += entry("CRS", crs);
+  if (!info.crs.empty() && !describeCrs(info.crs).name.empty())
+    text += entry("CRS name", describeCrs(info.crs).name);
+  text += entry(
+      "unit", describeUnits(info) + (info.units.metric() ? "" : "; everything below is in metres"));
+  text += entry("resolution", format("%g m x %g m x %g m", info.resolution.x(), info.resolution.y(),
+                                     info.resolution.z()));
+  if (s.points > 0) {
+    text += entry("extent", extentText(s));
+    text += entry("time", timeText(info, s));
+    text += entry("returns", returnsText(s));
+    text += entry("classes", classesText(s));
+    text += entry("intensity", format("%g … %g", s.least_intensity, s.largest_intensity));
+  }
+  return text + remarksText(file.remarks, "  ");
+}
+
+std::string stripsText(const SurveyCensus& survey) {
+  std::string text =
+      counted(survey.strips.size(), "strip") + format(" (cells of %g m)\n", survey.cell);
+  text += format("  %-16s %12s %16s %16s %5s %9s %9s %9s %14s\n", "id", "points", "from s", "to s",
+                 "gaps", "points/m2", "pulses/m2", "area m2", "scan angle deg");
+  for (const StripCensus& strip : survey.strips) {
+    const PointStatistics& s = strip.statistics;
+    const double pulses = strip.density * percent(s.first_returns, s.points) / 100.0;
+    text += format("  %-16s %12s %16.3f %16.3f %5zu %9.2f %9.2f %9.0f %6.1f … %5.1f\n",
+                   strip.id.c_str(), grouped(s.points).c_str(), s.first_time, s.last_time,
+                   strip.gaps.size(), strip.density, pulses, strip.area, s.least_scan_angle,
+                   s.largest_scan_angle);
+  }
+  for (const StripCensus& strip : survey.strips) {
+    for (std::size_t g = 0; g < std::min(kMostListed, strip.gaps.size()); ++g)
+      text += format("  strip %s: no points from %.3f to %.3f s (%.1f s)\n", strip.id.c_str(),
+                     strip.gaps[g].from, strip.gaps[g].to, strip.gaps[g].to - strip.gaps[g].from);
+    for (const std::string& remark : strip.remarks)
+      text += "  ! strip " + strip.id + " " + remark + '\n';
+    const std::uint64_t unsorted = strip.statistics.unsorted_times;
+    if (unsorted > 0)
+      text += format("  strip %s: %s earlier than the one before in %s file\n", strip.id.c_str(),
+                     unsorted == 1 ? "1 point is" : (grouped(unsorted) + " points are").c_str(),
+                     unsorted == 1 ? "its" : "their");
+  }
+  return text;
+}
+
+std::string overlapsText(const SurveyCensus& survey) {
+  std::string text;
+  for (const StripOverlap& overlap : survey.overlaps)
+    text +=
+        format("  %s - %s: %.0f m2 (%.0f %% of the smaller)\n", survey.strips[overlap.a].id.c_str(),
+               survey.strips[overlap.b].id.c_str(), overlap.area,
+               100.0 * overlap.area /
+                   std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area));
+  if (!text.empty()) text = "Overlaps\n" + text;
+  for (std::size_t n = 0; n < survey.area_by_strips.size(); ++n)
+    text += format("%s%zu: %.0f m2", n == 0 ? "  seen by number of strips: " : ", ", n + 1,
+                   survey.area_by_strips[n]);
+  return text + (survey.area_by_strips.empty() ? "" : "\n");
+}
+
+}  // namespace
+
+std::string timeKindName(TimeKind kind) {
+  if (kind == TimeKind::none) return "none";
+  return kind == TimeKind::week_seconds ? "seconds of the GPS week" : "adjusted standard GPS time";
+}
+
+std::string className(int code) {
+  static const char* const names[] = {"never classified",
+                                      "unclassified",
+                                      "ground",
+                                      "low vegetation",
+                                      "medium vegetation",
+                                      "high vegetation",
+                                      "building",
+                                      "low noise",
+                                      "",
+                                      "water",
+                                      "rail",
+                                      "road",
+                                      "",
+                                      "wire guard",
+                                      "wire conductor",
+                                      "tower",
+                                      "wire connector",
+                                      "bridge deck",
+                                      "high noise"};
+  return code >= 0 && code <= 18 ? names[code] : "";
+}
+
+std::string censusText(const SurveyCensus& survey) {
+  std::string text;
+  for (const FileCensus& file : survey.files) text += fileText(file) + '\n';
+  return text + stripsText(survey) + overlapsText(survey) + remarksText(survey.remarks, "");
+}
+
+}  // namespace pcl_als

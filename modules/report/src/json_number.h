@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace pcl_als {
+
+/// A number of a result file; null for what is not known.
+inline nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+inline nlohmann::ordered_json number(double value, bool known) {
+  return known ? number(value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/report/quality_report.h>
+
+namespace pcl_als {
+namespace {
+
+/// A cell of a CSV: quoted where it has to be; empty for a number that is not known.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+std::string number(double value, int digits) {
+  if (!std::isfinite(value)) return {};
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+/// Calls row(set name, pair) for all pairs of both sets.
+template <typename Row>
+void forEachPair(const QualityReport& report, Row row) {
+  if (report.before) {
+    for (const CheckedPair& pair : report.before->pairs) row("before", pair);
+  }
+  for (const CheckedPair& pair : report.block.pairs) row(report.before ? "after" : "given", pair);
+}
+
+void summaryCells(const OffsetSummary& s, std::ostream& out) {
+  out << ',' << s.count;
+  if (s.count == 0) {
+    out << ",,,,,,,";
+    return;
+  }
+  for (const double value :
+       {s.mean, s.std_of_mean, s.median, s.std, s.rms, s.percentile_95, s.largest})
+    out << ',' << number(value, 5);
+}
+
+std::string summaryNames(const std::string& what) {
+  std::string names;
+  for (const char* name : {"_places", "_mean_m", "_mean_std_m", "_median_m", "_sd_m", "_rms_m",
+                           "_p95_m", "_largest_m"})
+    names += "," + what + name;
+  return names;
+}
+
+void alignmentCells(const std::optional<PatchAlignmentResult>& found, std::ostream& out) {
+  out << ',' << (found ? toString(found->status) : "not_tried");
+  if (!found || !found->hasConverged()) {
+    out << ",,,,,,,,,,,,,,,,";
+    return;
+  }
+  for (int i = 0; i < PatchAlignmentResult::kParameters; ++i) {
+    const bool angle = i >= 3;
+    const double unit = angle ? kRadiansPerDegree : 1.0;
+    const double value = angle ? found->motion.rotation[i - 3] : found->motion.shift[i];
+    const bool known = found->parameters[static_cast<std::size_t>(i)].determined;
+    out << ',' << (known ? number(value / unit, 6) : "") << ','
+        << (known ? number(found->standardDeviation(i) / unit, 6) : "");
+  }
+  for (int i = 0; i < 3; ++i) out << ',' << number(found->motion.centroid[i], 3);
+  out << ',' << number(found->sigma0, 5);
+}
+
+std::string pairsCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,a,b,status,overlap_m2" << summaryNames("vertical") << ",cells_rms_m,level"
+      << summaryNames("normal")
+      << ",shift_east_m,shift_north_m,shift_up_m,shift_east_std_m,shift_north_std_m,shift_up_std_m,"
+         "flown,across_mm_per_100m,across_std,along_mm_per_100m,along_std,time_mm_per_s,time_std,"
+         "scan_angle_mm_per_deg,scan_angle_std,roll_arcsec,roll_std,roll_b_arcsec,roll_b_std,"
+         "icpatch,XT_m,XT_std,YT_m,YT_std,ZT_m,ZT_std,omega_deg,omega_std,phi_deg,phi_std,"
+         "kappa_deg,kappa_std,centroid_x,centroid_y,centroid_z,sigma0_m,"
+         "memory_mb\n";
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    const PairAssessment& p = pair.assessment;
+    out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << toString(p.status) << ','
+        << number(pair.overlap_area, 0);
+    summaryCells(p.vertical, out);
+    out << ',' << (p.vertical_cells.count == 0 ? "" : number(p.vertical_cells.rms, 5)) << ','
+        << levelName(p.quality_level);
+    summaryCells(p.normal, out);
+    for (const Eigen::Vector3d& v : {p.horizontal.shift, p.horizontal.std})
+      for (int i = 0; i < 3; ++i) out << ',' << (p.horizontal.determined ? number(v[i], 5) : "");
+    out << ',' << toString(p.trends.relation);
+    const auto trend = [&](const Trend& t, double factor) {
+      out << ',' << (t.determined ? number(factor * t.slope, 4) : "") << ','
+          << (t.determined ? number(factor * t.std, 4) : "");
+    };
+    trend(p.trends.across, 1e5);
+    trend(p.trends.along, 1e5);
+    trend(p.trends.time, 1e3);
+    trend(p.trends.scan_angle, 1e3);
+    for (const OverlapTrends::Roll& roll : {p.trends.roll, p.trends.roll_b})
+      out << ',' << (roll.determined ? number(roll.value / kRadiansPerArcsec, 2) : "") << ','
+          << (roll.determined ? number(roll.std / kRadiansPerArcsec, 2) : "");
+    alignmentCells(pair.alignment, out);
+    out << ',' << number(pair.memory_mb, 1) << '\n';
+  });
+  return out.str();
+}
+
+std::string slopeAspectCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,a,b,slope_from_deg,slope_to_deg,aspect,places,mean_m,rms_m\n";
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    for (const SlopeAspectClass& c : pair.assessment.classes) {
+      out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << c.slope_from << ','
+          << c.slope_to << ',' << aspectName(c.aspect) << ',' << c.count << ','
+          << (c.count == 0 ? "" : number(c.mean, 5)) << ','
+          << (c.count == 0 ? "" : number(c.rms, 5)) << '\n';
+    }
+  });
+  return out.str();
+}
+
+std::string profilesCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,a,b,over,from,to,places,mean_m,sd_m\n";
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    const OverlapTrends& t = pair.assessment.trends;
+    const std::pair<const char*, const std::vector<ProfileBin>*> profiles[] = {
+        {"distance_m", &t.by_distance},
+        {"time_s", &t.by_time},
+        {"scan_angle_deg", &t.by_scan_angle}};
+    for (const auto& [over, bins] : profiles)
+      for (const ProfileBin& bin : *bins)
+        out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << over << ','
+            << number(bin.from, 4) << ',' << number(bin.to, 4) << ',' << bin.count << ','
+            << (bin.count == 0 ? "" : number(bin.mean, 5)) << ','
+            << (bin.count == 0 ? "" : number(bin.std, 5)) << '\n';
+  });
+  return out.str();
+}
+
+std::string offsetsCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,a,b,x,y,z,distance_m,time_a,time_b,scan_angle_a_deg,scan_angle_b_deg,slope_deg,"
+         "vertical_m,normal_m\n";
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    for (const OffsetSample& s : pair.samples) {
+      out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b);
+      for (int i = 0; i < 3; ++i) out << ',' << number(s.position[i], 3);
+      out << ',' << number(pair.assessment.trends.distance(s.position), 2) << ','
+          << number(s.time_a, 4) << ',' << number(s.time_b, 4) << ',' << number(s.scan_angle_a, 2)
+          << ',' << number(s.scan_angle_b, 2) << ',' << number(s.slope / kRadiansPerDegree, 2)
+          << ',' << (s.level ? number(s.vertical, 4) : "") << ','
+          << (s.conjugate ? number(s.normal_distance, 4) : "") << '\n';
+    }
+  });
+  return out.str();
+}
+
+std::string controlCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,point,strip,x,y,z,above_m,slope_deg,roughness_m,left_out_because\n";
+  const auto add = [&](const char* set, const CheckedBlock& block) {
+    if (!block.control) return;
+    for (const ControlDifference& d : block.control->differences) {
+      out << set << ',' << quoted(d.point) << ',' << quoted(d.strip);
+      for (int i = 0; i < 3; ++i) out << ',' << number(d.position[i], 4);
+      out << ',' << number(d.above, 4) << ',' << number(d.slope / kRadiansPerDegree, 2) << ','
+          << number(d.roughness, 4) << ',' << quoted(d.unfit) << '\n';
+    }
+    for (const std::string& point : block.control->unseen)
+      out << set << ',' << quoted(point) << ",,,,,,,,no strip covers it\n";
+  };
+  if (report.before) add("before", *report.before);
+  add(report.before ? "after" : "given", report.block);
+  return out.str();
+}
+
+/// What differs from run to run, apart from the results.
+std::string runCsv(const QualityReport& report) {
+  std::ostringstream out;
+  out << "set,a,b,milliseconds,peak_memory_mb\n";
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ','
+        << number(pair.milliseconds, 1) << ",\n";
+  });
+  out << "all,,,," << number(report.peak_memory_mb, 1) << '\n';
+  return out.str();
+}
+
+}  // namespace
+
+void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report) {
+  writeFile(folder / "quality.md", "# Quality\n" + qualityText(report));
+  writeFile(folder / "pairs.csv", pairsCsv(report));
+  writeFile(folder / "slope_aspect.csv", slopeAspectCsv(report));
+  writeFile(folder / "profiles.csv", profilesCsv(report));
+  writeFile(folder / "offsets.csv", offsetsCsv(report));
+  writeFile(folder / "run.csv", runCsv(report));
+  if (report.block.control) writeFile(folder / "control.csv", controlCsv(report));
+}
+
+}  // namespace pcl_als

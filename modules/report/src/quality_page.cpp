@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/report/quality_page.h>
+#include <pcl_als/visualization/ticks.h>
+
+#include "quality_pictures.h"
+#include "quality_verdict.h"
+
+namespace pcl_als {
+namespace {
+
+constexpr PictureSize kWide{1400, 640}, kTall{1400, 900};
+
+/// Numbers as they are written in text: with a true minus sign.
+std::string shown(std::string cell) {
+  if (cell.size() > 1 && cell[0] == '-') cell.replace(0, 1, "−");
+  return cell;
+}
+
+void addQualityTable(const QualityTable& table, HtmlReport& report) {
+  if (table.rows.empty()) return;
+  ReportTable shown_table{"", table.caption, table.columns, {}};
+  for (const auto& row : table.rows) {
+    auto& cells = shown_table.rows.emplace_back();
+    for (const std::string& cell : row) cells.push_back(cell == "-" ? "" : shown(cell));
+  }
+  report.addTable(std::move(shown_table));
+}
+
+void addPictures(const QualityReport& quality, HtmlReport& report) {
+  const BeforeAfterPlot heights = heightPlot(quality);
+  if (!heights.rows.empty())
+    report.addPicture(drawBeforeAfter(heights, {1400, heightForRows(heights.rows.size())}).image(),
+                      "RMSDz of every pair against the limits of the quality levels.");
+  if (const auto histogram = offsetHistogram(quality))
+    report.addPicture(drawHistogram(*histogram, kWide).image(),
+                      "Height differences on level ground, at most " +
+                          countText(CheckedPair::kScatter) + " places of a pair.");
+  static constexpr std::pair<OffsetAgainst, const char*> kOffsets[] = {
+      {OffsetAgainst::distance,
+       "Offsets across the overlap: a line that slopes shows an error of roll or scan angle "
+       "scale."},
+      {OffsetAgainst::scan_angle, "Offsets over the scan angle of the first strip."},
+      {OffsetAgainst::time,
+       "Offsets over time: waves and steps come from the trajectory. Bars: standard deviation of "
+       "the mean, as if places were independent."}};
+  for (const auto& [against, caption] : kOffsets) {
+    const CurvePanels panels = offsetPanels(quality, against);
+    if (panels.panels.empty()) continue;
+    report.addPicture(drawCurvePanels(panels, panels.panels.size() > 4 ? kTall : kWide).image(),
+                      caption);
+  }
+}
+
+void addSeparation(const QualityReport& quality, HtmlReport& report) {
+  const auto map = separationMap(quality, 1400);
+  if (!map) return;
+  report.addSection("Swath separation");
+  report.addPicture(map->image(),
+                    "Highest minus lowest strip, cell by cell; each dot shows what most of its "
+                    "cells are. Trees, eaves and walls separate strips, too. In full: " +
+                        quality.block.separation->files.back() + " and GeoTIFFs beside this page.");
+}
+
+std::vector<std::string> inputsOf(const QualityReport& quality) {
+  std::vector<std::string> inputs = quality.block.files;
+  if (quality.before)
+    inputs.insert(inputs.end(), quality.before->files.begin(), quality.before->files.end());
+  return inputs;
+}
+
+}  // namespace
+
+struct QualityPage::State {
+  std::vector<std::string> strips;
+  std::unique_ptr<StripCoverage> coverage;
+};
+
+QualityPage::QualityPage(bool wanted) {
+  if (wanted) state_ = std::make_unique<State>();
+}
+
+QualityPage::~QualityPage() = default;
+
+bool QualityPage::draws() {
+  return true;
+}
+
+void QualityPage::begin(const SurveyReader& survey) {
+  if (!state_) return;
+  state_->strips = survey.strips();
+  state_->coverage =
+      std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(), survey.strips().size());
+}
+
+void QualityPage::add(int strip, const Eigen::Vector3d& position) {
+  state_->coverage->add(position, static_cast<std::size_t>(strip));
+}
+
+void QualityPage::write(const ReportOrigin& origin, const QualityReport& quality,
+                        const std::vector<SurveyArea>& areas) const {
+  HtmlReport report("Check of " + std::to_string(state_->strips.size()) + " strips",
+                    origin.program);
+  addVerdict(verdictOf(quality), report);
+  addWarnings(quality.block.warnings, report);
+  const std::vector<QualityTable> tables = qualityTables(quality);
+  const std::size_t of_pairs = tables.size() - (quality.block.control ? 1 : 0);
+  if (!quality.block.pairs.empty()) report.addSection("Strips against each other");
+  addQualityTable(tables[0], report);
+  addPictures(quality, report);
+  for (std::size_t i = 1; i < of_pairs; ++i) addQualityTable(tables[i], report);
+  if (quality.block.control) {
+    report.addSection("Control");
+    addQualityTable(tables.back(), report);
+  }
+  addSeparation(quality, report);
+  addMap(origin.control, *state_->coverage, state_->strips, areas, report);
+  addOrigin(origin, inputsOf(quality), report);
+  report.write(origin.folder);
+}
+
+}  // namespace pcl_als

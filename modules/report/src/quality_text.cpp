@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <vector>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/report/quality_report.h>
+
+namespace pcl_als {
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char line[512];
+  std::va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(line, sizeof line, pattern, values);
+  va_end(values);
+  return line;
+}
+
+/// "+0.0123", or a dash for what is unknown.
+std::string metres(double value, int digits = 4) {
+  return std::isfinite(value) ? format("%+.*f", digits, value) : "-";
+}
+std::string size(double value, int digits = 4) {
+  return std::isfinite(value) ? format("%.*f", digits, value) : "-";
+}
+
+/// Calls row(label, block, pair) for every pair of the report, before and after together.
+template <typename Row>
+void forEachPair(const QualityReport& report, Row row) {
+  for (const CheckedPair& pair : report.block.pairs) {
+    const CheckedPair* before = pairBefore(report, pair);
+    if (before != nullptr) row("before", *before);
+    row(report.before ? "after" : "", pair);
+  }
+}
+
+/// Columns as wide as need be.
+std::string textOf(const QualityTable& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& cell : table.columns) widths.push_back(cell.size());
+  for (const auto& row : table.rows) {
+    const std::size_t cells = row.size() < widths.size() ? row.size() - 1 : row.size();
+    for (std::size_t i = 0; i < cells; ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  const auto line = [&](const std::vector<std::string>& row) {
+    std::string text = "|";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - std::min(widths[i], row[i].size()), ' ');
+      text += ' ' + (i == 0 ? row[i] + padding : padding + row[i]) + " |";
+    }
+    return text + '\n';
+  };
+  std::string text = '\n' + table.caption + "\n\n" + line(table.columns) + '|';
+  for (const std::size_t width : widths) text += std::string(width + 2, '-') + '|';
+  text += '\n';
+  for (const auto& row : table.rows) text += line(row);
+  return text;
+}
+
+/// "a & b", and which set where there are two.
+std::string labelOf(const char* set, const CheckedPair& pair) {
+  return pair.a + " & " + pair.b + (*set == 0 ? "" : std::string(" ") + set);
+}
+
+std::string withStd(double value, double std, int digits = 4) {
+  return metres(value, digits) + " (" + size(std, digits) + ")";
+}
+
+QualityTable verticalTable(const QualityReport& report) {
+  QualityTable table{"Height differences a - b on smooth level single-return ground, m",
+                     {"pair", "overlap m2", "places", "mean (std)", "median", "RMSDz",
+                      "RMS of cells", "95 %", "level"},
+                     {}};
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    const OffsetSummary& v = pair.assessment.vertical;
+    std::vector<std::string> row{labelOf(set, pair), format("%.0f", pair.overlap_area),
+                                 std::to_string(v.count)};
+    if (!judged(pair)) {
+      row.push_back(pair.assessment.reason);
+    } else {
+      for (const std::string& cell :
+           {withStd(v.mean, v.std_of_mean), metres(v.median), size(v.rms),
+            size(pair.assessment.vertical_cells.rms), size(v.percentile_95),
+            levelName(pair.assessment.quality_level)})
+        row.push_back(cell);
+    }
+    table.rows.push_back(row);
+  });
+  return table;
+}
+
+/// Table 3 of Habib et al. 2011.
+QualityTable alignmentTable(const QualityReport& report) {
+  QualityTable table{
+      "Rigid movement of a onto b about the centroid of their overlap (ICPatch), "
+      "with standard deviations",
+      {"pair", "XT m", "YT m", "ZT m", "omega mdeg", "phi mdeg", "kappa mdeg"},
+      {}};
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    if (!pair.alignment) return;
+    const PatchAlignmentResult& r = *pair.alignment;
+    std::vector<std::string> row{labelOf(set, pair)};
+    if (!r.hasConverged()) row.push_back(std::string(toString(r.status)) + ": " + r.message);
+    for (int i = 0; r.hasConverged() && i < PatchAlignmentResult::kParameters; ++i) {
+      const double unit = i < 3 ? 1.0 : 1e-3 * kRadiansPerDegree;
+      const double value = i < 3 ? r.motion.shift[i] : r.motion.rotation[i - 3];
+      row.push_back(r.parameters[static_cast<std::size_t>(i)].determined
+                        ? withStd(value / unit, r.standardDeviation(i) / unit, i < 3 ? 4 : 2)
+                        : "not determined");
+    }
+    table.rows.push_back(row);
+  });
+  return table;
+}
+
+QualityTable shiftTable(const QualityReport& report) {
+  QualityTable table{
+      "Normal distances a - b of all smooth surfaces; movement of a onto b that slopes over 10 "
+      "degrees show, m",
+      {"pair", "places", "mean", "RMS", "slopes", "east (std)", "north (std)", "up (std)"},
+      {}};
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    if (!judged(pair)) return;
+    const OffsetSummary& n = pair.assessment.normal;
+    const HorizontalShift& h = pair.assessment.horizontal;
+    std::vector<std::string> row{labelOf(set, pair), std::to_string(n.count), metres(n.mean),
+                                 size(n.rms), std::to_string(h.count)};
+    if (!h.determined) row.push_back("not determined: " + h.reason);
+    for (int i = 0; h.determined && i < 3; ++i) row.push_back(withStd(h.shift[i], h.std[i]));
+    table.rows.push_back(row);
+  });
+  return table;
+}
+
+std::string arcsec(const OverlapTrends::Roll& roll) {
+  return roll.determined ? withStd(roll.value / kRadiansPerArcsec, roll.std / kRadiansPerArcsec, 1)
+                         : "-";
+}
+
+QualityTable trendTable(const QualityReport& report) {
+  QualityTable table{
+      "How height differences change: across the overlap (right of a's flight), along it, with "
+      "time and scan angle of a",
+      {"pair", "flown", "across mm/100 m", "along mm/100 m", "time mm/s", "angle mm/deg",
+       "as roll error, arcsec"},
+      {}};
+  const auto trend = [](const Trend& t, double factor) {
+    return t.determined ? withStd(factor * t.slope, factor * t.std, 2) : std::string("-");
+  };
+  forEachPair(report, [&](const char* set, const CheckedPair& pair) {
+    if (!judged(pair)) return;
+    const OverlapTrends& t = pair.assessment.trends;
+    std::string roll = arcsec(t.roll);
+    if (t.relation == FlightRelation::parallel) roll = "a - b " + roll;
+    if (t.roll_b.determined) roll = "a " + roll + ", b " + arcsec(t.roll_b);
+    table.rows.push_back({labelOf(set, pair), toString(t.relation), trend(t.across, 1e5),
+                          trend(t.along, 1e5), trend(t.time, 1e3), trend(t.scan_angle, 1e3), roll});
+  });
+  return table;
+}
+
+std::string triangleText(const QualityReport& report) {
+  if (report.block.triangles.empty()) return {};
+  std::string text =
+      "\nClosure of height differences around three strips, on the ground that all three see, "
+      "m\n\n";
+  constexpr std::size_t kMost = 20;
+  const auto& all = report.block.triangles;
+  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
+    text += format("  %s, %s, %s: %s (std %s), %zu cells\n", all[i].a.c_str(), all[i].b.c_str(),
+                   all[i].c.c_str(), metres(all[i].closure).c_str(), size(all[i].std).c_str(),
+                   all[i].cells);
+  if (all.size() > kMost) text += format("  … and %zu more\n", all.size() - kMost);
+  return text;
+}
+
+std::optional<QualityTable> controlTable(const QualityReport& report) {
+  if (!report.block.control) return std::nullopt;
+  QualityTable table{"Heights of strips above control, m",
+                     {"strip", "points", "mean", "sd", "RMSE", "largest"},
+                     {}};
+  const auto row = [&](const std::string& strip, const char* set, const OffsetSummary* s) {
+    if (s == nullptr) return;
+    table.rows.push_back({strip + (*set == 0 ? "" : std::string(" ") + set),
+                          std::to_string(s->count), metres(s->mean), size(s->std), size(s->rms),
+                          size(s->largest)});
+  };
+  const auto both = [&](const std::string& strip, auto find) {
+    if (report.before && report.before->control)
+      row(strip, "before", find(*report.before->control));
+    row(strip, report.before ? "after" : "", find(*report.block.control));
+  };
+  for (const auto& of_strip : report.block.control->strips) {
+    both(of_strip.strip, [&](const ControlAssessment& control) -> const OffsetSummary* {
+      for (const auto& other : control.strips)
+        if (other.strip == of_strip.strip) return &other.offsets;
+      return nullptr;
+    });
+  }
+  both("all", [](const ControlAssessment& control) { return &control.all; });
+  return table;
+}
+
+/// What the standards make of control.
+std::string controlFigures(const QualityReport& report) {
+  if (!report.block.control) return {};
+  std::string text;
+  const auto figures = [&](const char* label, const ControlAssessment& control) {
+    const VerticalAccuracy& accuracy = control.accuracy;
+    text += format(
+        "\n%s%zu points, %zu of no strip. RMSE_V %.4f m (class %.0f cm) with %.4f m for the "
+        "survey of the points%s\n  [%s]\n  older: NVA at 95 %% = 1.96 RMSEz = %.4f m [%s]\n  "
+        "absolute accuracy %s [%s]\n",
+        label, control.points, control.unseen.size(), accuracy.rmse_v, accuracy.class_cm,
+        accuracy.survey, control.survey_known ? "" : " (assumed: the file gives none)",
+        kPositionalStandard, accuracy.nva_95, kOlderPositionalStandard,
+        levelName(control.quality_level).c_str(), kAbsoluteSpecification);
+    if (!accuracy.enough_points)
+      text += format("  fewer than the %zu check points that the standard asks for\n",
+                     kFewestCheckPoints);
+  };
+  if (report.before && report.before->control) figures("Before: ", *report.before->control);
+  figures(report.before ? "After: " : "", *report.block.control);
+  return text;
+}
+
+}  // namespace
+
+std::string levelName(const std::optional<int>& level) {
+  return level ? format("QL%d", *level) : "none";
+}
+
+bool judged(const CheckedPair& pair) {
+  return pair.assessment.status == PairAssessment::Status::judged;
+}
+
+const CheckedPair* pairBefore(const QualityReport& report, const CheckedPair& like) {
+  if (!report.before) return nullptr;
+  for (const CheckedPair& pair : report.before->pairs)
+    if (pair.a == like.a && pair.b == like.b) return &pair;
+  return nullptr;
+}
+
+bool hasAnswer(const CheckedBlock& block) {
+  return (block.control && block.control->points > 0) ||
+         std::any_of(block.pairs.begin(), block.pairs.end(), judged);
+}
+
+std::vector<QualityTable> qualityTables(const QualityReport& report) {
+  std::vector<QualityTable> tables = {verticalTable(report), alignmentTable(report),
+                                      shiftTable(report), trendTable(report)};
+  if (auto control = controlTable(report)) tables.push_back(std::move(*control));
+  return tables;
+}
+
+std::string qualityText(const QualityReport& report) {
+  std::string text = textOf(verticalTable(report)) + textOf(alignmentTable(report)) +
+                     textOf(shiftTable(report)) + textOf(trendTable(report)) + triangleText(report);
+  if (const auto control = controlTable(report)) text += textOf(*control);
+  text += controlFigures(report);
+  const QualityLevelLimits& limits =
+      qualityLevels()[static_cast<std::size_t>(report.quality_level)];
+  std::size_t kept = 0, all = 0;
+  for (const CheckedPair& pair : report.block.pairs) {
+    if (!judged(pair)) continue;
+    ++all;
+    kept += pair.assessment.vertical.rms <= limits.swath_overlap_rmsdz ? 1 : 0;
+  }
+  text += format("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n", kept, all,
+                 report.quality_level, limits.swath_overlap_rmsdz, kSwathSpecification);
+  for (const std::string& warning : report.block.warnings) text += "\nwarning: " + warning + '\n';
+  return text;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/report/report_origin.h>
+#include <pcl_als/visualization/block_map.h>
+#include <pcl_als/visualization/html_report.h>
+
+namespace pcl_als {
+
+/// What a result comes to, in plain words.
+struct Verdict {
+  VerdictGrade grade = VerdictGrade::attention;
+  std::string headline;
+  std::vector<std::string> sentences;
+};
+
+/// "2.9 cm"
+std::string centimetres(double metres);
+
+void addVerdict(const Verdict& verdict, HtmlReport& report);
+/// A section with a map of strips, overlaps, areas and control, where there are any.
+void addMap(const std::vector<ControlPoint>& control, const StripCoverage& coverage,
+            const std::vector<std::string>& strips, const std::vector<SurveyArea>& areas,
+            HtmlReport& report);
+void addWarnings(const std::vector<std::string>& warnings, HtmlReport& report);
+/// Inputs (points, then those of the origin) with sizes and times, and all settings.
+void addOrigin(const ReportOrigin& origin, const std::vector<std::string>& inputs,
+               HtmlReport& report);
+
+}  // namespace pcl_als
