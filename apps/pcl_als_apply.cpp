@@ -155,6 +155,8 @@ int apply(int argc, char** argv) {
   step.done(grouped(result.points) + " points");
   app::remark(line, result.time_remark);
   for (const std::string& warning : result.warnings) app::remark(line, "warning: " + warning);
+  if (calibration.attitude == AttitudeSource::points && result.attitude_remark.empty())
+    app::remark(line, "pitch and crab: recovered from the points by the calibration");
   if (!result.attitude_remark.empty()) {
     app::remark(line, result.attitude_remark);
     app::remark(line,

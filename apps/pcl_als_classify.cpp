@@ -49,7 +49,7 @@ class Classification {
         surface_(surfaceOptionsOf(line)),
         bands_(bandsOf(line)),
         priors_(priorsOf(line)),
-        files_(surveyFiles(line.inputs(1, std::numeric_limits<std::size_t>::max()))) {
+        files_(rasterInput(line.inputs(1, std::numeric_limits<std::size_t>::max()))) {
     checkOptions();
     if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
     remarks_ = files_.remarks;
@@ -307,7 +307,7 @@ class Classification {
   SurfaceOptions surface_;
   std::vector<std::string> bands_;
   std::vector<std::pair<std::string, double>> priors_;
-  StripFiles files_;
+  RasterInput files_;
   RasterGrid grid_;
   std::vector<ClassSite> training_, checks_;
   std::optional<GaussianModel> given_model_;

@@ -98,9 +98,9 @@ class TileWork {
 
 }  // namespace
 
-StripFiles surveyFiles(const std::vector<std::string>& paths) {
+RasterInput rasterInput(const std::vector<std::string>& paths) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  StripFiles files;
+  RasterInput files;
   files.min_x = files.min_y = kFar, files.max_x = files.max_y = -kFar;
   std::vector<PointFileInfo> infos;
   for (const std::string& path : paths) {
@@ -124,7 +124,7 @@ StripFiles surveyFiles(const std::vector<std::string>& paths) {
   return files;
 }
 
-RasterCounts rasterizeStrips(const StripFiles& files, const SurfaceOptions& options, int tile_side,
+RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& options, int tile_side,
                              int threads, RasterWriter& writer,
                              const std::function<void(double)>& progress) {
   std::vector<BoxedFile> boxed;

@@ -13,7 +13,7 @@
 namespace pcl_als {
 
 /// What files hold, from their headers.
-struct StripFiles {
+struct RasterInput {
   std::vector<std::filesystem::path> paths;
   std::uint64_t points = 0;
   double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< metres
@@ -22,7 +22,7 @@ struct StripFiles {
 };
 
 /// Opens every file once. InputError for files without points or that commonReference() refuses.
-StripFiles surveyFiles(const std::vector<std::string>& paths);
+RasterInput rasterInput(const std::vector<std::string>& paths);
 
 struct RasterCounts {
   std::uint64_t points = 0;  ///< that lie in the raster and are no noise
@@ -34,7 +34,7 @@ struct RasterCounts {
  * Each tile reads the files whose box meets it, so the memory is that of a tile per thread, however
  * many points there are. \a progress is called by one thread at a time.
  */
-RasterCounts rasterizeStrips(const StripFiles& files, const SurfaceOptions& options, int tile_side,
+RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& options, int tile_side,
                              int threads, RasterWriter& writer,
                              const std::function<void(double)>& progress);
 
