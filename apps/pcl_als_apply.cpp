@@ -16,7 +16,6 @@ namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-using app::Step;
 
 CommandLine commandLine() {
   CommandLine line("pcl_als_apply",
@@ -89,18 +88,18 @@ CalibrationResult biasesOf(const CommandLine& line) {
 }
 
 /// A calibration's biases belong to its model; biases by themselves take the best there is.
-app::AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
+AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
   if (line.has("biases")) return app::attitudeUse(line);
   switch (calibration.attitude) {
     case AttitudeSource::trajectory:
-      return app::AttitudeUse::needed;
+      return AttitudeUse::needed;
     case AttitudeSource::nominal:
-      return app::AttitudeUse::nominal;
+      return AttitudeUse::nominal;
     case AttitudeSource::none:
     case AttitudeSource::points:
       break;
   }
-  return app::AttitudeUse::ignore;
+  return AttitudeUse::ignore;
 }
 
 std::string biasText(const SystemVector& biases) {
@@ -149,10 +148,8 @@ int apply(int argc, char** argv) {
   app::remark(line,
               (options.invert ? "putting in: " : "taking out: ") + biasText(calibration.biases()));
 
-  Step step("Writing " + files[1], line.quiet());
   const FileCorrectionResult result =
-      correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(step));
-  step.done(grouped(result.points) + " points");
+      correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(line));
   app::remark(line, result.time_remark);
   for (const std::string& warning : result.warnings) app::remark(line, "warning: " + warning);
   if (calibration.attitude == AttitudeSource::points && result.attitude_remark.empty())

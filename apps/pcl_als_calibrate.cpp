@@ -3,12 +3,11 @@
 #include <filesystem>
 #include <iostream>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/file_correction.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/processing/survey_calibration.h>
 #include <pcl_als/report/calibration_page.h>
 #include <pcl_als/report/calibration_tables.h>
 
@@ -83,45 +82,16 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
   return pairs;
 }
 
-/// Without the pairs of strips that have no usable points; those are named in \a warnings.
-std::vector<std::pair<std::string, std::string>> usablePairs(
-    const std::vector<std::pair<std::string, std::string>>& pairs, const SurveyReader& survey,
-    std::vector<std::string>& warnings) {
-  const auto missing = [&](const std::string& name) -> const StripArrangement::Label* {
-    const std::vector<std::string>& strips = survey.strips();
-    if (std::find(strips.begin(), strips.end(), name) != strips.end()) return nullptr;
-    for (const StripArrangement::Label& label : survey.arrangement().labels()) {
-      if (label.strip == name) return &label;
-    }
-    return nullptr;  // unknown: the calibration says which there are
-  };
-  std::vector<std::pair<std::string, std::string>> usable;
-  for (const auto& [a, b] : pairs) {
-    const auto* label = missing(a) != nullptr ? missing(a) : missing(b);
-    if (label == nullptr) {
-      usable.emplace_back(a, b);
-      continue;
-    }
-    if (label->reason == LeftOutReason::excluded)
-      throw UsageError("option -pairs: names strip '" + label->strip +
-                       "', which -strips or -without leaves out");
-    warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
-  }
-  if (usable.empty() && !pairs.empty())
-    throw InputError("option -pairs: no pair is left; " + warnings.back());
-  return usable;
-}
-
 /// -vertical ignores the attitude that -model rigorous is about.
-app::AttitudeUse attitudeToUse(const CommandLine& line) {
-  const app::AttitudeUse use = app::attitudeUse(line);
+AttitudeUse attitudeToUse(const CommandLine& line) {
+  const AttitudeUse use = app::attitudeUse(line);
   if (!line.has("vertical")) return use;
-  if (use == app::AttitudeUse::needed) {
+  if (use == AttitudeUse::needed) {
     throw UsageError(
         "options -model rigorous and -vertical exclude each other: -vertical takes the sensor as "
         "vertical, the rigorous model takes its attitude from the trajectory");
   }
-  return app::AttitudeUse::ignore;
+  return AttitudeUse::ignore;
 }
 
 CalibrationSettings settingsOf(const CommandLine& line) {
@@ -153,53 +123,6 @@ void checkOutputs(const CommandLine& line) {
 }
 
 /// For a message: what was not used, in short.
-std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
-  std::string text;
-  for (const std::string& part : describe(parts)) text += "; " + part;
-  return text;
-}
-
-/// Both looks at the points and the adjustment.
-CalibrationResult calibrateSurvey(const CommandLine& line, SurveyReader& survey,
-                                  CalibrationPage& page, QuasiRigorousCalibration& calibration) {
-  for (const std::string& id : survey.strips()) calibration.addStrip(id);
-  {
-    Step step("Surveying the block", line.quiet());
-    survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
-      calibration.survey(strip, points, count);
-      page.add(strip, points, count);
-    });
-    try {
-      calibration.chooseAreas();
-    } catch (const InputError& error) {
-      throw InputError(error.what() + leftOutText(survey.leftOut()));
-    }
-    step.done(counted(calibration.pairs().size(), "overlapping pair") + ", " +
-              counted(calibration.areas().size(), "area"));
-    for (const std::string& text : calibration.attitudeRemarks()) app::remark(line, text);
-  }
-  {
-    Step step("Reading the areas", line.quiet());
-    survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
-      calibration.load(strip, points, count);
-    });
-    step.done(grouped(calibration.loadedPoints()) + " points");
-  }
-  Step step("Adjusting", line.quiet());
-  int iteration = 0;
-  calibration.setProgress([&](const CalibrationIteration& last) {
-    app::remark(line, "iteration " + std::to_string(++iteration) + ": " +
-                          grouped(last.correspondences) + " pairs, sigma0 " +
-                          std::to_string(last.sigma0) + ", largest update " +
-                          std::to_string(1000.0 * last.largest_update) + " mm");
-  });
-  CalibrationResult result = calibration.calibrate();
-  result.left_out = survey.leftOut();
-  for (const std::string& text : describe(result.left_out)) result.warnings.push_back(text);
-  step.done(result.converged ? "converged" : "not converged");
-  return result;
-}
-
 void writeCorrected(const CommandLine& line, const std::vector<std::string>& files,
                     const std::shared_ptr<const Trajectory>& flight,
                     const CalibrationResult& result) {
@@ -212,10 +135,8 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   options.keep_uncovered = true;     // strips too small to calibrate may lie outside the trajectory
   for (const std::string& file : files) {
     const fs::path output = fs::path(line.text("corrected")) / fs::path(file).filename();
-    Step step("Writing " + output.string(), line.quiet());
     const FileCorrectionResult corrected =
-        correctPointFile(file, output, result, flight, options, app::progressOf(step));
-    step.done(grouped(corrected.points) + " points");
+        correctPointFile(file, output, result, flight, options, app::progressOf(line));
     app::remark(line, corrected.attitude_remark);
     if (corrected.coverage.missed() == 0) continue;
     app::remark(line, "left as they are: " + corrected.coverage.describe(*flight));
@@ -229,49 +150,19 @@ ReportOrigin originOf(const CommandLine& line) {
   return origin;
 }
 
-void writeReport(const CommandLine& line, const CalibrationResult& result,
-                 const QuasiRigorousCalibration& calibration, const CalibrationPage& page) {
+void writeReport(const CommandLine& line, const SurveyCalibration& calibration,
+                 const CalibrationPage& page) {
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  writeCalibrationCsv(folder, result, calibration.areas(), calibration.informationShares());
-  page.write(originOf(line), result, calibration.areas(), calibration.trajectory());
+  writeCalibrationCsv(folder, calibration.result, calibration.areas, calibration.information);
+  page.write(originOf(line), calibration.result, calibration.areas, calibration.flight);
   step.done(CalibrationPage::draws() ? "report.html with pictures, report.md"
                                      : "report.md; no report.html: built without VTK");
 }
 
-int calibrate(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
-  const std::vector<std::string>& files = line.inputs(1, 100000);
-  CalibrationSettings settings = settingsOf(line);
-  const auto pairs = stripPairs(line);
-  const StripChoice choice = app::stripChoice(line);
-  const app::AttitudeUse attitude = attitudeToUse(line);
-  checkOutputs(line);
-  Step step("Reading " + counted(files.size(), "point file"), line.quiet());
-  SurveyReader survey(files, line.threads());
-  step.done(grouped(survey.pointCount()) + " points");
-  app::remarks(line, survey.reference().remarks);
-  const auto trajectory = app::readFlight(line, survey.reference().crs, 0.0, attitude);
-  for (const std::string& text :
-       survey.choose(choice, {trajectory.get(), app::gpsWeek(line), true})) {
-    app::remark(line, text);
-  }
-  settings.resolution = survey.resolution();
-  QuasiRigorousCalibration calibration(trajectory, settings, survey.corner());
-  std::vector<std::string> warnings;
-  calibration.setPairs(usablePairs(pairs, survey, warnings));
-  if (line.has("control"))
-    calibration.setControl(readControl(line.text("control"), app::unitOption(line, "control")));
-  CalibrationPage page(survey, line.has("report"));
-  CalibrationResult result = calibrateSurvey(line, survey, page, calibration);
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
-  result.inputs = files;
-  result.inputs.push_back(line.text("trajectory"));
-  if (line.has("control")) result.inputs.push_back(line.text("control"));
-  writeCalibration(line.text("output"), result);
-  if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;
-  if (line.has("report")) writeReport(line, result, calibration, page);
+/// The verdict's exit status; corrected files only of a calibration that may be applied.
+int conclude(const CommandLine& line, const std::vector<std::string>& files,
+             const std::shared_ptr<const Trajectory>& flight, const CalibrationResult& result) {
   const bool usable = result.verdict.usable();
   if (!usable) {
     std::cerr << "pcl_als_calibrate: no reliable answer: " << result.verdict.text() << std::endl;
@@ -280,9 +171,39 @@ int calibrate(int argc, char** argv) {
     std::cerr << "pcl_als_calibrate: no corrected files are written; -force writes them"
               << std::endl;
   } else if (line.has("corrected")) {
-    writeCorrected(line, files, trajectory, result);
+    writeCorrected(line, files, flight, result);
   }
   return usable ? app::kDone : app::kNoReliableAnswer;
+}
+
+int calibrate(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const std::vector<std::string>& files = line.inputs(1, 100000);
+  SurveyCalibrationOptions options;
+  options.settings = settingsOf(line);
+  options.pairs = stripPairs(line);
+  options.strips = app::stripChoice(line);
+  options.gps_week = app::gpsWeek(line);
+  const AttitudeUse attitude = attitudeToUse(line);
+  checkOutputs(line);
+  Step step("Reading " + counted(files.size(), "point file"), line.quiet());
+  SurveyReader survey(files, line.threads());
+  step.done(grouped(survey.pointCount()) + " points");
+  app::remarks(line, survey.reference().remarks);
+  const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude);
+  if (line.has("control"))
+    options.control = readControl(line.text("control"), app::unitOption(line, "control"));
+  CalibrationPage page(line.has("report"));
+  options.observer = page.observer();
+  SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
+  CalibrationResult& result = calibration.result;
+  result.inputs.push_back(line.text("trajectory"));
+  if (line.has("control")) result.inputs.push_back(line.text("control"));
+  writeCalibration(line.text("output"), result);
+  if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;
+  if (line.has("report")) writeReport(line, calibration, page);
+  return conclude(line, files, flight, result);
 }
 
 }  // namespace

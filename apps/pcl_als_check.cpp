@@ -163,7 +163,7 @@ CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>&
   app::remarks(line, survey.reference().remarks);
   std::shared_ptr<const Trajectory> trajectory;
   if (line.has("trajectory")) {
-    trajectory = app::readFlight(line, survey.reference().crs, 0.0, app::AttitudeUse::where_given);
+    trajectory = app::readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given);
   }
   // The trajectory serves for scan angles only: points that it does not cover are compared, too.
   for (const std::string& text :

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <set>
 #include <sstream>
@@ -204,9 +205,23 @@ LengthUnit unitOption(const CommandLine& line, const std::string& of) {
   return lengthUnitNamed(line.text((of + "_units").c_str()), "option -" + of + "_units");
 }
 
-ProgressCallback progressOf(Step& step) {
-  return [&step](const JobProgress& progress) {
-    step.progress(progress.fraction);
+ProgressCallback progressOf(const CommandLine& line) {
+  const auto step = std::make_shared<std::unique_ptr<Step>>();
+  return [step, &line](const JobProgress& progress) {
+    switch (progress.event) {
+      case JobProgress::Event::begin:
+        *step = std::make_unique<Step>(progress.phase, line.quiet());
+        break;
+      case JobProgress::Event::advance:
+        (*step)->progress(progress.fraction);
+        break;
+      case JobProgress::Event::remark:
+        remark(line, progress.text);
+        break;
+      case JobProgress::Event::end:
+        (*step)->done(progress.text);
+        break;
+    }
     return true;
   };
 }

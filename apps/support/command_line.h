@@ -97,8 +97,8 @@ class Step {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Shows a job's progress as that of a step.
-ProgressCallback progressOf(Step& step);
+/// Shows each phase of a job as a step, and its remarks.
+ProgressCallback progressOf(const CommandLine& line);
 
 /// Declares -OF_units: the unit of length of a file of coordinates that does not state one.
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what);

@@ -10,25 +10,8 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/crs.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/trajectory/heading_check.h>
 
 namespace pcl_als::app {
-namespace {
-
-/// A column called yaw is clockwise from north or counter-clockwise from east: the course decides.
-std::string decideYaw(TrajectoryFile& file) {
-  if (!file.heading_is_yaw) return {};
-  const HeadingCheck check = headingCheck(file.samples);
-  constexpr auto kFromEast = HeadingReading::from_east_counter_clockwise;
-  if (check.followsCourse() || check.deviation(kFromEast) > HeadingCheck::kLargestCrab) return {};
-  for (TrajectorySample& sample : file.samples) {
-    sample.heading = headingFrom(kFromEast, sample.heading);
-  }
-  return "yaw is counter-clockwise from east, as the course shows: heading = 90 degrees - yaw";
-}
-
-}  // namespace
-
 namespace {
 
 constexpr double kLongestWindow = 60.0;  // seconds, half of it
@@ -103,48 +86,41 @@ AttitudeUse attitudeUse(const CommandLine& line) {
                    "' is not auto, quasi_rigorous, rigorous or nominal");
 }
 
+namespace {
+
+/// -line_fit; \a otherwise where it is not given.
+double halfWidthOf(const CommandLine& line, double otherwise) {
+  if (!line.has("line_fit")) return otherwise;
+  const double half_width = numberIn(line.text("line_fit"), "option -line_fit");
+  if (half_width <= 0.0) throw UsageError("option -line_fit: must be more than 0 seconds");
+  if (half_width > kLongestWindow) {
+    throw UsageError(
+        "option -line_fit: must not exceed 60 seconds: the flight is taken as "
+        "straight within it");
+  }
+  return half_width;
+}
+
+}  // namespace
+
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
                                              double half_width, AttitudeUse attitude) {
   if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
-  Trajectory::Options options;
-  if (half_width > 0.0) options.line_fit_half_width = half_width;
-  if (line.has("line_fit")) {
-    options.line_fit_half_width = numberIn(line.text("line_fit"), "option -line_fit");
-    if (options.line_fit_half_width <= 0.0) {
-      throw UsageError("option -line_fit: must be more than 0 seconds");
-    }
-    if (options.line_fit_half_width > kLongestWindow) {
-      throw UsageError(
-          "option -line_fit: must not exceed 60 seconds: the flight is taken as "
-          "straight within it");
-    }
-  }
+  FlightFileOptions options;
+  options.line_fit_half_width = halfWidthOf(line, half_width);
+  options.attitude = attitude;
   if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
-  const std::string path = line.text("trajectory");
-  Step step("Reading " + path, line.quiet());
-  const std::string crs = line.has("crs") ? line.text("crs") : points_crs;
-  TrajectoryFile file = readTrajectoryFile(path, crs, unitOption(line, "trajectory"));
-  const std::string yaw = decideYaw(file);
-  std::vector<TrajectorySample>& samples = file.samples;
-  const bool complete =
-      !samples.empty() && std::all_of(samples.begin(), samples.end(),
-                                      [](const TrajectorySample& s) { return s.hasAttitude(); });
-  if (attitude == AttitudeUse::needed && !complete) {
-    throw InputError(path +
-                     ": has no roll, pitch and heading for every sample; the rigorous model "
-                     "needs them");
-  }
-  options.nominal_attitude = attitude == AttitudeUse::nominal;
-  options.use_attitude =
-      complete && attitude != AttitudeUse::ignore && attitude != AttitudeUse::nominal;
-  auto trajectory = std::make_shared<const Trajectory>(std::move(samples), options);
-  step.done(grouped(trajectory->size()) + " samples, " + counted(trajectory->gaps().size(), "gap") +
-            (options.use_attitude ? ", with attitude" : "") +
-            (options.nominal_attitude ? ", nominal attitude" : ""));
-  remark(line, file.columns);
-  if (options.use_attitude) remark(line, yaw);
-  for (const std::string& repair : trajectory->repairs()) remark(line, repair);
-  return trajectory;
+  options.crs = line.has("crs") ? line.text("crs") : points_crs;
+  options.unit = unitOption(line, "trajectory");
+  Step step("Reading " + line.text("trajectory"), line.quiet());
+  const FlightFile file = pcl_als::readFlight(line.text("trajectory"), options);
+  const Trajectory& flight = *file.trajectory;
+  step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +
+            (flight.attitudeIsNominal() ? ", nominal attitude"
+             : flight.hasAttitude()     ? ", with attitude"
+                                        : ""));
+  remarks(line, file.remarks);
+  return file.trajectory;
 }
 
 }  // namespace pcl_als::app

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/trajectory/trajectory.h>
+#include <pcl_als/processing/flight_file.h>
 
 #include "command_line.h"
 
@@ -21,9 +21,6 @@ std::optional<int> gpsWeek(const CommandLine& line);
 
 /// -force: go on, with a warning, where the tool refuses because of \a reason.
 void addForceOption(CommandLine& line, const std::string& reason = "inputs do not belong together");
-
-/// What to do with the roll, pitch and heading of a trajectory.
-enum class AttitudeUse { ignore, where_given, needed, nominal };
 
 /// -model auto, quasi_rigorous, rigorous or nominal.
 void addModelOption(CommandLine& line);

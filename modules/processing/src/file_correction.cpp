@@ -4,6 +4,7 @@
 #include <cctype>
 #include <mutex>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/filters/integer_bias_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
@@ -210,13 +211,14 @@ FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& out
   }
   if (!flight) throw UsageError("correction of " + input.string() + ": no trajectory is given");
   ProgressReport report(progress);
-  report.begin("writing " + output.string());
+  report.begin("Writing " + output.string());
   Job job{input, output, calibration, std::move(flight), options, report, {}, {}, false, false, {}};
   if (pcd_in) {
     correctPcd(job);
   } else {
     correctLas(job);
   }
+  report.end(grouped(job.result.points) + " points");
   return std::move(job.result);
 }
 

@@ -151,14 +151,12 @@ void addSummary(HtmlReport& report, const CalibrationResult& result) {
 }  // namespace
 
 struct CalibrationPage::State {
-  const SurveyReader& survey;
-  StripCoverage coverage;
+  const SurveyReader* survey = nullptr;
+  std::unique_ptr<StripCoverage> coverage;
 };
 
-CalibrationPage::CalibrationPage(const SurveyReader& survey, bool wanted) {
-  if (!wanted) return;
-  state_ = std::make_unique<State>(
-      State{survey, {survey.corner(), survey.farCorner(), survey.strips().size()}});
+CalibrationPage::CalibrationPage(bool wanted) {
+  if (wanted) state_ = std::make_unique<State>();
 }
 
 CalibrationPage::~CalibrationPage() = default;
@@ -167,25 +165,32 @@ bool CalibrationPage::draws() {
   return true;
 }
 
-void CalibrationPage::add(int strip, const CalibrationPoint* points, std::size_t count) {
-  if (!state_) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    state_->coverage.add(points[i].position, static_cast<std::size_t>(strip));
-  }
+SurveyObserver CalibrationPage::observer() {
+  if (!state_) return {};
+  const auto begin = [this](const SurveyReader& survey) {
+    state_->survey = &survey;
+    state_->coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(),
+                                                       survey.strips().size());
+  };
+  const auto points = [this](int strip, const CalibrationPoint* points, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      state_->coverage->add(points[i].position, static_cast<std::size_t>(strip));
+  };
+  return {begin, points};
 }
 
 void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
                             const std::vector<SurveyArea>& areas,
                             const std::shared_ptr<const Trajectory>& trajectory) const {
-  HtmlReport report("Calibration of " + std::to_string(state_->survey.strips().size()) + " strips",
+  HtmlReport report("Calibration of " + std::to_string(state_->survey->strips().size()) + " strips",
                     origin.program);
   addVerdict(verdictOf(result), report);
   addSummary(report, result);
   addParameters(report, result);
   addFits(report, result);
 
-  addProfile(report, state_->survey, result, trajectory);
-  addMap(origin.control, state_->coverage, state_->survey.strips(), areas, report);
+  addProfile(report, *state_->survey, result, trajectory);
+  addMap(origin.control, *state_->coverage, state_->survey->strips(), areas, report);
   addOrigin(origin, result.inputs, report);
   report.write(origin.folder);
 }

@@ -10,15 +10,16 @@ namespace pcl_als {
 
 struct CalibrationPage::State {};
 
-CalibrationPage::CalibrationPage(const SurveyReader& /*survey*/, bool /*wanted*/) {}
+CalibrationPage::CalibrationPage(bool /*wanted*/) {}
 CalibrationPage::~CalibrationPage() = default;
 
 bool CalibrationPage::draws() {
   return false;
 }
 
-void CalibrationPage::add(int /*strip*/, const CalibrationPoint* /*points*/,
-                          std::size_t /*count*/) {}
+SurveyObserver CalibrationPage::observer() {
+  return {};
+}
 
 void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
                             const std::vector<SurveyArea>& /*areas*/,

@@ -16,12 +16,13 @@ class Cancelled : public Error {
   using Error::Error;
 };
 
-/// Where a job stands: its phase ("reading strip1.las"), the share of the phase that is done, and
-/// remarks for a user that arise on the way (then fraction repeats).
+/// Where a job stands.
 struct JobProgress {
-  std::string phase;
-  double fraction = 0.0;  ///< 0 … 1
-  std::string remark;     ///< usually empty
+  enum class Event { begin, advance, remark, end };
+  Event event = Event::begin;
+  std::string phase;      ///< "Reading the areas"
+  double fraction = 0.0;  ///< of the phase, 0 … 1
+  std::string text;       ///< of a remark; what the phase found at its end ("12 areas")
 };
 
 /// Called by one thread at a time, now and then; false ends the job with Cancelled.
@@ -32,14 +33,18 @@ class ProgressReport {
  public:
   explicit ProgressReport(ProgressCallback callback) : callback_(std::move(callback)) {}
 
-  void begin(const std::string& phase) { tell({phase, 0.0, {}}); }
-  void advance(double fraction) { tell({now_.phase, fraction, {}}); }
-  void remark(const std::string& text) { tell({now_.phase, now_.fraction, text}); }
+  void begin(const std::string& phase) { tell({JobProgress::Event::begin, phase, 0.0, {}}); }
+  void advance(double fraction) { tell({JobProgress::Event::advance, now_.phase, fraction, {}}); }
+  /// What a user should know, between or during phases; nothing where the text is empty.
+  void remark(const std::string& text) {
+    if (!text.empty()) tell({JobProgress::Event::remark, now_.phase, now_.fraction, text});
+  }
+  void end(const std::string& found) { tell({JobProgress::Event::end, now_.phase, 1.0, found}); }
 
  private:
   void tell(JobProgress progress) {
     now_ = std::move(progress);
-    if (callback_ && !callback_(now_)) throw Cancelled("cancelled while " + now_.phase);
+    if (callback_ && !callback_(now_)) throw Cancelled("cancelled: " + now_.phase);
   }
 
   ProgressCallback callback_;

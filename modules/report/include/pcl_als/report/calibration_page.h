@@ -7,7 +7,7 @@
 
 #include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/report/report_origin.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -19,16 +19,16 @@ namespace pcl_als {
  */
 class CalibrationPage {
  public:
-  /// \param wanted false: add() and memory cost nothing
-  CalibrationPage(const SurveyReader& survey, bool wanted);
+  /// \param wanted false: it sees nothing and costs nothing
+  explicit CalibrationPage(bool wanted);
   ~CalibrationPage();
   CalibrationPage(const CalibrationPage&) = delete;
   CalibrationPage& operator=(const CalibrationPage&) = delete;
 
   static bool draws();
 
-  /// Points of one strip, for the map; from several threads for different strips.
-  void add(int strip, const CalibrationPoint* points, std::size_t count);
+  /// To be given to the calibration, for the map; the page must outlive it.
+  SurveyObserver observer();
   /// Writes into the folder of \a origin.
   void write(const ReportOrigin& origin, const CalibrationResult& result,
              const std::vector<SurveyArea>& areas,

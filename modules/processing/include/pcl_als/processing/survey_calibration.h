@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/calibration/calibration_settings.h>
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/progress.h>
+#include <pcl_als/processing/survey_observer.h>
+#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+namespace pcl_als {
+
+struct SurveyCalibrationOptions {
+  CalibrationSettings settings;
+  StripChoice strips;                                      ///< those that take part; default all
+  std::vector<std::pair<std::string, std::string>> pairs;  ///< of strips; empty: all that overlap
+  std::vector<ControlPoint> control;
+  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: found
+  SurveyObserver observer;      ///< of the first reading
+};
+
+struct SurveyCalibration {
+  CalibrationResult result;  ///< result.verdict tells whether to apply it
+  std::vector<SurveyArea> areas;
+  std::vector<double> information;           ///< by area: share of the determination, together 1
+  std::shared_ptr<const Trajectory> flight;  ///< with the attitude that was used
+};
+
+/** \brief Calibrates the LiDAR system of a survey from its point files (Habib et al. 2011).
+ *
+ * Reads the files twice; memory depends on the areas chosen and not on the survey.
+ *
+ * \param flight as delivered; the model is the rigorous one where it has attitude
+ *
+ * UsageError for unknown strips or impossible settings, InputError for what cannot be used,
+ * Cancelled. A calibration that does not converge or improve nothing is a result with a verdict.
+ */
+SurveyCalibration calibrateSurvey(SurveyReader& survey,
+                                  const std::shared_ptr<const Trajectory>& flight,
+                                  const SurveyCalibrationOptions& options = {},
+                                  const ProgressCallback& progress = {});
+
+}  // namespace pcl_als

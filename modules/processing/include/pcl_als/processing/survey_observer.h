@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <functional>
+
+#include <pcl_als/processing/survey_reader.h>
+
+namespace pcl_als {
+
+/// Sees the points that a job reads, for maps and statistics of one's own; both may be empty.
+struct SurveyObserver {
+  /// Once it is decided which strips are read.
+  std::function<void(const SurveyReader& survey)> begin;
+  /// All points of one reading; from several threads for different strips.
+  SurveyReader::Sink points;
+};
+
+}  // namespace pcl_als

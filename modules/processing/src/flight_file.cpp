@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/trajectory/heading_check.h>
+
+namespace pcl_als {
+namespace {
+
+/// A column called yaw is clockwise from north or counter-clockwise from east: the course decides.
+std::string decideYaw(TrajectoryFile& file) {
+  if (!file.heading_is_yaw) return {};
+  const HeadingCheck check = headingCheck(file.samples);
+  constexpr auto kFromEast = HeadingReading::from_east_counter_clockwise;
+  if (check.followsCourse() || check.deviation(kFromEast) > HeadingCheck::kLargestCrab) return {};
+  for (TrajectorySample& sample : file.samples) {
+    sample.heading = headingFrom(kFromEast, sample.heading);
+  }
+  return "yaw is counter-clockwise from east, as the course shows: heading = 90 degrees - yaw";
+}
+
+}  // namespace
+
+FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options) {
+  TrajectoryFile file = readTrajectoryFile(path, options.crs, options.unit);
+  const std::string yaw = decideYaw(file);
+  const bool complete = !file.samples.empty() &&
+                        std::all_of(file.samples.begin(), file.samples.end(),
+                                    [](const TrajectorySample& s) { return s.hasAttitude(); });
+  if (options.attitude == AttitudeUse::needed && !complete) {
+    throw InputError(path.string() +
+                     ": has no roll, pitch and heading for every sample; the rigorous model "
+                     "needs them");
+  }
+  Trajectory::Options use;
+  if (options.line_fit_half_width > 0.0) use.line_fit_half_width = options.line_fit_half_width;
+  use.nominal_attitude = options.attitude == AttitudeUse::nominal;
+  use.use_attitude = complete && (options.attitude == AttitudeUse::where_given ||
+                                  options.attitude == AttitudeUse::needed);
+  FlightFile flight;
+  flight.trajectory = std::make_shared<const Trajectory>(std::move(file.samples), use);
+  if (!file.columns.empty()) flight.remarks.push_back(file.columns);
+  if (use.use_attitude && !yaw.empty()) flight.remarks.push_back(yaw);
+  const std::vector<std::string>& repairs = flight.trajectory->repairs();
+  flight.remarks.insert(flight.remarks.end(), repairs.begin(), repairs.end());
+  return flight;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/survey_calibration.h>
+
+namespace pcl_als {
+namespace {
+
+using StripNames = std::vector<std::pair<std::string, std::string>>;
+
+/// The label of a strip that has no usable points; null for a strip in use and for unknown names,
+/// of which the calibration says which there are.
+const StripArrangement::Label* labelOfMissing(const SurveyReader& survey, const std::string& name) {
+  const std::vector<std::string>& strips = survey.strips();
+  if (std::find(strips.begin(), strips.end(), name) != strips.end()) return nullptr;
+  for (const StripArrangement::Label& label : survey.arrangement().labels()) {
+    if (label.strip == name) return &label;
+  }
+  return nullptr;
+}
+
+/// Without the pairs of strips that have no usable points; those are named in \a warnings.
+StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey,
+                       std::vector<std::string>& warnings) {
+  StripNames usable;
+  for (const auto& [a, b] : pairs) {
+    const StripArrangement::Label* label = labelOfMissing(survey, a);
+    if (label == nullptr) label = labelOfMissing(survey, b);
+    if (label == nullptr) {
+      usable.emplace_back(a, b);
+      continue;
+    }
+    if (label->reason == LeftOutReason::excluded)
+      throw UsageError("pairs: strip '" + label->strip + "' is excluded from the strips in use");
+    warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
+  }
+  if (usable.empty() && !pairs.empty())
+    throw InputError("pairs: no pair is left; " + warnings.back());
+  return usable;
+}
+
+std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
+  std::string text;
+  for (const std::string& part : describe(parts)) text += "; " + part;
+  return text;
+}
+
+void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
+                 QuasiRigorousCalibration& calibration, ProgressReport& progress) {
+  progress.begin("Surveying the block");
+  for (const std::string& id : survey.strips()) calibration.addStrip(id);
+  if (observer.begin) observer.begin(survey);
+  survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+    calibration.survey(strip, points, count);
+    if (observer.points) observer.points(strip, points, count);
+  });
+  try {
+    calibration.chooseAreas();
+  } catch (const InputError& error) {
+    throw InputError(error.what() + leftOutText(survey.leftOut()), error.remedy());
+  }
+  progress.end(counted(calibration.pairs().size(), "overlapping pair") + ", " +
+               counted(calibration.areas().size(), "area"));
+  for (const std::string& text : calibration.attitudeRemarks()) progress.remark(text);
+}
+
+void loadAreas(const SurveyReader& survey, QuasiRigorousCalibration& calibration,
+               ProgressReport& progress) {
+  progress.begin("Reading the areas");
+  survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+    calibration.load(strip, points, count);
+  });
+  progress.end(grouped(calibration.loadedPoints()) + " points");
+}
+
+CalibrationResult adjusted(QuasiRigorousCalibration& calibration, ProgressReport& progress) {
+  progress.begin("Adjusting");
+  int iteration = 0;
+  calibration.setProgress([&](const CalibrationIteration& last) {
+    progress.remark("iteration " + std::to_string(++iteration) + ": " +
+                    grouped(last.correspondences) + " pairs, sigma0 " +
+                    std::to_string(last.sigma0) + ", largest update " +
+                    std::to_string(1000.0 * last.largest_update) + " mm");
+  });
+  CalibrationResult result = calibration.calibrate();
+  progress.end(result.converged ? "converged" : "not converged");
+  return result;
+}
+
+}  // namespace
+
+SurveyCalibration calibrateSurvey(SurveyReader& survey,
+                                  const std::shared_ptr<const Trajectory>& flight,
+                                  const SurveyCalibrationOptions& options,
+                                  const ProgressCallback& callback) {
+  if (!flight) throw UsageError("calibration: no trajectory is given");
+  ProgressReport progress(callback);
+  for (const std::string& text :
+       survey.choose(options.strips, {flight.get(), options.gps_week, true})) {
+    progress.remark(text);
+  }
+  CalibrationSettings settings = options.settings;
+  settings.resolution = survey.resolution();
+  QuasiRigorousCalibration calibration(flight, settings, survey.corner());
+  std::vector<std::string> warnings;
+  calibration.setPairs(usablePairs(options.pairs, survey, warnings));
+  calibration.setControl(options.control);
+  surveyBlock(survey, options.observer, calibration, progress);
+  loadAreas(survey, calibration, progress);
+  SurveyCalibration made;
+  made.result = adjusted(calibration, progress);
+  made.result.left_out = survey.leftOut();
+  for (const std::string& text : describe(made.result.left_out))
+    made.result.warnings.push_back(text);
+  made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
+  for (const SurveyedFile& file : survey.files())
+    made.result.inputs.push_back(file.sources.info.path.string());
+  made.areas = calibration.areas();
+  made.information = calibration.informationShares();
+  made.flight = calibration.trajectory();
+  return made;
+}
+
+}  // namespace pcl_als
