@@ -12,8 +12,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/delivery_check.h>
-#include <pcl_als/processing/separation_image.h>
+#include <pcl_als/processing/survey_check.h>
 #include <pcl_als/report/quality_page.h>
 #include <pcl_als/report/quality_report.h>
 
@@ -131,32 +130,21 @@ void checkOutputs(const CommandLine& line) {
   if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
 }
 
-/// The grid for a swath separation image; null where none is wanted, or none can be written.
-std::unique_ptr<SwathSeparation> separationOf(const CommandLine& line, const SurveyReader& survey,
-                                              const BlockCheck& check) {
-  if (!line.has("report") || check.overlaps().empty()) return nullptr;
+/// The images of a report; none in a build without GDAL.
+std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
+                                                   const std::string& name) {
+  if (!line.has("report")) return std::nullopt;
   if (!PCL_ALS_WITH_GDAL) {
     app::remark(line, "built without GDAL: no swath separation image");
-    return nullptr;
+    return std::nullopt;
   }
-  const double wanted = line.number("cell", 0.0, 100.0, "m");
-  const double cell =
-      wanted > 0.0
-          ? wanted
-          : qualityLevels()[static_cast<std::size_t>(qualityLevel(line))].separation_image_cell;
-  RasterGrid grid =
-      separationGrid(survey.extent(), check.coveredArea(), cell, survey.reference().crs);
-  if (grid.cell > cell)
-    app::remark(line, "so large a block gets a swath separation image of " +
-                          std::to_string(static_cast<int>(grid.cell)) + " m cells");
-  return std::make_unique<SwathSeparation>(std::move(grid), survey.strips().size());
+  return SeparationImageOptions{line.text("report"), name, line.number("cell", 0.0, 100.0, "m"),
+                                qualityLevel(line)};
 }
 
-/// Checks one set; \a image: name of its swath separation image, without extension; \a areas: those
-/// to use, filled when empty; \a page: gets every point, may be null.
-CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>& files,
-                        const CheckSettings& settings, const std::string& image,
-                        std::vector<SurveyArea>& areas, QualityPage* page) {
+/// Checks one set of files; \a image: name of its swath separation image.
+SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& files,
+                       SurveyCheckOptions options, const std::string& image) {
   Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
   SurveyReader survey(files, line.threads());
   reading.done(grouped(survey.pointCount()) + " points");
@@ -165,52 +153,8 @@ CheckedBlock checkBlock(const CommandLine& line, const std::vector<std::string>&
   if (line.has("trajectory")) {
     trajectory = app::readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given);
   }
-  // The trajectory serves for scan angles only: points that it does not cover are compared, too.
-  for (const std::string& text :
-       survey.choose(app::stripChoice(line), {trajectory.get(), app::gpsWeek(line), false}))
-    app::remark(line, text);
-  BlockCheck check(survey, settings, trajectory);
-  {
-    Step step("Surveying the block", line.quiet());
-    check.surveyBlock();
-    if (areas.empty()) {
-      check.chooseAreas();
-      areas = check.areas();
-    } else {
-      check.setAreas(areas);
-    }
-    step.done(counted(check.overlaps().size(), "overlapping pair") + ", " +
-              counted(areas.size(), "area"));
-  }
-  std::unique_ptr<SwathSeparation> separation = separationOf(line, survey, check);
-  {
-    Step step("Reading the areas", line.quiet());
-    const bool maps = page != nullptr && page->wantsPoints();
-    if (maps) page->begin(survey);
-    if (separation || maps) {
-      check.load([&](int strip, const SwathPoint& point) {
-        if (separation) separation->add(strip, point);
-        if (maps) page->add(strip, point.position);
-      });
-    } else {
-      check.load({});
-    }
-    step.done(grouped(check.loadedPoints()) + " points");
-  }
-  Step step("Measuring", line.quiet());
-  CheckedBlock block = check.assess([&](double fraction) { step.progress(fraction); });
-  block.files = files;
-  block.left_out = survey.leftOut();
-  for (const std::string& text : describe(block.left_out)) block.warnings.push_back(text);
-  step.done(counted(block.pairs.size(), "pair"));
-  if (separation) {
-    Step writing("Writing " + image, line.quiet());
-    block.separation = writeSeparation(line.text("report"), image, *separation, qualityLevel(line),
-                                       line.threads());
-    writing.done(std::to_string(separation->grid().columns) + " x " +
-                 std::to_string(separation->grid().rows) + " cells");
-  }
-  return block;
+  options.separation = separationOf(line, image);
+  return checkSurvey(survey, trajectory, options, app::progressOf(line));
 }
 
 /// Why there is nothing to rely on, in one line.
@@ -227,7 +171,7 @@ void writeReport(const CommandLine& line, const QualityReport& report,
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
   writeQualityTables(folder, report);
-  if (page.wantsPoints())
+  if (QualityPage::draws())
     page.write(app::reportOrigin(line, {"control", "trajectory"}), report, areas);
   step.done(QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
                                  : "quality.md, CSV; no report.html: built without VTK");
@@ -243,7 +187,10 @@ int check(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
   const std::vector<std::string>& files = line.inputs(1, 100000);
-  const CheckSettings settings = settingsOf(line);
+  SurveyCheckOptions options;
+  options.settings = settingsOf(line);
+  options.strips = app::stripChoice(line);
+  options.gps_week = app::gpsWeek(line);
   QualityReport report;
   report.quality_level = qualityLevel(line);
   checkOutputs(line);
@@ -253,15 +200,19 @@ int check(int argc, char** argv) {
     before = filesBefore(line, files);
     refuseRepeated(before);
   }
-  std::vector<SurveyArea> areas;
   QualityPage page(line.has("report"));
-  report.block = checkBlock(line, files, settings, "swath_separation", areas, &page);
-  if (!before.empty())
-    report.before = checkBlock(line, before, settings, "swath_separation_before", areas, nullptr);
+  options.observer = page.observer();
+  SurveyCheck checked = checkFiles(line, files, options, "swath_separation");
+  report.block = std::move(checked.block);
+  if (!before.empty()) {
+    options.areas = checked.areas;
+    options.observer = {};
+    report.before = checkFiles(line, before, options, "swath_separation_before").block;
+  }
   report.peak_memory_mb = peakMemory();
   writeFile(line.text("output"), qualityJson(report));
   if (!line.quiet()) std::cout << qualityText(report) << std::endl;
-  if (line.has("report")) writeReport(line, report, areas, page);
+  if (line.has("report")) writeReport(line, report, checked.areas, page);
   if (!hasAnswer(report.block)) {
     std::cerr << "pcl_als_check: no reliable answer: " << whyNot(report.block) << std::endl;
     return app::kNoReliableAnswer;

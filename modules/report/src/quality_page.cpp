@@ -86,15 +86,18 @@ bool QualityPage::draws() {
   return true;
 }
 
-void QualityPage::begin(const SurveyReader& survey) {
-  if (!state_) return;
-  state_->strips = survey.strips();
-  state_->coverage =
-      std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(), survey.strips().size());
-}
-
-void QualityPage::add(int strip, const Eigen::Vector3d& position) {
-  state_->coverage->add(position, static_cast<std::size_t>(strip));
+SurveyObserver QualityPage::observer() {
+  if (!state_) return {};
+  const auto begin = [this](const SurveyReader& survey) {
+    state_->strips = survey.strips();
+    state_->coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(),
+                                                       survey.strips().size());
+  };
+  const auto points = [this](int strip, const CalibrationPoint* points, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      state_->coverage->add(points[i].position, static_cast<std::size_t>(strip));
+  };
+  return {begin, points};
 }
 
 void QualityPage::write(const ReportOrigin& origin, const QualityReport& quality,

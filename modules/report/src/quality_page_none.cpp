@@ -13,8 +13,10 @@ bool QualityPage::draws() {
   return false;
 }
 
-void QualityPage::begin(const SurveyReader& /*survey*/) {}
-void QualityPage::add(int /*strip*/, const Eigen::Vector3d& /*position*/) {}
+SurveyObserver QualityPage::observer() {
+  return {};
+}
+
 void QualityPage::write(const ReportOrigin& /*origin*/, const QualityReport& /*report*/,
                         const std::vector<SurveyArea>& /*areas*/) const {}
 

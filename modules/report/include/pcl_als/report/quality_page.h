@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/report/quality_report.h>
 #include <pcl_als/report/report_origin.h>
 
@@ -27,12 +27,8 @@ class QualityPage {
   QualityPage& operator=(const QualityPage&) = delete;
 
   static bool draws();
-  /// Whether it needs to see the points.
-  bool wantsPoints() const { return state_ != nullptr; }
-  /// The strips that the map shows.
-  void begin(const SurveyReader& survey);
-  /// From several threads for different strips.
-  void add(int strip, const Eigen::Vector3d& position);
+  /// To be given to the check, for the map; the page must outlive it.
+  SurveyObserver observer();
   /// Writes into the folder of \a origin.
   void write(const ReportOrigin& origin, const QualityReport& report,
              const std::vector<SurveyArea>& areas) const;

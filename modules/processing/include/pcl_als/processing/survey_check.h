@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/progress.h>
+#include <pcl_als/processing/delivery_check.h>
+#include <pcl_als/processing/survey_observer.h>
+#include <pcl_als/survey/strip_arrangement.h>
+
+namespace pcl_als {
+
+/// Swath separation images; needs a build with GDAL.
+struct SeparationImageOptions {
+  std::filesystem::path folder;
+  std::string name = "swath_separation";  ///< of the files, without extension
+  double cell = 0.0;                      ///< metres; 0: as the quality level asks
+  int quality_level = 2;                  ///< of the USGS Lidar Base Specification, 0 … 3
+};
+
+struct SurveyCheckOptions {
+  CheckSettings settings;
+  StripChoice strips;             ///< those that take part; default all
+  std::optional<int> gps_week;    ///< of times that are seconds of the week; default: found
+  std::vector<SurveyArea> areas;  ///< to compare at; empty: chosen. Those of an earlier check of
+                                  ///< the same block make both comparable.
+  std::optional<SeparationImageOptions> separation;  ///< images to write; default none
+  SurveyObserver observer;                           ///< of the second reading
+};
+
+struct SurveyCheck {
+  CheckedBlock block;
+  std::vector<SurveyArea> areas;  ///< that were compared at
+};
+
+/** \brief Measures how well the overlapping strips of a survey fit each other and control.
+ *
+ * Reads the files three times; memory depends on the areas chosen and not on the survey.
+ *
+ * \param trajectory for scan angles finer than the files' own; may be null
+ *
+ * UsageError for unknown strips or impossible settings, InputError for what cannot be used,
+ * Cancelled.
+ */
+SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajectory>& trajectory,
+                        const SurveyCheckOptions& options = {},
+                        const ProgressCallback& progress = {});
+
+}  // namespace pcl_als

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/separation_image.h>
+#include <pcl_als/processing/survey_check.h>
+#include <pcl_als/quality/accuracy_standards.h>
+
+namespace pcl_als {
+namespace {
+
+/// The grid of the images; null where none are wanted or no strips overlap.
+std::unique_ptr<SwathSeparation> separationOf(const SurveyReader& survey, const BlockCheck& check,
+                                              const SurveyCheckOptions& options,
+                                              ProgressReport& progress) {
+  if (!options.separation || check.overlaps().empty()) return nullptr;
+  const SeparationImageOptions& wanted = *options.separation;
+  const auto level = static_cast<std::size_t>(wanted.quality_level);
+  const double cell =
+      wanted.cell > 0.0 ? wanted.cell : qualityLevels()[level].separation_image_cell;
+  RasterGrid grid =
+      separationGrid(survey.extent(), check.coveredArea(), cell, survey.reference().crs);
+  if (grid.cell > cell) {
+    progress.remark("so large a block gets a swath separation image of " +
+                    std::to_string(static_cast<int>(grid.cell)) + " m cells");
+  }
+  return std::make_unique<SwathSeparation>(std::move(grid), survey.strips().size());
+}
+
+void chooseAreas(BlockCheck& check, const SurveyCheckOptions& options, ProgressReport& progress) {
+  progress.begin("Surveying the block");
+  check.surveyBlock();
+  if (options.areas.empty()) {
+    check.chooseAreas();
+  } else {
+    check.setAreas(options.areas);
+  }
+  progress.end(counted(check.overlaps().size(), "overlapping pair") + ", " +
+               counted(check.areas().size(), "area"));
+}
+
+void loadAreas(BlockCheck& check, const SurveyReader& survey, const SurveyObserver& observer,
+               SwathSeparation* separation, ProgressReport& progress) {
+  progress.begin("Reading the areas");
+  if (observer.begin) observer.begin(survey);
+  if (separation != nullptr || observer.points) {
+    check.load([&](int strip, const SwathPoint& point) {
+      if (separation != nullptr) separation->add(strip, point);
+      if (!observer.points) return;
+      CalibrationPoint seen;
+      seen.position = point.position;
+      observer.points(strip, &seen, 1);
+    });
+  } else {
+    check.load({});
+  }
+  progress.end(grouped(check.loadedPoints()) + " points");
+}
+
+void writeImages(const SeparationImageOptions& wanted, const SwathSeparation& separation,
+                 int threads, CheckedBlock& block, ProgressReport& progress) {
+  progress.begin("Writing " + wanted.name);
+  block.separation =
+      writeSeparation(wanted.folder, wanted.name, separation, wanted.quality_level, threads);
+  progress.end(std::to_string(separation.grid().columns) + " x " +
+               std::to_string(separation.grid().rows) + " cells");
+}
+
+}  // namespace
+
+SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajectory>& trajectory,
+                        const SurveyCheckOptions& options, const ProgressCallback& callback) {
+  if (options.separation && (options.separation->quality_level < 0 ||
+                             options.separation->quality_level >= kQualityLevels)) {
+    throw UsageError("check: the quality level must be 0, 1, 2 or 3");
+  }
+  ProgressReport progress(callback);
+  // The trajectory serves for scan angles only: points that it does not cover are compared, too.
+  for (const std::string& text :
+       survey.choose(options.strips, {trajectory.get(), options.gps_week, false})) {
+    progress.remark(text);
+  }
+  BlockCheck check(survey, options.settings, trajectory);
+  chooseAreas(check, options, progress);
+  const auto separation = separationOf(survey, check, options, progress);
+  loadAreas(check, survey, options.observer, separation.get(), progress);
+  progress.begin("Measuring");
+  SurveyCheck checked;
+  checked.block = check.assess([&](double fraction) { progress.advance(fraction); });
+  for (const SurveyedFile& file : survey.files())
+    checked.block.files.push_back(file.sources.info.path.string());
+  checked.block.left_out = survey.leftOut();
+  for (const std::string& text : describe(checked.block.left_out))
+    checked.block.warnings.push_back(text);
+  progress.end(counted(checked.block.pairs.size(), "pair"));
+  if (separation) {
+    writeImages(*options.separation, *separation, options.settings.threads, checked.block,
+                progress);
+  }
+  checked.areas = check.areas();
+  return checked;
+}
+
+}  // namespace pcl_als
