@@ -89,17 +89,7 @@ CalibrationResult biasesOf(const CommandLine& line) {
 
 /// A calibration's biases belong to its model; biases by themselves take the best there is.
 AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibration) {
-  if (line.has("biases")) return app::attitudeUse(line);
-  switch (calibration.attitude) {
-    case AttitudeSource::trajectory:
-      return AttitudeUse::needed;
-    case AttitudeSource::nominal:
-      return AttitudeUse::nominal;
-    case AttitudeSource::none:
-    case AttitudeSource::points:
-      break;
-  }
-  return AttitudeUse::ignore;
+  return line.has("biases") ? app::attitudeUse(line) : flightFileOptions(calibration).attitude;
 }
 
 std::string biasText(const SystemVector& biases) {

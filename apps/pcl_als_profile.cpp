@@ -8,6 +8,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/picture/picture_source.h>
 #include <pcl_als/processing/picture/section_places.h>
+#include <pcl_als/processing/picture/survey_picture.h>
 #include <pcl_als/visualization/section.h>
 #include <pcl_als/visualization/section_search.h>
 #include <pcl_als/visualization/ticks.h>
@@ -157,7 +158,7 @@ int profile(int argc, char** argv) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (before[i].seen() == 0) {
       throw InputError("no point lies in the section; the files cover " +
-                       app::extentText(source.minimum(), source.maximum()));
+                       extentText(source.minimum(), source.maximum()));
     }
     SectionPicture picture;
     picture.setTitle(line.has("title") ? line.text("title") : app::namesOf(inputs));

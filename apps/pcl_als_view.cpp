@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <cmath>
-#include <iostream>
-#include <limits>
+#include <cstdlib>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/processing/picture/picture_source.h>
-#include <pcl_als/visualization/point_picture.h>
-#include <pcl_als/visualization/point_scene.h>
+#include <pcl_als/processing/picture/survey_picture.h>
 #include <pcl_als/visualization/private_display.h>
-#include <pcl_als/visualization/ticks.h>
-#include <pcl_als/visualization/voxel_thinning.h>
 
 #include "command_line.h"
 #include "picture_options.h"
@@ -62,146 +55,68 @@ PointShade shadeOf(const CommandLine& line) {
   throw UsageError("option -shade: '" + name + "' is none of none, edl, hill");
 }
 
-/// What of the points is drawn.
-struct Selection {
-  std::vector<bool> strips;  ///< chosen
-  int hidden = -1;           ///< not drawn
-  bool cut = false;
-  Eigen::Vector2d low, high;
-
-  bool operator()(const PictureSource::Point& point) const {
-    if (point.strip == hidden || !strips[static_cast<std::size_t>(point.strip)]) return false;
-    if (!cut) return true;
-    return (point.position.head<2>().array() >= low.array()).all() &&
-           (point.position.head<2>().array() <= high.array()).all();
+Eigen::AlignedBox2d extentOf(const CommandLine& line) {
+  const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4);
+  if (!(edges[0] < edges[2] && edges[1] < edges[3])) {
+    throw UsageError("option -extent: XMIN,YMIN,XMAX,YMAX needs the smaller values first");
   }
-};
-
-Selection selectionOf(const CommandLine& line, const PictureSource& source,
-                      const PointAttribute& attribute) {
-  Selection selection;
-  selection.strips = chosenStrips(app::stripChoice(line), source.strips());
-  if (!line.has("strips")) selection.hidden = attribute.hiddenStrip();
-  if (line.has("extent")) {
-    const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4);
-    selection.cut = true;
-    selection.low = {edges[0], edges[1]};
-    selection.high = {edges[2], edges[3]};
-    if (!(edges[0] < edges[2] && edges[1] < edges[3])) {
-      throw UsageError("option -extent: XMIN,YMIN,XMAX,YMAX needs the smaller values first");
-    }
-  }
-  return selection;
+  return {Eigen::Vector2d(edges[0], edges[1]), Eigen::Vector2d(edges[2], edges[3])};
 }
 
-/// What the camera has to show: the points, or in a top view the whole of the extent.
-ViewExtent extentOf(const OrthographicCamera& camera, const PictureSource& source,
-                    const Selection& selection) {
-  ViewExtent extent;
-  extent.reference = 0.5 * (source.minimum() + source.maximum());
-  source.read([&](const PictureSource::Point& point) {
-    if (selection(point)) camera.add(point.position, extent);
-  });
-  if (extent.empty()) {
-    throw InputError("no point to draw: the files cover " +
-                     app::extentText(source.minimum(), source.maximum()));
-  }
-  if (selection.cut && camera.isTopView()) {
-    extent.low.head<2>() = selection.low - extent.reference.head<2>();
-    extent.high.head<2>() = selection.high - extent.reference.head<2>();
-  }
-  return extent;
-}
-
-void setScale(const CommandLine& line, const PixelThinning& points, bool symmetric,
-              PointColoring& coloring) {
-  if (line.has("map")) coloring.map = ColorMap::named(line.text("map"));
-  if (!line.has("range")) {
-    coloring.fitScale(points, symmetric ? 0.05 : 0.01, symmetric);
-    return;
-  }
+std::pair<double, double> rangeOf(const CommandLine& line) {
   const std::vector<double> range = app::numbersOf(line, "range", ':', 2);
   if (!(range[0] < range[1])) throw UsageError("option -range: LOW:HIGH needs LOW below HIGH");
-  coloring.low = range[0];
-  coloring.high = range[1];
+  return {range[0], range[1]};
 }
 
-void showWindow(const CommandLine& line, const PictureSource& source, const Selection& selection,
-                const PointAttribute& attribute, const PixelThinning& points,
-                const PointColoring& coloring) {
-  if (!PrivateDisplay::answers(std::getenv("DISPLAY") == nullptr ? "" : std::getenv("DISPLAY"))) {
-    throw InputError(
-        "option -window: there is no display (DISPLAY is not set to one that answers); "
-        "use -output");
-  }
-  VoxelThinning voxels(points.camera().center(), source.maximum() - source.minimum());
-  source.read(
-      [&](const PictureSource::Point& point) {
-        if (selection(point)) voxels.add(point.position, attribute.valueOf(point));
-      },
-      attribute.extraField());
-  std::vector<Color> colors;
-  for (const float value : voxels.values()) colors.push_back(coloring(value));
-  PointScene scene;
-  scene.setBackground(ink::white);
-  scene.setPointSize(std::max(1.0, line.get<double>("point_size")));
-  scene.setPoints(voxels.positions(), colors);
-  scene.setCamera(points.camera());
-  scene.show("pcl_als_view");
+SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::string>& inputs) {
+  SurveyPictureOptions options;
+  const PictureSize size = app::sizeOf(line);
+  options.width = size.width, options.height = size.height;
+  options.attribute = line.text("color");
+  if (line.has("reference")) options.reference = line.text("reference");
+  options.difference_cell = line.number("cell", 0.0, 1000.0, "m");
+  options.strips = app::stripChoice(line);
+  options.azimuth = line.get<double>("azimuth");
+  options.elevation = line.get<double>("elevation");
+  options.zoom = line.number("zoom", 1e-3, 1e6, "times");
+  if (line.has("extent")) options.extent = extentOf(line);
+  if (line.has("map")) options.color_map = line.text("map");
+  if (line.has("range")) options.range = rangeOf(line);
+  options.shade = shadeOf(line);
+  options.point_size = line.number("point_size", 0.0, 64.0, "pixels");
+  options.title = line.has("title") ? line.text("title") : app::namesOf(inputs);
+  options.bare = line.has("bare");
+  return options;
+}
+
+void requireDisplay() {
+  if (PrivateDisplay::answers(std::getenv("DISPLAY") == nullptr ? "" : std::getenv("DISPLAY")))
+    return;
+  throw InputError(
+      "option -window: there is no display (DISPLAY is not set to one that answers); "
+      "use -output");
 }
 
 int view(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
   const auto& inputs = line.inputs(1, 100000);
-  const PictureSize size = app::sizeOf(line);
-  OrthographicCamera camera(line.get<double>("azimuth"), line.get<double>("elevation"));
-  const double zoom = line.number("zoom", 1e-3, 1e6, "times");
-  PointPicture picture(size.width, size.height, line.has("bare"));
-  picture.setShade(shadeOf(line));
-  picture.setPointSize(line.number("point_size", 0.0, 64.0, "pixels"));
-  const double cell = line.number("cell", 0.0, 1000.0, "m");
-  if (line.has("map")) ColorMap::named(line.text("map"));
+  const SurveyPictureOptions options = optionsOf(line, inputs);
   if (line.has("output") == line.has("window")) {
     throw UsageError("one of -output PICTURE.png and -window is needed");
   }
   if (line.has("output")) app::pictureFile(line);
-
-  Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
-  const PictureSource source(inputs, line.has("split"));
-  PointAttribute attribute(line.text("color"), source,
-                           line.has("reference") ? line.text("reference") : "");
-  const Selection selection = selectionOf(line, source, attribute);
-  attribute.prepare(cell);
-  camera.frame(extentOf(camera, source, selection), picture.mapWidth(), picture.mapHeight(), zoom);
-  PixelThinning points(camera);
-  source.read(
-      [&](const PictureSource::Point& point) {
-        if (selection(point)) points.add(point.position, attribute.valueOf(point));
-      },
-      attribute.extraField());
-  if (points.seen() == 0) throw InputError("no point lies in the picture");
-  PointColoring coloring = attribute.coloring();
-  if (coloring.categories.empty()) {
-    setScale(line, points, attribute.symmetric(), coloring);
-  } else {
-    coloring.keepShown(points);
-  }
-  step.done(
-      grouped(source.pointCount()) + " points, " + grouped(points.seen()) + " in the picture, " +
-      grouped(points.shown()) + " shown" +
-      (points.invalid() > 0 ? ", " + grouped(points.invalid()) + " without coordinates" : ""));
-  app::remarks(line, source.remarks());
+  const SurveyPicture picture(inputs, options, app::progressOf(line));
   if (line.has("window")) {
-    showWindow(line, source, selection, attribute, points, coloring);
+    requireDisplay();
+    picture.show("pcl_als_view");
     return app::kDone;
   }
   Step drawing("Drawing " + line.text("output"), line.quiet());
-  picture.setTitle(line.has("title") ? line.text("title") : app::namesOf(inputs));
-  picture.setSubtitle(countText(points.seen()) + " points");
   const PrivateDisplay display;
-  writePng(line.text("output"), picture.draw(points, coloring).image());
-  drawing.done(std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels" +
+  writePng(line.text("output"), picture.draw().image());
+  drawing.done(std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels" +
                (display.isPrivate() ? ", private display" : ""));
   return app::kDone;
 }

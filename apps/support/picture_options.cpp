@@ -80,11 +80,4 @@ std::string namesOf(const std::vector<std::string>& paths) {
   return names;
 }
 
-std::string extentText(const Eigen::Vector3d& minimum, const Eigen::Vector3d& maximum) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << "x " << minimum.x() << " to " << maximum.x()
-       << ", y " << minimum.y() << " to " << maximum.y();
-  return text.str();
-}
-
 }  // namespace pcl_als::app

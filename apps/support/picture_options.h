@@ -26,7 +26,5 @@ std::vector<double> numbersOf(const CommandLine& line, const char* option, char 
 
 /// "strip1.las, strip2.las and 3 more"
 std::string namesOf(const std::vector<std::string>& paths);
-/// "x 84940.1 to 85203.9, y 447385.2 to 447614.0"
-std::string extentText(const Eigen::Vector3d& minimum, const Eigen::Vector3d& maximum);
 
 }  // namespace pcl_als::app

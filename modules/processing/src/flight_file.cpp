@@ -24,6 +24,24 @@ std::string decideYaw(TrajectoryFile& file) {
 
 }  // namespace
 
+FlightFileOptions flightFileOptions(const CalibrationResult& calibration) {
+  FlightFileOptions options;
+  options.line_fit_half_width = calibration.line_fit_half_width;
+  switch (calibration.attitude) {
+    case AttitudeSource::trajectory:
+      options.attitude = AttitudeUse::needed;
+      break;
+    case AttitudeSource::nominal:
+      options.attitude = AttitudeUse::nominal;
+      break;
+    case AttitudeSource::none:
+    case AttitudeSource::points:
+      options.attitude = AttitudeUse::ignore;
+      break;
+  }
+  return options;
+}
+
 FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options) {
   TrajectoryFile file = readTrajectoryFile(path, options.crs, options.unit);
   const std::string yaw = decideYaw(file);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -26,6 +27,9 @@ struct FlightFileOptions {
   double line_fit_half_width = 0.0;  ///< seconds; 0: Trajectory's default
   AttitudeUse attitude = AttitudeUse::where_given;
 };
+
+/// How to read the flight that a calibration is applied with (and SystemCorrection is given).
+FlightFileOptions flightFileOptions(const CalibrationResult& calibration);
 
 struct FlightFile {
   std::shared_ptr<const Trajectory> trajectory;

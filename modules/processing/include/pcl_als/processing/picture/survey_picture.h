@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <pcl_als/common/progress.h>
+#include <pcl_als/processing/picture/picture_source.h>
+#include <pcl_als/visualization/canvas.h>
+#include <pcl_als/visualization/pixel_thinning.h>
+#include <pcl_als/visualization/point_picture.h>
+
+namespace pcl_als {
+
+struct SurveyPictureOptions {
+  int width = 1600, height = 1000;      ///< pixels
+  std::string attribute = "elevation";  ///< that points are coloured by, see PointAttribute
+  std::string reference;                ///< for attribute "difference": the strip heights are above
+  double difference_cell = 0.0;         ///< metres, cells of the reference's planes; 0: by density
+  StripChoice strips;
+  double azimuth = 0.0, elevation = 90.0;  ///< of the camera, degrees, see OrthographicCamera
+  double zoom = 1.0;
+  std::optional<Eigen::AlignedBox2d> extent;       ///< metres: draw this part only
+  std::string color_map;                           ///< empty: by attribute
+  std::optional<std::pair<double, double>> range;  ///< of the colours; else by what is shown
+  PointShade shade = PointShade::none;
+  double point_size = 0.0;  ///< pixels; 0: as large as the gaps between points
+  std::string title;
+  bool bare = false;  ///< points only, without title, legend and scale
+};
+
+/** \brief A picture of the points of files, from above or obliquely.
+ *
+ * Reads the files two or three times; memory depends on the pixels and not on the points.
+ * \code
+ * const pcl_als::SurveyPicture picture({"strip1.las", "strip2.las"}, {});
+ * const pcl_als::PrivateDisplay display;
+ * pcl_als::writePng("strips.png", picture.draw().image());
+ * \endcode
+ */
+class SurveyPicture {
+ public:
+  /// UsageError for unknown strips, attributes or colour maps; InputError where nothing is to be
+  /// drawn; Cancelled.
+  SurveyPicture(const std::vector<std::string>& files, const SurveyPictureOptions& options,
+                const ProgressCallback& progress = {});
+
+  const PictureSource& source() const { return source_; }
+  const PixelThinning& points() const { return *points_; }
+  const PointColoring& coloring() const { return coloring_; }
+  /// Needs a display (PrivateDisplay).
+  Canvas draw() const;
+  /// Opens a window with a thinned cloud and returns when it is closed; needs a display.
+  void show(const std::string& title) const;
+
+ private:
+  bool shows(const PictureSource::Point& point) const;
+  void select();
+  void frame();
+  void fitColours();
+
+  SurveyPictureOptions options_;
+  PointPicture picture_;
+  OrthographicCamera camera_;
+  PictureSource source_;
+  PointAttribute attribute_;
+  std::vector<bool> chosen_;
+  int hidden_ = -1;  ///< strip that is not drawn
+  std::unique_ptr<PixelThinning> points_;
+  PointColoring coloring_;
+};
+
+/// "x 84940.1 to 85203.9, y 447385.2 to 447614.0"
+std::string extentText(const Eigen::Vector3d& minimum, const Eigen::Vector3d& maximum);
+
+}  // namespace pcl_als
