@@ -25,7 +25,7 @@ diff <(sed -n '/^```cpp$/,/^```$/p' "$root/README.md" | grep -v '^```') <(sed '1
 
 flags=()
 [[ -z ${SANITIZE:-} ]] || flags=(-DCMAKE_CXX_FLAGS="-fsanitize=$SANITIZE")
-for project in "$here/project" "$root/share/examples/pipeline"; do
+for project in "$here/project" "$root/share/examples/pipeline" "$root/share/examples/jobs"; do
   name=$(basename -- "$project")
   cmake -S "$project" -B "$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
     "${flags[@]}" >"$name.log" 2>&1 || { cat "$name.log"; exit 1; }
@@ -38,6 +38,40 @@ done
 ./pipeline/pipeline "$block/strip1.las" "$block/strip2.las" "$block/trajectory.csv" calibration.json a.pcd
 grep -aq '^FIELDS x y z .*gps_time' a.pcd
 "$prefix/bin/pcl_als_info" a.pcd
+
+# The jobs of share/examples/jobs against the truth of the block, and against the tools.
+mkdir quasi && awk -F, 'NR == 1 { print "time,x,y,z" } NR > 1 { print $1","$2","$3","$4 }' \
+  "$block/trajectory.csv" >quasi/positions.csv
+jobs/calibrate quasi/positions.csv "$block/control.csv" quasi/calibration.json "$block"/strip*.las >quasi/calibration.txt
+jobs/calibrate "$block/trajectory.csv" "$block/control.csv" jobs.json "$block"/strip*.las >jobs.txt || [[ $? == 3 ]]
+cmp <("$here/stable.sh" jobs.json) <("$here/stable.sh" calibration.json)
+# Biases that were put in, arc-seconds; four standard deviations of the block are below 4".
+for table in jobs.txt quasi/calibration.txt; do
+  roll=$(awk -F '|' '$2 ~ /^ *boresight_roll / { print $3 + 0; exit }' "$table")
+  awk -v roll="$roll" 'BEGIN { exit !(roll > -94 && roll < -86) }' ||
+    { echo "$table is not the truth"; cat "$table"; exit 1; }
+done
+# With and without attitude in the trajectory: as the tool corrects the strips, byte by byte.
+correct() {  # TRAJECTORY CALIBRATION FOLDER
+  mkdir -p "$3" && jobs/correct "$1" "$2" "$3" "$block"/strip*.las
+  for strip in "$block"/strip*.las; do
+    "$prefix/bin/pcl_als_apply" "$strip" applied.las -trajectory "$1" -calibration "$2" -quiet
+    cmp applied.las "$3/$(basename -- "$strip")"
+  done
+}
+correct "$block/trajectory.csv" jobs.json corrected
+correct quasi/positions.csv quasi/calibration.json quasi/corrected
+# … and as the calibration itself does.
+"$prefix/bin/pcl_als_calibrate" "$block"/strip*.las -trajectory quasi/positions.csv -control "$block/control.csv" \
+  -output quasi/tool.json -corrected quasi/by_tool -quiet
+for strip in "$block"/strip*.las; do
+  cmp "quasi/by_tool/$(basename -- "$strip")" "quasi/corrected/$(basename -- "$strip")"
+done
+jobs/check corrected/strip*.las >check.txt || [[ $? == 3 ]]
+grep -q 'keep QL2' check.txt
+jobs/register corrected/strip2.las corrected/strip1.las >shift.txt
+awk '{ exit !(NF == 4 && $1^2 + $2^2 + $3^2 < 0.02^2) }' shift.txt || { cat shift.txt; exit 1; }
+if [[ -x jobs/draw ]]; then env -u DISPLAY jobs/draw drawn.png "$block"/strip*.las && test -s drawn.png; fi
 
 ln -s "$block"/{strip1.las,strip2.las,trajectory.csv} .
 ./project/readme

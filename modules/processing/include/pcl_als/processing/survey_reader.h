@@ -48,7 +48,8 @@ class SurveyReader {
 
   /// Reads all files once (ids, times, extents). InputError for a file that cannot be read,
   /// or that commonReference() refuses.
-  SurveyReader(const std::vector<std::string>& paths, int threads);
+  /// \a threads: 0: all cores; results do not depend on it.
+  explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0);
 
   /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
   /// them. Returns how times were matched to the trajectory's, one line each. UsageError for an
