@@ -13,11 +13,11 @@ breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 
 # What a module may declare: arrows go down only, and nobody may use simulation or visualization.
 declare -A may=(
-  [common]="" [las]="common" [io]="common las" [trajectory]="common"
-  [survey]="common io trajectory" [tin]="common" [registration]="common tin"
-  [calibration]="common trajectory tin registration" [radiometry]="common trajectory tin"
+  [common]="" [adjustment]="common" [las]="common" [io]="common las" [trajectory]="common"
+  [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
+  [calibration]="common adjustment trajectory tin registration" [radiometry]="common adjustment trajectory tin"
   [filters]="common trajectory tin radiometry"
-  [classification]="common tin" [quality]="common tin registration trajectory"
+  [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [processing]="common io trajectory survey registration calibration radiometry filters quality classification visualization"
   [report]="common io registration calibration radiometry quality classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"

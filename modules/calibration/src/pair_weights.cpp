@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
@@ -16,16 +17,13 @@ struct PairWeights::Values {
 
 namespace {
 
-constexpr double kHuber = 1.5;   // standard deviations up to which an observation has full weight
-constexpr double kReject = 4.5;  // and from which it has none
 constexpr std::size_t kEnoughForScale = 30;
 // A TIN between points is never better than some millimetres: pairs that fit better are no better.
 constexpr double kLeastScale = 0.25;
 
 double robustWeight(double standardised, bool reject) {
-  const double size = std::abs(standardised);
-  if (reject && size > kReject) return 0.0;
-  return size <= kHuber ? 1.0 : kHuber / size;
+  if (reject && std::abs(standardised) > kRejectionLimit) return 0.0;
+  return huberWeight(standardised);
 }
 
 double varianceWith(double pointing_factor, double variance, double pointing) {
@@ -53,9 +51,7 @@ double unlikeliness(const Values& values, double pointing_factor) {
   for (std::size_t i = 0; i < values.residual.size(); ++i) {
     const double variance =
         scale * scale * varianceWith(pointing_factor, values.variance[i], values.pointing[i]);
-    const double size = std::abs(values.residual[i]) / std::sqrt(variance);
-    const double loss = size <= kHuber ? 0.5 * size * size : kHuber * size - 0.5 * kHuber * kHuber;
-    sum += 0.5 * std::log(variance) + loss;
+    sum += 0.5 * std::log(variance) + huberLoss(values.residual[i] / std::sqrt(variance));
   }
   return sum;
 }

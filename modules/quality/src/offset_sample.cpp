@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/quality/clustered_regression.h>
 #include <pcl_als/quality/offset_sample.h>
 
 namespace pcl_als {

@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/quality/clustered_regression.h>
 #include <pcl_als/quality/overlap_trends.h>
 
 namespace pcl_als {

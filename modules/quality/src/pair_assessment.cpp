@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/quality/accuracy_standards.h>
-#include <pcl_als/quality/clustered_regression.h>
 #include <pcl_als/quality/pair_assessment.h>
 
 #include "strip_triples.h"

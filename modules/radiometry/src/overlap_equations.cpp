@@ -11,12 +11,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als::detail {
 namespace {
 
-constexpr double kHuber = 1.5;  ///< standard deviations within which residuals count fully
 /// A cell's mean has the variance of its points and as much again as of this many of them.
 constexpr double kPointsOfTexture = 5.0;
 constexpr int kScaleRounds = 6;  ///< after which the scale of the residuals stays
@@ -49,7 +49,7 @@ struct OverlapEquations::Weighing {
   const std::vector<double>&residual, &robust;
   double scale;
   double inside(std::size_t i) const {
-    return std::abs(residual[i]) <= kHuber * scale ? 1.0 : 1e-9;
+    return std::abs(residual[i]) <= kHuberLimit * scale ? 1.0 : 1e-9;
   }
 };
 
@@ -232,8 +232,7 @@ OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
     if (round <= kScaleRounds) scale = std::max(robustSigma(residual), 1e-12);
     solution.converged = round > 1 && change < 1e-6;
     if (solution.converged) break;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      robust[i] = std::min(1.0, kHuber * scale / std::max(std::abs(residual[i]), 1e-300));
+    for (std::size_t i = 0; i < rows_.size(); ++i) robust[i] = huberWeight(residual[i], scale);
   }
   solution.sigma0 = scale;
   covariances(unknowns, {residual, robust, scale}, solution);

@@ -8,9 +8,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <pcl_als/adjustment/correlated_errors.h>
+#include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/registration/correlated_errors.h>
 
 namespace pcl_als::registration {
 namespace {
@@ -110,7 +111,7 @@ double PatchAdjustment::weightOf(double rest, const PatchPair& pair,
   const double sigma = scatter.of(pair) * std::sqrt(pair.variance);
   const double deviations = std::abs(rest) / sigma;
   if (deviations > robustness_.cut) return 0.0;
-  return std::min(1.0, robustness_.huber / std::max(deviations, 1e-9)) / (sigma * sigma);
+  return huberWeight(deviations, 1.0, robustness_.huber) / (sigma * sigma);
 }
 
 NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,

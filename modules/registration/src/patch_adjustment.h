@@ -11,6 +11,8 @@
 
 #include <Eigen/Geometry>
 
+#include <pcl_als/adjustment/robust_weight.h>
+
 #include "patch_pair.h"
 
 namespace pcl_als::registration {
@@ -74,7 +76,7 @@ struct ScatterBySlope {
 /// How pairs that fit badly are weighed, in standard deviations: by Huber's weights from the first
 /// on, not at all beyond the second.
 struct Robustness {
-  double huber = 1.5, cut = 4.5;
+  double huber = kHuberLimit, cut = kRejectionLimit;
 
   /// Movement is still to come: nothing can be told from an outlier yet.
   static Robustness whileMoving() { return {1.5, std::numeric_limits<double>::infinity()}; }

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/quality/clustered_regression.h>
 
 namespace pcl_als {
 namespace {

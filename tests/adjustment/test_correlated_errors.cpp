@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/adjustment/correlated_errors.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/registration/correlated_errors.h>
 
 namespace pcl_als {
 namespace {

@@ -7,16 +7,16 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <pcl_als/adjustment/clustered_regression.h>
+#include <pcl_als/adjustment/correlated_errors.h>
+#include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/quality/clustered_regression.h>
-#include <pcl_als/registration/correlated_errors.h>
 
 namespace pcl_als {
 namespace {
 
 constexpr double kSingular = 1e-10;  // smallest eigenvalue of the scaled normal matrix
-constexpr double kHuber = 1.5;
 constexpr int kPasses = 10;  // of the reweighting; it settles to a hundredth of its std in five
 
 /// Inverse of a symmetric matrix, scaled to a unit diagonal first; empty when it is singular.
@@ -110,7 +110,7 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
     if (pass > 0) {
       const double sigma =
           std::max(robustSigma({left.data(), left.data() + n}), 1e-9);  // all equal: no outliers
-      weights = (kHuber * sigma * left.cwiseAbs().cwiseMax(1e-12).cwiseInverse()).cwiseMin(1.0);
+      weights = left.unaryExpr([sigma](double rest) { return huberWeight(rest, sigma); });
     }
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_);

@@ -8,8 +8,8 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <pcl_als/adjustment/correlated_errors.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/registration/correlated_errors.h>
 
 namespace pcl_als {
 namespace {

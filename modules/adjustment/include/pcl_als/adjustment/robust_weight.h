@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cmath>
+
+namespace pcl_als {
+
+/// Residuals up to so many robust standard deviations have full weight (Huber 1964). For normally
+/// distributed errors the efficiency is 96 %.
+inline constexpr double kHuberLimit = 1.5;
+/// Beyond so many, an observation is rejected where an adjustment rejects: of normally distributed
+/// errors seven in a million.
+inline constexpr double kRejectionLimit = 4.5;
+
+/// Huber's weight of a residual: 1 up to the limit, then limit * scale / |residual|.
+inline double huberWeight(double residual, double scale = 1.0, double limit = kHuberLimit) {
+  const double size = std::abs(residual), full = limit * scale;
+  return size <= full ? 1.0 : full / size;
+}
+
+/// Huber's loss of a standardised residual: half its square up to the limit, then linear.
+inline double huberLoss(double residual, double limit = kHuberLimit) {
+  const double size = std::abs(residual);
+  return size <= limit ? 0.5 * size * size : limit * size - 0.5 * limit * limit;
+}
+
+}  // namespace pcl_als
