@@ -162,7 +162,7 @@ int intensity(int argc, const char* const* argv) {
   if (line.has("json")) app::checkWritable(line.text("json"));
   const PointReference reference = commonReference(files.inputs);
   app::remarks(line, reference.remarks);
-  const auto flight = app::readFlight(line, reference.crs, 0.0, AttitudeUse::ignore);
+  const auto flight = app::readFlight(line, reference.crs, 0.0, AttitudeUse::where_given);
 
   Step looking("Reading " + counted(files.inputs.size(), "file"), line.quiet());
   IntensityRun run(files.inputs, flight, settings);

@@ -3,7 +3,8 @@
 # Copyright (c) 2026, the pcl_als authors
 #
 # Trajectories that do not belong to the points: every tool that takes one refuses them, names the likely cause, and
-# goes on with -force. Until 2026-11 only pcl_als_calibrate did, and none looked at the attitude.
+# goes on with -force. Until 2026-11 only pcl_als_calibrate did, and none looked at the attitude; a negated roll was
+# accepted in longer, and pcl_als_intensity said nothing of the attitude.
 source "$(dirname -- "$0")/tool_test.sh"
 
 # variant NAME PROGRAM: the block's trajectory, each record changed by an awk program (columns $1 to $7).
@@ -38,9 +39,35 @@ for tool in calibrate check apply; do
   expect 2 'counter-clockwise from east' "${command[@]}" -trajectory east.csv
   expect 2 'heading + 180 degrees' "${command[@]}" -trajectory tail.csv
 done
-# Positions are all that intensities need.
-expect 0 '' "${intensity[@]}" -trajectory radians.csv
-rm -f out.las
+# Positions are all that intensities need: the attitude is remarked on.
+while read -r wrong text; do
+  expect 0 "$text*only positions are used here" "${intensity[@]}" -trajectory "$wrong.csv"
+  rm -f out.las
+done <<'ATTITUDES'
+radians would as in radians
+zeros a column without values
+east counter-clockwise from east
+tail heading + 180 degrees
+ATTITUDES
+# Signs of pitch and roll show in the motion of a few seconds and a dense swath.
+run simulate -output long -preset small -noise range -seed 1
+while read -r name change text; do
+  awk -F, -v OFS=, -v OFMT=%.9f -v CONVFMT=%.9f "NR > 1 { $change } { print }" long/trajectory.csv >"long/$name.csv"
+  expect 2 "$text" calibrate long/strip?.las -trajectory "long/$name.csv" -output c.json
+  expect 2 "$text" check long/strip?.las -trajectory "long/$name.csv" -output q.json
+  expect 2 "strip2.las: $text" apply long/strip2.las out.las -trajectory "long/$name.csv" -biases boresight_roll=100
+  expect 0 "$text" intensity long/strip2.las out.las -trajectory "long/$name.csv"
+  rm -f out.las
+done <<'SIGNS'
+roll $5=-$5 the roll of the trajectory has the opposite sign
+pitch $6=-$6 the pitch of the trajectory has the opposite sign
+both $5=-$5;$6=-$6 the pitch of the trajectory has the opposite sign
+radians $5/=57.29578;$6/=57.29578 the pitch of the trajectory changes by a 57th
+SIGNS
+awk -F, -v OFS=, 'NR > 1 { $5 = 0; $6 = 0 } { print }' long/trajectory.csv >long/level.csv
+expect 0 'warning: the pitch of the trajectory is the same at all times' \
+  apply long/strip2.las out.las -trajectory long/level.csv -biases boresight_roll=100
+rm -rf out.las long/*.las
 # What is refused can be forced; a warning stays.
 expect 0 'warning: the heading' "${apply[@]}" -trajectory tail.csv -force
 # An output without any intensity left is no answer, but it is written.

@@ -17,6 +17,19 @@ constexpr double kControlAreaSize = 4.0;  // metres: a control point needs the p
 // hundred arc-seconds is then an arc-second.
 constexpr double kVertical = 0.0087;
 
+constexpr std::size_t kEveryChecked = 32;  // of the points are compared with the trajectory
+
+/// The attitude shows at the edges of the swath: enough points of each tenth of a second see them.
+std::size_t everyForAttitude(const CalibrationPoint* points, std::size_t count) {
+  constexpr double kPointsPerSecond = 1e4;
+  if (count < 2) return 1;
+  const double duration = std::abs(points[count - 1].time - points[0].time);
+  const double every = static_cast<double>(count) / (kPointsPerSecond * duration);
+  return every < static_cast<double>(kEveryChecked)
+             ? std::max<std::size_t>(1, static_cast<std::size_t>(every))
+             : kEveryChecked;
+}
+
 std::string seconds(double from, double to) {
   std::ostringstream text;
   text.precision(3);
@@ -41,9 +54,10 @@ void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
   for (std::size_t i = 0; i < count; ++i) {
     if (std::isfinite(points[i].time)) times_[static_cast<std::size_t>(strip)].add(points[i].time);
   }
-  constexpr std::size_t kEveryChecked = 32;
-  for (std::size_t i = 0; i < count; i += kEveryChecked) {
-    plausibility_.add(strip, points[i].time, points[i].position);
+  const std::size_t every =
+      attitude_ == AttitudeSource::trajectory ? everyForAttitude(points, count) : kEveryChecked;
+  for (std::size_t i = 0; i < count; i += every) {
+    plausibility_.add(strip, points[i].time, points[i].position, points[i].scan_angle);
   }
   if (recoveries_.empty()) return;
   constexpr std::size_t kEvery = 16;  // of the points show the attitude

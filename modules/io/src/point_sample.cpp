@@ -9,14 +9,13 @@ namespace pcl_als {
 
 void samplePoints(const LasFile& file, SampleSize size,
                   const std::function<void(const PointChunk&)>& visit) {
-  constexpr std::size_t kMostPlaces = 16;  // of a compressed file
   const LasHeader& header = file.header();
   const LasScaling metres = file.toMetres();
   const std::uint64_t all = header.point_count;
   if (all == 0 || size.runs == 0 || size.points_per_run == 0) return;
-  if (header.compressed && size.runs > kMostPlaces) {
-    size.points_per_run = size.points_per_run * size.runs / kMostPlaces;
-    size.runs = kMostPlaces;
+  if (header.compressed && size.runs > size.most_places) {
+    size.points_per_run = size.points_per_run * size.runs / size.most_places;
+    size.runs = size.most_places;
   }
   const bool whole = all <= static_cast<std::uint64_t>(size.runs) * size.points_per_run;
   const std::uint64_t runs =

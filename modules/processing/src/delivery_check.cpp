@@ -17,6 +17,7 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kCourseEvery = 64;     // of the points show the course
+constexpr std::size_t kFlightEvery = 16;     // of the points are compared with the trajectory
 constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
 constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
 constexpr double kLeastRoughness = 0.02;     // metres
@@ -94,7 +95,9 @@ void BlockCheck::surveyBlock() {
     for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
       const SwathPoint point = swathPoint(run, row, cursor);
       if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
-      if (plausibility_) plausibility_->add(strip, point.time, point.position);
+    }
+    for (std::size_t row = 0; plausibility_ && row < points.size(); row += kFlightEvery) {
+      plausibility_->add(strip, points[row].time, points[row].position, points[row].scan_angle);
     }
   });
   for (std::size_t strip = 0; strip < used_.size(); ++strip) {

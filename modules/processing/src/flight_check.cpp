@@ -18,10 +18,10 @@ class FlightCheck {
  public:
   explicit FlightCheck(std::shared_ptr<const Trajectory> flight) : check_(std::move(flight)) {}
 
-  void add(std::uint16_t source, double time, const Eigen::Vector3d& point) {
+  void add(std::uint16_t source, double time, const Eigen::Vector3d& point, float scan_angle) {
     const auto [at, fresh] = strips_.try_emplace(source, 0);
     if (fresh) at->second = check_.addStrip(std::to_string(source));
-    check_.add(at->second, time, point);
+    check_.add(at->second, time, point, scan_angle);
   }
   /// Warnings; a refusal is an InputError that names the file.
   std::vector<std::string> result(const std::string& name, bool force) const {
@@ -42,13 +42,11 @@ class FlightCheck {
 std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& alignment,
                                      const std::shared_ptr<const Trajectory>& flight, bool force) {
   FlightCheck check(flight);
-  // The attitude shows in more points than the positions.
-  SampleSize size;
-  if (flight->hasAttitude()) size.runs = 4096;
+  const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   samplePoints(file, size, [&](const PointChunk& chunk) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       check.add(chunk.point_source_id[i], alignment(chunk.gps_time[i]),
-                {chunk.x[i], chunk.y[i], chunk.z[i]});
+                {chunk.x[i], chunk.y[i], chunk.z[i]}, chunk.scan_angle[i]);
     }
   });
   return check.result(file.path().string(), force);
@@ -57,13 +55,13 @@ std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& a
 std::vector<std::string> checkFlight(const std::string& name, const Strip<PointLidar>& strip,
                                      const TimeAlignment& alignment,
                                      const std::shared_ptr<const Trajectory>& flight, bool force) {
-  constexpr std::size_t kSample = 4096;
   FlightCheck check(flight);
-  const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / kSample);
+  const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
+  const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / size.points());
   for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
     const PointLidar& point = (*strip.cloud)[i];
     check.add(point.point_source_id, alignment(point.gps_time),
-              strip.frame.origin + point.getVector3fMap().cast<double>());
+              strip.frame.origin + point.getVector3fMap().cast<double>(), point.scan_angle);
   }
   return check.result(name, force);
 }

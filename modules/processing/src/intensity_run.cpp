@@ -141,27 +141,31 @@ void IntensityRun::alignTimes() {
 
 /// Ranges from a trajectory of another flight, or in other units, are numbers without meaning.
 void IntensityRun::checkTrajectory() {
-  TrajectoryPlausibility check(trajectory_);
+  // Positions alone enter the intensities.
+  TrajectoryPlausibility check(trajectory_, TrajectoryPlausibility::Attitude::not_used);
+  const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   for (const std::string& strip : strips()) check.addStrip(strip);
   for (std::size_t file = 0; file < files(); ++file) {
-    const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point) {
+    const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point,
+                         float scan_angle) {
       const int strip = strip_of_[file].at(source);
-      if (strip >= 0) check.add(strip, times_[file](time), point);
+      if (strip >= 0) check.add(strip, times_[file](time), point, scan_angle);
     };
     if (const LasFile* las = inputs_[file]->las()) {
-      samplePoints(*las, SampleSize(), [&add](const PointChunk& chunk) {
+      samplePoints(*las, size, [&add](const PointChunk& chunk) {
         for (std::size_t i = 0; i < chunk.size(); ++i) {
-          add(chunk.point_source_id[i], chunk.gps_time[i], {chunk.x[i], chunk.y[i], chunk.z[i]});
+          add(chunk.point_source_id[i], chunk.gps_time[i], {chunk.x[i], chunk.y[i], chunk.z[i]},
+              chunk.scan_angle[i]);
         }
       });
       continue;
     }
     const Strip<PointLidar>& strip = *inputs_[file]->strip();
-    const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / 4096);
+    const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / size.points());
     for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
       const PointLidar& point = (*strip.cloud)[i];
       add(point.point_source_id, point.gps_time,
-          strip.frame.origin + point.getVector3fMap().cast<double>());
+          strip.frame.origin + point.getVector3fMap().cast<double>(), point.scan_angle);
     }
   }
   warnings_ = check.check(settings_.force);

@@ -159,6 +159,7 @@ CalibrationPoint SurveyReader::Run::point(std::size_t row) const {
   CalibrationPoint point;
   point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
   point.time = time(chunk.gps_time[row]);
+  point.scan_angle = chunk.scan_angle[row];
   point.return_number = chunk.return_number[row];
   point.number_of_returns = chunk.number_of_returns[row];
   point.classification = chunk.classification[row];

@@ -13,14 +13,19 @@ namespace {
 
 constexpr double kFewest = 30.0;                      // instants
 constexpr double kMotion = 0.15 * kRadiansPerDegree;  // RMS: less is noise and bending of the mount
-constexpr double kClear = 0.7;                        // correlation that counts
-constexpr double kRadiansSlope = 20.0;                // of an angle that is too small by 57
-constexpr double kLag = 1.0;                          // seconds, of changes of roll
+// Slopes: of angles that are too small by 57, and half way from 0 to -1 and beyond.
+constexpr double kRadiansSlope = 15.0, kOpposite = -0.25, kLikelyOpposite = -0.5;
+constexpr double kConstant = 1e-16;  // rad^2: rounding
+constexpr double kFarBeyond = -2.0;  // neither a wrong sign nor a wrong unit
 
-/// Roll and pitch of a body over the local flight line.
-struct Angles {
-  double roll = 0.0, pitch = 0.0;
-};
+/// Calls visit(first, count) for each run of items of one pass.
+template <typename Item, typename Visit>
+void forEachPass(const std::vector<Item>& items, const Visit& visit) {
+  for (std::size_t first = 0, last = 0; first < items.size(); first = last) {
+    for (last = first + 1; last < items.size() && items[last].pass == items[first].pass;) ++last;
+    visit(&items[first], last - first);
+  }
+}
 
 }  // namespace
 
@@ -34,83 +39,112 @@ double AttitudeComparison::Line::spreadY() const {
   return n > 0.0 ? std::sqrt(yy / n) : 0.0;
 }
 
-void AttitudeComparison::add(const std::vector<AttitudeRecovery::Instant>& instants) {
-  for (std::size_t first = 0, last = 0; first < instants.size(); first = last) {
-    for (last = first + 1; last < instants.size() && instants[last].pass == instants[first].pass;) {
-      ++last;
-    }
-    addPass(&instants[first], last - first);
-  }
+void AttitudeComparison::add(const AttitudeRecovery::Outcome& outcome) {
+  forEachPass(outcome.instants, [this](const AttitudeRecovery::Instant* first, std::size_t count) {
+    addPitch(first, count);
+  });
+  forEachPass(outcome.swath, [this](const AttitudeRecovery::Swath* first, std::size_t count) {
+    addRoll(first, count);
+  });
 }
 
-void AttitudeComparison::addPass(const AttitudeRecovery::Instant* first, std::size_t count) {
-  std::vector<Angles> given(count);
-  Angles mean;
-  double mean_seen = 0.0;
-  std::size_t cursor = 0, path_cursor = 0;
+bool AttitudeComparison::anglesAt(double time, Angles& angles) {
+  SensorPose pose;
+  if (!flight_.poseAt(time, pose, cursor_)) return false;
+  angles.pitch = std::asin(std::clamp(pose.rotation(2, 1), -1.0, 1.0));
+  angles.roll = std::asin(std::clamp(-pose.rotation(2, 0), -1.0, 1.0));
+  return true;
+}
+
+void AttitudeComparison::addPitch(const AttitudeRecovery::Instant* first, std::size_t count) {
+  std::vector<MotionSample> series;
+  double mean = 0.0, mean_seen = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    SensorPose pose, line;
-    if (!flight_.poseAt(first[i].time, pose, cursor) ||
-        !path_.poseAt(first[i].time, line, path_cursor)) {
-      return;
-    }
-    given[i].pitch = std::asin(std::clamp(pose.rotation(2, 1), -1.0, 1.0));
-    given[i].roll = std::asin(std::clamp(-pose.rotation(2, 0), -1.0, 1.0));
-    mean.pitch += given[i].pitch / static_cast<double>(count);
+    Angles given;
+    if (!anglesAt(first[i].time, given)) return;
+    series.push_back({first[i].time, given.pitch, first[i].pitch});
+    mean += given.pitch / static_cast<double>(count);
     mean_seen += first[i].pitch / static_cast<double>(count);
   }
-  for (std::size_t i = 0, before = 0; i < count; ++i) {
-    pitch_.add(given[i].pitch - mean.pitch, first[i].pitch - mean_seen);
-    while (first[i].time - first[before].time > kLag) ++before;
-    if (before == 0) continue;
-    // Right wing down moves the swath to the left.
-    roll_.add(given[i].roll - given[before - 1].roll,
-              first[before - 1].swath_middle - first[i].swath_middle);
-  }
+  pitch_.add(series);
+  for (const MotionSample& s : series) pitch_level_.add(s.x - mean, s.y - mean_seen);
 }
 
-AttitudeComparison::Result AttitudeComparison::judged(const Line& line, const char* angle) {
-  if (line.n < kFewest || line.spreadY() < kMotion) return {};
+void AttitudeComparison::addRoll(const AttitudeRecovery::Swath* first, std::size_t count) {
+  std::vector<MotionSample> left, right, recorded, together;
+  double sum = 0.0, sum_sq = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const AttitudeRecovery::Swath& at = first[i];
+    Angles given;
+    if (!anglesAt(at.time, given)) return;
+    // Right wing down moves the swath to the left.
+    left.push_back({at.time, given.roll, -at.left});
+    right.push_back({at.time, given.roll, -at.right});
+    together.push_back({at.time, at.left, at.right});
+    if (std::isfinite(at.recorded)) recorded.push_back({at.time, given.roll, at.recorded});
+    sum += given.roll, sum_sq += given.roll * given.roll;
+  }
+  edges_.add(left), edges_.add(right), recorded_.add(recorded), together_.add(together);
+  const double n = static_cast<double>(count);
+  largest_roll_ = std::max(largest_roll_, sum_sq / n - sum * sum / (n * n));
+}
+
+AttitudeComparison::Result AttitudeComparison::judged(const MotionSlope& slope, const char* angle,
+                                                      const char* shown) {
   char text[300];
-  if (line.correlation() > kClear && line.slope() > kRadiansSlope) {
+  if (slope.above(kRadiansSlope)) {
     std::snprintf(text, sizeof text,
-                  "the %s of the trajectory changes by a %.0fth of what the points show: it is in "
-                  "radians; give degrees",
-                  angle, line.slope());
+                  "the %s of the trajectory changes by a %.0fth of what the points show%s: it is "
+                  "in radians; give degrees",
+                  angle, slope.slope(), shown);
     return {true, text};
   }
-  if (line.correlation() < -kClear && line.slope() < -0.5 && line.slope() > -2.0) {
+  if (slope.below(kOpposite) && slope.slope() < kLikelyOpposite && slope.slope() > kFarBeyond) {
     std::snprintf(text, sizeof text,
-                  "the %s of the trajectory has the opposite sign of what the points show "
-                  "(correlation %.2f): give roll right wing down and pitch nose up as positive",
-                  angle, line.correlation());
+                  "the %s of the trajectory has the opposite sign of what the points show%s "
+                  "(changes of %.2f degrees, slope %.2f, standard deviation %.2f): give "
+                  "roll right wing down and pitch nose up as positive",
+                  angle, shown, slope.motionX() / kRadiansPerDegree, slope.slope(), slope.std());
     return {true, text};
   }
   return {};
 }
 
-AttitudeComparison::Result AttitudeComparison::result() const {
-  Result found = judged(pitch_, "pitch");
-  if (found.text.empty()) found = judged(roll_, "roll");
-  if (!found.text.empty() || pitch_.n < kFewest || pitch_.spreadY() < kMotion) return found;
+/// Angles that stay the same, or belong to another flight, while the points show motion.
+AttitudeComparison::Result AttitudeComparison::withoutMotion() const {
   char text[300];
-  const double degrees = pitch_.spreadY() / kRadiansPerDegree;
-  if (pitch_.spreadX() == 0.0) {
+  const Line& pitch = pitch_level_;
+  const double degrees = pitch.spreadY() / kRadiansPerDegree;
+  const bool moves = pitch.n >= kFewest && pitch.spreadY() > kMotion;
+  if (moves && pitch.spreadX() == 0.0) {
     std::snprintf(text, sizeof text,
                   "the pitch of the trajectory is the same at all times, the points show changes "
                   "of %.2f degrees: an attitude column without values?",
                   degrees);
     return {false, text};
   }
-  if (pitch_.spreadX() > kMotion && std::abs(pitch_.correlation()) < 0.3) {
+  if (moves && pitch.spreadX() > kMotion && std::abs(pitch.correlation()) < 0.3) {
     std::snprintf(text, sizeof text,
                   "the pitch of the trajectory (changes of %.2f degrees) does not follow what the "
                   "points show (%.2f degrees, correlation %.2f): another flight's attitude, or "
                   "another clock",
-                  pitch_.spreadX() / kRadiansPerDegree, degrees, pitch_.correlation());
+                  pitch.spreadX() / kRadiansPerDegree, degrees, pitch.correlation());
     return {false, text};
   }
+  // Edges of tiles and of water move one by one; both together roll.
+  if (largest_roll_ < kConstant && together_.above(0.5) && !together_.above(1.5)) {
+    return {false,
+            "the roll of the trajectory is the same at all times, but both edges of the swath "
+            "move together: an attitude column without values?"};
+  }
   return {};
+}
+
+AttitudeComparison::Result AttitudeComparison::result() const {
+  Result found = judged(pitch_, "pitch", "");
+  if (found.text.empty()) found = judged(edges_, "roll", " at the edges of the swath");
+  if (found.text.empty()) found = judged(recorded_, "roll", " in their recorded scan angles");
+  return found.text.empty() ? withoutMotion() : found;
 }
 
 }  // namespace pcl_als::detail

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -19,7 +20,6 @@ constexpr double kDegree = kRadiansPerDegree;
 // Estimation.
 constexpr double kWalk = 2.5e-3;        // rad per bin: 1.4 degrees per second, a bumpy flight
 constexpr double kPrior = 0.1;          // rad, of both angles over a pass: where pulses say nothing
-constexpr double kFewest = 10.0;        // pulses of a bin that are judged
 constexpr double kMostCounted = 100.0;  // pulses of a bin: motion within it is common to all
 constexpr double kLeastNoise = 5e-4, kMostNoise = 1e-2;  // rad, of a pulse against its plane
 constexpr double kWellDetermined = 3e-3;                 // rad, standard deviation of an angle
@@ -65,7 +65,7 @@ Eigen::Vector2d ownPlane(const PulseSums& sums) {
 double noiseOf(const std::vector<PassBin>& bins) {
   std::vector<double> off;
   for (const PassBin& bin : bins) {
-    if (bin.sums.n >= kFewest) off.push_back(bin.off_plane);
+    if (bin.sums.n >= kFewestOfBin) off.push_back(bin.off_plane);
   }
   return off.empty() ? kMostNoise : std::clamp(medianInPlace(off), kLeastNoise, kMostNoise);
 }
@@ -149,7 +149,7 @@ void smoothPlanes(std::vector<PassBin>& bins) {
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(e.normal, Eigen::EigenvaluesOnly)
             .eigenvalues()[0];
     bin.well_determined =
-        bin.sums.n >= kFewest && weakest * kWellDetermined * kWellDetermined > 1.0;
+        bin.sums.n >= kFewestOfBin && weakest * kWellDetermined * kWellDetermined > 1.0;
     e.normal.diagonal().array() += prior;
     if (i > 0) {
       ties[i] = 1.0 / (kWalk * kWalk * static_cast<double>(bin.index - bins[i - 1].index));
@@ -176,7 +176,7 @@ AttitudeRecovery::Pass judgePass(const std::vector<PassBin>& bins) {
   double far = 0.0;
   for (const PassBin& bin : bins) {
     all.add(bin.sums);
-    if (bin.sums.n < kFewest) continue;
+    if (bin.sums.n < kFewestOfBin) continue;
     off.push_back(bin.off_plane);
     if (bin.off_plane > kFarOffPlane) far += 1.0;
     if (!bin.well_determined) continue;
@@ -194,6 +194,26 @@ AttitudeRecovery::Pass judgePass(const std::vector<PassBin>& bins) {
     pass.verdict = AttitudeRecovery::Verdict::undetermined;
   }
   return pass;
+}
+
+double recordedScale(const std::vector<PassBin>& bins) {
+  // Whole degrees in a narrow part of a swath still correlate by 0.9; angles are those of pulses,
+  // so the scale is 1 to the crab and pitch of a flight.
+  constexpr double kFollows = 0.9, kLargestChange = 0.25;
+  double n = 0.0, ss = 0.0, sr = 0.0, rr = 0.0;
+  for (const PassBin& bin : bins) {
+    const PulseSums& b = bin.sums;
+    if (b.angles < kFewestOfBin) continue;
+    n += b.angles;
+    ss += b.seen_sq - b.seen * b.seen / b.angles;
+    sr += b.seen_recorded - b.seen * b.recorded / b.angles;
+    rr += b.recorded_sq - b.recorded * b.recorded / b.angles;
+  }
+  const bool follows = n > 0.0 && ss > 0.0 && rr > 0.0 && sr * sr > kFollows * kFollows * ss * rr;
+  const double scale = follows ? sr / ss : 0.0;
+  return std::abs(std::abs(scale) - 1.0) < kLargestChange
+             ? scale
+             : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string objectionTo(const AttitudeRecovery::Pass& pass) {

@@ -9,7 +9,8 @@
 
 namespace pcl_als::detail {
 
-constexpr double kAttitudeBin = 0.1;  ///< seconds
+constexpr double kAttitudeBin = 0.1;   ///< seconds
+constexpr double kFewestOfBin = 10.0;  ///< pulses of a bin that is judged
 
 /// A bin of a pass with what was estimated for it. The plane of the pulses is y = across x + below
 /// z.
@@ -29,6 +30,10 @@ void smoothPlanes(std::vector<PassBin>& bins);
 
 /// What a pass shows of the scanner; after smoothPlanes().
 AttitudeRecovery::Pass judgePass(const std::vector<PassBin>& bins);
+
+/// How recorded scan angles of a pass grow with those from the flight line; -1 where they count to
+/// the left. NaN where they do not follow them.
+double recordedScale(const std::vector<PassBin>& bins);
 
 /// The words for a pass that is not linear: "its pulses lie on a cone of 18 degrees".
 std::string objectionTo(const AttitudeRecovery::Pass& pass);

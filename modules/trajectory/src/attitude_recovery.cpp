@@ -51,6 +51,7 @@ class Recovered {
     pass.from = timeOf(bins.front()), pass.to = timeOf(bins.back());
     const bool linear = pass.verdict == AttitudeRecovery::Verdict::linear;
     RecoveredAttitude::Pass knots;
+    addSwath(bins);
     for (const PassBin& bin : bins) {
       // A pass that shows nothing is level, and takes nothing from its neighbours.
       const PitchAndCrab angles = linear ? PitchAndCrab{bin.pitch(), bin.crab()} : PitchAndCrab();
@@ -69,10 +70,9 @@ class Recovered {
     return start_ + static_cast<double>(bin.index) * kAttitudeBin + bin.sums.time / bin.sums.n;
   }
   void addInstant(const PassBin& bin) {
-    instants_.push_back({timeOf(bin), bin.pitch(), bin.crab(),
-                         0.5 * (std::atan(bin.sums.leftmost) + std::atan(bin.sums.rightmost)),
-                         passes_.size()});
+    instants_.push_back({timeOf(bin), bin.pitch(), bin.crab(), passes_.size()});
   }
+  void addSwath(const std::vector<PassBin>& bins);
   /// The pass that stands for those that are not linear, where they outweigh the others.
   const AttitudeRecovery::Pass* objectingPass() const;
 
@@ -80,7 +80,19 @@ class Recovered {
   RecoveredAttitude known_;
   std::vector<AttitudeRecovery::Pass> passes_;
   std::vector<AttitudeRecovery::Instant> instants_;
+  std::vector<AttitudeRecovery::Swath> swath_;
 };
+
+void Recovered::addSwath(const std::vector<PassBin>& bins) {
+  const double scale = detail::recordedScale(bins);
+  for (const PassBin& bin : bins) {
+    const PulseSums& sums = bin.sums;
+    if (sums.n < detail::kFewestOfBin) continue;
+    const double recorded = (sums.recorded / scale - sums.seen) / sums.angles;
+    swath_.push_back({timeOf(bin), std::atan(sums.leftmost), std::atan(sums.rightmost), recorded,
+                      passes_.size()});
+  }
+}
 
 const AttitudeRecovery::Pass* Recovered::objectingPass() const {
   double all = 0.0, objecting = 0.0;
@@ -125,6 +137,7 @@ AttitudeRecovery::Outcome Recovered::outcome(const std::shared_ptr<const Traject
   AttitudeRecovery::Outcome outcome;
   outcome.flight = flight;
   outcome.passes = passes_;
+  outcome.swath = std::move(swath_);
   std::vector<double> off;
   for (const Pass& pass : passes_) {
     if (pass.verdict != AttitudeRecovery::Verdict::undetermined) off.push_back(pass.off_plane);
@@ -164,6 +177,15 @@ void detail::PulseSums::add(const PulseSums& other) {
   sum += other.sum, products += other.products;
   leftmost = std::min(leftmost, other.leftmost);
   rightmost = std::max(rightmost, other.rightmost);
+  angles += other.angles, seen += other.seen, recorded += other.recorded;
+  seen_sq += other.seen_sq, seen_recorded += other.seen_recorded;
+  recorded_sq += other.recorded_sq;
+}
+
+void detail::PulseSums::addAngle(double seen_angle, double recorded_angle) {
+  angles += 1.0, seen += seen_angle, recorded += recorded_angle;
+  seen_sq += seen_angle * seen_angle, seen_recorded += seen_angle * recorded_angle;
+  recorded_sq += recorded_angle * recorded_angle;
 }
 
 AttitudeRecovery::AttitudeRecovery(std::shared_ptr<const Trajectory> flight)
@@ -173,7 +195,7 @@ AttitudeRecovery::AttitudeRecovery(std::shared_ptr<const Trajectory> flight)
   }
 }
 
-void AttitudeRecovery::add(double time, const Eigen::Vector3d& point) {
+void AttitudeRecovery::add(double time, const Eigen::Vector3d& point, double scan_angle) {
   SensorPose pose;
   if (!flight_->poseAt(time, pose, cursor_)) return;
   const Eigen::Vector3d d = pose.rotation.transpose() * (point - pose.position);
@@ -182,8 +204,12 @@ void AttitudeRecovery::add(double time, const Eigen::Vector3d& point) {
   const double from_start = time - flight_->startTime();
   const double bin = std::floor(from_start / kAttitudeBin);
   const double across = d.x() / -d.z();
-  bins_[static_cast<std::int64_t>(bin)].add(
-      {1.0, from_start - bin * kAttitudeBin, pulse, pulse * pulse.transpose(), across, across});
+  PulseSums sums;
+  sums.n = 1.0, sums.time = from_start - bin * kAttitudeBin;
+  sums.sum = pulse, sums.products = pulse * pulse.transpose();
+  sums.leftmost = sums.rightmost = across;
+  if (std::isfinite(scan_angle)) sums.addAngle(std::atan(across), scan_angle);
+  bins_[static_cast<std::int64_t>(bin)].add(sums);
 }
 
 void AttitudeRecovery::add(const PointColumns& points, std::size_t count) {

@@ -38,8 +38,9 @@ const char* const kRemedy =
 
 }  // namespace
 
-TrajectoryPlausibility::TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight)
-    : flight_(std::move(flight)) {
+TrajectoryPlausibility::TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight,
+                                               Attitude attitude)
+    : flight_(std::move(flight)), attitude_(attitude) {
   if (flight_->hasAttitude() && !flight_->attitudeIsNominal()) {
     path_ = std::make_shared<const Trajectory>(flight_->withoutAttitude());
   }
@@ -51,7 +52,8 @@ int TrajectoryPlausibility::addStrip(const std::string& name) {
   return static_cast<int>(strips_.size()) - 1;
 }
 
-void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& point) {
+void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& point,
+                                 double scan_angle) {
   Strip& s = strips_[static_cast<std::size_t>(strip)];
   SensorPose pose;
   PathSpan path;
@@ -60,7 +62,7 @@ void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& 
     return;
   }
   ++s.count;
-  if (s.recovery) s.recovery->add(time, point);
+  if (s.recovery) s.recovery->add(time, point, scan_angle * kRadiansPerDegree);
   const double step = std::abs(time - s.last_time);
   if (step > 0.0) s.shortest_step = std::min(s.shortest_step, step);
   s.last_time = time;
@@ -223,17 +225,23 @@ void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const 
                   all.deviation(HeadingReading::heading),
                   all.constant() ? "; it is the same at all times, a column without values" : "");
   }
-  findings.push_back({true, text});
+  findings.push_back(ofAttitude(true, text));
+}
+
+TrajectoryPlausibility::Finding TrajectoryPlausibility::ofAttitude(bool wrong,
+                                                                   const std::string& text) const {
+  if (attitude_ == Attitude::used) return {wrong, text};
+  return {false, text + "; only positions are used here: check that they are those of this flight"};
 }
 
 void TrajectoryPlausibility::checkRollAndPitch(std::vector<Finding>& findings) const {
   if (!path_) return;
   detail::AttitudeComparison comparison(*flight_, *path_);
   for (const Strip& strip : strips_) {
-    if (strip.used) comparison.add(strip.recovery->assess().instants);
+    if (strip.used) comparison.add(strip.recovery->assess());
   }
   const detail::AttitudeComparison::Result found = comparison.result();
-  if (!found.text.empty()) findings.push_back({found.wrong, found.text});
+  if (!found.text.empty()) findings.push_back(ofAttitude(found.wrong, found.text));
 }
 
 std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() const {

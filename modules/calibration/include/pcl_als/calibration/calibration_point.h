@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -14,6 +15,8 @@ namespace pcl_als {
 struct CalibrationPoint {
   Eigen::Vector3d position;  ///< metres
   double time = 0.0;         ///< seconds, on the trajectory's clock
+  /// As recorded, degrees; NaN: none
+  float scan_angle = std::numeric_limits<float>::quiet_NaN();
   std::uint8_t return_number = 1;
   std::uint8_t number_of_returns = 1;
   std::uint8_t classification =

@@ -15,13 +15,19 @@ namespace pcl_als {
 struct SampleSize {
   std::size_t runs = 256;
   std::size_t points_per_run = 16;
+  std::size_t most_places = 16;  ///< of a compressed file that are read
+
+  /// Enough to see pitch, crab and roll by, several times in every second of a flight line. A
+  /// compressed file is decoded once.
+  static SampleSize forAttitude() { return {16384, 16, 16384}; }
+  std::size_t points() const { return runs * points_per_run; }
 };
 
 /** \brief Hands out some points of a LAS file, run by run, in file order.
  *
  * A file with no more points than the sample is handed out whole. An uncompressed file is read
  * only where the runs lie; of a compressed one, of which each place costs the decoding of a chunk,
- * at most 16 places are read, with proportionally longer runs.
+ * at most most_places are read, with proportionally longer runs.
  */
 void samplePoints(const LasFile& file, SampleSize size,
                   const std::function<void(const PointChunk&)>& visit);

@@ -28,8 +28,13 @@ struct PulseSums {
   /// Extent across: x / -z of the outermost pulses.
   double leftmost = std::numeric_limits<double>::infinity();
   double rightmost = -std::numeric_limits<double>::infinity();
+  /// Of pulses with a recorded scan angle: their number, sums of the angle to the right as seen
+  /// from the flight line and of the recorded one (radians), and of their products.
+  double angles = 0.0, seen = 0.0, recorded = 0.0;
+  double seen_sq = 0.0, seen_recorded = 0.0, recorded_sq = 0.0;
 
   void add(const PulseSums& other);
+  void addAngle(double seen_angle, double recorded_angle);
 };
 
 }  // namespace detail
@@ -54,7 +59,7 @@ struct PulseSums {
  * a point needs the angles to some arc-minutes.
  *
  * Add some points of all flight lines (one in ten will do), in any order; parts made in different
- * threads can be merged. Memory: 140 bytes for every tenth of a second with points.
+ * threads can be merged. Memory: 190 bytes for every tenth of a second with points.
  */
 class AttitudeRecovery {
  public:
@@ -62,7 +67,9 @@ class AttitudeRecovery {
   explicit AttitudeRecovery(std::shared_ptr<const Trajectory> flight);
 
   void add(const PointColumns& points, std::size_t count);
-  void add(double time, const Eigen::Vector3d& point);
+  /// \a scan_angle as recorded, radians; NaN: none
+  void add(double time, const Eigen::Vector3d& point,
+           double scan_angle = std::numeric_limits<double>::quiet_NaN());
   void merge(const AttitudeRecovery& other);
 
   /// From the 2nd to the 98th percentile over time, radians.
@@ -91,7 +98,16 @@ class AttitudeRecovery {
   struct Instant {
     double time = 0.0;
     double pitch = 0.0, crab = 0.0;  ///< radians, smoothed
-    double swath_middle = 0.0;       ///< radians, to the right: between the outermost pulses
+    std::size_t pass = 0;
+  };
+  /// Where a tenth of a second's pulses lie across the flight line, which roll changes.
+  struct Swath {
+    double time = 0.0;
+    double left = 0.0, right = 0.0;  ///< radians from the vertical to the right, outermost pulses
+    /// Radians: the recorded scan angle (scaled, as its sign is a convention) minus the angle from
+    /// the vertical, mean of the pulses; the roll, where recorded angles are those of the mirror.
+    /// NaN: no recorded angle follows the pulses.
+    double recorded = 0.0;
     std::size_t pass = 0;
   };
 
@@ -108,6 +124,7 @@ class AttitudeRecovery {
     std::string remark;  ///< what was found, or why nothing was
     std::vector<Pass> passes;
     std::vector<Instant> instants;  ///< of the passes that are linear
+    std::vector<Swath> swath;       ///< of all passes
   };
   Outcome recover() const;
   /// The same without the flight (a copy of the trajectory): the scanner, ranges and instants.

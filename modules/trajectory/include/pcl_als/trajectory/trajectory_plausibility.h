@@ -24,9 +24,10 @@ namespace pcl_als {
  * same times. Points then lie above the sensor, beyond any scan angle, or far ahead of or behind
  * the place they were measured from; each is a share of the points, and more than half of them
  * decides. A trajectory that is displaced by less shows where strips of several courses see it from
- * different sides. The heading is compared with the course, pitch and roll
- * with those that the points show. Times of coarse steps leave the firing point open by the
- * distance flown in a step.
+ * different sides. The heading is compared with the course, pitch with the planes of the pulses,
+ * and roll with the edges of the swath and with recorded scan angles, where these are the mirror's;
+ * without changes of pitch and roll nothing is said of them. Times of coarse steps leave the firing
+ * point open by the distance flown in a step.
  *
  * Give some points of every strip; one in a hundred will do. Points at times outside the trajectory
  * are ignored. add() may run in several threads for different strips.
@@ -39,10 +40,17 @@ namespace pcl_als {
  */
 class TrajectoryPlausibility {
  public:
-  explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight);
+  enum class Attitude {
+    used,      ///< results depend on it: a wrong one is refused
+    not_used,  ///< a wrong one gives a warning, as it may be another flight's
+  };
+  explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight,
+                                  Attitude attitude = Attitude::used);
 
   int addStrip(const std::string& name);
-  void add(int strip, double time, const Eigen::Vector3d& point);
+  /// \a scan_angle as recorded, degrees; NaN: none
+  void add(int strip, double time, const Eigen::Vector3d& point,
+           double scan_angle = std::numeric_limits<double>::quiet_NaN());
   /// Leaves a strip out of findings(), as one that is not used.
   void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
 
@@ -94,10 +102,12 @@ class TrajectoryPlausibility {
   void checkOffset(std::vector<Finding>& findings) const;
   void checkHeading(std::vector<Finding>& findings) const;
   void checkRollAndPitch(std::vector<Finding>& findings) const;
+  Finding ofAttitude(bool wrong, const std::string& text) const;
   Eigen::Vector2d offset(const std::vector<View>& views) const;
 
   std::shared_ptr<const Trajectory> flight_;
   std::shared_ptr<const Trajectory> path_;  ///< without attitude; null where none is compared
+  Attitude attitude_;
   std::deque<Strip> strips_;
 };
 
