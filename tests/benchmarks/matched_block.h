@@ -34,7 +34,7 @@ class MatchedBlock {
     return times_[index][static_cast<std::size_t>(strip)];
   }
   const Trajectory& flight() const { return *flight_; }
-  const PatchLimits& limits() const { return limits_; }
+  const SurfaceCriterion& limits() const { return limits_; }
 
  private:
   void load(const test::SimulatedSurvey& survey, const std::vector<SurveyArea>& areas);
@@ -45,7 +45,7 @@ class MatchedBlock {
   std::vector<StripPair> pairs_;
   std::vector<ControlPoint> control_;
   std::size_t pair_areas_ = 0;
-  PatchLimits limits_;
+  SurfaceCriterion limits_;
   std::vector<AreaMatcher> matchers_;
   std::vector<std::vector<std::vector<double>>> times_;  ///< by area and strip
 };

@@ -49,7 +49,8 @@ std::vector<Source> sourcesOf(const MatchedBlock& block, int strip) {
 }
 
 /// Whether the surface around a match is a patch; its normal, vertical where the tilt is noise.
-bool patchNormal(const PatchQuality& quality, const PatchLimits& limits, Eigen::Vector3d& normal) {
+bool patchNormal(const PatchQuality& quality, const SurfaceCriterion& limits,
+                 Eigen::Vector3d& normal) {
   if (quality.on_hull || quality.longest_edge > kLongestEdge || quality.slope > limits.slope ||
       quality.roughness > limits.roughness || quality.vertices < limits.minimum_vertices)
     return false;

@@ -53,7 +53,7 @@ AreaMatcher matcherOf(const std::vector<CalibrationPoint>& a,
   AreaMatcher matcher(kArea, 2);
   for (const CalibrationPoint& p : a) matcher.add(0, p);
   for (const CalibrationPoint& p : b) matcher.add(1, p);
-  matcher.prepare(PatchLimits(), candidates, 0.001);
+  matcher.prepare(SurfaceCriterion(), candidates, 0.001);
   return matcher;
 }
 
@@ -140,7 +140,7 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   AreaMatcher whole(SurveyArea{{0.0, 0.0}, 50.0, 60.0}, 2);
   for (const CalibrationPoint& p : a) whole.add(0, p);
   for (const CalibrationPoint& p : b) whole.add(1, p);
-  whole.prepare(PatchLimits(), 500, 0.001);
+  whole.prepare(SurfaceCriterion(), 500, 0.001);
   ASSERT_GT(whole.pointCount(), 2 * part.pointCount());
   const PatchSurface &tin_of_part = part.surfaceOf(1), &tin_of_whole = whole.surfaceOf(1);
   for (const CalibrationPoint& p : a) {

@@ -16,17 +16,6 @@ namespace {
 
 constexpr std::size_t kTooFew =
     30;  // points of a strip in an area with margin that are not worth a TIN
-constexpr double kGentle =
-    0.26;  // radians: slopes on which the roughness of plain ground is measured
-/// How many to take of each class.
-std::vector<std::size_t> sharesOf(const std::vector<std::vector<std::int32_t>>& classes,
-                                  std::size_t total) {
-  std::vector<std::size_t> sizes;
-  sizes.reserve(classes.size());
-  for (const auto& members : classes) sizes.push_back(members.size());
-  return evenShares(sizes, total);
-}
-
 }  // namespace
 
 void AreaMatcher::add(int strip, const CalibrationPoint& point) {
@@ -55,58 +44,26 @@ std::optional<TimeSpan> AreaMatcher::timesOf(int strip) const {
   return TimeSpan(*first, *last);
 }
 
-void AreaMatcher::prepare(const PatchLimits& limits, std::size_t candidates, double resolution) {
-  limits_ = limits;
+void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candidates,
+                          double resolution) {
+  criterion_ = criterion;
   for (StripPart& part : strips_) {
     if (part.biased.size() < kTooFew) {
       part = StripPart();
       continue;
     }
     part.surface = PatchSurface(Tin(part.biased, resolution));
-    const Tin& tin = part.surface.tin();
-    std::vector<double> lengths;
-    for (const Tin::Triangle& triangle : tin.triangles()) {
-      for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector3d edge =
-            part.biased[triangle.vertex[i]] - part.biased[triangle.vertex[(i + 1) % 3]];
-        lengths.push_back(edge.head<2>().norm());
-      }
-    }
-    part.longest_edge = lengths.empty() ? 0.0 : limits.edge_factor * medianInPlace(lengths);
+    part.median_edge = medianPlanEdge(part.surface.tin());
     chooseCandidates(part, candidates);
   }
 }
 
-bool AreaMatcher::acceptable(const StripPart& part, const PatchQuality& quality) const {
-  return !quality.on_hull &&
-         quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
-         quality.slope <= limits_.slope && quality.roughness <= limits_.roughness &&
-         quality.vertices >= limits_.minimum_vertices;
-}
-
 AreaMatcher::Direction AreaMatcher::measuringDirection(const PatchQuality& quality) const {
   const Eigen::Vector3d& normal = quality.plane_normal;
-  const double noise = std::max<double>(quality.roughness, limits_.plain_roughness);
-  const double tilt = noise / std::max<double>(quality.spread, 1e-3);
+  const double tilt = criterion_.tiltStd(quality);
   if (std::hypot(normal.x(), normal.y()) < kSignificantTilt * tilt)
     return {Eigen::Vector3d::UnitZ(), 0.0};
   return {normal, tilt * tilt};
-}
-
-std::vector<std::vector<std::int32_t>> AreaMatcher::trianglesByClass(const StripPart& part) const {
-  std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
-  std::vector<bool> seen(part.biased.size(), false);
-  const auto& triangles = part.surface.tin().triangles();
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const std::int32_t point = triangles[t].vertex[0];
-    if (seen[point] || !part.single[point] || !area_.contains(part.biased[point])) continue;
-    seen[point] = true;
-    const std::int32_t beyond = triangles[t].neighbour[0];
-    if (beyond == Tin::kNone) continue;
-    classes[OrientationClasses::of(part.surface.normal(beyond))].push_back(
-        static_cast<std::int32_t>(t));
-  }
-  return classes;
 }
 
 void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
@@ -114,26 +71,18 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   // is there. Neither holds the point itself: among points that were looked for because their own
   // noise made them slope to the west, it would not have a mean of zero.
   constexpr std::size_t kLooks = 4;
-  const auto rough = trianglesByClass(part);
+  const auto rough = trianglesByOrientation(part.surface, 1, [&](std::int32_t point) {
+    return part.single[point] && area_.contains(part.biased[point]);
+  });
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
-  const std::vector<std::size_t> looks = sharesOf(rough, kLooks * count);
-  for (std::size_t c = 0; c < rough.size(); ++c) {
-    for (std::size_t k = 0; k < looks[c]; ++k) {
-      const std::int32_t triangle = rough[c][k * rough[c].size() / looks[c]];
-      const PatchQuality quality = part.surface.quality(triangle);
-      if (!acceptable(part, quality)) continue;
-      classes[OrientationClasses::of(quality.plane_normal)].push_back(
-          part.surface.tin().triangles()[triangle].vertex[0]);
-      if (quality.slope < kGentle) part.roughness.push_back(quality.roughness);
-    }
+  for (const std::int32_t triangle : chosenEvenly(rough, kLooks * count)) {
+    const PatchQuality quality = part.surface.quality(triangle);
+    if (!criterion_.isSatisfiedBy(quality, part.median_edge)) continue;
+    classes[OrientationClasses::of(quality.plane_normal)].push_back(
+        part.surface.tin().triangles()[triangle].vertex[0]);
+    if (quality.slope < kGentleSlope) part.roughness.push_back(quality.roughness);
   }
-  const std::vector<std::size_t> shares = sharesOf(classes, count);
-  part.candidates.clear();
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    for (std::size_t k = 0; k < shares[c]; ++k) {
-      part.candidates.push_back(classes[c][k * classes[c].size() / shares[c]]);
-    }
-  }
+  part.candidates = chosenEvenly(classes, count);
   std::sort(part.candidates.begin(), part.candidates.end());
 }
 
@@ -275,7 +224,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
       if (!match) continue;
       const PatchQuality quality = b.surface.quality(match->triangle);
-      if (!acceptable(b, quality) || !point.atPoint(a, i, quality) ||
+      if (!criterion_.isSatisfiedBy(quality, b.median_edge) || !point.atPoint(a, i, quality) ||
           !foot.atFoot(b, *match, quality, vertex))
         continue;
       observation.point = i;
@@ -341,7 +290,8 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       const auto match = strips_[b].surface.vertical(point.position);
       if (!match || std::abs(match->signed_normal_distance) > threshold) continue;
       const PatchQuality quality = strips_[b].surface.quality(match->triangle);
-      if (!acceptable(strips_[b], quality) || !foot.atFoot(strips_[b], *match, quality, vertex))
+      if (!criterion_.isSatisfiedBy(quality, strips_[b].median_edge) ||
+          !foot.atFoot(strips_[b], *match, quality, vertex))
         continue;
       PairObservation observation;
       observation.b = static_cast<int>(b);

@@ -11,22 +11,8 @@ namespace {
 
 constexpr std::size_t kTooFew = 12;  // points that are not worth a TIN
 constexpr std::size_t kLooks = 300;  // for the roughness of plain ground
-constexpr double kGentle = 0.26;     // radians (15 degrees): where it is measured
 constexpr double kSteepest = 0.8;    // radians: a height beside a wall says nothing
 constexpr double kWall = 0.2;        // cosine: a plane so steep has no height at a position
-
-double medianEdge(const std::vector<SwathPoint>& points, const Tin& tin) {
-  std::vector<double> lengths;
-  for (const Tin::Triangle& triangle : tin.triangles()) {
-    for (int i = 0; i < 3; ++i) {
-      lengths.push_back(
-          (points[triangle.vertex[i]].position - points[triangle.vertex[(i + 1) % 3]].position)
-              .head<2>()
-              .norm());
-    }
-  }
-  return lengths.empty() ? 0.0 : medianInPlace(lengths);
-}
 
 /// Every so manyth, so that at most \a count are left.
 template <typename T>
@@ -73,7 +59,7 @@ void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
     positions.reserve(part.points.size());
     for (const SwathPoint& point : part.points) positions.push_back(point.position);
     part.surface = PatchSurface(Tin(std::move(positions), resolution));
-    part.longest_edge = limits.edge_factor * medianEdge(part.points, part.surface.tin());
+    part.median_edge = medianPlanEdge(part.surface.tin());
     choosePlaces(part);
   }
 }
@@ -83,17 +69,6 @@ void AreaOffsets::release() {
     part.surface = PatchSurface();
     part.places = {};
   }
-}
-
-bool AreaOffsets::sound(const StripPart& part, const PatchQuality& quality) const {
-  return !quality.on_hull &&
-         quality.longest_edge <= part.longest_edge / std::max(0.3F, std::cos(quality.slope)) &&
-         quality.vertices >= limits_.minimum_vertices;
-}
-
-bool AreaOffsets::smooth(const StripPart& part, const PatchQuality& quality) const {
-  return sound(part, quality) && quality.slope <= limits_.slope &&
-         quality.roughness <= limits_.roughness;
 }
 
 std::vector<std::int32_t> AreaOffsets::looks(const StripPart& part, std::size_t count) const {
@@ -115,7 +90,8 @@ void AreaOffsets::choosePlaces(StripPart& part) const {
   std::vector<Place> level, steep;
   for (const std::int32_t triangle : looks(part, kLooksPerPlace * limits_.candidates)) {
     const PatchQuality quality = part.surface.quality(triangle);
-    if (!smooth(part, quality) || quality.plane_normal.z() < kWall) continue;
+    if (!limits_.isSatisfiedBy(quality, part.median_edge) || quality.plane_normal.z() < kWall)
+      continue;
     Place place;
     place.point = part.surface.tin().triangles()[triangle].vertex[0];
     place.position = part.points[place.point].position;
@@ -134,7 +110,8 @@ std::vector<double> AreaOffsets::roughness() const {
     if (part.surface.tin().triangles().empty()) continue;
     for (const std::int32_t triangle : looks(part, kLooks)) {
       const PatchQuality quality = part.surface.quality(triangle);
-      if (sound(part, quality) && quality.slope < kGentle) values.push_back(quality.roughness);
+      if (limits_.isSound(quality, part.median_edge) && quality.slope < kGentleSlope)
+        values.push_back(quality.roughness);
     }
   }
   return values;
@@ -182,7 +159,7 @@ bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const Str
     return sign * (place.position.z() - heightOf(quality, place.position));
   };
   const auto usable = [&](const PatchQuality& quality) {
-    return smooth(to, quality) && quality.plane_normal.z() >= kWall;
+    return limits_.isSatisfiedBy(quality, to.median_edge) && quality.plane_normal.z() >= kWall;
   };
   const auto closest = to.surface.closest(place.position, limits_.maximum_distance);
   PatchQuality quality;
@@ -219,7 +196,7 @@ std::optional<AreaOffsets::Height> AreaOffsets::heightAt(int strip,
   height.above = -match->signed_normal_distance / match->normal.z();
   height.slope = static_cast<float>(std::acos(std::min(1.0, quality.plane_normal.z())));
   height.roughness = quality.roughness;
-  if (quality.on_hull || quality.longest_edge > one.longest_edge) {
+  if (quality.on_hull || quality.longest_edge > limits_.edge_factor * one.median_edge) {
     height.unfit = "at the edge of the strip or of a void";
   } else if (height.slope > kSteepest) {
     height.unfit = "on a wall";

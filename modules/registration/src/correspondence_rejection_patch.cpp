@@ -37,19 +37,19 @@ void CorrespondenceRejectorPatch::setMaximumNormalDistance(double metres) {
   setLimit(normal_distance_, metres, kUnlimited, "maximum normal distance", "m");
 }
 void CorrespondenceRejectorPatch::setMaximumEdgeLength(double metres) {
-  setLimit(edge_length_, metres, kUnlimited, "maximum edge length", "m");
+  setLimit(criterion_.edge_length, metres, kUnlimited, "maximum edge length", "m");
 }
 void CorrespondenceRejectorPatch::setMaximumSlope(double radians) {
-  setLimit(slope_, radians, kQuarterTurn, "maximum slope", "rad");
+  setLimit(criterion_.slope, radians, kQuarterTurn, "maximum slope", "rad");
 }
 void CorrespondenceRejectorPatch::setMaximumRoughness(double metres) {
-  setLimit(roughness_, metres, kUnlimited, "maximum roughness", "m");
+  setLimit(criterion_.roughness, metres, kUnlimited, "maximum roughness", "m");
 }
 void CorrespondenceRejectorPatch::setMaximumBend(double radians) {
-  setLimit(bend_, radians, kQuarterTurn, "maximum bend", "rad");
+  setLimit(criterion_.bend, radians, kQuarterTurn, "maximum bend", "rad");
 }
 void CorrespondenceRejectorPatch::setRejectBorder(bool reject) {
-  reject_border_ = reject;
+  criterion_.reject_border = reject;
   judged_.reset();
 }
 void CorrespondenceRejectorPatch::setResolution(double metres) {
@@ -78,16 +78,11 @@ CloudSurface::ConstPtr CorrespondenceRejectorPatch::currentSurface() const {
   return surface;
 }
 
-bool CorrespondenceRejectorPatch::withinLimits(const PatchQuality& quality) const {
-  return quality.longest_edge <= edge_length_ && quality.slope <= slope_ &&
-         quality.roughness <= roughness_ && quality.bend <= bend_ &&
-         !(reject_border_ && quality.on_hull);
-}
-
 bool CorrespondenceRejectorPatch::isFit(const PatchSurface& surface, std::int32_t triangle) {
   Verdict& verdict = verdicts_[triangle];
   if (verdict == Verdict::unknown)
-    verdict = withinLimits(surface.quality(triangle)) ? Verdict::fit : Verdict::unfit;
+    verdict =
+        criterion_.isSatisfiedBy(surface.quality(triangle), 1.0) ? Verdict::fit : Verdict::unfit;
   return verdict == Verdict::fit;
 }
 

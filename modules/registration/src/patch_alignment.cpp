@@ -75,7 +75,7 @@ class Alignment {
   void alignCoarsely();
   void alignLevel(std::vector<AreaSurfaces>& level, double cell);
   std::vector<AreaSurfaces> prepareAreas(const WorkingPoints& source, const WorkingPoints& target);
-  void chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceLimits& limits,
+  void chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceCriterion& criterion,
                         std::size_t count) const;
   bool alignFinely(std::vector<AreaSurfaces>& areas);
   void keepSwing(const Unknowns& update);
@@ -99,7 +99,7 @@ class Alignment {
   double threshold_ = 0.0;
   Robustness robustness_ = Robustness::whileMoving();
   bool frozen_ = false;  ///< scatter, directions and threshold stay: the updates have stalled
-  SurfaceLimits limits_;
+  SurfaceCriterion criterion_ = surfaceCriterion();
   Directions directions_;
   PatchPairs pairs_;
   PatchAlignmentResult result_;
@@ -231,18 +231,18 @@ std::vector<AreaSurfaces> Alignment::prepareAreas(const WorkingPoints& source,
     of_cloud[i % 2].insert(of_cloud[i % 2].end(), roughness[i].begin(), roughness[i].end());
   for (std::vector<double>& values : of_cloud)
     if (!values.empty())
-      limits_.plain_roughness = std::max(limits_.plain_roughness, medianInPlace(values));
-  limits_.roughness = std::clamp(3.0 * limits_.plain_roughness, 0.005, limits_.roughness);
-  chooseCandidates(areas, limits_, settings_.pairs);
+      criterion_.plain_roughness = std::max(criterion_.plain_roughness, medianInPlace(values));
+  criterion_.roughness = std::clamp(3.0 * criterion_.plain_roughness, 0.005, criterion_.roughness);
+  chooseCandidates(areas, criterion_, settings_.pairs);
   return areas;
 }
 
-void Alignment::chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceLimits& limits,
-                                 std::size_t count) const {
+void Alignment::chooseCandidates(std::vector<AreaSurfaces>& areas,
+                                 const SurfaceCriterion& criterion, std::size_t count) const {
   const std::size_t of_area = std::max<std::size_t>(1, count / areas.size());
   parallelFor(2 * areas.size(), settings_.threads, [&](std::size_t i) {
     AreaSurfaces& area = areas[i / 2];
-    (i % 2 == 0 ? area.source : area.target).chooseCandidates(of_area, limits);
+    (i % 2 == 0 ? area.source : area.target).chooseCandidates(of_area, criterion);
   });
 }
 
@@ -250,9 +250,9 @@ void Alignment::chooseCandidates(std::vector<AreaSurfaces>& areas, const Surface
 void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   constexpr int kIterations = 8;
   const Affine3d motion = motion_;
-  SurfaceLimits all = limits_;
-  all.roughness = 20.0 * limits_.plain_roughness;
-  all.edges = 8.0;
+  SurfaceCriterion all = criterion_;
+  all.roughness = 20.0 * criterion_.plain_roughness;
+  all.edge_factor = 8.0;
   all.slope = 1.45;
   chooseCandidates(areas, all, std::min(settings_.pairs, kSecondOpinionPairs));
   robustness_ = Robustness::trusting();

@@ -8,16 +8,16 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als::registration {
 
-/// What makes a surface smooth enough to measure to; found from the data.
-struct SurfaceLimits {
-  double roughness = 0.3;        ///< metres, RMS of a neighbourhood about its plane, at most
-  double edges = 3.0;            ///< longest edge against the median of the TIN
-  double slope = 1.05;           ///< radians: steeper is a wall, or a triangle across an eave
-  double plain_roughness = 0.0;  ///< metres, what the noise alone makes of plain ground
-};
+/// Strips that are yet to be moved together, and unclassified ones, look rougher than ground is.
+inline SurfaceCriterion surfaceCriterion() {
+  SurfaceCriterion criterion;
+  criterion.roughness = 0.3;
+  return criterion;
+}
 
 /// Direction of a patch's neighbourhood and how well it is known.
 struct PatchPlane {
@@ -52,7 +52,7 @@ class SurfaceSide {
   void sampleRoughness(std::size_t count, std::vector<double>& values) const;
   /// At most \a count candidates on surfaces within the limits, evenly over slopes and aspects; in
   /// place of those chosen before.
-  void chooseCandidates(std::size_t count, const SurfaceLimits& limits);
+  void chooseCandidates(std::size_t count, const SurfaceCriterion& criterion);
   /// Every n-th point of all, \a count at most; from now on this side is coarse.
   void makeCoarse(std::size_t count);
 
@@ -63,15 +63,12 @@ class SurfaceSide {
  private:
   bool judge(std::int32_t triangle, PatchPlane& plane) const;
   bool judgeCoarse(std::int32_t triangle, PatchPlane& plane) const;
-  bool acceptable(const PatchQuality& quality) const;
   PatchPlane planeOf(const PatchQuality& quality) const;
-  /// One triangle for each vertex in the box, every step-th, by orientation.
-  std::vector<std::vector<std::int32_t>> trianglesByClass(std::size_t step) const;
 
   PatchSurface surface_;
   Eigen::AlignedBox2d box_;
   std::vector<Candidate> candidates_;
-  SurfaceLimits limits_;
+  SurfaceCriterion criterion_ = surfaceCriterion();
   double median_edge_ = 0.0;  ///< metres in plan
   bool coarse_ = false;
   std::vector<std::int32_t> verdicts_;  ///< by triangle: index into planes_, or kUnknown, kUnfit

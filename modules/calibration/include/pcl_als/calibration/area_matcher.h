@@ -18,21 +18,11 @@
 #include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/tin/surface_criterion.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
-
-/// What makes a patch, or the surface around a point, worth measuring to.
-struct PatchLimits {
-  double edge_factor =
-      3.0;                  ///< longest edge against the median edge of the strip's TIN in the area
-  double slope = 1.05;      ///< radians: steeper is a wall or a triangle across an eave
-  double roughness = 0.08;  ///< metres, RMS of the neighbourhood about its plane
-  double plain_roughness =
-      0.0;  ///< metres, what the noise alone makes of plain ground (found from the data)
-  int minimum_vertices = 7;  ///< in the neighbourhood
-};
 
 /** \brief The points of one area by strip, their TINs, and the pairs found between them.
  *
@@ -53,13 +43,13 @@ class AreaMatcher {
 
   /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
   /// aspects.
-  void prepare(const PatchLimits& limits, std::size_t candidates, double resolution);
+  void prepare(const SurfaceCriterion& criterion, std::size_t candidates, double resolution);
   /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for
   /// setting the limit).
   void collectRoughness(std::vector<double>& values) const;
   void limitRoughness(double most, double plain) {
-    limits_.roughness = most;
-    limits_.plain_roughness = plain;
+    criterion_.roughness = most;
+    criterion_.plain_roughness = plain;
   }
 
   /// Which points look for patches: all candidates, or those of the observations last kept.
@@ -94,7 +84,7 @@ class AreaMatcher {
     PatchSurface surface;
     std::vector<std::int32_t> candidates;
     std::vector<double> roughness;  ///< metres, of the neighbourhoods looked at on gentle slopes
-    double longest_edge = 0.0;      ///< metres, limit
+    double median_edge = 0.0;       ///< metres, in plan
   };
   class PointGeometry;
 
@@ -106,10 +96,6 @@ class AreaMatcher {
     double variance = 0.0;  ///< rad^2
   };
   Direction measuringDirection(const PatchQuality& quality) const;
-  bool acceptable(const StripPart& part, const PatchQuality& quality) const;
-  /// Triangles with their first vertex inside the area, one for every vertex, by the orientation of
-  /// the one beyond the opposite edge.
-  std::vector<std::vector<std::int32_t>> trianglesByClass(const StripPart& part) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
   SurveyArea area_;
@@ -119,7 +105,7 @@ class AreaMatcher {
     double sharing = 1.0, offset = 0.0;  ///< of its pair, see ChosenPair
   };
   std::map<std::pair<int, int>, std::vector<Seeker>> kept_;  ///< points of the first strip
-  PatchLimits limits_;
+  SurfaceCriterion criterion_;
   SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
 };
 

@@ -19,7 +19,7 @@ struct CalibrationSettings {
   NoiseModel noise;
   SharedErrorModel shared_errors;
   DeterminationLimits limits;
-  PatchLimits patches;
+  SurfaceCriterion patches;
   SurveyMap::Selection selection;
   std::size_t candidates = 100'000;   ///< points that look for patches, all areas
   std::size_t pair_budget = 0;        ///< pairs that are adjusted (PairSelection); 0: all

@@ -13,18 +13,15 @@
 #include <pcl_als/quality/offset_sample.h>
 #include <pcl_als/quality/swath_point.h>
 #include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {
 
 /// What counts as a surface to measure on.
-struct SurfaceLimits {
+struct SurfaceLimits : SurfaceCriterion {
   double level_slope = 0.17453292519943295;  ///< radians (10 degrees): steeper is not for RMSDz
-  double slope = 1.05;                       ///< radians: steeper is a wall
-  double roughness = 0.08;        ///< metres, RMS of a neighbourhood about its plane: smooth
-  double edge_factor = 3.0;       ///< longest edge against the median edge of the strip's TIN here
-  int minimum_vertices = 7;       ///< in the neighbourhood
-  double maximum_distance = 1.0;  ///< metres: more is another object, not an offset
-  std::size_t candidates = 400;   ///< places of a strip and area: so many level, so many steep
+  double maximum_distance = 1.0;             ///< metres: more is another object, not an offset
+  std::size_t candidates = 400;  ///< places of a strip and area: so many level, so many steep
 };
 
 /** \brief The points of one area by strip, and the offsets between the strips there.
@@ -83,12 +80,10 @@ class AreaOffsets {
   struct StripPart {
     std::vector<SwathPoint> points;
     PatchSurface surface;
-    double longest_edge = 0.0;  ///< metres, limit
+    double median_edge = 0.0;  ///< metres, in plan
     std::vector<Place> places;
   };
   const StripPart& part(int strip) const { return strips_[static_cast<std::size_t>(strip)]; }
-  bool sound(const StripPart& part, const PatchQuality& quality) const;
-  bool smooth(const StripPart& part, const PatchQuality& quality) const;
   /// One triangle for each single-return vertex inside the area, every so manyth.
   std::vector<std::int32_t> looks(const StripPart& part, std::size_t count) const;
   void choosePlaces(StripPart& part) const;

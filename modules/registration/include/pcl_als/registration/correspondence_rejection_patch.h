@@ -12,6 +12,7 @@
 #include <pcl/registration/correspondence_rejection.h>
 
 #include <pcl_als/registration/patch_match_provider.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {
 
@@ -53,11 +54,11 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   void setRejectBorder(bool reject);        ///< patches at the border of the TIN; default true
   void setResolution(double metres);        ///< of a TIN that is built here; default 0.001 m
   double getMaximumNormalDistance() const { return normal_distance_; }
-  double getMaximumEdgeLength() const { return edge_length_; }
-  double getMaximumSlope() const { return slope_; }
-  double getMaximumRoughness() const { return roughness_; }
-  double getMaximumBend() const { return bend_; }
-  bool getRejectBorder() const { return reject_border_; }
+  double getMaximumEdgeLength() const { return criterion_.edge_length; }
+  double getMaximumSlope() const { return criterion_.slope; }
+  double getMaximumRoughness() const { return criterion_.roughness; }
+  double getMaximumBend() const { return criterion_.bend; }
+  bool getRejectBorder() const { return criterion_.reject_border; }
   double getResolution() const { return resolution_; }
 
   /// Takes patches from an estimation; null: finds them here.
@@ -90,12 +91,21 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   CloudSurface::ConstPtr currentSurface() const;
   bool keep(const CloudSurface& surface, pcl::index_t source_point);
   bool isFit(const PatchSurface& surface, std::int32_t triangle);
-  bool withinLimits(const PatchQuality& quality) const;
   void setLimit(double& limit, double value, double most, const char* name, const char* unit);
 
-  double normal_distance_ = 1.0, edge_length_ = 5.0, slope_ = 1.05, roughness_ = 0.1, bend_ = 0.35;
-  double resolution_ = 0.001;
-  bool reject_border_ = true;
+  /// Limits of a user's own, whatever the spacing of the points.
+  static SurfaceCriterion defaultCriterion() {
+    SurfaceCriterion criterion;
+    criterion.edge_factor = std::numeric_limits<double>::infinity();
+    criterion.minimum_vertices = 0;
+    criterion.edge_length = 5.0;
+    criterion.roughness = 0.1;
+    criterion.bend = 0.35;
+    return criterion;
+  }
+
+  double normal_distance_ = 1.0, resolution_ = 0.001;
+  SurfaceCriterion criterion_ = defaultCriterion();
   std::shared_ptr<const PatchMatchProvider> provider_;
   std::vector<Eigen::Vector3f> source_;
   CloudSurface::ConstPtr target_;

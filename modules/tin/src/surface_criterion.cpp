@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/tin/surface_criterion.h>
+
+namespace pcl_als {
+
+bool SurfaceCriterion::isSound(const PatchQuality& quality, double median_edge) const {
+  return !(reject_border && quality.on_hull) && quality.longest_edge <= edge_length &&
+         quality.longest_edge <=
+             edge_factor * median_edge / std::max(0.3F, std::cos(quality.slope)) &&
+         quality.vertices >= minimum_vertices;
+}
+
+bool SurfaceCriterion::isSatisfiedBy(const PatchQuality& quality, double median_edge) const {
+  return quality.slope <= slope && quality.roughness <= roughness && quality.bend <= bend &&
+         isSound(quality, median_edge);
+}
+
+double SurfaceCriterion::tiltStd(const PatchQuality& quality) const {
+  return std::max<double>(quality.roughness, plain_roughness) /
+         std::max<double>(quality.spread, 1e-3);
+}
+
+double medianPlanEdge(const Tin& tin, std::size_t triangles) {
+  std::vector<double> lengths;
+  const auto& all = tin.triangles();
+  const std::size_t step = 1 + (triangles == 0 ? 0 : all.size() / triangles);
+  for (std::size_t t = 0; t < all.size(); t += step) {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d edge =
+          tin.points()[all[t].vertex[i]] - tin.points()[all[t].vertex[(i + 1) % 3]];
+      lengths.push_back(edge.head<2>().norm());
+    }
+  }
+  return lengths.empty() ? 0.0 : medianInPlace(lengths);
+}
+
+std::vector<std::vector<std::int32_t>> trianglesByOrientation(
+    const PatchSurface& surface, std::size_t step,
+    const std::function<bool(std::int32_t vertex)>& wanted) {
+  std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
+  const auto& triangles = surface.tin().triangles();
+  std::vector<bool> seen(surface.tin().points().size(), false);
+  for (std::size_t t = 0; t < triangles.size(); t += step) {
+    const std::int32_t point = triangles[t].vertex[0];
+    if (seen[point] || !wanted(point)) continue;
+    seen[point] = true;
+    const std::int32_t beyond = triangles[t].neighbour[0];
+    if (beyond == Tin::kNone) continue;
+    classes[OrientationClasses::of(surface.normal(beyond))].push_back(static_cast<std::int32_t>(t));
+  }
+  return classes;
+}
+
+}  // namespace pcl_als
