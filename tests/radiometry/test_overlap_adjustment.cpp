@@ -125,7 +125,7 @@ TEST(OverlapAdjustment, SaysWhatOneHeightCannotTell) {
   const OverlapResult result = adjustOverlaps(cellsOf(Truth(), scene), 2.0, kStrips,
                                               RadiometricModel(), asked(true, true, true, true));
   EXPECT_EQ(result.terms[2].status, TermStatus::not_estimable);
-  EXPECT_NE(result.terms[2].reason.find("cannot be told from"), std::string::npos)
+  EXPECT_NE(result.terms[2].reason.find("cannot be separated from"), std::string::npos)
       << result.terms[2].reason;
   EXPECT_EQ(result.model.extinction_per_km, 0.0);  // as given
   EXPECT_FALSE(result.reliable());

@@ -324,8 +324,8 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
     inflation[i] =
         slopes[static_cast<Eigen::Index>(k)] * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
   }
-  const SystemMatrix believed = model + doubtRanging(model, solution);
-  solution.covariance = inflation.asDiagonal() * believed * inflation.asDiagonal();
+  const SystemMatrix with_doubt = model + doubtRanging(model, solution);
+  solution.covariance = inflation.asDiagonal() * with_doubt * inflation.asDiagonal();
   solution.solved = true;
   return solution;
 }

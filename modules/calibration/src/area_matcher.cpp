@@ -15,7 +15,7 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kTooFew =
-    30;  // points of a strip in an area with margin that are not worth a TIN
+    30;  // points of a strip in an area with margin for which no TIN is built
 }  // namespace
 
 void AreaMatcher::add(int strip, const CalibrationPoint& point) {
@@ -181,9 +181,9 @@ class AreaMatcher::PointGeometry {
   }
 
  private:
-  /// Where the pulse meets the plane around the patch. A range with its noise in the design would
-  /// go with the noise of the distance that is measured: over a million pairs, a range scale of 6
-  /// ppm.
+  /// Where the pulse meets the plane around the patch. A measured range in the design matrix would
+  /// be correlated with the noise of the distance (errors in variables): over a million pairs, a
+  /// range scale of 6 ppm.
   Eigen::Vector3d alongBeam(const Eigen::Vector3d& measured, const PatchQuality& surface) const {
     constexpr double kGrazing = 0.2;
     const Eigen::Vector3d towards = (measured - pose_.position).normalized();

@@ -18,9 +18,9 @@ using P = SystemParameter;
 
 constexpr std::size_t kObservations = 20'000;  // of a block that is adjusted again and again
 constexpr double kHelps = 0.1;                 // benefit from which on advice is worth a line
-constexpr double kWorthSaying = 0.85;          // after / before from which on a change is not told
-constexpr std::size_t kAdviceTold = 6;         // in the text; all of it is in the report
-constexpr double kWellKnown = 0.01;            // metres on the ground
+constexpr double kWorthSaying = 0.85;   // after / before from which on a change is not reported
+constexpr std::size_t kAdviceTold = 6;  // in the text; all of it is in the report
+constexpr double kWellKnown = 0.01;     // metres on the ground
 
 std::string valueOf(P p, double value) {
   const std::string text = inUnit(p, value);

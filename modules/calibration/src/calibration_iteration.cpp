@@ -140,8 +140,8 @@ void QuasiRigorousCalibration::openIteration(State& state, const CalibrationResu
   // The variance components are estimated after the geometry has converged, because remaining
   // biases resemble errors of the trajectory; the iteration converges when they no longer change.
   const bool look_due = !state.coarse && rests && !state.looked();
-  // Chosen pairs tell what all told where they were chosen: again at their places, and at the end.
-  // The noise of the few is no measure of the levels.
+  // A reduced set represents all pairs near the estimate for which it was chosen: it is chosen
+  // again after convergence, and at the end. The noise of the few is no measure of the levels.
   const bool first_look = look_due && state.looks == 0;
   if ((arrives || first_look || state.choose_again) && !state.all()) {
     state.seekers = AreaMatcher::Seekers::candidates;

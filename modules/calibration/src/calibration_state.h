@@ -36,7 +36,7 @@ struct QuasiRigorousCalibration::State {
   }
   /// Whether all pairs are adjusted, not a chosen part of them.
   bool all() const { return seekers == AreaMatcher::Seekers::candidates; }
-  /// Whether the levels need no further look.
+  /// Whether the variance components need no further estimation.
   bool looked() const {
     constexpr int kLooks = 8;
     return levels_rest || looks >= kLooks;
@@ -56,9 +56,10 @@ struct QuasiRigorousCalibration::State {
   SystemVector unrest = SystemVector::Zero();
   /// Left out because the iteration does not converge with them, and why.
   std::map<SystemParameter, std::string> excluded;
-  bool levels_open = false;  ///< whether this iteration looks for the levels of shared errors
-  int looks = 0;             ///< how often it was looked for
-  bool levels_rest = false;  ///< whether the last look left them as they were
+  bool levels_open =
+      false;      ///< whether this iteration estimates the variance components of shared errors
+  int looks = 0;  ///< how often they were estimated
+  bool levels_rest = false;  ///< whether the last estimation left them unchanged
   AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
   bool choose_again = false;   ///< of all pairs, in the next iteration
   bool chosen_at_end = false;  ///< chosen after the variance components converged

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// The two looks of QuasiRigorousCalibration at the points.
+// The two passes of QuasiRigorousCalibration over the points.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -109,7 +109,7 @@ void QuasiRigorousCalibration::recoverAttitude() {
   if (!settings_.recover_attitude) {
     if (outcome.found && outcome.size > kVertical) {
       warnings_.push_back(
-          "the sensor is taken as vertical and looking along the line of flight, "
+          "the sensor is taken as vertical and aligned with the flight line, "
           "it was not: " +
           outcome.remark + "; deviations do not count that");
     }

@@ -53,7 +53,7 @@ FlightPlan::FlightPlan(std::vector<StripGeometry> lines, const Settings& setting
   if (lines_.empty()) throw UsageError("a flight plan needs at least one line");
   if (lines_.size() > kMostLines) {
     throw UsageError("a flight plan of " + std::to_string(lines_.size()) +
-                     " lines: at most 200 are looked at together");
+                     " lines: at most 200 can be planned together");
   }
   std::set<std::string> ids;
   for (const StripGeometry& line : lines_) {

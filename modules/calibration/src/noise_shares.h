@@ -20,8 +20,8 @@ namespace pcl_als {
  * minus their weights of the interpolation. With V the covariance of all pairs of the area, sharing
  * is the sum of |V_ij| along a row over V_ii: with u_p the sum of |c_p| over all pairs,
  * sum_p |c_p| u_p var(e_p) / variance. A diagonal matrix with these sums is not smaller than V
- * (Gershgorin), so that weights of 1 / (variance * sharing) never promise more than the points
- * hold, however many pairs are made of them.
+ * (Gershgorin), so that weights of 1 / (variance * sharing) never indicate a higher precision than
+ * the points hold, however many pairs are made of them.
  */
 class NoiseShares {
  public:

@@ -18,8 +18,8 @@ namespace {
 using P = SystemParameter;
 
 constexpr double kNamed = 0.3;      // component of a unit vector from which on it is named
-constexpr double kAlike = 0.85;     // correlation from which on two are hardly told apart
-constexpr double kUnknown = 1e3;    // metres on the ground: a parameter nobody knows is within it
+constexpr double kAlike = 0.85;     // correlation from which on two can hardly be separated
+constexpr double kUnknown = 1e3;    // metres on the ground: an upper bound of any parameter
 constexpr double kNothing = 100.0;  // metres: who is known no better was not observed
 
 std::string name(P p) {
@@ -149,7 +149,7 @@ WeakCombination Observability::pair(std::size_t first, std::size_t second, doubl
   return weak;
 }
 
-/// Row and column are the parameters looked at, in metres on the ground.
+/// Rows and columns are the parameters considered, in metres on the ground.
 struct Observability::Known {
   Eigen::MatrixXd covariance;
   Eigen::VectorXd std;
@@ -163,7 +163,8 @@ struct Observability::Known {
 
 Observability::Known Observability::known(const SystemVector& prior) const {
   Eigen::MatrixXd normal = scaledNormal();
-  // Nobody is wrong by a kilometre: a word that keeps the matrix regular and says nothing else.
+  // No parameter is wrong by a kilometre: a prior that keeps the matrix regular and has no other
+  // effect.
   for (Eigen::Index i = 0; i < normal.rows(); ++i) {
     const int at = indexOf(wanted_[static_cast<std::size_t>(i)]);
     normal(i, i) += 1.0 / std::pow(std::min(kUnknown, prior[at] * effect_[at]), 2);

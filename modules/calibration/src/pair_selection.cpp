@@ -59,7 +59,7 @@ struct MovementEquations {
 /// The movement by which \a part shows what \a all show.
 Movement missing(const MovementEquations& all, MovementEquations part) {
   // Level ground shows no horizontal displacement, and needs none; a few pairs show their noise as
-  // changes with time, which should not be spread over the meeting.
+  // changes with time, which should not be spread over the area.
   constexpr double kNothing = 1e-9, kLittle = 1e-3;
   const double trace = part.normal.topLeftCorner<3, 3>().trace();
   part.normal.diagonal().array() += kNothing * trace;

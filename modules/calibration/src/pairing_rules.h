@@ -15,8 +15,8 @@ namespace pcl_als {
 /// Standard deviations of a tilt from which on it is one: on less, pairs measure vertically.
 constexpr double kSignificantTilt = 5.0;
 
-/// Points of a strip in an area that look for patches, of \a all in a block where strips and areas
-/// meet \a meetings times.
+/// Candidates of a strip in an area, of \a all in a block with \a meetings combinations of strip
+/// and area.
 template <typename Amount>
 Amount candidatesPerStrip(Amount all, Amount meetings) {
   constexpr Amount kFewest = 150;

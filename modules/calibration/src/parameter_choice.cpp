@@ -14,7 +14,7 @@ namespace {
 
 using P = SystemParameter;
 
-/// Who goes first when several cannot be told apart.
+/// The order in which parameters that cannot be separated are left out.
 constexpr std::array<P, kSystemParameterCount> kDropOrder{
     P::lever_arm_z, P::lever_arm_y,       P::lever_arm_x,     P::scan_angle_scale,
     P::range_bias,  P::boresight_heading, P::boresight_pitch, P::boresight_roll};
@@ -198,8 +198,8 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
       reason = uncertainReason(choice.solution, choice.estimate, dropped, limits, limit_factor);
     } else {
       const std::string others = listed(candidates, dropped);
-      reason =
-          others.empty() ? "the observations do not depend on it" : "cannot be told from " + others;
+      reason = others.empty() ? "the observations do not depend on it"
+                              : "cannot be separated from " + others;
     }
     choice.status[indexOf(dropped)] = ParameterStatus::not_estimable;
     choice.estimate.erase(std::find(choice.estimate.begin(), choice.estimate.end(), dropped));

@@ -23,14 +23,14 @@
 namespace pcl_als {
 namespace {
 
-// Weightings of the first set of pairs, which begin with nothing known; later sets begin with the
+// Weightings of the first set of pairs, which begin without weights; later sets begin with the
 // weights of the last.
 constexpr int kFirstWeightings = 3;
 constexpr std::size_t kEnoughForScale = 30;
 constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
 
-/// Biases of a system nobody has calibrated (standard deviations): half a degree, metres.
-SystemVector largestBelievable() {
+/// Prior standard deviations of the biases of an uncalibrated system: half a degree, metres.
+SystemVector widePrior() {
   constexpr double kAngle = 0.5 * kRadiansPerDegree;
   SystemVector sigma;
   sigma << 1.0, 1.0, 1.0, kAngle, kAngle, kAngle, 1.0, 2e-3;
@@ -119,7 +119,7 @@ void QuasiRigorousCalibration::choose(State& state) const {
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
   if (state.coarse) {
     state.choice.estimate = wanted;
-    state.choice.solution = state.adjustment.solveNearZero(wanted, largestBelievable());
+    state.choice.solution = state.adjustment.solveNearZero(wanted, widePrior());
   } else {
     // What was asked for by name is dropped only when it is hopeless.
     const double factor = settings_.estimate.empty() ? 1.0 : 3.0;

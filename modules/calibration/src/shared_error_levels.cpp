@@ -13,10 +13,10 @@ constexpr int kSteps = 4;  // of the search to a factor of two
 constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
 using Powers = std::array<int, kKinds>;  // of 2^(1/kSteps); local last: it costs most to change
 
-// -2 ln of the belief in a level by the model's own word: Cauchy in ln(level). A factor of e is as
-// it may be; but a system may also be far better than its data sheet, or have no such error at all,
-// and then the observations decide.
-double disbelief(double level) {
+// -2 ln of the prior of a variance component relative to the model: Cauchy in ln(level), with a
+// scale of a factor of e. A system may be far better than its data sheet or have no such error; the
+// heavy tails let the observations decide then.
+double minusTwoLogPrior(double level) {
   const double factor = std::log(level);
   return 2.0 * std::log1p(factor * factor);
 }
@@ -35,9 +35,9 @@ SharedErrorLevels levelsOf(const Powers& power) {
 
 double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
             const Powers& power) {
-  double belief = 0.0;
-  for (const int p : power) belief += disbelief(levelOf(p));
-  return adjustment.deviance(levelsOf(power), estimate) + belief;
+  double prior_term = 0.0;
+  for (const int p : power) prior_term += minusTwoLogPrior(levelOf(p));
+  return adjustment.deviance(levelsOf(power), estimate) + prior_term;
 }
 
 }  // namespace

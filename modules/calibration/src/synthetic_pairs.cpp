@@ -24,7 +24,7 @@ Eigen::Vector3d normalOf(double slope, double aspect) {
   return {std::sin(slope) * std::cos(aspect), std::sin(slope) * std::sin(aspect), std::cos(slope)};
 }
 
-/// A number in [0, 1) that looks random and belongs to a place.
+/// A pseudo-random number in [0, 1) determined by a place.
 double scatterOf(const Eigen::Vector2d& place) {
   const double value = std::sin(place.x() * 0.0129898 + place.y() * 0.078233) * 43758.5453;
   return value - std::floor(value);
@@ -191,7 +191,7 @@ void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double ca
         o.b = b;
         if (!observe(samples[k], &block.strips[i], block.strips[j], o)) continue;
         observations.push_back(o);
-        // Points of each look for patches of the other.
+        // Points of each are paired with patches of the other.
         weights.push_back(uses.worth(i, j, k) + uses.worth(j, i, k));
       }
     }

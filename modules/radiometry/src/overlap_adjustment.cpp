@@ -138,7 +138,7 @@ class Adjustment {
       if (std::abs(r) > most) most = std::abs(r), twin = other;
     }
     if (twin < 0) return "it varies too little in these overlaps";
-    return "it cannot be told from " + nameOfRow(twin) + " (correlation " + number(most) + ")";
+    return "it cannot be separated from " + nameOfRow(twin) + " (correlation " + number(most) + ")";
   }
   std::string nameOfRow(int row) const {
     for (std::size_t t = 0; t < kRadiometricTermCount; ++t)

@@ -84,8 +84,8 @@ void addParameters(HtmlReport& report, const CalibrationResult& result) {
                     "seen, the figures on the right give it.");
   if (result.correlation_order.size() > 1) {
     report.addPicture(drawCorrelation(result, kSquare).image(),
-                      "Correlation of the estimates: near ±1, the block can hardly tell two "
-                      "parameters apart.");
+                      "Correlation of the estimates: near ±1, the block can hardly separate two "
+                      "parameters.");
   }
   if (!result.observability.empty()) {
     report.addText("What the block determines:");

@@ -36,7 +36,7 @@ std::string levelsWith(double limit) {
 
 std::string againstSpecification(double rms) {
   const std::string caution =
-      " This is a distance along the surface normal where the calibration looked; pcl_als_check "
+      " This is a distance along the surface normal where the calibration measured; pcl_als_check "
       "measures what the specification asks for.";
   if (const auto level = swathQualityLevel(rms)) {
     const double limit = qualityLevels()[static_cast<std::size_t>(*level)].swath_overlap_rmsdz;

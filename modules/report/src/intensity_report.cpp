@@ -4,9 +4,9 @@
 #include <iomanip>
 #include <sstream>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/report/intensity_report.h>
 
 namespace pcl_als {
@@ -126,7 +126,7 @@ std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::s
     if (term.status != TermStatus::not_estimable) return;
     names += (names.empty() ? "" : ", ") + name;
   });
-  return names.empty() ? "the adjustment did not come to rest" : names;
+  return names.empty() ? "the adjustment did not converge" : names;
 }
 
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips) {

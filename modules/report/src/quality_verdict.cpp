@@ -145,7 +145,7 @@ class VerdictOnStrips {
     const auto share = [all](std::uint64_t count) {
       return numberText(100.0 * static_cast<double>(count) / all, 1) + " %";
     };
-    say("Of the ground that several strips see, trees and walls included, " + share(s.green) +
+    say("Of the ground that several strips cover, trees and walls included, " + share(s.green) +
         " is within " + centimetres(s.limit) + " and " + share(s.red) + " beyond " +
         centimetres(2.0 * s.limit) + ".");
   }

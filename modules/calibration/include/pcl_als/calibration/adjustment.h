@@ -17,7 +17,7 @@ struct AdjustmentSolution {
   bool solved = false;  ///< false: the normal matrix is singular for the chosen parameters
   SystemVector biases = SystemVector::Zero();
   SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): only the noise of points
-  SystemMatrix covariance = SystemMatrix::Zero();  ///< the honest one, see Adjustment
+  SystemMatrix covariance = SystemMatrix::Zero();  ///< includes shared errors, see Adjustment
   Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
 };
 
@@ -37,7 +37,7 @@ class AreaNormal;  // normal equations of one area
  * jackknife, from each area's own normal equations), and the larger standard deviation of the two
  * is kept.
  *
- * Noise of the measured slopes looks like information, sum w tilt_variance (A'A - r'r) of pairs
+ * Noise of the measured slopes acts like information, sum w tilt_variance (A'A - r'r) of pairs
  * with rows r = n'A. Where half of what a direction seems to be determined by may be that, nothing
  * is: standard deviations grow accordingly, without limit in effect.
  */
@@ -63,9 +63,9 @@ class Adjustment {
   AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
                            const SystemVector& held) const;
 
-  /// Solves for all of \a estimate with each believed to be zero give or take \a prior (standard
-  /// deviations): what the observations leave open stays near zero. For the way to a solution; its
-  /// covariances are the model's.
+  /// Solves for all of \a estimate with a prior of zero and the standard deviations \a prior
+  /// (standard deviations): what the observations leave open stays near zero. For the way to a
+  /// solution; its covariances are the model's.
   AdjustmentSolution solveNearZero(const std::vector<SystemParameter>& estimate,
                                    const SystemVector& prior) const;
 
@@ -114,7 +114,7 @@ class Adjustment {
   const std::vector<AreaObservations>* areas_ = nullptr;
   const std::vector<std::vector<double>>* weights_ = nullptr;
   std::vector<AreaNormal> area_normals_;
-  SystemMatrix slope_noise_ = SystemMatrix::Zero();  ///< what looks like information
+  SystemMatrix slope_noise_ = SystemMatrix::Zero();  ///< information that may stem from noise
   std::unique_ptr<const Normal> normal_;
   std::unique_ptr<Reduced> reduced_;
 };
@@ -124,8 +124,8 @@ class Adjustment {
  *
  * Searched by factors of two between 1/4096 and 16 times the model's variances, then of 2^(1/4),
  * one kind after the other until none changes. The model counts as one observation of each level,
- * right within a factor of e (Cauchy): where the observations say nothing, it stays; where they say
- * much, it does not hold them back.
+ * right within a factor of e (Cauchy): where the observations contain no information, the model is
+ * kept; where they contain much, the prior has little weight.
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);

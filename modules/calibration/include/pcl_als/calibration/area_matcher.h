@@ -52,7 +52,7 @@ class AreaMatcher {
     criterion_.plain_roughness = plain;
   }
 
-  /// Which points look for patches: all candidates, or those of the observations last kept.
+  /// Which points are paired with patches: all candidates, or those of the observations last kept.
   enum class Seekers { candidates, kept };
   /// Keeps the points of these observations (of match()) as seekers of the same patches; their
   /// pairs weigh as much as those they stand for.
@@ -83,14 +83,14 @@ class AreaMatcher {
     std::vector<bool> single;
     PatchSurface surface;
     std::vector<std::int32_t> candidates;
-    std::vector<double> roughness;  ///< metres, of the neighbourhoods looked at on gentle slopes
+    std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
     double median_edge = 0.0;       ///< metres, in plan
   };
   class PointGeometry;
 
   /// The direction in which a pair measures: that of the neighbourhood's plane, less noisy than the
   /// triangle's own, or the vertical where its tilt is not significant. Noise in place of a slope
-  /// would look like information about plan positions, and on flat ground be all of it.
+  /// would act like information about plan positions, and on flat ground be the only one.
   struct Direction {
     Eigen::Vector3d normal;
     double variance = 0.0;  ///< rad^2

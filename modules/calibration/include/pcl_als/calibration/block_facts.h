@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/// What a block has of that on which section 2.2 of Habib et al. 2011 says the parameters depend.
+/// Properties of a block on which the parameters depend by section 2.2 of Habib et al. 2011.
 /// Only strips that take part in an observation count.
 struct BlockFacts {
   std::vector<double> heights;  ///< metres above ground, those that differ by a tenth, ascending
@@ -29,7 +29,7 @@ struct BlockFacts {
 
   explicit BlockFacts(const ObservedBlock& block);
 
-  /// What in the block keeps these from being told apart, or the one from being seen; empty when
+  /// Why the block cannot separate these, or does not determine the one; empty when
   /// none of the known reasons is there.
   std::string causeOf(const std::vector<SystemParameter>& parameters) const;
   /// "heights 540 and 1150 m, opposite lines, …": the facts in one line.

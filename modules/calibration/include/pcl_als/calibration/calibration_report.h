@@ -35,7 +35,7 @@ class CalibrationReport {
                         const std::vector<bool>& used, double trajectory_std,
                         CalibrationResult& result) const;
 
-  /// What the solution says of each strip's trajectory.
+  /// The trajectory errors of each strip by the solution.
   void addStrips(const SharedErrors& errors, const std::vector<bool>& used,
                  const AdjustmentSolution& solution, CalibrationResult& result) const;
   /// Fit of pairs with these errors taken out, too.

@@ -12,7 +12,7 @@
 
 namespace pcl_als {
 
-/// Everything a calibration can be told. The defaults suit post-processed survey flights of
+/// All settings of a calibration. The defaults suit post-processed survey flights of
 /// 500-3000 m height.
 struct CalibrationSettings {
   std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
@@ -21,21 +21,21 @@ struct CalibrationSettings {
   DeterminationLimits limits;
   SurfaceCriterion patches;
   SurveyMap::Selection selection;
-  std::size_t candidates = 100'000;   ///< points that look for patches, all areas
+  std::size_t candidates = 100'000;   ///< candidate points, all areas
   std::size_t pair_budget = 0;        ///< pairs that are adjusted (PairSelection); 0: all
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
   double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
   /// Without attitude in the trajectory: take pitch and crab from the points (AttitudeRecovery);
-  /// false: a vertical system that looks along the line of flight, as in the paper.
+  /// false: a vertical system aligned with the flight line, as in the paper.
   bool recover_attitude = true;
   double resolution = 0.001;  ///< metres, coordinate step of the files
   /// With a pair_budget twice as many (most are of few pairs); at most 12 of the coarse stage more.
   int max_iterations = 20;
   /// Metres: an update moves no point by more, or no parameter by 1/20 of its deviation.
   double convergence = 2e-4;
-  /// Go on, with warnings, where the trajectory or its attitude cannot belong to the points.
+  /// Continue, with warnings, where the trajectory or its attitude cannot belong to the points.
   bool force = false;
   int threads = 0;
 };

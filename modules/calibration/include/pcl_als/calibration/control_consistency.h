@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/** \brief Whether control points agree with each other as well as their standard deviations say.
+/** \brief Whether control points agree with each other within their standard deviations.
  *
  * Scatter: the median absolute deviation of the residuals over their expected standard deviations;
  * 1 where control is as good as stated.
@@ -18,7 +18,7 @@ namespace pcl_als {
  * Two groups: the split of the residuals that separates two means best. A normal distribution split
  * at its median has means 2.7 of the groups' own standard deviations apart, a uniform one 3.5; two
  * groups are reported from 4.5 on, where the smaller one holds a fifth of the points and the
- * distance is five expected standard deviations. Which of them is right cannot be told.
+ * distance is five expected standard deviations. Which of them is right cannot be determined.
  */
 struct ControlConsistency {
   double scatter = 1.0;

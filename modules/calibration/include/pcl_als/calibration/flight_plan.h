@@ -22,7 +22,7 @@ struct FlightPlanResult {
   std::vector<Overlap> overlaps;
   std::size_t control_points = 0;  ///< those that a line sees
   /// Standard deviations, correlations, statuses and reasons as a calibration would report them;
-  /// biases are zero, converged tells whether all that was asked for is determined.
+  /// biases are zero, converged states whether all requested parameters are determined.
   CalibrationResult expected;
   ObservabilityReport observability;
 };

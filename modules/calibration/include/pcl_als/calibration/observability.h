@@ -19,7 +19,7 @@ struct ParameterDirection {
   std::string text;  ///< "boresight_pitch 1.00 with lever_arm_y -0.97: 35.2 mm on the ground"
 };
 
-/// Parameters that the observations cannot tell apart, or one that they hardly see.
+/// Parameters that the observations cannot separate, or one that they hardly determine.
 struct WeakCombination {
   std::vector<SystemParameter> parameters;  ///< one or two, the less certain one first
   double correlation = 0.0;                 ///< of two
@@ -35,7 +35,7 @@ class Observability {
  public:
   /// \param normal N of all eight, shared errors eliminated, internal units
   /// (Adjustment::reducedNormal())
-  /// \param wanted the parameters looked at; the others count as known
+  /// \param wanted the parameters considered; the others are taken as known
   /// \param effect metres on the ground per internal unit of each parameter
   Observability(const SystemMatrix& normal, const std::vector<SystemParameter>& wanted,
                 const SystemVector& effect);
@@ -58,11 +58,11 @@ class Observability {
   static SystemVector groundEffect(double height, double half_angle);
 
  private:
-  struct Known;  // covariance of the parameters looked at
+  struct Known;  // covariance of the parameters considered
 
   Eigen::MatrixXd scaledNormal() const;
   Known known(const SystemVector& prior) const;
-  /// The parameter that \a i is hardly told apart from; itself when there is none.
+  /// The parameter that can hardly be separated from \a i; itself when there is none.
   std::size_t partnerOf(std::size_t i, const Known& known) const;
   WeakCombination single(std::size_t index, double std, const BlockFacts& facts) const;
   WeakCombination pair(std::size_t first, std::size_t second, double correlation,

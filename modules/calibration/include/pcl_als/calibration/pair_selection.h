@@ -26,7 +26,7 @@ struct ChosenPair {
   double offset = 0.0;      ///< metres, added to its misclosure
 };
 
-/** \brief A part of the pairs that tells what all of them tell.
+/** \brief A reduced set of pairs that gives nearly the estimates of all pairs.
  *
  * Pairs of the same area, strips, and class of slope and aspect are a group of much the same rows.
  * Of N in it n are kept, each weighing as much as N / n, so that the equations stay what they were.
@@ -71,7 +71,7 @@ class PairSelection {
   void spreadEvenly(std::vector<Group>& groups) const;
   void spendOnInfluence(std::vector<Group>& groups) const;
   void takeMembers(std::vector<Group>& groups);
-  /// Chooses what was taken of a meeting's groups.
+  /// Makes the pairs kept of the groups of two strips in an area represent all of them.
   void moveToAll(const std::vector<const Group*>& meeting);
 
   PairSelectionSettings settings_;

@@ -13,10 +13,10 @@ namespace pcl_als {
 
 /** \brief Weights of pairs from what a solution leaves of them.
  *
- * The noise model tells pairs of one kind from another; how noisy they are is found from the data:
- * one factor for the part of the variance that comes from pointing, common to all (the most likely
- * of a few: a system that points better than was said shows it on slopes), and one for the scatter
- * of each pair of strips (robust). Huber to 1.5 standard deviations, none beyond 4.5.
+ * The noise model gives the ratios of the variances of pairs; their scale is estimated from the
+ * data: one factor for the part of the variance that comes from pointing, common to all (the most
+ * likely of a few: smaller pointing noise than stated is visible on slopes), and one for the
+ * scatter of each pair of strips (robust). Huber to 1.5 standard deviations, none beyond 4.5.
  */
 class PairWeights {
  public:

@@ -15,7 +15,7 @@ namespace pcl_als {
  *
  * Estimates this uncertain are no improvement on a freshly mounted system. Short of that they are
  * better made than held: what is confused with them (pitch with lever_arm_y) is only right together
- * with them, and a parameter that is wrongly held looks like errors of the trajectory.
+ * with them, and a parameter that is wrongly held resembles errors of the trajectory.
  */
 struct DeterminationLimits {
   double lever_arm = 0.08;                       ///< metres

@@ -26,14 +26,14 @@ namespace pcl_als {
  * overlapping strips (Eq. (11), both directions) and vertical control (Eq. (12)) by modified least
  * squares, reconstructing the points with Eq. (13) and pairing anew until the corrections vanish.
  *
- * The points are looked at twice, in any order, so that memory depends on the areas chosen and not
+ * The points are passed twice, in any order, so that memory depends on the areas chosen and not
  * on the survey:
  * \code
  * QuasiRigorousCalibration calibration(trajectory, settings, anchor);
  * const int strip = calibration.addStrip("1");   // for every strip
- * calibration.survey(strip, points, count);      // first look, all points
+ * calibration.survey(strip, points, count);      // first pass, all points
  * calibration.chooseAreas();
- * calibration.load(strip, points, count);        // second look, all points again
+ * calibration.load(strip, points, count);        // second pass, all points again
  * const CalibrationResult result = calibration.calibrate();
  * \endcode
  * survey() and load() may run on several threads for different strips. With attitude in the
@@ -66,7 +66,7 @@ class QuasiRigorousCalibration {
   void setProgress(std::function<void(const CalibrationIteration&)> progress) {
     progress_ = std::move(progress);
   }
-  /// result.verdict tells whether to apply it, and why not.
+  /// result.verdict states whether to apply it, with the reason.
   CalibrationResult calibrate();
 
   const std::vector<SurveyArea>& areas() const { return areas_; }
@@ -97,7 +97,7 @@ class QuasiRigorousCalibration {
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
   void pairUp(State& state) const;
-  /// Finds whether any control point is seen, and warns where none is.
+  /// Finds whether any control point is covered by a strip, and warns where none is.
   void lookAtControl(const State& state);
   /// Keeps the pairs that determine the parameters, of all that are in the state.
   void selectPairs(State& state);
@@ -114,7 +114,8 @@ class QuasiRigorousCalibration {
   /// Whether another iteration follows. Where the limit is reached and the parameters are chosen
   /// automatically, the one that changes most is left out and the iteration continues.
   bool mayContinue(State& state, const CalibrationResult& result) const;
-  /// Decides whether levels are looked for, and whether all pairs are adjusted or those chosen.
+  /// Decides whether variance components are estimated, and whether all pairs are adjusted or those
+  /// chosen.
   void openIteration(State& state, const CalibrationResult& result) const;
   void iterate(State& state, CalibrationResult& result);
   /// Why the iteration did not converge, for the verdict.

@@ -14,21 +14,21 @@
 
 namespace pcl_als {
 
-/** \brief What observations may be wrong by together: errors that do not average out over a strip's
- * points.
+/** \brief Errors that observations share and that do not average out over the points of a strip.
  *
  * Trajectory: each of six errors of a strip (east, north, up; pitch, roll, heading about the flight
  * line) is a stationary Gauss-Markov process with the given standard deviation and correlation
  * exp(-|dt| / correlation_time). Strips are independent. Defaults: post-processed survey-grade
  * GNSS/INS.
  *
- * Local: what is left of a strip's errors between the knots, and of the surface itself, is one
- * shift of the strip (east, north, up) in every area, independent from area to area.
+ * Local: the remaining errors of a strip between the knots, and those of the surface, are one shift
+ * of the strip (east, north, up) in every area, independent from area to area.
  *
  * Ranging: a pulse that meets a surface at incidence theta comes back stretched over d = range *
- * divergence * tan(theta), and what the instrument calls its time shifts with it, by an unknown
- * share of d common to all points. And all ranges are wrong in proportion: the refractive index
- * changes by 1 ppm with a degree or 3 hPa, and is the mean of a column of air measured at its ends.
+ * divergence * tan(theta), and the time that the instrument records shifts with it, by an unknown
+ * share of d common to all points. In addition, all ranges have a common scale error: the
+ * refractive index changes by 1 ppm with a degree or 3 hPa, and is the mean of a column of air
+ * measured at its ends.
  */
 struct SharedErrorModel {
   double position = 0.02;                       ///< metres, each axis
@@ -49,7 +49,7 @@ struct SharedErrorModel {
 struct SharedErrorLevels {
   double position = 1.0, roll_pitch = 1.0, heading = 1.0, local = 1.0;
 
-  /// Whether none differs by more than a factor of 1.5: closer than observations tell them.
+  /// Whether none differs by more than a factor of 1.5: less than observations can resolve.
   bool near(const SharedErrorLevels& other) const;
 };
 

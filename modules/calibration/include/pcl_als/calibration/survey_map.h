@@ -19,7 +19,8 @@ namespace pcl_als {
 /// Two strips by their index; first < second.
 using StripPair = std::pair<int, int>;
 
-/** \brief First look at a survey: which strips see which ground, and where calibrating is worth it.
+/** \brief First pass over a survey: the ground that each strip covers, and the areas suitable for
+ * calibration.
  *
  * Points are added in any order, strip by strip (different strips may be added from different
  * threads); kept is a few sums for every 10 m cell a strip touches (48 bytes), never the points.

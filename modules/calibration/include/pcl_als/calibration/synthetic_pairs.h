@@ -63,7 +63,7 @@ class SyntheticPairs {
     NoiseModel noise;
     SurfaceModel surface;
     SurveyMap::Selection selection;    ///< areas, and points used at most
-    std::size_t candidates = 100'000;  ///< points that look for patches, all areas
+    std::size_t candidates = 100'000;  ///< candidate points, all areas
     double control_sigma = 0.02;       ///< metres
   };
   explicit SyntheticPairs(const Settings& settings) : settings_(settings) {}

@@ -21,7 +21,7 @@ enum class ParameterStatus { estimated, fixed, not_estimable };
 /// Where a calibration's model knows the sensor's attitude from, and so must who applies its
 /// biases.
 enum class AttitudeSource {
-  none,        ///< nowhere: vertical, looking along the line of flight (quasi-rigorous)
+  none,        ///< none: vertical, aligned with the flight line (quasi-rigorous)
   points,      ///< pitch and crab from the points (quasi-rigorous, AttitudeRecovery)
   trajectory,  ///< roll, pitch and heading of the trajectory (rigorous)
   nominal,     ///< level, heading along the course (rigorous, for scanners that are not linear)
@@ -30,7 +30,7 @@ enum class AttitudeSource {
 /// One system parameter of a calibration, in internal units (m, rad, 1). bias = assumed - true.
 struct ParameterEstimate {
   double bias = 0.0;
-  double std = 0.0;         ///< honest standard deviation: what the pairs share is accounted for
+  double std = 0.0;         ///< standard deviation including errors that pairs share
   double std_formal = 0.0;  ///< Habib et al. 2011, Eq. (26): only the noise of points
   ParameterStatus status = ParameterStatus::fixed;
   std::string reason;  ///< why it is fixed or not estimable; empty when estimated

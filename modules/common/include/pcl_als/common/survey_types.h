@@ -31,7 +31,7 @@ struct ControlPoint {
   double sigma = 0.0;  ///< standard deviation of the height, metres; 0 when the file gives none
 };
 
-/// A square of ground that is looked at closely; points up to \a margin outside belong to it too,
+/// A square of ground whose points are kept; points up to \a margin outside belong to it too,
 /// so that its TINs are those of the whole.
 struct SurveyArea {
   Eigen::Vector2d minimum;  ///< metres, ground frame

@@ -27,7 +27,7 @@ struct LocalSurfaceSettings {
   int least_support = 6;         ///< points on the plane
   double least_share = 0.45;     ///< of the neighbours
   double steepest = 75.0;        ///< degrees: planes are not sought in walls
-  std::size_t most_points = 24;  ///< nearest neighbours looked at
+  std::size_t most_points = 24;  ///< nearest neighbours used
 
   void check() const;  ///< UsageError
 };

@@ -14,7 +14,7 @@
 
 namespace pcl_als {
 
-/// What overlaps can tell of a RadiometricModel, besides the strips' gains.
+/// Terms of a RadiometricModel that overlaps can determine, besides the gains of the strips.
 enum class RadiometricTerm : std::uint8_t { range_exponent, incidence_exponent, extinction };
 inline constexpr std::size_t kRadiometricTermCount = 3;
 const char* nameOf(RadiometricTerm term);  ///< "range_exponent", …
@@ -74,7 +74,8 @@ struct OverlapResult {
  * Observability: strips of one height differ little in range, so m and a come apart only in blocks
  * of two heights, and there only where gains are fixed or known; on level ground cos(theta) and r
  * are functions of one another, so m and k need slopes. A term whose standard deviation exceeds its
- * limit is set back to the given model, worst first, and says which other it cannot be told from.
+ * limit is set back to the given model, worst first, and the result names the term from which it
+ * cannot be separated.
  */
 OverlapResult adjustOverlaps(const std::vector<SharedCell>& cells, double cell_size,
                              const std::vector<std::string>& strips, const RadiometricModel& model,

@@ -13,7 +13,7 @@
 
 namespace pcl_als {
 
-/// Everything that accuracy.json says.
+/// The content of accuracy.json.
 struct AccuracyReport {
   ConfusionMatrix matrix;
   AccuracyResult result;

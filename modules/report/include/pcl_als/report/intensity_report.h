@@ -35,12 +35,12 @@ struct IntensityReport {
 
 /// What estimation and targets found, as lines for a user.
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips);
-/// The names of what was asked for and is not estimable, or that nothing came to rest.
+/// The names of requested terms that are not estimable, or that the adjustment did not converge.
 std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips);
 std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
 
-/// Points whose corrected intensity says nothing: saturated, clipped or rounded to zero.
+/// Points without a usable corrected intensity: saturated, clipped or rounded to zero.
 struct LostIntensities {
   static constexpr double kAll = 0.99, kMany = 0.1;  ///< shares: no answer; worth a warning
   double share = 0.0;                                ///< of the points with an intensity

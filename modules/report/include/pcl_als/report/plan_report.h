@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/// What a plan promises, as tables for a terminal.
+/// The expected results of a plan, as tables for a terminal.
 std::string planTables(const FlightPlanResult& result);
 
 /// The same as plan.json: {"format":"pcl_als plan","version":1,…}; lengths in metres, angles of

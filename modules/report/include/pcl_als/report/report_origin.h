@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/// What a report says of how it was made, and where it goes.
+/// Provenance of a report, and its destination.
 struct ReportOrigin {
   std::filesystem::path folder;     ///< that the report is written into
   std::string program;              ///< "pcl_als_check 0.1.0"
