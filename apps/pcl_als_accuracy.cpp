@@ -26,7 +26,8 @@ AccuracyReport ofMatrices(const std::string& input, const std::string& other) {
   report.other = assessAccuracy(second);
   report.comparison = compareAccuracy(matrix, second);
   report.remarks.emplace_back(
-      "matrices do not tell common check points: the kappas are compared as independent; compare "
+      "matrices do not identify common check points: the kappas are compared as independent; "
+      "compare "
       "lists of check points for McNemar's test");
   return report;
 }
@@ -51,7 +52,7 @@ AccuracyReport ofSites(const std::string& input, const std::string& other) {
 
 int accuracy(int argc, char** argv) {
   CommandLine line("pcl_als_accuracy",
-                   "tells the accuracy of a classification: overall, kappa, and by class",
+                   "computes the accuracy of a classification: overall, kappa, and by class",
                    "MATRIX.csv -output accuracy.json [-compare OTHER.csv]",
                    "pcl_als_accuracy corrected_checked.csv -compare raw_checked.csv -output "
                    "accuracy.json");

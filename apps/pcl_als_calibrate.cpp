@@ -48,12 +48,12 @@ CommandLine commandLine() {
                       "inputs do not belong together or, with -corrected, the result should not "
                       "be applied");
   line.addFlag("vertical",
-               "with quasi_rigorous: take the sensor as vertical and looking along the line of "
-               "flight, as published, instead of recovering pitch and crab from the points");
+               "with quasi_rigorous: take the sensor as vertical and aligned with the flight "
+               "line, as published, instead of recovering pitch and crab from the points");
   line.addOptional("output", "calibration.json to write (needed)");
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
-               "with -corrected: take out what was found wrong with each strip's trajectory, too");
+               "with -corrected: correct the estimated trajectory errors of each strip, too");
   line.addOptional("report",
                    "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
@@ -61,7 +61,8 @@ CommandLine commandLine() {
            defaults.max_normal_distance);
   line.add("points", "points used at most, millions",
            1e-6 * static_cast<double>(defaults.selection.point_budget));
-  line.add("candidates", "of them, points that look for a patch in other strips, thousands",
+  line.add("candidates",
+           "of them, candidate points that are paired with patches of other strips, thousands",
            1e-3 * static_cast<double>(defaults.candidates));
   line.add("select",
            "pairs adjusted at most, thousands: those that determine the parameters; 0: all",

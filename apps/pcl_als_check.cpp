@@ -58,7 +58,7 @@ CommandLine commandLine() {
   line.add("max_distance", "offsets beyond are another object, m",
            defaults.limits.maximum_distance);
   line.add("cell", "cells of the swath separation image, m; 0: as the quality level asks", 0.0);
-  line.add("points", "points looked at closely, at most, millions", 12.0);
+  line.add("points", "points in areas of measurement, at most, millions", 12.0);
   return line;
 }
 

@@ -40,7 +40,7 @@ CommandLine commandLine() {
            defaults.determined_std);
   line.add("points", "of each strip that are triangulated, about; at least 1000",
            static_cast<double>(defaults.points));
-  line.add("pairs", "points that look for a patch in each direction, about; at least 1000",
+  line.add("pairs", "candidate points in each direction, about; at least 1000",
            static_cast<double>(defaults.pairs));
   line.add("iterations", "at most, of the last stage", defaults.maximum_iterations);
   return line;

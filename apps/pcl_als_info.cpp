@@ -52,7 +52,7 @@ std::string linesText(const std::vector<std::string>& paths) {
 
 int info(int argc, char** argv) {
   CommandLine line("pcl_als_info",
-                   "tells what point files hold: strips, times, density, returns, overlaps",
+                   "lists the contents of point files: strips, times, density, returns, overlaps",
                    "FILE… [-json FILE]", "pcl_als_info strip1.las strip2.las -json survey.json");
   line.add<double>("cell", "cell size for density and overlaps, m; 0: by density", 0.0);
   line.addOptional("json", "also write the facts as JSON");

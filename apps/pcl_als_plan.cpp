@@ -24,7 +24,7 @@ using app::Step;
 CommandLine commandLine() {
   const SurfaceModel surface;
   CommandLine line("pcl_als_plan",
-                   "says what a planned calibration flight will determine, how well, and which "
+                   "predicts what a planned calibration flight will determine, how well, and which "
                    "line to add.",
                    "-lines plan.csv [options]",
                    "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");

@@ -35,7 +35,7 @@ CommandLine commandLine() {
                    "LOW:HIGH of the colours (default: 1st to 99th percentile of what is "
                    "shown)");
   app::addStripOptions(line);
-  line.add("azimuth", "direction the camera looks to, degrees clockwise from north", 0.0);
+  line.add("azimuth", "viewing direction of the camera, degrees clockwise from north", 0.0);
   line.add("elevation", "height of the camera above the horizon, degrees; 90: top view", 90.0);
   line.add("zoom", "enlarges about the middle", 1.0);
   line.addOptional("extent", "XMIN,YMIN,XMAX,YMAX: draw this part only, m");

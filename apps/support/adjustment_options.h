@@ -13,7 +13,7 @@
 
 namespace pcl_als::app {
 
-/// What an adjustment is told about errors, whether its data exist or are planned:
+/// Assumptions of an adjustment about errors, for measured or planned data:
 /// -range_noise, -angle_noise, -beam_divergence, -position_sigma, -roll_pitch_sigma,
 /// -heading_sigma, -control_sigma.
 void addErrorOptions(CommandLine& line);

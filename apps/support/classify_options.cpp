@@ -65,7 +65,7 @@ CommandLine declareClassify() {
                    "CRS of the rasters, which are georeferenced in its unit (default: that of the "
                    "point files); heights are in metres");
   line.add<std::string>("bands",
-                        "that classes are told by: of surface, terrain, height, intensity, slope, "
+                        "that separate classes: of surface, terrain, height, intensity, slope, "
                         "roughness, multiple_returns, height_range, density",
                         "height,intensity,roughness,multiple_returns");
   line.addOptional(

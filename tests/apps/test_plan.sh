@@ -45,13 +45,13 @@ grid() { printf 'ncols %s\nnrows %s\nxllcorner -1000\nyllcorner -1000\ncellsize 
 { grid 4 4; echo "0 20 0 10 30 5 60 0 10 -9999 20 40 0 80 10 0"; } >good.asc
 expect 0 "4 x 4 cells" plan -lines two.csv -terrain good.asc -sloped 0.1
 { grid 4 4; echo "0 20 0 10 30"; } >short.asc
-expect 2 "promises 16 values" plan -lines two.csv -terrain short.asc
+expect 2 "declares 16 values" plan -lines two.csv -terrain short.asc
 { grid 999999 999999; echo "0 20 0 10 30"; } >lying.asc
-expect 2 "promises 999998000001 values" plan -lines two.csv -terrain lying.asc
+expect 2 "declares 999998000001 values" plan -lines two.csv -terrain lying.asc
 { grid 2 2; echo "0.25 20.25 nan 10.25"; } >hole.asc
 expect 2 "'nan' is not a finite number" plan -lines two.csv -terrain hole.asc
 { grid 2 2; echo "1.25 2.25 3.25 4.25 5"; } >long.asc
-expect 2 "more values than the header promises" plan -lines two.csv -terrain long.asc
+expect 2 "more values than the header declares" plan -lines two.csv -terrain long.asc
 printf 'ncols 2\nnrows 2\n1 2 3 4\n' >bare.asc
 expect 2 "no 'cellsize'" plan -lines two.csv -terrain bare.asc
 printf 'ncols -2\nnrows 2\ncellsize 1\nxllcorner 0\nyllcorner 0\n1 2 3 4\n' >minus.asc

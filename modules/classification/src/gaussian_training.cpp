@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kSamplesPerBand = 10.0;  // a covariance of fewer is told as thin
+constexpr double kSamplesPerBand = 10.0;  // a covariance of fewer is reported
 constexpr double kLeastVariance = 1e-6;   // of any direction, relative to the common variances
 
 struct Moments {

@@ -9,7 +9,7 @@ namespace pcl_als {
 
 namespace {
 
-constexpr double kLargestSigma = 100.0;  // metres: such a point says nothing of a height
+constexpr double kLargestSigma = 100.0;  // metres: such a point contains no information on heights
 
 }  // namespace
 

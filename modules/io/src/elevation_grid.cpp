@@ -115,7 +115,7 @@ ElevationGrid ElevationGrid::read(const std::filesystem::path& path) {
   const auto nodata = header.find("nodata_value");
   const std::size_t cells = grid.columns_ * grid.rows_;
   if (cells > words.left() / 2 + 1) {  // a digit and a blank each
-    words.refuse("the header promises " + std::to_string(cells) +
+    words.refuse("the header declares " + std::to_string(cells) +
                  " values, the file cannot hold "
                  "them");
   }
@@ -129,7 +129,7 @@ ElevationGrid ElevationGrid::read(const std::filesystem::path& path) {
     grid.mean_ += value;
     ++known;
   }
-  if (!words.peek().empty()) words.refuse("has more values than the header promises");
+  if (!words.peek().empty()) words.refuse("has more values than the header declares");
   if (known == 0) throw InputError(path.string() + ": no cell has a value");
   grid.mean_ /= static_cast<double>(known);
   return grid;

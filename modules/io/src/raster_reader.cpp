@@ -21,13 +21,13 @@ namespace {
 constexpr double kMostCellsPerByte = 65536.0;
 constexpr double kLargestBlock = 512.0 * 1024.0 * 1024.0;
 
-/// A header of a few bytes may promise any number of cells; reading them must not take the machine.
+/// A header of a few bytes may declare any number of cells; reading them must not take the machine.
 void checkSize(GDALDatasetH dataset, const fs::path& path) {
   const double columns = GDALGetRasterXSize(dataset), rows = GDALGetRasterYSize(dataset);
   std::error_code error;
   const auto bytes = static_cast<double>(fs::file_size(path, error));
   if (!error && columns * rows * GDALGetRasterCount(dataset) > kMostCellsPerByte * bytes)
-    throw InputError(path.string() + ": its header promises " + std::to_string(int(columns)) +
+    throw InputError(path.string() + ": its header declares " + std::to_string(int(columns)) +
                      " x " + std::to_string(int(rows)) +
                      " cells, more than a file of its size can hold");
   const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);

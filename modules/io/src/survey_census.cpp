@@ -51,7 +51,7 @@ class Census {
  private:
   using SourceKey = std::pair<std::size_t, std::uint16_t>;  // file, point source id
 
-  /// By the density that the headers promise, so that a cell holds about 20 points.
+  /// By the density that the headers declare, so that a cell holds about 20 points.
   double usualCell() const {
     double area = 0.0;
     for (const FileCensus& file : survey_.files) {

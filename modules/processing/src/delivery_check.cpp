@@ -22,7 +22,8 @@ constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
 constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
 constexpr double kLeastRoughness = 0.02;     // metres
 constexpr double kControlArea = 4.0;         // metres: the patch around a point is enough
-// What ICPatch looks at of each strip of a pair: enough for its deviations, seconds for a pair.
+// Points that ICPatch uses of each strip of a pair: sufficient for its standard deviations, seconds
+// for a pair.
 constexpr std::size_t kAlignmentPoints = 400'000, kAlignmentPairs = 60'000;
 constexpr double kRepeated = 0.2;  // share of repeated points worth a warning
 constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // and its part of the TIN
@@ -189,7 +190,7 @@ void BlockCheck::load(const PointSink& also) {
   });
   if (uncovered_ > 0)
     warnings_.push_back("the trajectory does not cover " + std::to_string(uncovered_) +
-                        " of the points looked at: their scan angles are the file's");
+                        " of the points used: their scan angles are the file's");
 }
 
 std::size_t BlockCheck::loadedPoints() const {

@@ -17,7 +17,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kProbes = 8;      ///< windows looked at for the spacing of points
+constexpr std::size_t kProbes = 8;      ///< windows sampled for the spacing of points
 constexpr double kPointsPerCell = 6.0;  ///< of the sparsest strip
 constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxes hold, roughly
 

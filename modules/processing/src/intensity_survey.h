@@ -22,7 +22,7 @@ struct PointRun {
   Eigen::Vector3d minimum = Eigen::Vector3d::Constant(kInfinity), maximum = -minimum;
 };
 
-/// Collects what a survey says of points.
+/// Collects statistics of the points of a survey.
 class SurveyTally {
  public:
   void add(const PointRun& run);

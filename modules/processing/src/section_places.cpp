@@ -31,7 +31,7 @@ std::vector<StripDensity> stripDensities(const std::vector<SurveyedFile>& files,
 double sectionCell(const std::vector<StripDensity>& strips, const std::vector<bool>& chosen) {
   double cell = 1.0;
   for (std::size_t i = 0; i < strips.size(); ++i) {
-    // A few stray points of a strip tell nothing of its density.
+    // A few stray points of a strip do not represent its density.
     if (chosen[i] && strips[i].points > 1000) cell = std::max(cell, strips[i].cellFor(10.0));
   }
   return std::min(cell, 4.0);

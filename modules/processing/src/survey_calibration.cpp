@@ -13,7 +13,7 @@ namespace {
 using StripNames = std::vector<std::pair<std::string, std::string>>;
 
 /// The label of a strip that has no usable points; null for a strip in use and for unknown names,
-/// of which the calibration says which there are.
+/// which the calibration lists.
 const StripArrangement::Label* labelOfMissing(const SurveyReader& survey, const std::string& name) {
   const std::vector<std::string>& strips = survey.strips();
   if (std::find(strips.begin(), strips.end(), name) != strips.end()) return nullptr;

@@ -25,7 +25,7 @@ struct PointNoise {
 /** \brief Finds the pairs of both directions in all areas, with the source moved.
  *
  * \param groups cells whose pairs the jackknife leaves out together.
- * \param stride only one candidate in so many looks for a patch. The order of the pairs and
+ * \param stride only one candidate in so many is paired. The order of the pairs and
  * all their values do not depend on the number of threads.
  */
 PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& motion,

@@ -78,7 +78,7 @@ struct ScatterBySlope {
 struct Robustness {
   double huber = kHuberLimit, cut = kRejectionLimit;
 
-  /// Movement is still to come: nothing can be told from an outlier yet.
+  /// Movement is still to come: outliers cannot be recognised yet.
   static Robustness whileMoving() { return {1.5, std::numeric_limits<double>::infinity()}; }
   /// Hardly robust, for a second opinion.
   static Robustness trusting() { return {10.0, 20.0}; }
@@ -111,8 +111,8 @@ class PatchAdjustment {
   int threads_;
 };
 
-/// Eigen-analysis of what the normals say beyond their noise: directions whose standard deviation
-/// exceeds \a limit (metres) are weak.
+/// Eigen-analysis of the information of the normals beyond their noise: directions whose standard
+/// deviation exceeds \a limit (metres) are weak.
 Directions analyse(const NormalEquations& equations, int unknowns, double limit);
 
 /// The least squares solution in the determined directions; \a prior_information is added to each.

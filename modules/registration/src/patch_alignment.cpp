@@ -112,7 +112,7 @@ PatchAlignmentResult Alignment::fail(Status status, const std::string& message) 
   return result_;
 }
 
-/// First look at all points: extents, reference, lowest points of cells.
+/// First pass over all points: extents, reference, lowest points of cells.
 bool Alignment::look(const PointView& source, const PointView& target) {
   Extent extents[2];
   parallelFor(2, settings_.threads,
@@ -190,7 +190,7 @@ void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
     const PatchPairs pairs =
         findPairs(level, motion_, threshold_, groups_, noise_, settings_.threads);
     if (pairs.size() < kFewestPairs) return;
-    // Believed to be within a few metres of where it is: flat ground must not send it away.
+    // A prior of a few metres: on flat ground the motion in plan is not determined.
     const Unknowns update = adjust(pairs, 1e3, threshold_);
     motion_ = frame().motionOf(update) * motion_;
     threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), cell, threshold_);

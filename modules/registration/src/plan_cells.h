@@ -13,8 +13,8 @@
 
 namespace pcl_als::registration {
 
-/// Points of a view in the coordinates that an alignment works in: near zero, the source as the
-/// guess has it.
+/// Points of a view in the coordinates that an alignment works in: near zero, the source after the
+/// initial motion.
 class WorkingPoints {
  public:
   WorkingPoints(const PointView& view, const Eigen::Affine3d& working_from_ground)

@@ -25,13 +25,13 @@ struct PatchPlane {
   double tilt_sigma = 0.0;                            ///< radians
 };
 
-/// A point on a smooth surface: it looks for a patch in the other cloud.
+/// A point on a smooth surface: it is paired with a patch of the other cloud.
 struct Candidate {
   Eigen::Vector3d position;
   PatchPlane plane;
 };
 
-/** \brief One cloud's surface in one area: TIN, points that look for patches, and which patches may
+/** \brief One cloud's surface in one area: TIN, candidate points, and which patches may
  * be found.
  *
  * A coarse one takes every triangle that is neither long, steep nor at the border, and every point.

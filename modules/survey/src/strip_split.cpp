@@ -59,7 +59,7 @@ std::optional<Vector2d> swathVelocity(const Bins& bins, std::size_t first, std::
   return velocity;
 }
 
-/// Tells courses of a track, by its trajectory or by the swath.
+/// Courses of a track, by its trajectory or by the swath.
 class Courses {
  public:
   Courses(const Bins& bins, const Trajectory* flight) : bins_(bins), flight_(flight) {}

@@ -6,8 +6,8 @@
 
 namespace pcl_als::tin {
 
-/// Sign of orientation() when double arithmetic cannot tell: exact, by floating-point expansions
-/// (Shewchuk, 1997).
+/// Sign of orientation() when double arithmetic is not sufficient: exact, by floating-point
+/// expansions (Shewchuk, 1997).
 double orientationExact(double ax, double ay, double bx, double by, double qx, double qy);
 
 /// Positive when q is left of the directed line a-b, negative right of it, zero on it; the sign is

@@ -93,7 +93,8 @@ void Tin::movePoints(std::vector<Eigen::Vector3d> points) {
                      std::to_string(points.size()) + " positions");
   points_ = std::move(points);
   // Few inverted triangles do no harm: walks and searches get past them. Many mean that measured
-  // points have passed each other, as those of the two looks of a conical scanner do.
+  // points have passed each other, as those of the forward and backward arcs of a conical scanner
+  // do.
   constexpr std::size_t kTrianglesPerInverted = 1000;
   if (invertedTriangles() * kTrianglesPerInverted > triangles_.size())
     *this = Tin(std::move(points_), resolution_);

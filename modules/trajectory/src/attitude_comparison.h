@@ -19,9 +19,9 @@ namespace pcl_als::detail {
  * edges of the swath move sideways with it, unless the scanner is stabilised or the edge is one of
  * a tile; and recorded scan angles that are those of the mirror (without the roll, unlike the
  * definition of LAS) differ from the angle of the pulse from the vertical by it. Recorded angles
- * from the vertical say nothing of the roll, and neither does a flight without changes of roll.
- * Each is compared by its changes within two seconds: a slope of 1 is right, -1 a wrong sign, 57 an
- * angle in radians, and 0 a stabilised scanner or an angle from the vertical.
+ * from the vertical contain no information about roll, and neither does a flight without changes of
+ * roll. Each is compared by its changes within two seconds: a slope of 1 is right, -1 a wrong sign,
+ * 57 an angle in radians, and 0 a stabilised scanner or an angle from the vertical.
  */
 class AttitudeComparison {
  public:

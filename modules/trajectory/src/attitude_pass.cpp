@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kDegree = kRadiansPerDegree;
 // Estimation.
-constexpr double kWalk = 2.5e-3;        // rad per bin: 1.4 degrees per second, a bumpy flight
-constexpr double kPrior = 0.1;          // rad, of both angles over a pass: where pulses say nothing
+constexpr double kWalk = 2.5e-3;  // rad per bin: 1.4 degrees per second, a bumpy flight
+constexpr double kPrior =
+    0.1;  // rad, of both angles over a pass: where pulses contain no information
 constexpr double kMostCounted = 100.0;  // pulses of a bin: motion within it is common to all
 constexpr double kLeastNoise = 5e-4, kMostNoise = 1e-2;  // rad, of a pulse against its plane
 constexpr double kWellDetermined = 3e-3;                 // rad, standard deviation of an angle

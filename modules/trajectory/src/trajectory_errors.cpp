@@ -38,8 +38,9 @@ TrajectoryErrors::TrajectoryErrors(const std::vector<StripErrors>& strips) {
   });
   for (const StripErrors* strip : in_order) {
     if (!strips_.empty() && strip->knots.front().time < strips_.back().back().time) {
-      throw InputError("strip corrections: strip " + strip->id +
-                       " was measured at the same time as another; they cannot be told by time");
+      throw InputError(
+          "strip corrections: strip " + strip->id +
+          " was measured at the same time as another; they cannot be separated by time");
     }
     strips_.push_back(strip->knots);
   }

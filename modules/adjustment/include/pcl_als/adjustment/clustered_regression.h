@@ -18,7 +18,7 @@ namespace pcl_als {
  *   Cov = G/(G-m) N^-1 (sum_g s_g s_g') N^-1
  * (Liang and Zeger 1986) for G clusters and m unknowns; no variance less than that of independent
  * errors, sigma^2 N^-1, for few clusters may happen to agree. Where places are given, clusters
- * near each other may err together: the strips deform along time. What all clusters share (a
+ * near each other may have common errors: the strips deform along time. What all clusters share (a
  * constant error of a whole strip) is not in it, because no observation shows it.
  *
  * Centre the columns: rows of size about 1 keep N well-conditioned. Deterministic: sums in the
@@ -54,7 +54,7 @@ class ClusteredRegression {
   /// outliers are usual
   Result solve(bool robust = false) const;
 
-  /// Fewer clusters say nothing of how clusters differ.
+  /// With fewer clusters the scatter between clusters is not determined.
   static constexpr std::size_t kFewestClusters = 3;
 
  private:

@@ -19,7 +19,7 @@ namespace pcl_als {
  * normal of the surface. D = diag(h, h, 1) lets errors in plan be larger than those of heights. The
  * residuals of the estimate x = N^-1 A'W y are summed in cells. s^2 is integrated out and lambda, L
  * and h are averaged over a grid with the restricted likelihood (Patterson and Thompson 1971) as
- * weight, because a few dozen cells do not tell them well. L reaches to the extent of the
+ * weight, because a few dozen cells determine them only roughly. L reaches to the extent of the
  * observations: what is shared beyond is part of the estimate. The covariance is that of x as
  * estimated, N^-1 A'W Cov(y) W A N^-1, averaged.
  *

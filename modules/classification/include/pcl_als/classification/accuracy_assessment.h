@@ -24,7 +24,7 @@ struct ConfusionMatrix {
   std::int64_t total() const { return counts.sum(); }
 };
 
-/// An estimate with its 95 % confidence interval; all NaN where nothing can be said.
+/// An estimate with its 95 % confidence interval; all NaN where it is not determined.
 struct Proportion {
   double value, low, high;
 };
@@ -54,7 +54,7 @@ struct AccuracyResult {
  * (p_ii - p_i+ p_+i) / (p_i+ - p_i+ p_+i), as Habib et al. 2011, Table 6. Standard deviations are
  * those of large samples (delta method; Bishop, Fienberg and Holland 1975), intervals of
  * proportions are Wilson's, of kappa normal. They hold for check points drawn independently of each
- * other; points in clusters say less than their number.
+ * other; clustered points contain less information than their number.
  *
  * UsageError for a matrix without points.
  */

@@ -24,7 +24,7 @@ struct SurfaceOptions {
   double terrain_gap = 30.0;  ///< the same for the terrain, which has houses and woods to bridge
   Ground ground = Ground::classified;
   std::vector<std::uint8_t> ground_classes = groundAndRoads();  ///< ASPRS codes
-  double texture_window = 2.5;   ///< side of the square that slope and roughness look at, metres
+  double texture_window = 2.5;   ///< side of the square for slope and roughness, metres
   double largest_object = 40.0;  ///< width of the widest building, for Ground::filtered, metres
 
   static std::vector<std::uint8_t> groundAndRoads();  ///< 2 ground, 9 water, 11 road

@@ -26,7 +26,7 @@ namespace pcl_als {
  * The cloud is one strip, relative to its LocalFrame, with the coordinates of the calibrated
  * geometry. Normals are those given, or local planes (LocalSurfaces) of its single and last
  * returns. Leaves, wires and edges have no plane, returns that are not the last only part of a
- * pulse's energy: both are corrected for range and atmosphere only. getCounts() tells how many.
+ * pulse's energy: both are corrected for range and atmosphere only. getCounts() counts them.
  *
  * Fields needed: x, y, z, intensity (float), gps_time (double), return_number and
  * number_of_returns; for a type of one's own, include impl/intensity_correction.hpp. Every other

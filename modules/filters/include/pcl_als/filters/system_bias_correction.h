@@ -28,7 +28,7 @@ namespace pcl_als {
  * Every other field keeps its bits, the input is not changed. A point that is not finite is passed
  * on as it is; with indices set, points outside them, too. A point without a trajectory is an
  * InputError with counts and times unless setKeepUncovered(true), which leaves it as it is;
- * getCoverage() tells afterwards.
+ * getCoverage() counts them.
  * \code
  * pcl_als::SystemBiasCorrection<pcl_als::PointLidar> correction;
  * correction.setTrajectory(trajectory);  // std::shared_ptr<const pcl_als::Trajectory>
@@ -106,7 +106,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = threads; }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Of the last filter(): how many points were looked at, and what became of those not served.
+  /// Of the last filter(): how many points were processed, and why others were not.
   const CoverageCount& getCoverage() const { return coverage_; }
 
  protected:

@@ -37,7 +37,7 @@ CrsDescription describeCrs(const std::string& crs);
 /** \brief The units that a CRS states; one without a vertical axis takes the horizontal unit for
  * heights. A CRS that states none counts in metres.
  *
- * \param source what the units are said to be stated by; default: the CRS itself
+ * \param source what states the units, for messages; default: the CRS itself
  */
 LinearUnits unitsOfCrs(const std::string& crs, const std::string& source = {});
 

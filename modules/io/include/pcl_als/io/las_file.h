@@ -50,7 +50,7 @@ class LasFile {
   const LasRecordLayout& layout() const;
   const std::vector<LasVlrEntry>& vlrs() const;  ///< VLRs, then EVLRs, in file order
   const std::vector<LasExtraField>& extraFields() const;
-  std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not say
+  std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not state it
   CrsKind crsKind() const;
   /// What the coordinates count in; of geographic and geocentric ones the default.
   const LinearUnits& units() const;

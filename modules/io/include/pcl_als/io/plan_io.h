@@ -30,7 +30,7 @@ std::vector<FlightLineRecord> readFlightLines(const std::filesystem::path& path)
  *
  * read() takes ESRI ASCII grids: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter,
  * cellsize and NODATA_value in any order, then the rows from north to south. InputError for a
- * header that is incomplete or promises more than the file holds, for values that are no finite
+ * header that is incomplete or declares more than the file holds, for values that are no finite
  * numbers, too few or too many.
  */
 class ElevationGrid {

@@ -19,7 +19,7 @@ namespace pcl_als {
 /// How the times of a point file count, as its header declares it.
 enum class TimeKind { none, week_seconds, adjusted_standard };
 
-/// What a point file says of itself before its points are read.
+/// Properties of a point file that are known before its points are read.
 struct PointFileInfo {
   std::filesystem::path path;
   std::uint64_t point_count = 0;

@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/// How much of a file to look at: runs of consecutive points, evenly spaced from its first point to
+/// How much of a file to sample: runs of consecutive points, evenly spaced from its first point to
 /// its last.
 struct SampleSize {
   std::size_t runs = 256;

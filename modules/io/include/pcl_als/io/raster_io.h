@@ -73,7 +73,7 @@ class RasterWriter {
  * Places are brought to metres from the unit of the file's CRS.
  * Bands of any number type are read as float (no-data as NaN) or, those of bytes, as bytes.
  * InputError for a file that is no GeoTIFF, not north up, without georeference, whose cells are not
- * square, whose header promises more cells than such a file can hold (65536 per byte) or whose
+ * square, whose header declares more cells than such a file can hold (65536 per byte) or whose
  * blocks are larger than 512 MiB. A CRS that is an EPSG code is given as "EPSG:…", another as WKT.
  */
 class RasterReader {

@@ -11,8 +11,8 @@ namespace pcl_als {
 
 /** \brief Reads point files (.las, .laz, .pcd) whole and sorts their points into strips.
  *
- * Strips are told apart and named by StripNaming and come in its order; points keep file order. A
- * strip that reaches further than LocalFrame::kReach from its centre comes as several parts with
+ * Strips are separated and named by StripNaming and returned in its order; points keep file order.
+ * A strip that reaches further than LocalFrame::kReach from its centre comes as several parts with
  * the same id, cut by a grid of 5 km, each relative to the centre of its square. Memory: 48 bytes
  * per point. Files are read twice.
  *

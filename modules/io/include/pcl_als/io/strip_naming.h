@@ -38,16 +38,16 @@ struct PointFileSources {
   std::vector<PointSource> sources;
 };
 
-/// Reads a file once and tells which ids it holds. Constant memory. \a also gets every chunk, too.
+/// Reads a file once and returns its ids. Constant memory. \a also gets every chunk, too.
 PointFileSources surveySources(const std::filesystem::path& path,
                                const std::function<void(const PointChunk&)>& also = {});
 
-/** \brief Tells which points of a set of files belong to one strip, and what the strip is called.
+/** \brief Assigns the points of a set of files to strips, and names these.
  *
  * - A point source id other than 0 is the strip's number: points of that id in all files are one
  *   strip, called by the number (tiles of one strip are joined).
- * - Id 0 says nothing (LAS: "originated in this file"): such points are a strip of their file,
- *   called by the file's stem.
+ * - Id 0 identifies no strip (LAS: "originated in this file"): such points are a strip of their
+ * file, called by the file's stem.
  * - Where every one of several files holds one and the same id only, a constant that a program
  *   wrote into one file per line is likelier than tiles: each file is a strip, called by its stem,
  *   unless the files' times follow each other without a gap of more than kLargestGap, as those of

@@ -20,7 +20,7 @@ struct TimeGap {
   double from = 0.0, to = 0.0;
 };
 
-/// What a set of points looks like. Extents and ranges are of finite values; 0 without points.
+/// Statistics of a set of points. Extents and ranges are of finite values; 0 without points.
 struct PointStatistics {
   std::uint64_t points = 0, single_returns = 0, first_returns = 0;
   Eigen::Vector3d minimum = Eigen::Vector3d::Zero();  ///< metres, ground frame
@@ -75,13 +75,13 @@ struct SurveyCensus {
   std::vector<std::string> remarks;
 };
 
-/** \brief Reads point files once and tells what they hold.
+/** \brief Reads point files once and lists their contents.
  *
  * Memory is that of the occupied cells (4 bytes each) and at most a few hundred MB: where the
  * points are spread over more cells the cell size doubles, and duplicates are counted in a sample
  * of the points chosen by hash (all points up to half a million).
  *
- * \param cell metres; 0: 1, 2, 5 or 10 by the density that the headers promise
+ * \param cell metres; 0: 1, 2, 5 or 10 by the density that the headers declare
  * \param progress called with the fraction of points read
  */
 SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell = 0.0,

@@ -27,8 +27,8 @@ struct TrajectoryFile {
  * CSV: a header line and the columns time,x,y,z[,roll,pitch,heading] in any order, separator , ;
  * tab or blanks; seconds, metres, degrees. Columns are found by the names in use (GpsTime, Easting,
  * Height, Azimuth, ...; the module's README lists them) in any case; angles in radians where the
- * name says so ("roll_rad"). SBET: projected to \a crs with PROJ, meridian convergence applied to
- * the heading = platform heading - wander angle.
+ * name contains the unit ("roll_rad"). SBET: projected to \a crs with PROJ, meridian convergence
+ * applied to the heading = platform heading - wander angle.
  *
  * InputError names file, line (or record) and column. SBET without \a crs is a UsageError that
  * names the option.

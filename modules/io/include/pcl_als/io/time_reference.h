@@ -15,10 +15,10 @@ inline constexpr double kAdjustedOffset = 1e9;
 
 /** \brief Finds the time alignment of points and trajectory.
  *
- * Points count in seconds of the GPS week or in adjusted standard GPS time, as \a kind says (a file
- * that says one and holds the other is seen by its values); a trajectory in seconds of the week,
- * GPS seconds or adjusted standard time, which its values show. Where one side lacks the week, it
- * is \a gps_week, or the one that makes the ranges overlap.
+ * Points count in seconds of the GPS week or in adjusted standard GPS time, as given by \a kind (a
+ * file that states one and holds the other is recognised by its values); a trajectory in seconds of
+ * the week, GPS seconds or adjusted standard time, which its values show. Where one side lacks the
+ * week, it is \a gps_week, or the one that makes the ranges overlap.
  *
  * \param name the point file, for messages. InputError when there are no times (all zero), or
  * when nothing makes the ranges overlap: it gives both.

@@ -9,7 +9,7 @@
 
 namespace pcl_als {
 
-/// The VLR of a LAZ file that says how its points are compressed.
+/// The VLR of a LAZ file that describes the compression of its points.
 inline constexpr const char* kLazUser = "laszip encoded";
 inline constexpr std::uint16_t kLazRecord = 22204;
 
@@ -53,7 +53,7 @@ inline constexpr std::uint32_t kLazDefaultChunk = 50000;
  */
 struct LazSchema {
   LazCompressor compressor = LazCompressor::pointwise_chunked;
-  std::uint32_t chunk_size = kLazDefaultChunk;  ///< points; kLazVariableChunks: told per chunk
+  std::uint32_t chunk_size = kLazDefaultChunk;  ///< points; kLazVariableChunks: stored per chunk
   std::vector<LazItem> items;
 
   /// \param format point format 0 to 10. \param record_length in bytes, with extra bytes.

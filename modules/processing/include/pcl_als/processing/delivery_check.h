@@ -32,7 +32,7 @@ struct CheckSettings {
   double control_sigma = 0.02;        ///< metres, where the file gives none
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
   double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed, not measured
-  std::size_t candidates = 100'000;   ///< places looked at, all areas, level and steep each
+  std::size_t candidates = 100'000;   ///< places of measurement, all areas, level and steep each
   bool force = false;                 ///< go on with a trajectory that cannot be the points'
   int threads = 0;
 };
@@ -41,7 +41,7 @@ struct CheckSettings {
 struct CheckedPair {
   std::string a, b;
   double overlap_area = 0.0;  ///< m^2
-  std::size_t areas = 0;      ///< that were looked at
+  std::size_t areas = 0;      ///< that were measured
   PairAssessment assessment;
   std::optional<PatchAlignmentResult> alignment;  ///< where it was tried
   std::vector<OffsetSample> samples;              ///< at most kScatter, evenly, for scatter plots
@@ -73,7 +73,8 @@ struct CheckedBlock {
   std::vector<LeftOutPoints> left_out;  ///< points that took no part
 };
 
-/** \brief Checks one set of strips: three looks at the files, memory for the chosen areas only. */
+/** \brief Checks one set of strips: three passes over the files, memory for the chosen areas only.
+ */
 class BlockCheck {
  public:
   BlockCheck(SurveyReader& survey, const CheckSettings& settings,

@@ -35,7 +35,7 @@ struct IntensityWindow {
   std::vector<double> gain_control;  ///< by point; empty where none is read
 };
 
-/// What a first look at a file found.
+/// Result of a first pass over a file.
 struct IntensitySurvey {
   PointFileSources sources;
   bool has_time = true;
@@ -57,10 +57,10 @@ struct WindowRequest {
 
 /** \brief A point file, read window by window.
  *
- * LAS: windows are runs of records. The first look keeps a box for every 4096 records and strip (32
+ * LAS: windows are runs of records. The first pass keeps a box for every 4096 records and strip (32
  * bytes each); a window is read with the records of those blocks that lie within a margin of its
  * own. So a file in order of time or of place needs the memory of a window; one whose windows have
- * more than kMostNeighbours points around them is in no order and an InputError says so. PCD: one
+ * more than kMostNeighbours points around them is in no order and refused (InputError). PCD: one
  * window, the whole file.
  */
 class IntensityInput {

@@ -76,7 +76,7 @@ struct WindowChoice {
  */
 class IntensityRun {
  public:
-  /// Looks at all files. InputError for what they cannot serve.
+  /// First pass over all files. InputError where they cannot be used.
   IntensityRun(const std::vector<std::string>& paths, std::shared_ptr<const Trajectory> trajectory,
                const IntensitySettings& settings);
 
@@ -108,7 +108,7 @@ class IntensityRun {
   void useConstant(double constant) { constant_ = constant; }
   const RadiometricModel& model() const { return model_; }
   const std::vector<double>& estimatedGains() const { return estimated_gains_; }
-  /// What all intensities of a strip are divided by: known gain, pulse energy, estimated gain.
+  /// Divisor of all intensities of a strip: known gain, pulse energy, estimated gain.
   double gain(int strip) const {
     return known_gains_[static_cast<std::size_t>(strip)] *
            estimated_gains_[static_cast<std::size_t>(strip)];

@@ -26,7 +26,7 @@ struct StripFiles {
 
 /// A strip before its points are read.
 struct StripFileInfo {
-  Eigen::AlignedBox3d box;  ///< metres, as the files' headers say
+  Eigen::AlignedBox3d box;  ///< metres, as in the headers of the files
   std::vector<PointFileInfo> files;
   double resolution = 0.001;
   std::uint64_t points = 0;

@@ -28,7 +28,7 @@ struct SurveyCalibrationOptions {
 };
 
 struct SurveyCalibration {
-  CalibrationResult result;  ///< result.verdict tells whether to apply it
+  CalibrationResult result;  ///< result.verdict states whether to apply it
   std::vector<SurveyArea> areas;
   std::vector<double> information;           ///< by area: share of the determination, together 1
   std::shared_ptr<const Trajectory> flight;  ///< with the attitude that was used

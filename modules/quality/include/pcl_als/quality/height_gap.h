@@ -21,7 +21,7 @@ struct HeightGap {
 };
 
 /// Of the cells in the areas; empty where fewer than 20 are shared. At most some hundred thousand
-/// points are looked at.
+/// points are used.
 std::optional<HeightGap> heightGap(const std::vector<AreaOffsets>& areas, int a, int b);
 
 /// Why places of \a a and \a b cannot be compared, in one line; empty where the gap is less than

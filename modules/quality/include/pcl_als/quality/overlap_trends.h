@@ -46,8 +46,8 @@ struct OverlapTrends {
   Trend time;                                         ///< per second of a
   Trend scan_angle;                                   ///< per degree of a
 
-  /// Roll errors in radians, as far as the offsets tell: opposite: mean of both, a common error
-  /// such as the boresight's; parallel: a - b; crossing: first a's, then b's.
+  /// Roll errors in radians, as far as the offsets determine them: opposite: mean of both, a common
+  /// error such as the boresight's; parallel: a - b; crossing: first a's, then b's.
   struct Roll {
     bool determined = false;
     double value = 0.0, std = 0.0;

@@ -38,7 +38,7 @@ struct SlopeAspectClass {
 };
 const char* aspectName(int aspect);
 
-/// What two overlapping strips say of each other. Signs are those of a - b, movements take a onto
+/// Agreement of two overlapping strips. Signs are those of a - b, movements take a onto
 /// b.
 struct PairAssessment {
   enum class Status {

@@ -14,14 +14,14 @@ namespace pcl_als {
 /** \brief The direction a strip was flown in, from its points alone.
  *
  * Least squares of plan position = p0 + velocity time + across scan_angle: the second term keeps a
- * strip that is cut obliquely from looking turned. Where the file has no scan angles only time
+ * strip that is cut obliquely from appearing rotated. Where the file has no scan angles only time
  * counts. A strip that turns gives the mean direction. Constant memory.
  */
 class StripCourse {
  public:
   void add(const SwathPoint& point);
   std::size_t count() const { return count_; }
-  /// Plan unit vector; empty where times do not tell (none, or a strip of a moment).
+  /// Plan unit vector; empty where times do not determine it (no times, or a very short strip).
   std::optional<Eigen::Vector2d> direction() const;
 
  private:

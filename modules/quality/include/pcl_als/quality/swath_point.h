@@ -26,7 +26,7 @@ struct SwathPoint {
   bool isLast() const { return return_number >= number_of_returns; }
 };
 
-/// False for points that no check looks at: withheld, noise (7, 18), not finite.
+/// False for points that no check uses: withheld, noise (7, 18), not finite.
 bool isCheckable(const SwathPoint& point);
 
 /// True for a checkable point that may be part of a solid surface: a last return, not on water (9).

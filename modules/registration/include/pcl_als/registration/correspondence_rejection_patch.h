@@ -28,7 +28,7 @@ namespace pcl_als {
  * Patches come from a CorrespondenceEstimationPointToPatch given to setMatchProvider(), without a
  * second search; or, for correspondences of any other estimation, are found here in the TIN of the
  * target points, which pcl::Registration hands over (or setInputSource() and setInputTarget() do).
- * index_match of the correspondences is not looked at. Verdicts about triangles are kept until the
+ * index_match of the correspondences is not used. Verdicts about triangles are kept until the
  * target or a limit changes: one byte per triangle.
  */
 class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceRejector {

@@ -18,14 +18,13 @@ namespace pcl_als {
  * one height at a plan position, z up, metres.
  *
  * Of pcl::Registration's settings these hold:
- *   setMaxCorrespondenceDistance  how far surfaces may be apart at the guess, metres; default 15
- *   setMaximumIterations          of the fine stage; default 50
- *   setTransformationEpsilon      squared metres that a point moves in the last iteration; default
- *                                 4e-10
- *   setIndices                    points of the source to use
- * Correspondence estimation, rejectors, RANSAC settings and search trees are not used.
- * hasConverged() is false where the clouds hardly overlap, have no smooth surface in common or come
- * to no rest. getResult() says why, and what of the motion is determined, with covariance.
+ *   setMaxCorrespondenceDistance  largest distance of the surfaces at the initial motion, metres;
+ * default 15 setMaximumIterations          of the fine stage; default 50 setTransformationEpsilon
+ * squared metres that a point moves in the last iteration; default 4e-10 setIndices points of the
+ * source to use Correspondence estimation, rejectors, RANSAC settings and search trees are not
+ * used. hasConverged() is false where the clouds hardly overlap, have no smooth surface in common
+ * or the iteration does not converge. getResult() gives the reason, and the determined parameters
+ * of the motion with their covariance.
  *
  * getFinalTransformation() maps local source to local target coordinates. For strips whose
  * LocalFrames differ give both frames: the result's motion is then in ground coordinates.
@@ -59,11 +58,11 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
   /// Points of each cloud that are triangulated, about; >= 100. Default 700 000.
   void setMaximumPoints(std::size_t points) { settings_.points = points; }
   std::size_t getMaximumPoints() const { return settings_.points; }
-  /// Points that look for a patch in each direction, about; >= 100. Default 180 000.
+  /// Candidate points in each direction, about; >= 100. Default 180 000.
   void setMaximumPairs(std::size_t pairs) { settings_.pairs = pairs; }
   std::size_t getMaximumPairs() const { return settings_.pairs; }
-  /// Metres at the overlap's radius: what is known less well is reported as not determined. Default
-  /// 0.1.
+  /// Metres at the radius of the overlap: parameters with a larger standard deviation are reported
+  /// as not determined. Default 0.1.
   void setDeterminedStandardDeviation(double metres) { settings_.determined_std = metres; }
   double getDeterminedStandardDeviation() const { return settings_.determined_std; }
   /// Step of plan coordinates, metres. Default 0.001.

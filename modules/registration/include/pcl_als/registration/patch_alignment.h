@@ -13,10 +13,10 @@ namespace pcl_als {
 
 /// Settings of PatchAlignment; metres and radians.
 struct PatchAlignmentSettings {
-  double search_distance = 15.0;  ///< > 0: how far surfaces may be apart at the guess
+  double search_distance = 15.0;  ///< > 0: largest distance of the surfaces at the initial motion
   bool estimate_scale = false;    ///< a seventh unknown
   std::size_t points = 700'000;   ///< of each cloud that are triangulated, about
-  std::size_t pairs = 180'000;    ///< that look for a patch in each direction, about
+  std::size_t pairs = 180'000;    ///< candidates in each direction, about
   int maximum_iterations = 50;    ///< of the fine stage
   double convergence = 2e-5;      ///< metres: no point moves further in an iteration
   double determined_std = 0.1;    ///< metres at the overlap's radius: above, not determined
@@ -34,13 +34,13 @@ struct PatchAlignmentSettings {
  *
  * 1. Coarse: the lowest points of ever smaller plan cells, within search_distance.
  * 2. Areas are chosen in the overlap, evenly and by relief, and triangulated in both clouds.
- * 3. Points on smooth surfaces, evenly over slopes and aspects, look for their closest patch in the
- *    other cloud. A pair is one equation along the normal n of the patches' neighbourhoods,
+ * 3. Points on smooth surfaces, evenly over slopes and aspects, are paired with the closest patch
+ * of the other cloud. A pair is one equation along the normal n of the patches' neighbourhoods,
  *      n'(t + theta x (p - c) + ds (p - c)) = -d,   weight 1 / n'(Sigma_s + Sigma_t) n,
- *    the modified weight of Eqs. (31)-(34) for a scalar: sliding in the plane costs nothing. Huber
- *    weights, nothing beyond 4.5 standard deviations.
- * 4. Directions that the patches do not fix are found by eigenvalues, left as the guess has them,
- *    and named.
+ *    the modified weight of Eqs. (31)-(34) for a scalar: displacements in the plane have no cost.
+ * Huber weights, nothing beyond 4.5 standard deviations.
+ * 4. Directions that the patches do not determine are found by eigenvalues, keep their initial
+ * value, and are named.
  *
  * Swapping source and target gives the inverse. Memory: about 250 bytes for each of the points
  * that are triangulated, 16 for each cell of some five points.

@@ -22,8 +22,8 @@ struct DistanceSummary {
 /** \brief What an alignment of two strips found: the motion of the source onto the target, how well
  * it is known, and how well they fit.
  *
- * Order of parameters everywhere: XT, YT, ZT (metres), omega, phi, kappa (radians). Estimates are
- * only to be used where status says converged, and only those that are determined.
+ * Order of parameters everywhere: XT, YT, ZT (metres), omega, phi, kappa (radians). Use estimates
+ * only where status is converged, and only those that are determined.
  */
 struct PatchAlignmentResult {
   enum class Status {

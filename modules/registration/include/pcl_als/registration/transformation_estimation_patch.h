@@ -59,7 +59,7 @@ class TransformationEstimationPatch
                                    const pcl::PointCloud<PointTarget>& target,
                                    const pcl::Indices& target_indices,
                                    Matrix4& transformation) const override;
-  /// \param correspondences index_query counts; index_match is not looked at.
+  /// \param correspondences index_query counts; index_match is not used.
   void estimateRigidTransformation(const pcl::PointCloud<PointSource>& source,
                                    const pcl::PointCloud<PointTarget>& target,
                                    const pcl::Correspondences& correspondences,

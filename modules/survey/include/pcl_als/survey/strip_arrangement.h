@@ -43,7 +43,7 @@ struct FlownTimes {
   bool needed = true;
 };
 
-/** \brief Tells to which strip each point of a set of files belongs, or why it is left out.
+/** \brief Assigns each point of a set of files to a strip, or gives the reason why it is left out.
  *
  * Without StripChoice::split, strips are those of StripNaming. With it, points of one point source
  * id in all files are cut into stretches by splitTrack(): of id 0 called line1, line2, … in order

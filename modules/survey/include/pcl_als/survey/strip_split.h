@@ -28,8 +28,8 @@ struct TimeStretch {
  * swath's centre over four seconds; this is less certain, and a turn must then be of 60 degrees.
  * The result depends on the track alone: not on threads, the order of points, or files.
  *
- * Fails to see a turn in which no course can be told (less than a second of points on a side of a
- * gap, a sensor that stands still): such lines stay together.
+ * Does not find a turn in which no course is determined (less than a second of points on a side of
+ * a gap, a sensor that stands still): such lines stay together.
  */
 std::vector<TimeStretch> splitTrack(const SwathTrack& track, const Trajectory* flight);
 

@@ -11,13 +11,13 @@
 
 namespace pcl_als {
 
-/// What a first reading of a point file tells: its point source ids, and when and where each flew.
+/// Result of a first reading of a point file: its point source ids, with times and positions.
 struct SurveyedFile {
   PointFileSources sources;
   std::map<std::uint16_t, SwathTrack> tracks;  ///< by point source id, on the file's clock
 };
 
-/// Reads a file once; memory as SwathTrack says. InputError for a file that cannot be read.
+/// Reads a file once; memory: see SwathTrack. InputError for a file that cannot be read.
 SurveyedFile surveyFile(const std::filesystem::path& path);
 
 }  // namespace pcl_als

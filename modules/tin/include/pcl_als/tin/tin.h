@@ -20,10 +20,10 @@ namespace pcl_als {
  * TIN. Collinear input has no triangles. Deterministic: the same points in the same order give the
  * same triangles in the same order.
  *
- * Four or more points on one circle (every square of a grid) are triangulated by a rule that looks
- * at these points alone, so the triangulation is unique: input order only decides how triangles and
- * vertices are numbered, and a TIN of a part agrees with the TIN of the whole wherever certain()
- * says so.
+ * Four or more points on one circle (every square of a grid) are triangulated by a rule that
+ * depends on these points alone, so the triangulation is unique: input order only decides how
+ * triangles and vertices are numbered, and a TIN of a part agrees with the TIN of the whole
+ * wherever certain() is true.
  *
  * Triangles are numbered along a space-filling curve: neighbours in plan are mostly close in
  * memory. Memory: 73 bytes per point, and while it is being built up to 100 more.
@@ -82,7 +82,7 @@ class Tin {
    * (borders included; of points that coincide in plan, the same first one).
    *
    * True if the circle around the triangle, two resolutions wider, lies in the box. The converse
-   * holds too: every triangle of the whole TIN of which this can be said is in this one.
+   * holds too: every triangle of the whole TIN for which this holds is in this one.
    */
   bool certain(std::int32_t triangle, const Eigen::AlignedBox2d& covered) const;
 

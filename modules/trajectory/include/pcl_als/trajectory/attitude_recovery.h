@@ -81,7 +81,8 @@ class AttitudeRecovery {
     undetermined,  ///< too few pulses, or too narrow a part of the swath
     conical,       ///< the pulses lie on a cone
     not_planar,    ///< in no plane, even for a tenth of a second: several planes, or another flight
-    implausible,   ///< in planes for a tenth of a second, but with angles that nobody flies
+    implausible,   ///< in planes for a tenth of a second, but with angles that do not occur in
+                   ///< flight
   };
   /// An uninterrupted piece of flight.
   struct Pass {

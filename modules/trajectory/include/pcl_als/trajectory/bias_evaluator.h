@@ -23,7 +23,7 @@ struct EffectColumns {
 
 /// Which points the trajectory could not serve, and why. Their effect is zero.
 struct CoverageCount {
-  std::size_t points = 0;  ///< all that were looked at
+  std::size_t points = 0;  ///< all that were processed
   std::size_t before_start = 0, after_end = 0, in_gap = 0;
   std::size_t without_time = 0;      ///< time not finite
   std::size_t without_attitude = 0;  ///< no pitch and crab are known for their time

@@ -65,8 +65,9 @@ Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading);
  * linearly and the rotation at a constant rate. A look-up costs an index and one interpolation.
  * Memory: about 130 bytes per sample while it is made, 68 afterwards.
  *
- * Fails (InputError) for what no line can be fitted to; what can be repaired is, and repairs() says
- * so. Where the sensor stands still (before take-off) the direction is that of the last movement.
+ * Fails (InputError) for what no line can be fitted to; what can be repaired is, and repairs()
+ * lists so. Where the sensor stands still (before take-off) the direction is that of the last
+ * movement.
  */
 class Trajectory {
  public:

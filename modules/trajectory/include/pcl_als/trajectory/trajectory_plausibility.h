@@ -26,7 +26,7 @@ namespace pcl_als {
  * decides. A trajectory that is displaced by less shows where strips of several courses see it from
  * different sides. The heading is compared with the course, pitch with the planes of the pulses,
  * and roll with the edges of the swath and with recorded scan angles, where these are the mirror's;
- * without changes of pitch and roll nothing is said of them. Times of coarse steps leave the firing
+ * without changes of pitch and roll these are not judged. Times of coarse steps leave the firing
  * point open by the distance flown in a step.
  *
  * Give some points of every strip; one in a hundred will do. Points at times outside the trajectory

@@ -27,7 +27,7 @@ Canvas drawPairs(const CalibrationResult& result, PictureSize size = {});
 Canvas drawResiduals(const CalibrationResult& result, PictureSize size = {});
 
 /// An estimate with its standard deviation to two digits, "−90.13 ± 0.28 arcsec", or why there is
-/// none: as pictures and reports say it.
+/// none: as written in pictures and reports.
 std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate);
 
 /// What each strip's trajectory was found to be wrong by over time: position and angles.

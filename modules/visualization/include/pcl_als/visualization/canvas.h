@@ -42,8 +42,8 @@ enum class Marker { disk, square, diamond, triangle, ring };
  *
  * Coordinates are pixels, real-valued, from the upper left corner; the pixel (i, j) covers
  * [i, i + 1) x [j, j + 1). Drawing needs no display and gives the same bytes everywhere (text: with
- * the same fonts). What is drawn outside is cut off; texts() tells where every text went, so that a
- * layout can be checked.
+ * the same fonts). What is drawn outside is cut off; texts() lists the place of every text, so that
+ * a layout can be checked.
  */
 class Canvas {
  public:

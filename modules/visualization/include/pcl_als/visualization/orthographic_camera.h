@@ -18,8 +18,8 @@ struct ViewExtent {
 
 /** \brief A camera far away (orthographic): metres are the same length all over the picture.
  *
- * azimuth: the direction it looks to, degrees clockwise from grid north; elevation: how far above
- * the horizon it stands, degrees; 90 looks straight down, with the azimuth at the upper edge.
+ * azimuth: the viewing direction, degrees clockwise from grid north; elevation: how far above
+ * the horizon it stands, degrees; 90 views straight down, with the azimuth at the upper edge.
  */
 class OrthographicCamera {
  public:

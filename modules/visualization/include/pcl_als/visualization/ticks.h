@@ -10,7 +10,7 @@ namespace pcl_als {
 /// Where an axis is marked: multiples of 1, 2 or 5 times a power of ten.
 struct Ticks {
   double step = 1.0;
-  int decimals = 0;  ///< digits after the point that tell neighbouring ticks apart
+  int decimals = 0;  ///< digits after the point that distinguish neighbouring ticks
   std::vector<double> values;
 
   std::string label(double value) const;

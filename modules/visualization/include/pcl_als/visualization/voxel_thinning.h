@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/** \brief Keeps one point, the first, of every cube of space, for scenes that are looked at from
+/** \brief Keeps one point, the first, of every cube of space, for scenes that are viewed from
  * all sides.
  *
  * Cubes begin small and double whenever more than \a most points are kept, so that any number of

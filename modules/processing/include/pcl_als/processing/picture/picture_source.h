@@ -24,7 +24,7 @@ namespace pcl_als {
  */
 class PictureSource {
  public:
-  /// Looks at all files once. InputError for a file that cannot be read and where no file has a
+  /// Reads all files once. InputError for a file that cannot be read and where no file has a
   /// point.
   /// \a split: cut into flight lines, as StripChoice.
   explicit PictureSource(const std::vector<std::string>& paths, bool split = false);

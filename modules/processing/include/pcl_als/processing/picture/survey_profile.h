@@ -19,7 +19,8 @@ struct SurveyProfile {
 /** \brief The gable roof or slope of a survey where a misfit of its strips shows best; empty where
  * no two strips see one.
  *
- * Reads all points twice. Memory: that of SectionSearch while it looks, then the section's points.
+ * Reads all points twice. Memory: that of SectionSearch during the search, then the section's
+ * points.
  */
 std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
                                          const BiasEvaluator& correction);

@@ -47,7 +47,7 @@ bool CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::pre
     throw UsageError(this->corr_name_ + ": no target; call setInputTarget with a cloud of points");
   if (!this->input_)
     throw UsageError(this->corr_name_ + ": no source; call setInputSource with a cloud of points");
-  // Not the base's own initCompute: it would build a kd-tree of the target, which nobody uses here.
+  // Not the base's own initCompute: it would build a kd-tree of the target, which is not used here.
   pcl::PCLBase<PointSource>::initCompute();
   if (this->target_cloud_updated_ || !surface_) {
     surface_ = makeCloudSurface(*this->target_, this->target_indices_.get(), resolution_);
