@@ -19,8 +19,8 @@ using app::CommandLine;
 
 CommandLine commandLine() {
   CommandLine line("pcl_als_apply",
-                   "takes known system biases out of a point file (Habib et al. 2011, Eq. 13), or "
-                   "puts them in.",
+                   "removes known system biases from a point file (Habib et al. 2011, Eq. 13), or "
+                   "applies them.",
                    "IN OUT -trajectory T -calibration calibration.json [options]",
                    "pcl_als_apply strip1.las corrected1.las -trajectory trajectory.csv "
                    "-calibration calibration.json");
@@ -30,9 +30,9 @@ CommandLine commandLine() {
                    "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
                    "names as in calibration.json");
   app::addModelOption(line);
-  line.addFlag("invert", "put the biases in instead of taking them out");
+  line.addFlag("invert", "apply the biases instead of removing them");
   line.addFlag("strip_corrections",
-               "with -calibration: take out what it found wrong with each strip's trajectory, too");
+               "with -calibration: correct its estimated trajectory errors of each strip, too");
   app::addForceOption(
       line, "the calibration's verdict is not \"usable\" or inputs do not belong together");
   line.addFlag("keep_uncovered",
