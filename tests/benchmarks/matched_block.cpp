@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 
 #include "pairing_rules.h"

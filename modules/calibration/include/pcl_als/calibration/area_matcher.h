@@ -5,18 +5,17 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/calibration/pair_selection.h>
-#include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/survey/calibration_point.h>
+#include <pcl_als/survey/survey_map.h>
 #include <pcl_als/tin/patch_surface.h>
 #include <pcl_als/tin/surface_criterion.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
@@ -107,18 +106,6 @@ class AreaMatcher {
   std::map<std::pair<int, int>, std::vector<Seeker>> kept_;  ///< points of the first strip
   SurfaceCriterion criterion_;
   SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
-};
-
-/// Finds the areas that cover a point, for filling AreaMatchers while files are read.
-class AreaIndex {
- public:
-  explicit AreaIndex(const std::vector<SurveyArea>& areas);
-  /// Indices of the areas whose square with margin may hold the position.
-  const std::vector<int>& candidates(const Eigen::Vector3d& position) const;
-
- private:
-  std::unordered_map<std::int64_t, std::vector<int>> cells_;
-  std::vector<int> none_;
 };
 
 }  // namespace pcl_als

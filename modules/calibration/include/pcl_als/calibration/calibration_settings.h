@@ -8,7 +8,7 @@
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
-#include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/survey/survey_map.h>
 
 namespace pcl_als {
 

@@ -12,9 +12,10 @@
 
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/calibration_settings.h>
-#include <pcl_als/calibration/survey_map.h>
-#include <pcl_als/calibration/time_resolution.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/survey/area_index.h>
+#include <pcl_als/survey/survey_map.h>
+#include <pcl_als/survey/time_resolution.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 

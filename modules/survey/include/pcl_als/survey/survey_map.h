@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/calibration_point.h>
+#include <pcl_als/survey/calibration_point.h>
 
 namespace pcl_als {
 

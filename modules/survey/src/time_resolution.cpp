@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <pcl_als/calibration/time_resolution.h>
+#include <pcl_als/survey/time_resolution.h>
 
 namespace pcl_als {
 namespace {

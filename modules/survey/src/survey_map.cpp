@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/survey/survey_map.h>
 
 namespace pcl_als {
 namespace {
