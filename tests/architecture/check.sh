@@ -18,8 +18,9 @@ declare -A may=(
   [calibration]="common adjustment trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
-  [processing]="common io trajectory survey registration calibration radiometry filters quality classification visualization"
-  [report]="common io survey registration calibration radiometry quality classification processing visualization"
+  [planning]="common trajectory survey tin calibration"
+  [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification visualization"
+  [report]="common io survey registration calibration planning radiometry quality classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )
 

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
-
-#include "pairing_rules.h"
 
 namespace pcl_als::bench {
 

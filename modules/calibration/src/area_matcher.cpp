@@ -5,11 +5,11 @@
 
 #include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/modified_weight.h>
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/orientation_classes.h>
 
 #include "noise_shares.h"
-#include "pairing_rules.h"
 
 namespace pcl_als {
 namespace {

@@ -27,8 +27,4 @@ Eigen::Matrix3d modifiedWeight(const Eigen::Matrix3d& weight, const Eigen::Vecto
   return rotation.transpose() * kept * rotation;
 }
 
-double normalVariance(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& normal) {
-  return normal.dot(covariance * normal);
-}
-
 }  // namespace pcl_als

@@ -8,9 +8,8 @@
 #include <Eigen/Cholesky>
 
 #include <pcl_als/calibration/pair_selection.h>
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/tin/orientation_classes.h>
-
-#include "pairing_rules.h"
 
 namespace pcl_als {
 

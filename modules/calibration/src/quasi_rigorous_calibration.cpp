@@ -4,13 +4,13 @@
 #include <cmath>
 #include <map>
 
-#include <pcl_als/calibration/block_advice.h>
 #include <pcl_als/calibration/calibration_judgement.h>
 #include <pcl_als/calibration/calibration_report.h>
 #include <pcl_als/calibration/control_consistency.h>
 #include <pcl_als/calibration/misfit_comparison.h>
 #include <pcl_als/calibration/pair_selection.h>
 #include <pcl_als/calibration/pair_weights.h>
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/calibration/strip_error_check.h>
 #include <pcl_als/common/errors.h>
@@ -18,7 +18,6 @@
 #include <pcl_als/common/statistics.h>
 
 #include "calibration_state.h"
-#include "pairing_rules.h"
 
 namespace pcl_als {
 namespace {
@@ -169,31 +168,14 @@ void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
   state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
 }
 
-std::vector<std::string> QuasiRigorousCalibration::observability(
-    const State& state, const std::vector<std::pair<double, double>>& spans,
-    const CalibrationResult& result) const {
-  if (state.observationCount() == 0) return {};
-  std::vector<FlownStrip> flown;
+void QuasiRigorousCalibration::keepAdjusted(State& state, const std::vector<TimeSpan>& spans) {
+  adjusted_.strips.clear();
   for (std::size_t i = 0; i < ids_.size(); ++i) {
-    flown.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
+    adjusted_.strips.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
   }
-  ObservabilitySettings settings;
-  settings.estimate = settings_.estimate;
-  settings.limits = settings_.limits;
-  settings.shared_errors = settings_.shared_errors;
-  settings.levels = state.adjustment.levels();
-  settings.threads = settings_.threads;
-  settings.pairs.noise = settings_.noise;
-  settings.pairs.selection = settings_.selection;
-  settings.pairs.candidates = settings_.candidates;
-  settings.pairs.control_sigma = settings_.control_sigma;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    settings.reported[indexOf(info.parameter)] = result[info.parameter].std;
-  }
-  return describeObservability(
-             observedBlock(flown, *trajectory_, state.observations, state.weights.weights()),
-             settings)
-      .text();
+  adjusted_.observations = std::move(state.observations);
+  adjusted_.weights = state.weights.weights();
+  adjusted_.levels = state.adjustment.levels();
 }
 
 std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() const {
@@ -209,7 +191,7 @@ std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() con
 
 CalibrationResult QuasiRigorousCalibration::calibrate() {
   prepare();
-  std::vector<std::pair<double, double>> spans;
+  std::vector<TimeSpan> spans;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const int strip = static_cast<int>(i);
     spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
@@ -239,10 +221,10 @@ CalibrationResult QuasiRigorousCalibration::calibrate() {
   report.addParameters(state.choice, settings_.estimate, result);
   report.addStrips(errors, used_, state.choice.solution, result);
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
-  result.observability = observability(state, spans, result);
   information_ = state.adjustment.informationShares(state.choice.estimate);
   information_.resize(areas_.size(), 0.0);
   const std::vector<bool> used = state.usedAreas();
+  keepAdjusted(state, spans);
   state.threshold = settings_.max_normal_distance;
   state.seekers = AreaMatcher::Seekers::candidates;
   pairUp(state);

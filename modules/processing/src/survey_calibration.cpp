@@ -5,6 +5,7 @@
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/planning/block_advice.h>
 #include <pcl_als/processing/survey_calibration.h>
 
 namespace pcl_als {
@@ -87,6 +88,7 @@ CalibrationResult adjusted(QuasiRigorousCalibration& calibration, ProgressReport
                     std::to_string(1000.0 * last.largest_update) + " mm");
   });
   CalibrationResult result = calibration.calibrate();
+  result.observability = describeObservability(calibration, result);
   progress.end(result.converged ? "converged" : "not converged");
   return result;
 }

@@ -21,6 +21,21 @@
 
 namespace pcl_als {
 
+/// A strip as it was measured.
+struct FlownStrip {
+  std::string id;
+  std::pair<double, double> span;  ///< first and last firing time, seconds
+  std::size_t points = 0;
+};
+
+/// What was adjusted last: all that another adjustment of the same block needs (module planning).
+struct AdjustedSurvey {
+  std::vector<FlownStrip> strips;              ///< by the index that observations use
+  std::vector<AreaObservations> observations;  ///< by area
+  std::vector<std::vector<double>> weights;    ///< as for Adjustment::accumulate
+  SharedErrorLevels levels;                    ///< as estimated
+};
+
 /** \brief Geometric calibration of a LiDAR system (Habib et al. 2011, section 2).
  *
  * Estimates biases (assumed - true) of the system parameters from point-to-patch pairs in
@@ -67,8 +82,12 @@ class QuasiRigorousCalibration {
   void setProgress(std::function<void(const CalibrationIteration&)> progress) {
     progress_ = std::move(progress);
   }
-  /// result.verdict states whether to apply it, with the reason.
+  /// result.verdict states whether to apply it, with the reason. result.observability is left empty:
+  /// see describeObservability() of module planning.
   CalibrationResult calibrate();
+  /// After calibrate().
+  const AdjustedSurvey& adjusted() const { return adjusted_; }
+  const CalibrationSettings& settings() const { return settings_; }
 
   const std::vector<SurveyArea>& areas() const { return areas_; }
   /// What each area contributed to the determination, together 1; after calibrate().
@@ -126,9 +145,8 @@ class QuasiRigorousCalibration {
   std::string lostStrip(int strip) const;
   /// Adds what is wrong with strips: those without pairs, those that do not fit the others.
   void diagnose(CalibrationResult& result) const;
-  std::vector<std::string> observability(const State& state,
-                                         const std::vector<std::pair<double, double>>& spans,
-                                         const CalibrationResult& result) const;
+  /// Moves what was adjusted out of the state.
+  void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
 
   std::shared_ptr<const Trajectory> trajectory_;
   CalibrationSettings settings_;
@@ -149,6 +167,7 @@ class QuasiRigorousCalibration {
   std::unique_ptr<AreaIndex> index_;
   std::vector<AreaMatcher> matchers_;
   std::vector<double> information_;  ///< by area
+  AdjustedSurvey adjusted_;
   std::vector<std::string> warnings_, attitude_remarks_;
   std::function<void(const CalibrationIteration&)> progress_;
 };

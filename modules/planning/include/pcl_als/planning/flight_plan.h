@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/block_advice.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/planning/block_advice.h>
 
 namespace pcl_als {
 

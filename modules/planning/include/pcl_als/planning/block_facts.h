@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/synthetic_pairs.h>
+#include <pcl_als/planning/synthetic_pairs.h>
 
 namespace pcl_als {
 

@@ -3,9 +3,8 @@
 #include <map>
 #include <set>
 
-#include <pcl_als/calibration/calibration_report.h>
-#include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/planning/flight_plan.h>
 
 namespace pcl_als {
 namespace {
@@ -88,10 +87,7 @@ FlightPlanResult FlightPlan::evaluate() const {
   result.overlaps = overlapsOf(block);
   result.control_points = block.control_points;
   result.expected.converged = true;
-  std::vector<std::string> ids;
-  for (const StripGeometry& line : lines_) ids.push_back(line.id);
-  CalibrationReport(ids, block.control_points == 0)
-      .addParameters(adjusted.choice(), settings_.adjustment.estimate, result.expected);
+  reportParameters(adjusted.choice(), settings_.adjustment.estimate, result.expected);
   warn(result);
   result.observability = describeObservability(block, settings_.adjustment);
   return result;

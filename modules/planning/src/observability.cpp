@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include <pcl_als/calibration/observability.h>
+#include <pcl_als/planning/observability.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {

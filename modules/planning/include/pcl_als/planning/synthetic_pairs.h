@@ -12,7 +12,7 @@
 
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
-#include <pcl_als/calibration/strip_geometry.h>
+#include <pcl_als/planning/strip_geometry.h>
 #include <pcl_als/survey/survey_map.h>
 
 namespace pcl_als {

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/observability.h>
 #include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/synthetic_pairs.h>
+#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/planning/observability.h>
+#include <pcl_als/planning/synthetic_pairs.h>
 
 namespace pcl_als {
 
@@ -82,10 +83,6 @@ class AdjustedBlock {
   SystemVector deviations_, alone_;
 };
 
-/// The parameters that are tried where none is asked for: all but lever_arm_z, range_bias only with
-/// control.
-std::vector<SystemParameter> automaticParameters(bool with_control);
-
 /** \brief Directions, weak combinations and advice for a block.
  *
  * Every piece of advice is a whole adjustment: the virtual strip with pairs to all strips it
@@ -94,21 +91,20 @@ std::vector<SystemParameter> automaticParameters(bool with_control);
 ObservabilityReport describeObservability(const ObservedBlock& block,
                                           const ObservabilitySettings& settings);
 
-/// A strip as it was measured.
-struct FlownStrip {
-  std::string id;
-  std::pair<double, double> span;  ///< first and last firing time, seconds
-  std::size_t points = 0;
-};
-
-/** \brief A measured block for describeObservability().
+/** \brief A calibrated block for describeObservability().
  *
  * Strips become straight lines from their first to their last pose; their height is the median of
  * their pairs' (sensor above patch), their swath what the pairs reach to. A strip left out has an
  * empty span and no pairs.
  */
-ObservedBlock observedBlock(const std::vector<FlownStrip>& strips, const Trajectory& trajectory,
-                            std::vector<AreaObservations> observations,
-                            std::vector<std::vector<double>> weights);
+ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory);
+
+/** \brief What a calibrated block determines, why not more, and what an added line or control would
+ * change: the lines of CalibrationResult::observability.
+ *
+ * \param calibration after calibrate(), which returned \a result
+ */
+std::vector<std::string> describeObservability(const QuasiRigorousCalibration& calibration,
+                                               const CalibrationResult& result);
 
 }  // namespace pcl_als

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <sstream>
 
-#include <pcl_als/calibration/strip_geometry.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/planning/strip_geometry.h>
 
 namespace pcl_als {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include <pcl_als/calibration/block_facts.h>
+#include <pcl_als/planning/block_facts.h>
 
 namespace pcl_als {
 namespace {

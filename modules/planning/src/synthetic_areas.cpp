@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include <pcl_als/calibration/synthetic_pairs.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/planning/synthetic_pairs.h>
 
 namespace pcl_als {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/block_facts.h>
 #include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/planning/block_facts.h>
 
 namespace pcl_als {
 

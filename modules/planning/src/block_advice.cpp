@@ -6,8 +6,8 @@
 #include <numeric>
 #include <sstream>
 
-#include <pcl_als/calibration/block_advice.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/planning/block_advice.h>
 
 #include "virtual_lines.h"
 
@@ -85,16 +85,6 @@ SystemVector groundEffect(const ObservedBlock& block, const BlockFacts& facts) {
 }
 
 }  // namespace
-
-std::vector<P> automaticParameters(bool with_control) {
-  std::vector<P> parameters;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    if (info.parameter == P::lever_arm_z) continue;
-    if (info.parameter == P::range_bias && !with_control) continue;
-    parameters.push_back(info.parameter);
-  }
-  return parameters;
-}
 
 AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySettings& settings)
     : errors_(block.spans, settings.shared_errors,
@@ -249,21 +239,41 @@ StripGeometry straight(int index, const FlownStrip& flown, const Trajectory& tra
 
 }  // namespace
 
-ObservedBlock observedBlock(const std::vector<FlownStrip>& strips, const Trajectory& trajectory,
-                            std::vector<AreaObservations> observations,
-                            std::vector<std::vector<double>> weights) {
+ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory) {
   ObservedBlock block;
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    block.spans.push_back(strips[i].span);
-    block.strips.push_back(straight(static_cast<int>(i), strips[i], trajectory, observations));
+  for (std::size_t i = 0; i < survey.strips.size(); ++i) {
+    block.spans.push_back(survey.strips[i].span);
+    block.strips.push_back(
+        straight(static_cast<int>(i), survey.strips[i], trajectory, survey.observations));
   }
-  for (const AreaObservations& area : observations) {
+  for (const AreaObservations& area : survey.observations) {
     const bool control = !area.empty() && area.front().a == PairObservation::kControl;
     if (control) ++block.control_points;
   }
-  block.observations = std::move(observations);
-  block.weights = std::move(weights);
+  block.observations = survey.observations;
+  block.weights = survey.weights;
   return block;
+}
+
+std::vector<std::string> describeObservability(const QuasiRigorousCalibration& calibration,
+                                               const CalibrationResult& result) {
+  const ObservedBlock block = observedBlock(calibration.adjusted(), *calibration.trajectory());
+  if (block.observationCount() == 0) return {};
+  const CalibrationSettings& given = calibration.settings();
+  ObservabilitySettings settings;
+  settings.estimate = given.estimate;
+  settings.limits = given.limits;
+  settings.shared_errors = given.shared_errors;
+  settings.levels = calibration.adjusted().levels;
+  settings.threads = given.threads;
+  settings.pairs.noise = given.noise;
+  settings.pairs.selection = given.selection;
+  settings.pairs.candidates = given.candidates;
+  settings.pairs.control_sigma = given.control_sigma;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    settings.reported[indexOf(info.parameter)] = result[info.parameter].std;
+  }
+  return describeObservability(block, settings).text();
 }
 
 }  // namespace pcl_als

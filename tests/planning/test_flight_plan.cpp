@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/planning/flight_plan.h>
 
 namespace pcl_als {
 namespace {

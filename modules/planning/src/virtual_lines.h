@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/block_advice.h>
+#include <pcl_als/planning/block_advice.h>
 
 namespace pcl_als {
 
