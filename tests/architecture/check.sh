@@ -85,6 +85,11 @@ for folder in modules/*/; do
   [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
 done
 
+# A user of the calibration needs settings, result and one class: what is internal is in src/.
+installed=(modules/calibration/include/pcl_als/calibration/*.h)
+((${#installed[@]} <= 8)) ||
+  breach modules/calibration "installs ${#installed[@]} headers, more than 8"
+
 # Every source file: who may use it, and short enough to be read.
 while IFS= read -r file; do
   head -n 6 -- "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' ||

@@ -13,7 +13,7 @@
 namespace pcl_als::bench {
 
 MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey,
-                           const QuasiRigorousCalibration& calibration,
+                           const SystemCalibrationEngine& calibration,
                            const test::SimulatedSurvey::Request& request)
     : flight_(calibration.trajectory()),
       pairs_(calibration.pairs()),

@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/survey/survey_map.h>
+
+#include "area_matcher.h"
 
 namespace pcl_als {
 namespace {

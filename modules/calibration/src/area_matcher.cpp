@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "area_matcher.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/area_matcher.h>
-#include <pcl_als/calibration/modified_weight.h>
 #include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/orientation_classes.h>

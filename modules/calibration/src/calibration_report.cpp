@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "calibration_report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include <pcl_als/calibration/calibration_report.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "modified_weight.h"
+
 #include <cmath>
 
 #include <Eigen/Geometry>
-
-#include <pcl_als/calibration/modified_weight.h>
 
 namespace pcl_als {
 

@@ -255,7 +255,7 @@ ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& traj
   return block;
 }
 
-std::vector<std::string> describeObservability(const QuasiRigorousCalibration& calibration,
+std::vector<std::string> describeObservability(const SystemCalibrationEngine& calibration,
                                                const CalibrationResult& result) {
   const ObservedBlock block = observedBlock(calibration.adjusted(), *calibration.trajectory());
   if (block.observationCount() == 0) return {};

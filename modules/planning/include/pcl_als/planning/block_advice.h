@@ -7,7 +7,7 @@
 
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/planning/observability.h>
 #include <pcl_als/planning/synthetic_pairs.h>
 
@@ -104,7 +104,7 @@ ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& traj
  *
  * \param calibration after calibrate(), which returned \a result
  */
-std::vector<std::string> describeObservability(const QuasiRigorousCalibration& calibration,
+std::vector<std::string> describeObservability(const SystemCalibrationEngine& calibration,
                                                const CalibrationResult& result);
 
 }  // namespace pcl_als

@@ -10,16 +10,19 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/calibration/calibration_settings.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/survey/time_resolution.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
+#include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
 namespace pcl_als {
+
+class AreaMatcher;
 
 /// A strip as it was measured.
 struct FlownStrip {
@@ -45,7 +48,7 @@ struct AdjustedSurvey {
  * The points are passed twice, in any order, so that memory depends on the areas chosen and not
  * on the survey:
  * \code
- * QuasiRigorousCalibration calibration(trajectory, settings, anchor);
+ * SystemCalibrationEngine calibration(trajectory, settings, anchor);
  * const int strip = calibration.addStrip("1");   // for every strip
  * calibration.survey(strip, points, count);      // first pass, all points
  * calibration.chooseAreas();
@@ -54,16 +57,21 @@ struct AdjustedSurvey {
  * \endcode
  * survey() and load() may run on several threads for different strips. With attitude in the
  * trajectory (Trajectory::Options::use_attitude) the model is the rigorous one of Eq. (1); without,
- * the quasi-rigorous one, in which pitch and crab are those that the points show and roll is zero.
+ * the quasi-rigorous one, in which pitch and crab are recovered from the points and roll is zero.
  * Assumes a linear scanner. Memory: 48 bytes per 10 m cell a strip touches, about 200 per point in
  * an area, 400 per pair.
+ *
+ * For point files there is calibrateSurvey() in module processing.
  */
-class QuasiRigorousCalibration {
+class SystemCalibrationEngine {
  public:
   /// \param anchor south-west corner of the block (metres, ground frame), from which areas are
   /// counted
-  QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
-                           const CalibrationSettings& settings, const Eigen::Vector2d& anchor);
+  SystemCalibrationEngine(std::shared_ptr<const Trajectory> trajectory,
+                          const CalibrationSettings& settings, const Eigen::Vector2d& anchor);
+  ~SystemCalibrationEngine();
+  SystemCalibrationEngine(const SystemCalibrationEngine&) = delete;
+  SystemCalibrationEngine& operator=(const SystemCalibrationEngine&) = delete;
 
   int addStrip(const std::string& id);
   void setControl(std::vector<ControlPoint> control) { control_ = std::move(control); }
@@ -123,7 +131,7 @@ class QuasiRigorousCalibration {
   void selectPairs(State& state);
   void weigh(State& state) const;
   void choose(State& state) const;
-  void adjust(State& state) const;
+  void adjust(State& state, bool estimate_components) const;
   void shrinkThreshold(State& state) const;
   /// Whether no parameter changed by more than so many of its standard deviations.
   static bool restsWithin(const State& state, const SystemVector& before, double deviations);
@@ -134,10 +142,14 @@ class QuasiRigorousCalibration {
   /// Whether another iteration follows. Where the limit is reached and the parameters are chosen
   /// automatically, the one that changes most is left out and the iteration continues.
   bool mayContinue(State& state, const CalibrationResult& result) const;
-  /// Decides whether variance components are estimated, and whether all pairs are adjusted or those
-  /// chosen.
-  void openIteration(State& state, const CalibrationResult& result) const;
   void iterate(State& state, CalibrationResult& result);
+  // Transitions between the phases of the iteration, see State::Phase.
+  void openIteration(State& state, std::size_t done) const;
+  void leaveCoarse(State& state) const;
+  void pairAllCandidates(State& state) const;
+  void openVarianceComponents(State& state, std::size_t done) const;
+  void closeSelection(State& state) const;
+  void closeConverged(State& state) const;
   /// Why the iteration did not converge, for the verdict.
   std::string whyOpen(const State& state, const CalibrationResult& result) const;
   bool hasPairs(int strip, const CalibrationResult& result) const;

@@ -12,7 +12,6 @@
 
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
-#include <pcl_als/calibration/pair_selection.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/survey/calibration_point.h>
 #include <pcl_als/survey/survey_map.h>
@@ -20,6 +19,8 @@
 #include <pcl_als/tin/surface_criterion.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
+
+#include "pair_selection.h"
 
 namespace pcl_als {
 

@@ -4,20 +4,20 @@
 #include <cmath>
 #include <map>
 
-#include <pcl_als/calibration/calibration_judgement.h>
-#include <pcl_als/calibration/calibration_report.h>
-#include <pcl_als/calibration/control_consistency.h>
-#include <pcl_als/calibration/misfit_comparison.h>
-#include <pcl_als/calibration/pair_selection.h>
-#include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/calibration/pairing_rules.h>
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
-#include <pcl_als/calibration/strip_error_check.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 
+#include "calibration_judgement.h"
+#include "calibration_report.h"
 #include "calibration_state.h"
+#include "control_consistency.h"
+#include "misfit_comparison.h"
+#include "pair_selection.h"
+#include "pair_weights.h"
+#include "strip_error_check.h"
 
 namespace pcl_als {
 namespace {
@@ -38,9 +38,9 @@ SystemVector widePrior() {
 
 }  // namespace
 
-QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Trajectory> trajectory,
-                                                   const CalibrationSettings& settings,
-                                                   const Eigen::Vector2d& anchor)
+SystemCalibrationEngine::SystemCalibrationEngine(std::shared_ptr<const Trajectory> trajectory,
+                                                 const CalibrationSettings& settings,
+                                                 const Eigen::Vector2d& anchor)
     : trajectory_(std::move(trajectory)),
       settings_(settings),
       map_(anchor),
@@ -51,13 +51,15 @@ QuasiRigorousCalibration::QuasiRigorousCalibration(std::shared_ptr<const Traject
   if (trajectory_->attitudeIsNominal()) attitude_ = AttitudeSource::nominal;
 }
 
-std::size_t QuasiRigorousCalibration::loadedPoints() const {
+SystemCalibrationEngine::~SystemCalibrationEngine() = default;
+
+std::size_t SystemCalibrationEngine::loadedPoints() const {
   std::size_t count = 0;
   for (const AreaMatcher& matcher : matchers_) count += matcher.pointCount();
   return count;
 }
 
-void QuasiRigorousCalibration::prepare() {
+void SystemCalibrationEngine::prepare() {
   std::size_t strips_in_areas = 1;
   for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
   const std::size_t candidates = candidatesPerStrip(settings_.candidates, strips_in_areas);
@@ -75,7 +77,7 @@ void QuasiRigorousCalibration::prepare() {
   for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
 }
 
-void QuasiRigorousCalibration::pairUp(State& state) const {
+void SystemCalibrationEngine::pairUp(State& state) const {
   state.observations.assign(matchers_.size(), {});
   parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
     const AreaMatcher& matcher = matchers_[i];
@@ -87,7 +89,7 @@ void QuasiRigorousCalibration::pairUp(State& state) const {
   });
 }
 
-void QuasiRigorousCalibration::lookAtControl(const State& state) {
+void SystemCalibrationEngine::lookAtControl(const State& state) {
   const auto seen = [](const AreaObservations& area) { return !area.empty(); };
   const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
   control_seen_ = std::any_of(first, state.observations.end(), seen);
@@ -97,7 +99,7 @@ void QuasiRigorousCalibration::lookAtControl(const State& state) {
                       "control");
 }
 
-void QuasiRigorousCalibration::weigh(State& state) const {
+void SystemCalibrationEngine::weigh(State& state) const {
   std::vector<std::vector<double>> residuals(state.observations.size());
   parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
     for (const PairObservation& o : state.observations[area]) {
@@ -108,15 +110,15 @@ void QuasiRigorousCalibration::weigh(State& state) const {
   if (state.all()) {
     state.weights.findScales(state.observations, residuals, settings_.threads);
   }
-  state.weights.update(state.observations, residuals, state.solved);
+  state.weights.update(state.observations, residuals, state.solved());
 }
 
-void QuasiRigorousCalibration::choose(State& state) const {
+void SystemCalibrationEngine::choose(State& state) const {
   std::vector<SystemParameter> wanted =
       settings_.estimate.empty() ? automaticParameters(control_seen_) : settings_.estimate;
   const auto left_out = [&](SystemParameter p) { return state.excluded.count(p) > 0; };
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
-  if (state.coarse) {
+  if (state.isCoarse()) {
     state.choice.estimate = wanted;
     state.choice.solution = state.adjustment.solveNearZero(wanted, widePrior());
   } else {
@@ -134,25 +136,26 @@ void QuasiRigorousCalibration::choose(State& state) const {
       state.choice.reason[indexOf(p)] = reason;
     }
   }
-  state.solved = true;
+  if (state.phase == State::Phase::initial) state.phase = State::Phase::coarse;
 }
 
-void QuasiRigorousCalibration::adjust(State& state) const {
-  const int weightings = state.solved ? 1 : kFirstWeightings;
+void SystemCalibrationEngine::adjust(State& state, bool estimate_components) const {
+  const int weightings = state.solved() ? 1 : kFirstWeightings;
   for (int i = 0; i < weightings; ++i) {
     weigh(state);
     state.adjustment.accumulate(state.observations, state.weights.weights());
     choose(state);
   }
-  if (state.levels_open && !state.choice.estimate.empty()) {
+  if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
-    state.levels_rest = mostLikelyLevels(state.adjustment, state.choice.estimate).near(levels);
+    state.components.unchanged =
+        mostLikelyLevels(state.adjustment, state.choice.estimate).near(levels);
     choose(state);
   }
   weigh(state);
 }
 
-void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
+void SystemCalibrationEngine::shrinkThreshold(State& state) const {
   constexpr double kSmallest = 0.25;  // metres
   constexpr double kFactor = 6.0;
   double widest = 0.0;
@@ -168,7 +171,7 @@ void QuasiRigorousCalibration::shrinkThreshold(State& state) const {
   state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
 }
 
-void QuasiRigorousCalibration::keepAdjusted(State& state, const std::vector<TimeSpan>& spans) {
+void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeSpan>& spans) {
   adjusted_.strips.clear();
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     adjusted_.strips.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
@@ -178,7 +181,7 @@ void QuasiRigorousCalibration::keepAdjusted(State& state, const std::vector<Time
   adjusted_.levels = state.adjustment.levels();
 }
 
-std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() const {
+std::vector<std::vector<TimeSpan>> SystemCalibrationEngine::measuredTimes() const {
   std::vector<std::vector<TimeSpan>> times(ids_.size());
   for (const AreaMatcher& matcher : matchers_) {
     for (std::size_t i = 0; i < ids_.size(); ++i) {
@@ -189,7 +192,7 @@ std::vector<std::vector<TimeSpan>> QuasiRigorousCalibration::measuredTimes() con
   return times;
 }
 
-CalibrationResult QuasiRigorousCalibration::calibrate() {
+CalibrationResult SystemCalibrationEngine::calibrate() {
   prepare();
   std::vector<TimeSpan> spans;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
