@@ -6,20 +6,24 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 
-#include "las_bytes.h"
+#include "file_bytes.h"
+#include "interruption.h"
 #include "test_files.h"
 
-// A program of its own: the handlers are installed once per process, here in children only.
+// A program of its own: handlers are installed in children only, as the tools do.
 namespace pcl_als {
 namespace {
 
 namespace fs = std::filesystem;
 
+enum class Handlers { none, of_tools };
+
 /// Runs in a child process: waits, with an open file, for the signal to come.
-void writeAndWait(const fs::path& path) {
+void writeAndWait(const fs::path& path, Handlers handlers) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
+  if (handlers == Handlers::of_tools) app::removeUnfinishedFilesOnSignals();
   alarm(60);
   AtomicFile file(path);
   AtomicFile another(path.string() + "2");
@@ -29,9 +33,9 @@ void writeAndWait(const fs::path& path) {
 }
 
 /// Starts such a child and ends it by \a number; returns its exit status.
-int endBy(int number, const fs::path& path) {
+int endBy(int number, const fs::path& path, Handlers handlers = Handlers::of_tools) {
   const pid_t child = fork();
-  if (child == 0) writeAndWait(path);
+  if (child == 0) writeAndWait(path, handlers);
   while (!fs::exists(path.string() + ".ready")) usleep(1000);
   kill(child, number);
   int status = 0;
@@ -50,6 +54,23 @@ TEST(AtomicFileSignals, RemoveTheTemporariesAndEndTheProcess) {
   }
 }
 
+TEST(AtomicFileSignals, TheLibraryInstallsNoHandlers) {
+  const fs::path folder = test::scratch("atomic_library");
+  const int status = endBy(SIGTERM, folder / "out.txt", Handlers::none);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_FALSE(fs::is_empty(folder));  // nobody removed the temporaries
+  EXPECT_FALSE(fs::exists(folder / "out.txt"));
+}
+
+TEST(AtomicFileSignals, RemoveUnfinishedFilesKeepsWhatIsComplete) {
+  const fs::path folder = test::scratch("atomic_unfinished");
+  AtomicFile whole(folder / "whole.txt"), half(folder / "half.txt");
+  whole.commit();
+  removeUnfinishedFiles();
+  EXPECT_TRUE(fs::exists(folder / "whole.txt"));
+  EXPECT_FALSE(fs::exists(half.temporaryPath()));
+}
+
 TEST(AtomicFileSignals, KillLeavesTheOldFileWhole) {
   const fs::path folder = test::scratch("atomic_kill");
   test::writeBytes(folder / "out.txt", "old");
@@ -64,6 +85,7 @@ TEST(AtomicFileSignals, AnIgnoredSignalStaysIgnored) {
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGHUP, SIG_IGN);
+    app::removeUnfinishedFilesOnSignals();
     AtomicFile file(folder / "out.txt");
     std::raise(SIGHUP);
     file.commit();

@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 
 #include "temporary_registry.h"
 

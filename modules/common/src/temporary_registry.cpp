@@ -4,16 +4,16 @@
 
 #include <array>
 #include <atomic>
-#include <csignal>
 #include <cstring>
-#include <mutex>
 
 #include <limits.h>
 #include <unistd.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 
-namespace pcl_als::detail {
+namespace pcl_als {
+namespace detail {
 
 enum SlotState : int { kFree, kClaimed, kArmed };
 
@@ -27,28 +27,6 @@ struct TemporarySlot {
 namespace {
 
 std::atomic<TemporarySlot*> first_slot{nullptr};
-
-// Only async-signal-safe calls: lock-free atomics, getpid, unlink, signal, raise.
-extern "C" void removeTemporaries(int number) {
-  const pid_t self = getpid();
-  for (TemporarySlot* slot = first_slot.load(); slot != nullptr; slot = slot->next)
-    if (slot->state.load() == kArmed && slot->owner == self) unlink(slot->path.data());
-  std::signal(number, SIG_DFL);
-  std::raise(number);
-}
-
-// A program's own handler, or a signal ignored on purpose (nohup), is left as it is.
-void installHandlers() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction current {};
-    if (sigaction(number, nullptr, &current) != 0) continue;
-    if ((current.sa_flags & SA_SIGINFO) != 0 || current.sa_handler != SIG_DFL) continue;
-    struct sigaction action {};
-    action.sa_handler = removeTemporaries;
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, nullptr);
-  }
-}
 
 TemporarySlot* claimSlot() {
   for (TemporarySlot* slot = first_slot.load(); slot != nullptr; slot = slot->next) {
@@ -65,8 +43,6 @@ TemporarySlot* claimSlot() {
 }  // namespace
 
 TemporarySlot* registerTemporary(const std::string& path) {
-  static std::once_flag once;
-  std::call_once(once, installHandlers);
   if (path.size() + 1 > PATH_MAX) throw InputError(path + ": the path is too long");
   TemporarySlot* slot = claimSlot();
   slot->owner = getpid();
@@ -79,4 +55,13 @@ void forgetTemporary(TemporarySlot* slot) {
   if (slot != nullptr) slot->state.store(kFree);
 }
 
-}  // namespace pcl_als::detail
+}  // namespace detail
+
+// Only async-signal-safe calls: lock-free atomics, getpid, unlink.
+void removeUnfinishedFiles() noexcept {
+  const pid_t self = getpid();
+  for (detail::TemporarySlot* slot = detail::first_slot.load(); slot != nullptr; slot = slot->next)
+    if (slot->state.load() == detail::kArmed && slot->owner == self) unlink(slot->path.data());
+}
+
+}  // namespace pcl_als

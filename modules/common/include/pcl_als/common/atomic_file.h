@@ -16,11 +16,10 @@ struct TemporarySlot;
 /** \brief An output file that appears under its name only when it is complete.
  *
  * Writing goes to a temporary file in the same folder; commit() flushes and renames it. Destroyed
- * without commit (an exception, an early return), or when the process is ended by SIGINT, SIGTERM
- * or SIGHUP, the temporary is removed and an existing file of that name is untouched. Every failure
- * (folder missing, read-only, disk full) is an InputError naming the file. kill -9 can leave
- * `NAME.….partial` behind, never a half-written NAME. The signals are handled only where the
- * program left them at their default; after the clean-up the default action follows.
+ * without commit (an exception, an early return), the temporary is removed and an existing file of
+ * that name is untouched. Every failure (folder missing, read-only, disk full) is an InputError
+ * naming the file. A signal that ends the process can leave `NAME.….partial` behind, never a
+ * half-written NAME; see removeUnfinishedFiles().
  *
  * commit() does not fsync: it guards against failures of the program and of the file system's
  * space, not against a power cut. A symbolic link as target is written through, the permissions of
@@ -51,6 +50,12 @@ class AtomicFile {
   int descriptor_ = -1;
   detail::TemporarySlot* slot_ = nullptr;
 };
+
+/** \brief Removes the temporary files of all AtomicFiles of this process that are not complete.
+ *
+ * Async-signal-safe: for the signal handler of a program. The library installs no handlers.
+ */
+void removeUnfinishedFiles() noexcept;
 
 /// A whole file that holds \a text.
 void writeFile(const std::filesystem::path& target, std::string_view text);

@@ -10,10 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 
-#include "las_bytes.h"
+#include "file_bytes.h"
 #include "test_files.h"
 
 namespace pcl_als {

@@ -6,10 +6,10 @@
 
 namespace pcl_als::detail {
 
-/** \brief Names of the temporary files to remove when a signal ends the process.
+/** \brief Names of the temporary files that removeUnfinishedFiles() removes.
  *
- * Slots are never freed, only reused, so that the signal handler can walk them at any moment
- * without a lock.
+ * Slots are never freed, only reused, so that a signal handler can walk them at any moment without
+ * a lock.
  */
 struct TemporarySlot;
 
