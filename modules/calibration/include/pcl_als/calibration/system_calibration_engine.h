@@ -90,8 +90,8 @@ class SystemCalibrationEngine {
   void setProgress(std::function<void(const CalibrationIteration&)> progress) {
     progress_ = std::move(progress);
   }
-  /// result.verdict states whether to apply it, with the reason. result.observability is left empty:
-  /// see describeObservability() of module planning.
+  /// result.verdict states whether to apply it, with the reason. result.observability is left
+  /// empty: see describeObservability() of module planning.
   CalibrationResult calibrate();
   /// After calibrate().
   const AdjustedSurvey& adjusted() const { return adjusted_; }
