@@ -8,9 +8,9 @@
 
 #include <sys/resource.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/report/quality_page.h>

@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/class_io.h>
 #include <pcl_als/io/crs.h>
 #include <pcl_als/processing/class_maps.h>

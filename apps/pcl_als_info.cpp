@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/report/census_report.h>
 #include <pcl_als/survey/arranged_files.h>

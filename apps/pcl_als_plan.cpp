@@ -4,10 +4,10 @@
 #include <iostream>
 #include <memory>
 
-#include <pcl_als/calibration/flight_plan.h>
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/plan_io.h>
+#include <pcl_als/planning/flight_plan.h>
 #include <pcl_als/report/plan_report.h>
 
 #include "adjustment_options.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/errors.h>
 
 #include "flight_options.h"

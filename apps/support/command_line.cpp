@@ -15,6 +15,7 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "interruption.h"
 #include "option_suggestion.h"
 #include "output_check.h"
 #include "standard_streams.h"
@@ -266,6 +267,7 @@ int run(const char* tool, const std::function<int()>& body) {
     return status;
   };
   openStandardStreams();
+  removeUnfinishedFilesOnSignals();
   reportAborts(tool);
   try {
     const int status = body();

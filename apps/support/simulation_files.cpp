@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/io/crs.h>
 #include <pcl_als/io/las_writer.h>
 #include <pcl_als/simulation/radiometry.h>

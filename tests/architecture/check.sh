@@ -15,26 +15,27 @@ breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 declare -A may=(
   [common]="" [adjustment]="common" [las]="common" [io]="common las" [trajectory]="common"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
-  [calibration]="common adjustment trajectory tin registration" [radiometry]="common adjustment trajectory tin"
+  [calibration]="common adjustment trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
-  [processing]="common io trajectory survey registration calibration radiometry filters quality classification visualization"
-  [report]="common io registration calibration radiometry quality classification processing visualization"
+  [planning]="common trajectory survey tin calibration"
+  [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification visualization"
+  [report]="common io survey registration calibration planning radiometry quality classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )
 
 # The modules that X declares in its CMakeLists.txt: the words after MODULES. Further libraries of a
-# module (io_raster, processing_picture, report_page) are part of it.
+# module (io_raster, survey_coverage, report_page) are part of it.
 declared() {
   awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
          for (i = 1; i <= NF; ++i) {
            if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
-           else if (on) print $i } }' "modules/${1%_@(raster|picture|page)}/CMakeLists.txt"
+           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage)}/CMakeLists.txt"
 }
 declare -A reach
 closure() {  # X and all that it declares, directly or through others
   [[ -n ${reach[$1]:-} ]] && return
-  local all=" $1 " next
+  local all=" $1 ${1%_@(raster|picture|page|coverage)} " next
   reach[$1]=$all  # a circle of declarations is a breach, not an endless loop
   for next in $(declared "$1"); do
     closure "$next"
@@ -51,7 +52,7 @@ for folder in modules/*/; do
   module=$(basename -- "$folder")
   [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
   for other in $(declared "$module"); do
-    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page)} "* ]] ||
+    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage)} "* ]] ||
       breach "modules/$module/CMakeLists.txt" "must not use module $other"
   done
   grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&
@@ -64,7 +65,9 @@ for folder in modules/*/; do
         "<pcl_als/"*)
           used=${target#<pcl_als/}
           [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
-            breach "$file" "includes $target, but $module does not declare module ${used%%/*}" ;;
+            breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
+          [[ $module != @(calibration|planning) || $used != @(io|las)/* ]] ||
+            breach "$file" "includes $target: module $module reads no files" ;;
         *'../'*) breach "$file" "includes $target across folders" ;;
         \"*)
           [[ -e $(dirname -- "$file")/${target//\"/} ]] ||
@@ -81,6 +84,11 @@ for folder in modules/*/; do
   done < <(find "$folder" -name '*.h' -o -name '*.hpp' -o -name '*.cpp' | sort)
   [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
 done
+
+# A user of the calibration needs settings, result and one class: what is internal is in src/.
+installed=(modules/calibration/include/pcl_als/calibration/*.h)
+((${#installed[@]} <= 8)) ||
+  breach modules/calibration "installs ${#installed[@]} headers, more than 8"
 
 # Every source file: who may use it, and short enough to be read.
 while IFS= read -r file; do

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/io/point_reader.h>
 
 namespace {

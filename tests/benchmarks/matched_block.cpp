@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
-
-#include "pairing_rules.h"
 
 namespace pcl_als::bench {
 
 MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey,
-                           const QuasiRigorousCalibration& calibration,
+                           const SystemCalibrationEngine& calibration,
                            const test::SimulatedSurvey::Request& request)
     : flight_(calibration.trajectory()),
       pairs_(calibration.pairs()),

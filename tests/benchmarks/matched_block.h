@@ -4,19 +4,18 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/area_matcher.h>
-
+#include "area_matcher.h"
 #include "simulated_survey.h"
 
 namespace pcl_als::bench {
 
 /** \brief The areas of a calibration with TINs and candidates of their own, to look at its pairs
- * from outside: prepared as QuasiRigorousCalibration prepares them.
+ * from outside: prepared as SystemCalibrationEngine prepares them.
  */
 class MatchedBlock {
  public:
   /// \a calibration: one that has read the survey, see test::SimulatedSurvey::loaded().
-  MatchedBlock(const test::SimulatedSurvey& survey, const QuasiRigorousCalibration& calibration,
+  MatchedBlock(const test::SimulatedSurvey& survey, const SystemCalibrationEngine& calibration,
                const test::SimulatedSurvey::Request& request);
 
   /// Reconstructs the points of all areas with Eq. (13).

@@ -5,10 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/area_matcher.h>
-#include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
+#include <pcl_als/survey/survey_map.h>
+
+#include "area_matcher.h"
 
 namespace pcl_als {
 namespace {
@@ -165,51 +166,6 @@ TEST(AreaMatcher, CorrectsItsPoints) {
   // lifts them.
   const auto& moved = matcher.surfaceOf(0).tin().points();
   EXPECT_NEAR(moved[0].z() - a[0].position.z(), 0.1, 1e-4);
-}
-
-TEST(SurveyMap, FindsOverlapsAndTheirArea) {
-  SurveyMap map(Eigen::Vector2d(0.0, 0.0));
-  const int a = map.addStrip(), b = map.addStrip(), c = map.addStrip();
-  const auto first = sampled(12, 0.0, 100.0, {0, 0, 0}),
-             second = sampled(13, 0.0, 100.0, {50, 0, 0}),
-             third = sampled(14, 0.0, 100.0, {500, 0, 0});
-  map.add(a, first.data(), first.size());
-  map.add(b, second.data(), second.size());
-  map.add(c, third.data(), third.size());
-  const auto overlaps = map.overlaps(100.0);
-  ASSERT_EQ(overlaps.size(), 1U);
-  EXPECT_EQ(overlaps[0].strips, StripPair(a, b));
-  EXPECT_NEAR(overlaps[0].area, 5000.0, 1100.0);  // a row of 10 m cells more or less
-}
-
-TEST(SurveyMap, ChoosesAreasWithinTheBudgetThatBothStripsSee) {
-  SurveyMap map(Eigen::Vector2d(0.0, 0.0));
-  map.addStrip();
-  map.addStrip();
-  const auto first = sampled(15, 0.0, 300.0, {0, 0, 0}),
-             second = sampled(16, 0.0, 300.0, {100, 0, 0});
-  map.add(0, first.data(), first.size());
-  map.add(1, second.data(), second.size());
-  SurveyMap::Selection selection;
-  const auto all = map.selectAreas({{0, 1}}, selection);
-  selection.point_budget = 60'000;
-  const auto few = map.selectAreas({{0, 1}}, selection);
-  EXPECT_EQ(all.size(), 4U * 6U);
-  EXPECT_LT(few.size(), all.size());
-  EXPECT_GT(few.size(), 0U);
-  for (const SurveyArea& area : all) EXPECT_GE(area.minimum.x(), 99.9);
-}
-
-TEST(SurveyMap, CountsWhatIsNotFiniteAndRefusesTheAbsurd) {
-  SurveyMap map(Eigen::Vector2d(0.0, 0.0));
-  map.addStrip();
-  CalibrationPoint p;
-  p.position = Eigen::Vector3d(1.0, NAN, 2.0);
-  map.add(0, &p, 1);
-  EXPECT_EQ(map.invalidCount(0), 1U);
-  EXPECT_EQ(map.pointCount(0), 0U);
-  p.position = Eigen::Vector3d(1e18, 0.0, 2.0);
-  EXPECT_THROW(map.add(0, &p, 1), InputError);
 }
 
 struct MeanDistance {

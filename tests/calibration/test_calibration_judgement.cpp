@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/calibration_judgement.h>
-#include <pcl_als/calibration/misfit_comparison.h>
+#include "calibration_judgement.h"
+#include "misfit_comparison.h"
 
 namespace pcl_als {
 namespace {

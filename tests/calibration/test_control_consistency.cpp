@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/control_consistency.h>
+#include "control_consistency.h"
 
 namespace pcl_als {
 namespace {

@@ -6,9 +6,10 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/pair_selection.h>
-#include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/trajectory/scan_geometry.h>
+
+#include "pair_selection.h"
+#include "pair_weights.h"
 
 namespace pcl_als {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/strip_consistency.h>
+#include "strip_consistency.h"
 
 namespace pcl_als {
 namespace {

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/strip_error_check.h>
+#include "strip_error_check.h"
 
 namespace pcl_als {
 namespace {

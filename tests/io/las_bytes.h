@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "file_bytes.h"
 
 namespace pcl_als::test {
 
@@ -181,17 +181,6 @@ inline LasBytes fullFile(int minor, int format, unsigned count) {
   if (minor >= 4) las.evlrs = {LasBytes::evlr("LASF_Spec", 65535, std::string(3000, 'w'))};
   las.after = "bytes behind the end";
   return las;
-}
-
-inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
-
-inline std::string readBytes(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 }  // namespace pcl_als::test

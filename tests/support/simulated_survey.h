@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/simulation/simulator.h>
 
 namespace pcl_als::test {
@@ -74,9 +74,9 @@ struct SimulatedSurvey {
   }
 
   /// A calibration that has read all strips, named "1", "2" …, and is ready to calibrate().
-  std::unique_ptr<QuasiRigorousCalibration> loaded(const Request& request) const {
-    auto calibration = std::make_unique<QuasiRigorousCalibration>(flight(request.rigorous),
-                                                                  request.settings, corner());
+  std::unique_ptr<SystemCalibrationEngine> loaded(const Request& request) const {
+    auto calibration = std::make_unique<SystemCalibrationEngine>(flight(request.rigorous),
+                                                                 request.settings, corner());
     for (std::size_t i = 0; i < strips.size(); ++i) {
       const int strip = calibration->addStrip(std::to_string(i + 1));
       calibration->survey(strip, strips[i].data(), strips[i].size());

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "area_matcher.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/area_matcher.h>
-#include <pcl_als/calibration/modified_weight.h>
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/orientation_classes.h>
 
 #include "noise_shares.h"
-#include "pairing_rules.h"
 
 namespace pcl_als {
 namespace {
@@ -316,29 +316,6 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
     shareControlError(sigma, first, found);
   }
   return found;
-}
-
-AreaIndex::AreaIndex(const std::vector<SurveyArea>& areas) {
-  for (std::size_t index = 0; index < areas.size(); ++index) {
-    const SurveyArea& area = areas[index];
-    const auto cell = [](double v) {
-      return static_cast<std::int64_t>(std::floor(v / SurveyMap::kCell));
-    };
-    const Eigen::Vector2d low = area.minimum.array() - area.margin;
-    const Eigen::Vector2d high = area.minimum.array() + area.size + area.margin;
-    for (std::int64_t row = cell(low.y()); row <= cell(high.y()); ++row) {
-      for (std::int64_t column = cell(low.x()); column <= cell(high.x()); ++column) {
-        cells_[(row << 32) ^ (column & 0xffffffff)].push_back(static_cast<int>(index));
-      }
-    }
-  }
-}
-
-const std::vector<int>& AreaIndex::candidates(const Eigen::Vector3d& position) const {
-  const auto row = static_cast<std::int64_t>(std::floor(position.y() / SurveyMap::kCell));
-  const auto column = static_cast<std::int64_t>(std::floor(position.x() / SurveyMap::kCell));
-  const auto found = cells_.find((row << 32) ^ (column & 0xffffffff));
-  return found == cells_.end() ? none_ : found->second;
 }
 
 }  // namespace pcl_als

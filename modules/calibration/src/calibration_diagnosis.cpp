@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// What QuasiRigorousCalibration finds wrong with the strips of a block after the adjustment.
+// What SystemCalibrationEngine finds wrong with the strips of a block after the adjustment.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
-#include <pcl_als/calibration/strip_consistency.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
+
+#include "strip_consistency.h"
 
 namespace pcl_als {
 
-bool QuasiRigorousCalibration::hasPairs(int strip, const CalibrationResult& result) const {
+bool SystemCalibrationEngine::hasPairs(int strip, const CalibrationResult& result) const {
   const std::string& id = ids_[static_cast<std::size_t>(strip)];
   return std::any_of(result.pairs.begin(), result.pairs.end(), [&](const PairFit& fit) {
     return fit.correspondences > 0 && (fit.a == id || fit.b == id);
   });
 }
 
-std::string QuasiRigorousCalibration::lostStrip(int strip) const {
+std::string SystemCalibrationEngine::lostStrip(int strip) const {
   SurveyMap::HeightOffset best;
   int partner = -1;
   for (const StripPair& pair : pairs_) {
@@ -43,7 +44,7 @@ std::string QuasiRigorousCalibration::lostStrip(int strip) const {
   return start + text;
 }
 
-void QuasiRigorousCalibration::diagnose(CalibrationResult& result) const {
+void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {
   std::vector<StripFacts> strips;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     if (!used_[i]) continue;

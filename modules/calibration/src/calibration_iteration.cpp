@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// The iteration of QuasiRigorousCalibration: its stages and when it has converged.
+// The iteration of SystemCalibrationEngine: its stages and when it has converged.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/parallel.h>
 
 #include "calibration_state.h"
@@ -15,7 +15,7 @@ namespace pcl_als {
 namespace {
 
 constexpr double kNegligible = 0.05;  // of a standard deviation: an update that is none
-constexpr double kSettled = 0.1;      // of a standard deviation: the next stage may begin
+constexpr double kSmall = 0.1;        // of a standard deviation: the next phase may begin
 constexpr int kMostReductions = 3;    // parameters left out because the iteration does not converge
 constexpr int kAfterReduction = 10;   // iterations
 
@@ -64,7 +64,7 @@ double largestMovement(const std::vector<AreaObservations>& observations,
 
 }  // namespace
 
-void QuasiRigorousCalibration::selectPairs(State& state) {
+void SystemCalibrationEngine::selectPairs(State& state) {
   PairSelectionSettings settings;
   settings.budget = settings_.pair_budget;
   const PairSelection selection(state.observations, state.weights.weights(), state.adjustment,
@@ -75,8 +75,8 @@ void QuasiRigorousCalibration::selectPairs(State& state) {
   state.seekers = AreaMatcher::Seekers::kept;
 }
 
-bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVector& before,
-                                           double deviations) {
+bool SystemCalibrationEngine::restsWithin(const State& state, const SystemVector& before,
+                                          double deviations) {
   const AdjustmentSolution& solution = state.choice.solution;
   return std::all_of(state.choice.estimate.begin(), state.choice.estimate.end(),
                      [&](SystemParameter p) {
@@ -86,11 +86,11 @@ bool QuasiRigorousCalibration::restsWithin(const State& state, const SystemVecto
                      });
 }
 
-void QuasiRigorousCalibration::recordUpdate(State& state, const SystemVector& before) {
+void SystemCalibrationEngine::recordUpdate(State& state, const SystemVector& before) {
   constexpr double kMemory = 0.7;
   const AdjustmentSolution& solution = state.choice.solution;
-  state.movement = largestMovement(state.observations, solution.biases - before);
-  state.settled = restsWithin(state, before, kSettled);
+  state.update.movement = largestMovement(state.observations, solution.biases - before);
+  state.update.small = restsWithin(state, before, kSmall);
   for (const SystemParameter p : state.choice.estimate) {
     const int i = indexOf(p);
     const double std = std::sqrt(solution.covariance(i, i));
@@ -99,14 +99,14 @@ void QuasiRigorousCalibration::recordUpdate(State& state, const SystemVector& be
   }
 }
 
-SystemParameter QuasiRigorousCalibration::mostRestless(const State& state) {
+SystemParameter SystemCalibrationEngine::mostRestless(const State& state) {
   return *std::max_element(state.choice.estimate.begin(), state.choice.estimate.end(),
                            [&](SystemParameter a, SystemParameter b) {
                              return state.unrest[indexOf(a)] < state.unrest[indexOf(b)];
                            });
 }
 
-bool QuasiRigorousCalibration::mayContinue(State& state, const CalibrationResult& result) const {
+bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult& result) const {
   if (result.converged || state.observationCount() == 0) return false;
   const int done = static_cast<int>(result.iterations.size()) - state.coarse_iterations;
   const int most = (settings_.pair_budget > 0 ? 2 : 1) * settings_.max_iterations;
@@ -125,59 +125,85 @@ bool QuasiRigorousCalibration::mayContinue(State& state, const CalibrationResult
   return true;
 }
 
-void QuasiRigorousCalibration::openIteration(State& state, const CalibrationResult& result) const {
-  constexpr double kNearlyAtRest = 0.005;  // metres
-  constexpr std::size_t kCoarseAtMost = 12;
-  const std::size_t done = result.iterations.size();
-  // Combinations that the data hardly determine change with every new set of pairs, at no effect on
-  // the points or by a small part of their standard deviations: neither holds up the next stage.
-  constexpr std::size_t kFewest = 4;
-  const bool settled = state.settled && done >= kFewest;
-  const bool rests = done > 0 && (state.choose_again || state.movement < kNearlyAtRest || settled);
-  const bool arrives = state.coarse && (rests || done >= kCoarseAtMost);
-  if (arrives) state.coarse = false;
-  if (state.coarse) ++state.coarse_iterations;
-  // The variance components are estimated after the geometry has converged, because remaining
-  // biases resemble errors of the trajectory; the iteration converges when they no longer change.
-  const bool look_due = !state.coarse && rests && !state.looked();
-  // A reduced set represents all pairs near the estimate for which it was chosen: it is chosen
-  // again after convergence, and at the end. The noise of the few is no measure of the levels.
-  const bool first_look = look_due && state.looks == 0;
-  if ((arrives || first_look || state.choose_again) && !state.all()) {
-    state.seekers = AreaMatcher::Seekers::candidates;
-    pairUp(state);
-  }
-  state.levels_open = look_due && state.all();
-  if (state.levels_open) ++state.looks;
+void SystemCalibrationEngine::pairAllCandidates(State& state) const {
+  if (state.all()) return;
+  state.seekers = AreaMatcher::Seekers::candidates;
+  pairUp(state);
 }
 
-void QuasiRigorousCalibration::iterate(State& state, CalibrationResult& result) {
+void SystemCalibrationEngine::leaveCoarse(State& state) const {
+  state.phase = State::Phase::refinement;
+  pairAllCandidates(state);
+}
+
+void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) const {
+  // A selection represents all pairs at the biases where it was made: pairs are selected anew where
+  // the geometry has converged for the first time, and at the end. The noise of a selection is no
+  // measure of the variance components.
+  if (state.components.estimates == 0) pairAllCandidates(state);
+  if (!state.all()) return;
+  if (state.phase == State::Phase::refinement) state.phase = State::Phase::variance_components;
+  ++state.components.estimates;
+  state.components.last = done + 1;
+}
+
+void SystemCalibrationEngine::openIteration(State& state, std::size_t done) const {
+  constexpr double kSmallMovement = 0.005;  // metres
+  constexpr std::size_t kCoarseAtMost = 12, kFewest = 4;
+  // Combinations that the data hardly determine change with every new set of pairs, at no effect on
+  // the points or by a small part of their standard deviations: neither holds up the next phase.
+  const bool small = done > 0 && (state.phase == State::Phase::selection ||
+                                  state.update.movement < kSmallMovement ||
+                                  (state.update.small && done >= kFewest));
+  if (state.isCoarse() && (small || done >= kCoarseAtMost)) leaveCoarse(state);
+  if (state.phase == State::Phase::variance_components) state.phase = State::Phase::refinement;
+  if (state.phase == State::Phase::selection) pairAllCandidates(state);
+  if (state.isCoarse()) {
+    ++state.coarse_iterations;
+  } else if (small && !state.components.complete()) {
+    // The variance components are estimated after the geometry has converged, because remaining
+    // biases resemble errors of the trajectory; the iteration ends when they no longer change.
+    openVarianceComponents(state, done);
+  }
+}
+
+void SystemCalibrationEngine::closeSelection(State& state) const {
+  if (state.phase != State::Phase::selection) return;
+  state.phase =
+      state.components.complete() ? State::Phase::final_refinement : State::Phase::refinement;
+}
+
+void SystemCalibrationEngine::closeConverged(State& state) const {
+  const bool select = settings_.pair_budget > 0 && state.phase != State::Phase::final_refinement;
+  state.phase = select ? State::Phase::selection : State::Phase::converged;
+}
+
+void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
   const std::size_t done = result.iterations.size();
-  openIteration(state, result);
-  adjust(state);
-  state.chosen_at_end = state.chosen_at_end || (state.choose_again && state.looked());
-  state.choose_again = false;
+  openIteration(state, done);
+  const bool components_open = state.components.last == done + 1;
+  adjust(state, components_open);
+  closeSelection(state);
   if (settings_.pair_budget > 0 && state.all()) selectPairs(state);
   const SystemVector& biases = state.choice.solution.biases;
   const double effect = largestEffect(state.observations, biases - before);
   recordUpdate(state, before);
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
-  result.converged = done > 2 && !state.levels_open && state.looks > 0 &&
-                     (effect < settings_.convergence || restsWithin(state, before, kNegligible));
-  if (result.converged && settings_.pair_budget > 0 && !state.chosen_at_end) {
-    state.choose_again = true;
-    result.converged = false;
+  if (done > 2 && !components_open && state.components.estimates > 0 &&
+      (effect < settings_.convergence || restsWithin(state, before, kNegligible))) {
+    closeConverged(state);
   }
+  result.converged = state.phase == State::Phase::converged;
   const BiasEvaluator correction(trajectory_, biases);
   parallelFor(matchers_.size(), settings_.threads,
               [&](std::size_t i) { matchers_[i].correct(correction); });
   shrinkThreshold(state);
 }
 
-std::string QuasiRigorousCalibration::whyOpen(const State& state,
-                                              const CalibrationResult& result) const {
+std::string SystemCalibrationEngine::whyOpen(const State& state,
+                                             const CalibrationResult& result) const {
   if (result.iterations.empty()) return "no point has a patch in another strip or at control";
   std::ostringstream text;
   text << "the adjustment did not converge in " << result.iterations.size() << " iterations";

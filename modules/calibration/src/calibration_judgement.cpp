@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "calibration_judgement.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <Eigen/Cholesky>
-
-#include <pcl_als/calibration/calibration_judgement.h>
 
 namespace pcl_als {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "calibration_report.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include <pcl_als/calibration/calibration_report.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
@@ -175,45 +176,7 @@ void CalibrationReport::addStripFit(const std::vector<AreaObservations>& observa
 void CalibrationReport::addParameters(const ParameterChoice& choice,
                                       const std::vector<SystemParameter>& requested,
                                       CalibrationResult& result) const {
-  const AdjustmentSolution& solution = choice.solution;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const int i = indexOf(info.parameter);
-    ParameterEstimate& parameter = result.parameters[i];
-    parameter.status = choice.status[i];
-    parameter.reason = choice.reason[i];
-    if (parameter.status == ParameterStatus::estimated) {
-      parameter.bias = solution.biases[i];
-      parameter.std = std::sqrt(solution.covariance(i, i));
-      parameter.std_formal = std::sqrt(solution.formal(i, i));
-      continue;
-    }
-    if (parameter.status == ParameterStatus::not_estimable) {
-      result.warnings.push_back(std::string(info.name) + " is not determined: " + parameter.reason);
-      if (!requested.empty()) result.converged = false;
-    } else if (!requested.empty()) {
-      parameter.reason = "not asked for";
-    } else if (info.parameter == SystemParameter::range_bias) {
-      parameter.status = ParameterStatus::not_estimable;
-      parameter.reason = "needs control: strips alone hardly see it";
-    } else {
-      parameter.reason = "not separable from range_bias, and strips alone never see it";
-    }
-  }
-  result.correlation_order = choice.estimate;
-  const auto size = static_cast<Eigen::Index>(choice.estimate.size());
-  result.correlation.resize(size, size);
-  for (Eigen::Index r = 0; r < size; ++r) {
-    for (Eigen::Index c = 0; c < size; ++c) {
-      const int i = indexOf(choice.estimate[static_cast<std::size_t>(r)]);
-      const int j = indexOf(choice.estimate[static_cast<std::size_t>(c)]);
-      result.correlation(r, c) = solution.covariance(i, j) /
-                                 std::sqrt(solution.covariance(i, i) * solution.covariance(j, j));
-    }
-  }
-  if (choice.estimate.empty()) {
-    result.converged = false;
-    result.warnings.push_back("no parameter can be determined from this block");
-  }
+  reportParameters(choice, requested, result);
   if (without_control_)
     result.warnings.push_back("without control the absolute height of the block is not checked");
 }

@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/pair_weights.h>
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
+
+#include "area_matcher.h"
+#include "pair_weights.h"
 
 namespace pcl_als {
 
 /// What changes from iteration to iteration.
-struct QuasiRigorousCalibration::State {
+struct SystemCalibrationEngine::State {
   explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
 
   std::size_t observationCount() const {
@@ -34,35 +36,65 @@ struct QuasiRigorousCalibration::State {
     used.resize(observations.size(), false);
     return used;
   }
-  /// Whether all pairs are adjusted, not a chosen part of them.
+  /** \brief Phases of the iteration.
+   *
+   * \verbatim
+   * phase                what an iteration does         ends                 next
+   * initial              weights, without rejection     with a solution      coarse
+   * coarse               all parameters, wide priors    small update, or 12  refinement
+   * refinement           parameters that are determined small update         variance_components
+   * variance_components  the same, and REML             after one iteration  refinement
+   * selection            selects pairs again, of all    after one iteration  final_refinement
+   * final_refinement     adjusts the selected pairs     negligible update    converged
+   * \endverbatim
+   * refinement and variance_components alternate until the components no longer change; then a
+   * negligible update ends the refinement: with convergence or, with a pair budget, with the
+   * selection. Where the components change with the selection, refinement follows it.
+   */
+  enum class Phase {
+    initial,
+    coarse,
+    refinement,
+    variance_components,
+    selection,
+    final_refinement,
+    converged
+  };
+
+  /// Before, residuals are full of what is sought, and none may be called an outlier for it.
+  bool solved() const { return phase != Phase::initial; }
+  /// Nothing is left out for being uncertain, for mismatched pairs make all uncertain.
+  bool isCoarse() const { return phase == Phase::initial || phase == Phase::coarse; }
+  /// Whether all pairs are adjusted, not a selection of them.
   bool all() const { return seekers == AreaMatcher::Seekers::candidates; }
-  /// Whether the variance components need no further estimation.
-  bool looked() const {
-    constexpr int kLooks = 8;
-    return levels_rest || looks >= kLooks;
-  }
+
+  /// What was estimated of the variance components so far.
+  struct VarianceComponents {
+    int estimates = 0;
+    std::size_t last = 0;    ///< iteration of the last estimate, from 1; 0: none
+    bool unchanged = false;  ///< whether the last estimate left them as they were
+
+    bool complete() const {
+      constexpr int kMostEstimates = 8;
+      return unchanged || estimates >= kMostEstimates;
+    }
+  };
 
   Adjustment adjustment;
   ParameterChoice choice;
-  /// Whether choice holds a solution: before, residuals are full of what is sought, and none may be
-  /// called an outlier for it.
-  bool solved = false;
-  /// On the way: nothing is left out for being uncertain, for mismatched pairs make all uncertain.
-  bool coarse = true;
+  Phase phase = Phase::initial;
   int coarse_iterations = 0;
-  double movement = 0.0;  ///< largest movement of a ground point by the last update, metres
-  bool settled = false;   ///< whether it was a small part of every standard deviation
+  VarianceComponents components;
+  /// Last update of the biases.
+  struct Update {
+    double movement = 0.0;  ///< largest movement of a ground point, metres
+    bool small = false;     ///< a small part of every standard deviation
+  } update;
   /// Last update of every parameter over its standard deviation; the largest of the last few.
   SystemVector unrest = SystemVector::Zero();
   /// Left out because the iteration does not converge with them, and why.
   std::map<SystemParameter, std::string> excluded;
-  bool levels_open =
-      false;      ///< whether this iteration estimates the variance components of shared errors
-  int looks = 0;  ///< how often they were estimated
-  bool levels_rest = false;  ///< whether the last estimation left them unchanged
   AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
-  bool choose_again = false;   ///< of all pairs, in the next iteration
-  bool chosen_at_end = false;  ///< chosen after the variance components converged
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

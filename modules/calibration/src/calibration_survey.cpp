@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// The two passes of QuasiRigorousCalibration over the points.
+// The two passes of SystemCalibrationEngine over the points.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/errors.h>
+
+#include "area_matcher.h"
 
 namespace pcl_als {
 namespace {
@@ -39,7 +41,7 @@ std::string seconds(double from, double to) {
 
 }  // namespace
 
-int QuasiRigorousCalibration::addStrip(const std::string& id) {
+int SystemCalibrationEngine::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
   plausibility_.addStrip(id);
@@ -48,8 +50,7 @@ int QuasiRigorousCalibration::addStrip(const std::string& id) {
   return map_.addStrip();
 }
 
-void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
-                                      std::size_t count) {
+void SystemCalibrationEngine::survey(int strip, const CalibrationPoint* points, std::size_t count) {
   map_.add(strip, points, count);
   for (std::size_t i = 0; i < count; ++i) {
     if (std::isfinite(points[i].time)) times_[static_cast<std::size_t>(strip)].add(points[i].time);
@@ -65,7 +66,7 @@ void QuasiRigorousCalibration::survey(int strip, const CalibrationPoint* points,
   for (std::size_t i = 0; i < count; i += kEvery) recovery.add(points[i].time, points[i].position);
 }
 
-void QuasiRigorousCalibration::describeAttitudes() {
+void SystemCalibrationEngine::describeAttitudes() {
   for (std::size_t strip = 0; strip < recoveries_.size(); ++strip) {
     if (!used_[strip]) continue;
     const AttitudeRecovery::Outcome outcome = recoveries_[strip].assess();
@@ -76,7 +77,7 @@ void QuasiRigorousCalibration::describeAttitudes() {
 }
 
 /// The models for linear scanners would take points ahead and behind for pitch and crab.
-void QuasiRigorousCalibration::takeNonLinear(const std::string& remark) {
+void SystemCalibrationEngine::takeNonLinear(const std::string& remark) {
   const std::string text =
       remark + ": the attitude of a scanner that is not linear has to come with the trajectory";
   if (!settings_.force) {
@@ -93,7 +94,7 @@ void QuasiRigorousCalibration::takeNonLinear(const std::string& remark) {
   attitude_ = AttitudeSource::nominal;
 }
 
-void QuasiRigorousCalibration::recoverAttitude() {
+void SystemCalibrationEngine::recoverAttitude() {
   if (recoveries_.empty()) return;
   describeAttitudes();
   AttitudeRecovery all(trajectory_);
@@ -124,7 +125,7 @@ void QuasiRigorousCalibration::recoverAttitude() {
   }
 }
 
-void QuasiRigorousCalibration::leaveOutSmallStrips() {
+void SystemCalibrationEngine::leaveOutSmallStrips() {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     const std::size_t count = map_.pointCount(static_cast<int>(strip));
     if (map_.invalidCount(static_cast<int>(strip)) > 0) {
@@ -139,7 +140,7 @@ void QuasiRigorousCalibration::leaveOutSmallStrips() {
   }
 }
 
-void QuasiRigorousCalibration::leaveOutRoundedTimes() {
+void SystemCalibrationEngine::leaveOutRoundedTimes() {
   std::string last;
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     const double step = times_[strip].step();
@@ -169,7 +170,7 @@ void QuasiRigorousCalibration::leaveOutRoundedTimes() {
   throw InputError(last + ": fewer than two strips are left; give files with the original times");
 }
 
-void QuasiRigorousCalibration::checkTimes() const {
+void SystemCalibrationEngine::checkTimes() const {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     if (!used_[strip]) continue;
     const double start = map_.startTime(static_cast<int>(strip)),
@@ -183,7 +184,7 @@ void QuasiRigorousCalibration::checkTimes() const {
   }
 }
 
-void QuasiRigorousCalibration::checkTrajectory() {
+void SystemCalibrationEngine::checkTrajectory() {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     if (!used_[strip]) plausibility_.leaveOut(static_cast<int>(strip));
   }
@@ -192,7 +193,7 @@ void QuasiRigorousCalibration::checkTrajectory() {
   }
 }
 
-int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
+int SystemCalibrationEngine::stripNamed(const std::string& id) const {
   const auto found = std::find(ids_.begin(), ids_.end(), id);
   if (found != ids_.end()) return static_cast<int>(found - ids_.begin());
   std::string known;
@@ -201,7 +202,7 @@ int QuasiRigorousCalibration::stripNamed(const std::string& id) const {
 }
 
 /// With pairs given by name, other strips are of use for control only.
-void QuasiRigorousCalibration::leaveOutUnpaired() {
+void SystemCalibrationEngine::leaveOutUnpaired() {
   if (wanted_pairs_.empty() || !control_.empty()) return;
   std::vector<bool> paired(ids_.size(), false);
   for (const auto& [a, b] : wanted_pairs_) {
@@ -213,7 +214,7 @@ void QuasiRigorousCalibration::leaveOutUnpaired() {
   }
 }
 
-void QuasiRigorousCalibration::choosePairs() {
+void SystemCalibrationEngine::choosePairs() {
   std::vector<StripPair> wanted;
   for (const auto& [a, b] : wanted_pairs_) {
     const int i = stripNamed(a), j = stripNamed(b);
@@ -239,7 +240,7 @@ void QuasiRigorousCalibration::choosePairs() {
                : "no two strips overlap and there is no control: nothing to compare");
 }
 
-void QuasiRigorousCalibration::chooseAreas() {
+void SystemCalibrationEngine::chooseAreas() {
   leaveOutUnpaired();
   leaveOutSmallStrips();
   leaveOutRoundedTimes();
@@ -259,7 +260,7 @@ void QuasiRigorousCalibration::chooseAreas() {
   for (const SurveyArea& area : areas_) matchers_.emplace_back(area, ids_.size());
 }
 
-void QuasiRigorousCalibration::load(int strip, const CalibrationPoint* points, std::size_t count) {
+void SystemCalibrationEngine::load(int strip, const CalibrationPoint* points, std::size_t count) {
   if (!used_[static_cast<std::size_t>(strip)]) return;
   for (const CalibrationPoint* p = points; p != points + count; ++p) {
     if (!p->position.allFinite() || !std::isfinite(p->time)) continue;

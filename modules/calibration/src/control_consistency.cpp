@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "control_consistency.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/calibration/control_consistency.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {

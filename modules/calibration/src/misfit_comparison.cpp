@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "misfit_comparison.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
 
-#include <pcl_als/calibration/misfit_comparison.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "modified_weight.h"
+
 #include <cmath>
 
 #include <Eigen/Geometry>
-
-#include <pcl_als/calibration/modified_weight.h>
 
 namespace pcl_als {
 
@@ -25,10 +25,6 @@ Eigen::Matrix3d modifiedWeight(const Eigen::Matrix3d& weight, const Eigen::Vecto
   Eigen::Matrix3d kept = Eigen::Matrix3d::Zero();
   kept(2, 2) = in_patch(2, 2);
   return rotation.transpose() * kept * rotation;
-}
-
-double normalVariance(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& normal) {
-  return normal.dot(covariance * normal);
 }
 
 }  // namespace pcl_als

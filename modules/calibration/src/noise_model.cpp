@@ -41,4 +41,8 @@ Eigen::Matrix3d NoiseModel::pointCovariance(const ScanGeometry& g) const {
          position * position * Eigen::Matrix3d::Identity();
 }
 
+double normalVariance(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& normal) {
+  return normal.dot(covariance * normal);
+}
+
 }  // namespace pcl_als

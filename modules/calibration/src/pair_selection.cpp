@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "pair_selection.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,10 +9,8 @@
 
 #include <Eigen/Cholesky>
 
-#include <pcl_als/calibration/pair_selection.h>
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/tin/orientation_classes.h>
-
-#include "pairing_rules.h"
 
 namespace pcl_als {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "pair_weights.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <pcl_als/adjustment/robust_weight.h>
-#include <pcl_als/calibration/pair_weights.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 

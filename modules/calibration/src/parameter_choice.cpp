@@ -208,4 +208,57 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
   return choice;
 }
 
+std::vector<P> automaticParameters(bool with_control) {
+  std::vector<P> parameters;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    if (info.parameter == P::lever_arm_z) continue;
+    if (info.parameter == P::range_bias && !with_control) continue;
+    parameters.push_back(info.parameter);
+  }
+  return parameters;
+}
+
+void reportParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
+                      CalibrationResult& result) {
+  const AdjustmentSolution& solution = choice.solution;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const int i = indexOf(info.parameter);
+    ParameterEstimate& parameter = result.parameters[i];
+    parameter.status = choice.status[i];
+    parameter.reason = choice.reason[i];
+    if (parameter.status == ParameterStatus::estimated) {
+      parameter.bias = solution.biases[i];
+      parameter.std = std::sqrt(solution.covariance(i, i));
+      parameter.std_formal = std::sqrt(solution.formal(i, i));
+      continue;
+    }
+    if (parameter.status == ParameterStatus::not_estimable) {
+      result.warnings.push_back(std::string(info.name) + " is not determined: " + parameter.reason);
+      if (!requested.empty()) result.converged = false;
+    } else if (!requested.empty()) {
+      parameter.reason = "not asked for";
+    } else if (info.parameter == SystemParameter::range_bias) {
+      parameter.status = ParameterStatus::not_estimable;
+      parameter.reason = "needs control: strips alone hardly see it";
+    } else {
+      parameter.reason = "not separable from range_bias, and strips alone never see it";
+    }
+  }
+  result.correlation_order = choice.estimate;
+  const auto size = static_cast<Eigen::Index>(choice.estimate.size());
+  result.correlation.resize(size, size);
+  for (Eigen::Index r = 0; r < size; ++r) {
+    for (Eigen::Index c = 0; c < size; ++c) {
+      const int i = indexOf(choice.estimate[static_cast<std::size_t>(r)]);
+      const int j = indexOf(choice.estimate[static_cast<std::size_t>(c)]);
+      result.correlation(r, c) = solution.covariance(i, j) /
+                                 std::sqrt(solution.covariance(i, i) * solution.covariance(j, j));
+    }
+  }
+  if (choice.estimate.empty()) {
+    result.converged = false;
+    result.warnings.push_back("no parameter can be determined from this block");
+  }
+}
+
 }  // namespace pcl_als

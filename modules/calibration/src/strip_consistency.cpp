@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "strip_consistency.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
 #include <Eigen/Cholesky>
-
-#include <pcl_als/calibration/strip_consistency.h>
 
 namespace pcl_als {
 namespace {

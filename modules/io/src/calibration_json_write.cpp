@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "calibration_json.h"

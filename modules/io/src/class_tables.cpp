@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/class_io.h>
 
 #include "csv_table.h"

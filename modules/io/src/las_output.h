@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/io/las_header.h>
 

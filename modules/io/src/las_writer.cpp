@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/las_writer.h>
 
 #include "las_crs.h"

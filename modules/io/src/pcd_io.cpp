@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/pcd_io.h>
 
 #include "pcd_file.h"

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/raster_io.h>
 
 #include "gdal_handle.h"

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/io/class_io.h>
 #include <pcl_als/processing/class_model_file.h>
 

@@ -4,13 +4,13 @@
 #include <chrono>
 #include <cmath>
 
-#include <pcl_als/calibration/area_matcher.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/processing/delivery_check.h>
 #include <pcl_als/quality/height_gap.h>
+#include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {

@@ -6,9 +6,9 @@
 #include <map>
 #include <mutex>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/processing/class_maps.h>
 #include <pcl_als/processing/land_cover.h>
 

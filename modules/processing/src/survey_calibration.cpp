@@ -2,9 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
-#include <pcl_als/calibration/quasi_rigorous_calibration.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/planning/block_advice.h>
 #include <pcl_als/processing/survey_calibration.h>
 
 namespace pcl_als {
@@ -50,7 +51,7 @@ std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
 }
 
 void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
-                 QuasiRigorousCalibration& calibration, ProgressReport& progress) {
+                 SystemCalibrationEngine& calibration, ProgressReport& progress) {
   progress.begin("Surveying the block");
   for (const std::string& id : survey.strips()) calibration.addStrip(id);
   if (observer.begin) observer.begin(survey);
@@ -68,7 +69,7 @@ void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
   for (const std::string& text : calibration.attitudeRemarks()) progress.remark(text);
 }
 
-void loadAreas(const SurveyReader& survey, QuasiRigorousCalibration& calibration,
+void loadAreas(const SurveyReader& survey, SystemCalibrationEngine& calibration,
                ProgressReport& progress) {
   progress.begin("Reading the areas");
   survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
@@ -77,7 +78,7 @@ void loadAreas(const SurveyReader& survey, QuasiRigorousCalibration& calibration
   progress.end(grouped(calibration.loadedPoints()) + " points");
 }
 
-CalibrationResult adjusted(QuasiRigorousCalibration& calibration, ProgressReport& progress) {
+CalibrationResult adjusted(SystemCalibrationEngine& calibration, ProgressReport& progress) {
   progress.begin("Adjusting");
   int iteration = 0;
   calibration.setProgress([&](const CalibrationIteration& last) {
@@ -87,6 +88,7 @@ CalibrationResult adjusted(QuasiRigorousCalibration& calibration, ProgressReport
                     std::to_string(1000.0 * last.largest_update) + " mm");
   });
   CalibrationResult result = calibration.calibrate();
+  result.observability = describeObservability(calibration, result);
   progress.end(result.converged ? "converged" : "not converged");
   return result;
 }
@@ -105,7 +107,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   }
   CalibrationSettings settings = options.settings;
   settings.resolution = survey.resolution();
-  QuasiRigorousCalibration calibration(flight, settings, survey.corner());
+  SystemCalibrationEngine calibration(flight, settings, survey.corner());
   std::vector<std::string> warnings;
   calibration.setPairs(usablePairs(options.pairs, survey, warnings));
   calibration.setControl(options.control);

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/report/accuracy_report.h>
 
 #include "json_number.h"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/report/alignment_report.h>
 
 #include "left_out_json.h"

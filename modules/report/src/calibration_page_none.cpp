@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <filesystem>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/report/calibration_page.h>
 #include <pcl_als/report/calibration_tables.h>
 

@@ -4,8 +4,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/report/calibration_tables.h>
 
 namespace pcl_als {

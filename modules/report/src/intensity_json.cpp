@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/report/intensity_report.h>
 
 #include "json_number.h"

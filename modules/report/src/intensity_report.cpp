@@ -4,9 +4,9 @@
 #include <iomanip>
 #include <sstream>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/report/intensity_report.h>
 
 namespace pcl_als {

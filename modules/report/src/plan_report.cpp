@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/report/plan_report.h>
 
 #include "json_number.h"

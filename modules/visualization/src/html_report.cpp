@@ -8,8 +8,8 @@
 
 #include <sys/stat.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/visualization/html_report.h>
 #include <pcl_als/visualization/ticks.h>
 

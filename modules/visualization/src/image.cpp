@@ -9,8 +9,8 @@
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
 #include <pcl_als/visualization/image.h>
 
 namespace pcl_als {

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-#include <pcl_als/calibration/area_matcher.h>
+#include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
-#include <pcl_als/calibration/survey_map.h>
+#include <pcl_als/survey/survey_map.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 namespace pcl_als {
 

@@ -32,4 +32,15 @@ struct NoiseModel {
   Eigen::Matrix3d pointingCovariance(const ScanGeometry& geometry) const;
 };
 
+/** \brief Variance of the one number a pair contributes, n'e (m^2): its weight is P_w = sigma_0^2 /
+ * (n' Sigma n).
+ *
+ * The paper keeps the (w,w) entry of P = sigma_0^2 Sigma^-1. That is the precision of e along n
+ * *given* its in-plane part; D makes the in-plane part unknown, and eliminating it leaves the
+ * marginal precision 1 / (n' Sigma n). Both agree when n is a principal axis of Sigma. Where it is
+ * not (pointing noise far larger than range noise, seen at 20 degrees of incidence) the (w,w) entry
+ * trusts a pair several times too much.
+ */
+double normalVariance(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& normal);
+
 }  // namespace pcl_als

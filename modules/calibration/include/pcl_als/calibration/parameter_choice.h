@@ -55,6 +55,15 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
                                  double limit_factor,
                                  const std::vector<SystemParameter>& unknown = {});
 
+/// The parameters that are tried where none is asked for: all but lever_arm_z, range_bias only with
+/// control.
+std::vector<SystemParameter> automaticParameters(bool with_control);
+
+/// Puts estimates, standard deviations, correlations and statuses into a result, with a warning for
+/// every parameter that is not determined. \a requested is empty where the choice was automatic.
+void reportParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
+                      CalibrationResult& result);
+
 /// "0.35 m", "12.4 arcsec", "0.00031": a value of a parameter in its interface unit.
 std::string inUnit(SystemParameter parameter, double value);
 

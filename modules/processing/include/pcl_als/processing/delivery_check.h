@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/survey_map.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/processing/survey_reader.h>
@@ -19,6 +18,7 @@
 #include <pcl_als/quality/pair_assessment.h>
 #include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/quality/strip_course.h>
+#include <pcl_als/survey/survey_map.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 

@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/survey/calibration_point.h>
 #include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/trajectory/trajectory.h>
 

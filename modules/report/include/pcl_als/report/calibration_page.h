@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/report/report_origin.h>
+#include <pcl_als/survey/calibration_point.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {

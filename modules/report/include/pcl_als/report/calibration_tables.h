@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/calibration_point.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/survey/calibration_point.h>
 
 namespace pcl_als {
 

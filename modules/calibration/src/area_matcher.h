@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/calibration/noise_model.h>
+#include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/survey/calibration_point.h>
+#include <pcl_als/survey/survey_map.h>
+#include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/tin/surface_criterion.h>
+#include <pcl_als/trajectory/bias_evaluator.h>
+#include <pcl_als/trajectory/trajectory.h>
+
+#include "pair_selection.h"
+
+namespace pcl_als {
+
+/** \brief The points of one area by strip, their TINs, and the pairs found between them.
+ *
+ * Fill with add() (different strips may be added from different threads), then prepare() once, then
+ * for every iteration correct() and match(). Memory: about 150 bytes per point.
+ */
+class AreaMatcher {
+ public:
+  AreaMatcher(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
+
+  void add(int strip, const CalibrationPoint& point);
+  const SurveyArea& area() const { return area_; }
+  std::size_t pointCount() const;
+  std::size_t stripCount() const;  ///< strips with points in the area or its margin
+
+  /// When a strip measured the area and its margin; empty where it has no points in it.
+  std::optional<TimeSpan> timesOf(int strip) const;
+
+  /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
+  /// aspects.
+  void prepare(const SurfaceCriterion& criterion, std::size_t candidates, double resolution);
+  /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for
+  /// setting the limit).
+  void collectRoughness(std::vector<double>& values) const;
+  void limitRoughness(double most, double plain) {
+    criterion_.roughness = most;
+    criterion_.plain_roughness = plain;
+  }
+
+  /// Which points are paired with patches: all candidates, or those of the observations last kept.
+  enum class Seekers { candidates, kept };
+  /// Keeps the points of these observations (of match()) as seekers of the same patches; their
+  /// pairs weigh as much as those they stand for.
+  void keep(const AreaObservations& observations, const std::vector<ChosenPair>& chosen);
+
+  /// The TIN of a strip, as corrected last; empty where the strip has hardly a point here.
+  const PatchSurface& surfaceOf(int strip) const {
+    return strips_[static_cast<std::size_t>(strip)].surface;
+  }
+
+  /// Reconstructs the points with Eq. (13); the TINs keep their topology.
+  void correct(const BiasEvaluator& biases);
+
+  /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
+  /// threshold.
+  AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
+                         const Trajectory& trajectory, const NoiseModel& noise,
+                         Seekers seekers = Seekers::candidates) const;
+  /// The pairs of control points inside the area with the patches above or below them.
+  AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
+                                const Trajectory& trajectory, const NoiseModel& noise,
+                                double default_sigma) const;
+
+ private:
+  struct StripPart {
+    std::vector<Eigen::Vector3d> biased;  ///< ground frame, as read
+    std::vector<double> times;
+    std::vector<bool> single;
+    PatchSurface surface;
+    std::vector<std::int32_t> candidates;
+    std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
+    double median_edge = 0.0;       ///< metres, in plan
+  };
+  class PointGeometry;
+
+  /// The direction in which a pair measures: that of the neighbourhood's plane, less noisy than the
+  /// triangle's own, or the vertical where its tilt is not significant. Noise in place of a slope
+  /// would act like information about plan positions, and on flat ground be the only one.
+  struct Direction {
+    Eigen::Vector3d normal;
+    double variance = 0.0;  ///< rad^2
+  };
+  Direction measuringDirection(const PatchQuality& quality) const;
+  void chooseCandidates(StripPart& part, std::size_t count) const;
+
+  SurveyArea area_;
+  std::vector<StripPart> strips_;
+  struct Seeker {
+    std::int32_t point = 0;
+    double sharing = 1.0, offset = 0.0;  ///< of its pair, see ChosenPair
+  };
+  std::map<std::pair<int, int>, std::vector<Seeker>> kept_;  ///< points of the first strip
+  SurfaceCriterion criterion_;
+  SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/statistics.h>
+
+#include "calibration_judgement.h"
+#include "calibration_report.h"
+#include "calibration_state.h"
+#include "control_consistency.h"
+#include "misfit_comparison.h"
+#include "pair_selection.h"
+#include "pair_weights.h"
+#include "strip_error_check.h"
+
+namespace pcl_als {
+namespace {
+
+// Weightings of the first set of pairs, which begin without weights; later sets begin with the
+// weights of the last.
+constexpr int kFirstWeightings = 3;
+constexpr std::size_t kEnoughForScale = 30;
+constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
+
+/// Prior standard deviations of the biases of an uncalibrated system: half a degree, metres.
+SystemVector widePrior() {
+  constexpr double kAngle = 0.5 * kRadiansPerDegree;
+  SystemVector sigma;
+  sigma << 1.0, 1.0, 1.0, kAngle, kAngle, kAngle, 1.0, 2e-3;
+  return sigma;
+}
+
+}  // namespace
+
+SystemCalibrationEngine::SystemCalibrationEngine(std::shared_ptr<const Trajectory> trajectory,
+                                                 const CalibrationSettings& settings,
+                                                 const Eigen::Vector2d& anchor)
+    : trajectory_(std::move(trajectory)),
+      settings_(settings),
+      map_(anchor),
+      plausibility_(trajectory_) {
+  settings_.noise.validate();
+  settings_.shared_errors.validate();
+  if (trajectory_->hasAttitude()) attitude_ = AttitudeSource::trajectory;
+  if (trajectory_->attitudeIsNominal()) attitude_ = AttitudeSource::nominal;
+}
+
+SystemCalibrationEngine::~SystemCalibrationEngine() = default;
+
+std::size_t SystemCalibrationEngine::loadedPoints() const {
+  std::size_t count = 0;
+  for (const AreaMatcher& matcher : matchers_) count += matcher.pointCount();
+  return count;
+}
+
+void SystemCalibrationEngine::prepare() {
+  std::size_t strips_in_areas = 1;
+  for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
+  const std::size_t candidates = candidatesPerStrip(settings_.candidates, strips_in_areas);
+  std::vector<std::vector<double>> roughness(matchers_.size());
+  parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
+    const bool control = i >= pair_areas_;
+    matchers_[i].prepare(settings_.patches, control ? 0 : candidates, settings_.resolution);
+    matchers_[i].collectRoughness(roughness[i]);
+  });
+  std::vector<double> all;
+  for (const auto& values : roughness) all.insert(all.end(), values.begin(), values.end());
+  if (all.empty()) return;
+  const double plain = medianInPlace(all);
+  const double most = std::min(settings_.patches.roughness, kRoughnessFactor * plain);
+  for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
+}
+
+void SystemCalibrationEngine::pairUp(State& state) const {
+  state.observations.assign(matchers_.size(), {});
+  parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
+    const AreaMatcher& matcher = matchers_[i];
+    state.observations[i] =
+        i < pair_areas_
+            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise, state.seekers)
+            : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
+                                   settings_.noise, settings_.control_sigma);
+  });
+}
+
+void SystemCalibrationEngine::lookAtControl(const State& state) {
+  const auto seen = [](const AreaObservations& area) { return !area.empty(); };
+  const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
+  control_seen_ = std::any_of(first, state.observations.end(), seen);
+  if (control_.empty() || control_seen_) return;
+  warnings_.push_back("none of the " + std::to_string(control_.size()) +
+                      " control points lies on a smooth surface of a strip: calibrated without "
+                      "control");
+}
+
+void SystemCalibrationEngine::weigh(State& state) const {
+  std::vector<std::vector<double>> residuals(state.observations.size());
+  parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
+    for (const PairObservation& o : state.observations[area]) {
+      residuals[area].push_back(state.adjustment.residual(o, state.choice.solution) - o.offset);
+    }
+  });
+  // Chosen pairs are not like all: mostly slopes, far from the line of flight.
+  if (state.all()) {
+    state.weights.findScales(state.observations, residuals, settings_.threads);
+  }
+  state.weights.update(state.observations, residuals, state.solved());
+}
+
+void SystemCalibrationEngine::choose(State& state) const {
+  std::vector<SystemParameter> wanted =
+      settings_.estimate.empty() ? automaticParameters(control_seen_) : settings_.estimate;
+  const auto left_out = [&](SystemParameter p) { return state.excluded.count(p) > 0; };
+  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
+  if (state.isCoarse()) {
+    state.choice.estimate = wanted;
+    state.choice.solution = state.adjustment.solveNearZero(wanted, widePrior());
+  } else {
+    // What was asked for by name is dropped only when it is hopeless.
+    const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
+    std::vector<SystemParameter> unknown;
+    if (settings_.estimate.empty() && !control_seen_) {
+      unknown.push_back(SystemParameter::range_bias);
+    }
+    for (const auto& [p, reason] : state.excluded) unknown.push_back(p);
+    state.choice = chooseParameters(state.adjustment, wanted, SystemVector::Zero(),
+                                    settings_.limits, factor, unknown);
+    for (const auto& [p, reason] : state.excluded) {
+      state.choice.status[indexOf(p)] = ParameterStatus::not_estimable;
+      state.choice.reason[indexOf(p)] = reason;
+    }
+  }
+  if (state.phase == State::Phase::initial) state.phase = State::Phase::coarse;
+}
+
+void SystemCalibrationEngine::adjust(State& state, bool estimate_components) const {
+  const int weightings = state.solved() ? 1 : kFirstWeightings;
+  for (int i = 0; i < weightings; ++i) {
+    weigh(state);
+    state.adjustment.accumulate(state.observations, state.weights.weights());
+    choose(state);
+  }
+  if (estimate_components && !state.choice.estimate.empty()) {
+    const SharedErrorLevels levels = state.adjustment.levels();
+    state.components.unchanged =
+        mostLikelyLevels(state.adjustment, state.choice.estimate).near(levels);
+    choose(state);
+  }
+  weigh(state);
+}
+
+void SystemCalibrationEngine::shrinkThreshold(State& state) const {
+  constexpr double kSmallest = 0.25;  // metres
+  constexpr double kFactor = 6.0;
+  double widest = 0.0;
+  std::map<PairWeights::Group, std::vector<double>> distances;
+  for (const AreaObservations& area : state.observations) {
+    for (const PairObservation& o : area) {
+      distances[PairWeights::groupOf(o)].push_back(o.distance(state.choice.solution.biases));
+    }
+  }
+  for (const auto& [group, values] : distances) {
+    if (values.size() >= kEnoughForScale) widest = std::max(widest, robustSigma(values));
+  }
+  state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
+}
+
+void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeSpan>& spans) {
+  adjusted_.strips.clear();
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    adjusted_.strips.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
+  }
+  adjusted_.observations = std::move(state.observations);
+  adjusted_.weights = state.weights.weights();
+  adjusted_.levels = state.adjustment.levels();
+}
+
+std::vector<std::vector<TimeSpan>> SystemCalibrationEngine::measuredTimes() const {
+  std::vector<std::vector<TimeSpan>> times(ids_.size());
+  for (const AreaMatcher& matcher : matchers_) {
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const auto span = matcher.timesOf(static_cast<int>(i));
+      if (span) times[i].push_back(*span);
+    }
+  }
+  return times;
+}
+
+CalibrationResult SystemCalibrationEngine::calibrate() {
+  prepare();
+  std::vector<TimeSpan> spans;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const int strip = static_cast<int>(i);
+    spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
+                             : std::pair(0.0, 0.0));
+  }
+  const SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
+  State state(errors, settings_.threads);
+  state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
+  state.threshold = settings_.max_normal_distance;
+  CalibrationResult result;
+  pairUp(state);
+  lookAtControl(state);
+  const CalibrationReport report(ids_, !control_seen_);
+  report.addFit(state.observations, SystemVector::Zero(), false, result);
+  const MisfitComparison misfit(state.observations);
+  while (mayContinue(state, result)) {
+    iterate(state, result);
+    if (!result.converged) pairUp(state);
+  }
+  const bool open = !result.converged;
+  result.sigma0 = state.weights.sigma0();
+  result.redundancy = state.redundancy();
+  result.warnings = warnings_;
+  result.attitude = attitude_;
+  result.recovered_attitude = recovered_attitude_;
+  result.line_fit_half_width = trajectory_->lineFitHalfWidth();
+  report.addParameters(state.choice, settings_.estimate, result);
+  report.addStrips(errors, used_, state.choice.solution, result);
+  if (!result.converged) weigh(state);  // the last pairs are newer than their weights
+  information_ = state.adjustment.informationShares(state.choice.estimate);
+  information_.resize(areas_.size(), 0.0);
+  const std::vector<bool> used = state.usedAreas();
+  keepAdjusted(state, spans);
+  state.threshold = settings_.max_normal_distance;
+  state.seekers = AreaMatcher::Seekers::candidates;
+  pairUp(state);
+  report.addControlPoints(
+      control_, state.observations, used,
+      settings_.shared_errors.position * std::sqrt(state.adjustment.levels().position), result);
+  report.addFit(state.observations, result.biases(), true, result);
+  report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
+  result.misfit = misfit.change(state.observations, result.biases());
+  diagnose(result);
+  judgeControl(result);
+  assessStripErrors(settings_.shared_errors, result);
+  judgeCalibration(settings_.estimate, open ? whyOpen(state, result) : "", result);
+  return result;
+}
+
+}  // namespace pcl_als

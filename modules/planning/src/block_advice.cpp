@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/planning/block_advice.h>
+
+#include "virtual_lines.h"
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+
+constexpr std::size_t kObservations = 20'000;  // of a block that is adjusted again and again
+constexpr double kHelps = 0.1;                 // benefit from which on advice is worth a line
+constexpr double kWorthSaying = 0.85;   // after / before from which on a change is not reported
+constexpr std::size_t kAdviceTold = 6;  // in the text; all of it is in the report
+constexpr double kWellKnown = 0.01;     // metres on the ground
+
+std::string valueOf(P p, double value) {
+  const std::string text = inUnit(p, value);
+  return text.substr(0, text.find(' '));
+}
+
+/// "reduce the std of boresight_pitch from 12 to 3 arcsec, determine …"; best first.
+std::string effectOf(const SystemVector& before, const SystemVector& after,
+                     const AdjustedBlock& now, const AdjustedBlock& then) {
+  std::vector<std::pair<double, std::string>> effects;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const P p = info.parameter;
+    const double from = before[indexOf(p)], to = after[indexOf(p)];
+    if (to >= kWorthSaying * from || !std::isfinite(to)) continue;
+    const std::string name(info.name);
+    if (then.determines(p) && !now.determines(p)) {
+      effects.emplace_back(0.0, "determine " + name + " (std " + inUnit(p, to) + ")");
+    } else if (!std::isfinite(from)) {
+      effects.emplace_back(1.0, "show " + name + " (std " + inUnit(p, to) + "), not yet enough");
+    } else {
+      effects.emplace_back(to / from, "reduce the std of " + name +
+                                          (then.determines(p) ? "" : ", still not determined,") +
+                                          " from " + valueOf(p, from) + " to " + inUnit(p, to));
+    }
+  }
+  std::sort(effects.begin(), effects.end());
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, effects.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + effects[i].second;
+  }
+  return text;
+}
+
+double benefitOf(const SystemVector& before, const SystemVector& after) {
+  double benefit = 0.0;
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    if (before[i] > 0.0 && after[i] > 0.0) benefit += std::log(before[i] / after[i]);
+  }
+  return benefit;
+}
+
+/// A copy of the block with what a piece of advice stands for.
+ObservedBlock with(const Advice& advice, ObservedBlock block, const SyntheticPairs& pairs) {
+  if (advice.is_line) {
+    pairs.addPairs(SyntheticPairs::addStrip(advice.line, block), block);
+  } else {
+    for (const Eigen::Vector2d& place : advice.control) pairs.addControl(place, block);
+  }
+  return block;
+}
+
+/// Metres on the ground at the block's mean height and the edge of what its pairs reach to.
+SystemVector groundEffect(const ObservedBlock& block, const BlockFacts& facts) {
+  if (facts.heights.empty()) {
+    const StripGeometry& any = block.strips.front();
+    return Observability::groundEffect(any.height, any.half_angle);
+  }
+  constexpr double kLeastAngle = 0.05;  // radians: else the scale of the scan angle does nothing
+  const double sum = std::accumulate(facts.heights.begin(), facts.heights.end(), 0.0);
+  return Observability::groundEffect(sum / static_cast<double>(facts.heights.size()),
+                                     std::max(facts.half_angle, kLeastAngle));
+}
+
+}  // namespace
+
+AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySettings& settings)
+    : errors_(block.spans, settings.shared_errors,
+              observedTimes(block.observations, block.spans.size())),
+      adjustment_(errors_, settings.threads) {
+  adjustment_.setLevels(settings.levels);
+  adjustment_.accumulate(block.observations, block.weights);
+  const bool automatic = settings.estimate.empty();
+  wanted_ = automatic ? automaticParameters(true) : settings.estimate;
+  // What was asked for by name is dropped only when it is hopeless, as in the calibration.
+  const double factor = automatic ? 1.0 : 10.0;
+  choice_ = chooseParameters(adjustment_,
+                             automatic ? automaticParameters(block.control_points > 0) : wanted_,
+                             SystemVector::Zero(), settings.limits, factor);
+  const Observability observability(adjustment_.reducedNormal(), wanted_,
+                                    groundEffect(block, BlockFacts(block)));
+  SystemVector prior;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    prior[indexOf(info.parameter)] = 2.0 * factor * settings.limits.of(info.parameter);
+  }
+  deviations_ = observability.deviations(prior);
+  alone_ =
+      observability.deviations(SystemVector::Constant(std::numeric_limits<double>::infinity()));
+  if (automatic && block.control_points == 0) {  // strips alone hardly see it: no line helps
+    deviations_[indexOf(P::range_bias)] = prior[indexOf(P::range_bias)];
+    alone_[indexOf(P::range_bias)] = std::numeric_limits<double>::infinity();
+  }
+}
+
+SystemVector AdjustedBlock::expected() const {
+  SystemVector std = alone_;
+  for (const P p : choice_.estimate) std[indexOf(p)] = deviations_[indexOf(p)];
+  return std;
+}
+
+bool AdjustedBlock::determines(P p) const {
+  return choice_.status[indexOf(p)] == ParameterStatus::estimated;
+}
+
+const Advice* ObservabilityReport::cheapestLine() const {
+  const Advice* best = nullptr;
+  for (const Advice& one : advice) {
+    if (!one.is_line) continue;
+    if (best == nullptr || one.benefit / one.duration() > best->benefit / best->duration()) {
+      best = &one;
+    }
+  }
+  return best;
+}
+
+std::vector<std::string> ObservabilityReport::text() const {
+  std::vector<std::string> lines{"the block: " + facts};
+  for (const WeakCombination& one : weak) lines.push_back("weak: " + one.text);
+  for (const ParameterDirection& one : directions) {
+    if (one.std > kWellKnown) lines.push_back("direction: " + one.text);
+  }
+  for (std::size_t i = 0; i < std::min(kAdviceTold, advice.size()); ++i) {
+    lines.push_back("advice: " + advice[i].text);
+  }
+  return lines;
+}
+
+namespace {
+
+/// Fills before, after, benefit and text of everything that could be added; keeps what helps.
+std::vector<Advice> adviceFor(const ObservedBlock& block, const AdjustedBlock& now,
+                              const SystemVector& factor, const ObservabilitySettings& settings) {
+  const SyntheticPairs pairs(settings.pairs);
+  std::vector<Advice> helpful;
+  for (Advice& advice : virtualAdditions(block)) {
+    const ObservedBlock larger = with(advice, block, pairs);
+    const AdjustedBlock then(larger, settings);
+    advice.before = now.expected().cwiseProduct(factor);
+    advice.after = then.expected().cwiseProduct(factor);
+    advice.benefit = benefitOf(now.deviations(), then.deviations());
+    const std::string effect = effectOf(advice.before, advice.after, now, then);
+    advice.text = advice.what + " would " + effect;
+    if (advice.benefit > kHelps && !effect.empty()) helpful.push_back(std::move(advice));
+  }
+  std::stable_sort(helpful.begin(), helpful.end(),
+                   [](const Advice& a, const Advice& b) { return a.benefit > b.benefit; });
+  return helpful;
+}
+
+}  // namespace
+
+ObservabilityReport describeObservability(const ObservedBlock& whole,
+                                          const ObservabilitySettings& given) {
+  const ObservedBlock block = whole.thinned(kObservations);
+  const BlockFacts facts(block);
+  ObservabilitySettings settings = given;
+  if (!settings.planned) settings.pairs.surface = surfaceOf(facts);
+  const AdjustedBlock now(block, settings);
+  SystemVector factor = SystemVector::Ones();
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    const double own = now.deviations()[i];
+    if (own > 0.0 && settings.reported[i] > own) factor[i] = settings.reported[i] / own;
+  }
+  Observability observability(now.adjustment().reducedNormal(), now.wanted(),
+                              groundEffect(block, facts));
+  observability.weaken(factor);
+  ObservabilityReport report;
+  report.facts = facts.text();
+  report.directions = observability.directions();
+  report.weak = observability.combinations(facts, settings.limits);
+  if (settings.advise) report.advice = adviceFor(block, now, factor, settings);
+  return report;
+}
+
+namespace {
+
+/// What a strip's pairs reach to, from their patches: median height, largest angle.
+void measure(int index, const std::vector<AreaObservations>& observations, StripGeometry& strip,
+             std::vector<double>& heights) {
+  double widest = 0.01;  // radians
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      if (o.b != index) continue;
+      heights.push_back(o.height);
+      widest = std::max(widest, std::atan2(o.lateral, o.height));
+    }
+  }
+  if (heights.empty()) return;
+  strip.height = medianInPlace(heights);
+  strip.half_angle = widest;
+}
+
+/// A flown strip as straight line; without a length where it has no pairs.
+StripGeometry straight(int index, const FlownStrip& flown, const Trajectory& trajectory,
+                       const std::vector<AreaObservations>& observations) {
+  StripGeometry strip;
+  strip.id = flown.id;
+  strip.first_time = flown.span.first;
+  std::vector<double> heights;
+  measure(index, observations, strip, heights);
+  const double duration = flown.span.second - flown.span.first;
+  SensorPose first, last;
+  std::size_t cursor = 0;
+  if (heights.empty() || !(duration > 0.0) || !trajectory.poseAt(flown.span.first, first, cursor) ||
+      !trajectory.poseAt(flown.span.second, last, cursor)) {
+    return strip;
+  }
+  strip.start = first.position.head<2>();
+  strip.end = last.position.head<2>();
+  strip.speed = std::max(1.0, strip.length() / duration);
+  const double ground = 2.0 * strip.halfSwath() * strip.length();
+  if (ground > 0.0 && flown.points > 0) {
+    strip.density = static_cast<double>(flown.points) / ground;
+  }
+  return strip;
+}
+
+}  // namespace
+
+ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory) {
+  ObservedBlock block;
+  for (std::size_t i = 0; i < survey.strips.size(); ++i) {
+    block.spans.push_back(survey.strips[i].span);
+    block.strips.push_back(
+        straight(static_cast<int>(i), survey.strips[i], trajectory, survey.observations));
+  }
+  for (const AreaObservations& area : survey.observations) {
+    const bool control = !area.empty() && area.front().a == PairObservation::kControl;
+    if (control) ++block.control_points;
+  }
+  block.observations = survey.observations;
+  block.weights = survey.weights;
+  return block;
+}
+
+std::vector<std::string> describeObservability(const SystemCalibrationEngine& calibration,
+                                               const CalibrationResult& result) {
+  const ObservedBlock block = observedBlock(calibration.adjusted(), *calibration.trajectory());
+  if (block.observationCount() == 0) return {};
+  const CalibrationSettings& given = calibration.settings();
+  ObservabilitySettings settings;
+  settings.estimate = given.estimate;
+  settings.limits = given.limits;
+  settings.shared_errors = given.shared_errors;
+  settings.levels = calibration.adjusted().levels;
+  settings.threads = given.threads;
+  settings.pairs.noise = given.noise;
+  settings.pairs.selection = given.selection;
+  settings.pairs.candidates = given.candidates;
+  settings.pairs.control_sigma = given.control_sigma;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    settings.reported[indexOf(info.parameter)] = result[info.parameter].std;
+  }
+  return describeObservability(block, settings).text();
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <map>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/planning/flight_plan.h>
+
+namespace pcl_als {
+namespace {
+
+std::vector<FlightPlanResult::Overlap> overlapsOf(const ObservedBlock& block) {
+  std::map<std::pair<int, int>, FlightPlanResult::Overlap> overlaps;
+  for (std::size_t area = 0; area < block.observations.size(); ++area) {
+    std::set<std::pair<int, int>> here;
+    for (std::size_t i = 0; i < block.observations[area].size(); ++i) {
+      const PairObservation& o = block.observations[area][i];
+      if (o.a == PairObservation::kControl) continue;
+      here.insert({o.a, o.b});
+      overlaps[{o.a, o.b}].pairs += block.weights[area][i];
+    }
+    for (const auto& pair : here) ++overlaps[pair].areas;
+  }
+  std::vector<FlightPlanResult::Overlap> list;
+  for (auto& [strips, overlap] : overlaps) {
+    overlap.a = block.strips[static_cast<std::size_t>(strips.first)].id;
+    overlap.b = block.strips[static_cast<std::size_t>(strips.second)].id;
+    list.push_back(overlap);
+  }
+  return list;
+}
+
+/// Warnings of a plan, in place of those of a calibration.
+void warn(FlightPlanResult& result) {
+  std::vector<std::string>& warnings = result.expected.warnings;
+  warnings.clear();
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result.expected[info.parameter];
+    if (estimate.status != ParameterStatus::not_estimable) continue;
+    warnings.push_back(std::string(info.name) + " will not be determined: " + estimate.reason);
+  }
+  if (result.control_points == 0) {
+    warnings.push_back("without control the absolute height of the block will not be checked");
+  }
+}
+
+}  // namespace
+
+FlightPlan::FlightPlan(std::vector<StripGeometry> lines, const Settings& settings)
+    : lines_(std::move(lines)), settings_(settings) {
+  constexpr std::size_t kMostLines = 200;
+  if (lines_.empty()) throw UsageError("a flight plan needs at least one line");
+  if (lines_.size() > kMostLines) {
+    throw UsageError("a flight plan of " + std::to_string(lines_.size()) +
+                     " lines: at most 200 can be planned together");
+  }
+  std::set<std::string> ids;
+  for (const StripGeometry& line : lines_) {
+    line.validate();
+    if (!ids.insert(line.id).second) throw UsageError("two lines are called '" + line.id + "'");
+  }
+  settings_.adjustment.planned = true;
+  settings_.adjustment.pairs.noise.validate();
+  settings_.adjustment.pairs.surface.validate();
+  settings_.adjustment.shared_errors.validate();
+}
+
+ObservedBlock FlightPlan::synthesised() const {
+  const SyntheticPairs pairs(settings_.adjustment.pairs);
+  ObservedBlock block;
+  for (const StripGeometry& line : lines_) SyntheticPairs::addStrip(line, block);
+  pairs.addPairs(0, block);
+  for (const Eigen::Vector2d& place : SyntheticPairs::spread(settings_.control_points, lines_)) {
+    pairs.addControl(place, block);
+  }
+  if (block.observationCount() > 0) return block;
+  throw InputError(lines_.size() < 2
+                       ? "one line and no control: there is nothing to compare"
+                       : "no two lines overlap and there is no control: nothing to compare");
+}
+
+FlightPlanResult FlightPlan::evaluate() const {
+  const ObservedBlock block = synthesised();
+  const AdjustedBlock adjusted(block, settings_.adjustment);
+  FlightPlanResult result;
+  result.lines = lines_;
+  result.overlaps = overlapsOf(block);
+  result.control_points = block.control_points;
+  result.expected.converged = true;
+  reportParameters(adjusted.choice(), settings_.adjustment.estimate, result.expected);
+  warn(result);
+  result.observability = describeObservability(block, settings_.adjustment);
+  return result;
+}
+
+}  // namespace pcl_als

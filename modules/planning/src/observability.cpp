@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <pcl_als/planning/observability.h>
+#include <pcl_als/trajectory/scan_geometry.h>
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+
+constexpr double kNamed = 0.3;      // component of a unit vector from which on it is named
+constexpr double kAlike = 0.85;     // correlation from which on two can hardly be separated
+constexpr double kUnknown = 1e3;    // metres on the ground: an upper bound of any parameter
+constexpr double kNothing = 100.0;  // metres: who is known no better was not observed
+
+std::string name(P p) {
+  return std::string(infoOf(p).name);
+}
+
+/// Two that move a ground point the same way at one height: the one is what the other may be.
+P twinOf(P p) {
+  switch (p) {
+    case P::boresight_pitch:
+      return P::lever_arm_y;
+    case P::lever_arm_y:
+      return P::boresight_pitch;
+    case P::boresight_roll:
+      return P::lever_arm_x;
+    case P::range_bias:
+      return P::lever_arm_z;
+    case P::lever_arm_z:
+      return P::range_bias;
+    default:
+      return p;
+  }
+}
+
+std::string describe(const SystemVector& components, double std) {
+  std::vector<int> order;
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    if (std::abs(components[i]) >= kNamed) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::pair(-std::abs(components[a]), a) < std::pair(-std::abs(components[b]), b);
+  });
+  if (order.empty()) return "not observed";
+  const double largest = components[order.front()];
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    text << (i == 0   ? ""
+             : i == 1 ? " with "
+                      : ", ")
+         << systemParameters()[order[i]].name << ' ' << components[order[i]] / largest;
+  }
+  if (std::isinf(std)) return text.str() + ": not observed";
+  text << ": " << std::setprecision(1) << 1000.0 * std << " mm on the ground";
+  return text.str();
+}
+
+}  // namespace
+
+Observability::Observability(const SystemMatrix& normal, const std::vector<P>& wanted,
+                             const SystemVector& effect)
+    : normal_(normal), wanted_(wanted), effect_(effect) {}
+
+SystemVector Observability::groundEffect(double height, double half_angle) {
+  ScanGeometry geometry;
+  geometry.x = height * std::tan(half_angle);
+  geometry.z = -height;
+  geometry.beta = -half_angle;
+  return designBlock(geometry).colwise().norm().transpose();
+}
+
+void Observability::weaken(const SystemVector& factor) {
+  const SystemVector inverse = factor.cwiseInverse();
+  normal_ = (inverse.asDiagonal() * normal_ * inverse.asDiagonal()).eval();
+}
+
+Eigen::MatrixXd Observability::scaledNormal() const {
+  const auto size = static_cast<Eigen::Index>(wanted_.size());
+  Eigen::MatrixXd scaled(size, size);
+  for (Eigen::Index r = 0; r < size; ++r) {
+    const int i = indexOf(wanted_[static_cast<std::size_t>(r)]);
+    for (Eigen::Index c = 0; c < size; ++c) {
+      const int j = indexOf(wanted_[static_cast<std::size_t>(c)]);
+      scaled(r, c) = normal_(i, j) / (effect_[i] * effect_[j]);
+    }
+  }
+  return scaled;
+}
+
+std::vector<ParameterDirection> Observability::directions() const {
+  std::vector<ParameterDirection> directions;
+  // A matrix that is not finite (weights beyond the range of numbers) knows no directions.
+  if (wanted_.empty() || !scaledNormal().allFinite()) return directions;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaledNormal());
+  for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k) {
+    ParameterDirection direction;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+      direction.components[indexOf(wanted_[i])] =
+          eigen.eigenvectors()(static_cast<Eigen::Index>(i), k);
+    }
+    const double value = eigen.eigenvalues()[k];
+    const bool observed =
+        value > 1.0 / (kNothing * kNothing) && value > 1e-14 * eigen.eigenvalues().maxCoeff();
+    direction.std = observed ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity();
+    direction.text = describe(direction.components, direction.std);
+    directions.push_back(std::move(direction));
+  }
+  return directions;
+}
+
+WeakCombination Observability::single(std::size_t index, double std,
+                                      const BlockFacts& facts) const {
+  WeakCombination weak;
+  const P p = wanted_[index];
+  weak.parameters = {p};
+  weak.cause = facts.causeOf(weak.parameters);
+  weak.text = name(p) +
+              (std > kNothing ? ", not observed" : ", std " + inUnit(p, std / effect_[indexOf(p)]));
+  if (!weak.cause.empty()) weak.text += ": " + weak.cause;
+  return weak;
+}
+
+WeakCombination Observability::pair(std::size_t first, std::size_t second, double correlation,
+                                    const BlockFacts& facts) const {
+  WeakCombination weak;
+  weak.parameters = {wanted_[first], wanted_[second]};
+  weak.correlation = correlation;
+  weak.cause = facts.causeOf(weak.parameters);
+  std::ostringstream text;
+  text << name(wanted_[first]) << " with " << name(wanted_[second]);
+  if (correlation == 0.0) {
+    text << ", neither observed";
+  } else {
+    text << ", correlation " << std::fixed << std::setprecision(2) << correlation;
+  }
+  weak.text = text.str() + (weak.cause.empty() ? "" : ": " + weak.cause);
+  return weak;
+}
+
+/// Rows and columns are the parameters considered, in metres on the ground.
+struct Observability::Known {
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd std;
+
+  double correlation(std::size_t i, std::size_t j) const {
+    const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
+    return covariance(r, c) / (std[r] * std[c]);
+  }
+  double stdOf(std::size_t i) const { return std[static_cast<Eigen::Index>(i)]; }
+};
+
+Observability::Known Observability::known(const SystemVector& prior) const {
+  Eigen::MatrixXd normal = scaledNormal();
+  // No parameter is wrong by a kilometre: a prior that keeps the matrix regular and has no other
+  // effect.
+  for (Eigen::Index i = 0; i < normal.rows(); ++i) {
+    const int at = indexOf(wanted_[static_cast<std::size_t>(i)]);
+    normal(i, i) += 1.0 / std::pow(std::min(kUnknown, prior[at] * effect_[at]), 2);
+  }
+  const auto size = normal.rows();
+  Known known;
+  known.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  known.std = known.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return known;
+}
+
+std::size_t Observability::partnerOf(std::size_t i, const Known& known) const {
+  std::size_t partner = i;
+  double strongest = kAlike;
+  for (std::size_t j = 0; j < wanted_.size(); ++j) {
+    if (j == i || std::abs(known.correlation(i, j)) < strongest) continue;
+    strongest = std::abs(known.correlation(i, j));
+    partner = j;
+  }
+  if (partner != i || known.stdOf(i) <= kNothing) return partner;
+  const auto twin = std::find(wanted_.begin(), wanted_.end(), twinOf(wanted_[i]));
+  if (twin == wanted_.end()) return i;
+  const auto at = static_cast<std::size_t>(twin - wanted_.begin());
+  return known.stdOf(at) > kNothing ? at : i;
+}
+
+SystemVector Observability::deviations(const SystemVector& prior) const {
+  SystemVector std = SystemVector::Zero();
+  if (wanted_.empty()) return std;
+  const Known all = known(prior);
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    const int at = indexOf(wanted_[i]);
+    std[at] = all.stdOf(i) > kNothing ? std::numeric_limits<double>::infinity()
+                                      : all.stdOf(i) / effect_[at];
+  }
+  return std;
+}
+
+std::vector<WeakCombination> Observability::combinations(const BlockFacts& facts,
+                                                         const DeterminationLimits& limits) const {
+  std::vector<WeakCombination> found;
+  if (wanted_.empty()) return found;
+  const Known all = known(SystemVector::Constant(std::numeric_limits<double>::infinity()));
+  std::vector<std::pair<double, std::size_t>> order;  // farthest beyond its limit first
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    order.emplace_back(-all.stdOf(i) / (limits.of(wanted_[i]) * effect_[indexOf(wanted_[i])]), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<bool> told(wanted_.size(), false);
+  for (const auto& [beyond, i] : order) {
+    const std::size_t partner = partnerOf(i, all);
+    if (told[i] || (partner == i && beyond >= -1.0)) continue;
+    told[i] = told[partner] = true;
+    if (partner == i) {
+      found.push_back(single(i, all.stdOf(i), facts));
+    } else {
+      const bool blind = all.stdOf(i) > kNothing && std::abs(all.correlation(i, partner)) < kAlike;
+      found.push_back(pair(i, partner, blind ? 0.0 : all.correlation(i, partner), facts));
+    }
+  }
+  return found;
+}
+
+}  // namespace pcl_als

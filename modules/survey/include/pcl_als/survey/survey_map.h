@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/survey/calibration_point.h>
+
+namespace pcl_als {
+
+/// Two strips by their index; first < second.
+using StripPair = std::pair<int, int>;
+
+/** \brief First pass over a survey: the ground that each strip covers, and the areas suitable for
+ * calibration.
+ *
+ * Points are added in any order, strip by strip (different strips may be added from different
+ * threads); kept is a few sums for every 10 m cell a strip touches (48 bytes), never the points.
+ */
+class SurveyMap {
+ public:
+  static constexpr double kCell = 10.0;  ///< metres
+
+  /// \param anchor south-west corner the cells count from (metres, ground frame)
+  explicit SurveyMap(const Eigen::Vector2d& anchor);
+
+  int addStrip();  ///< its index; not while another thread adds points
+
+  /// Adds points to a strip. Points that are not finite are not added and counted.
+  void add(int strip, const CalibrationPoint* points, std::size_t count);
+
+  std::size_t pointCount(int strip) const { return strips_[strip].points; }
+  std::size_t invalidCount(int strip) const { return strips_[strip].invalid; }
+  double startTime(int strip) const { return strips_[strip].start; }
+  double endTime(int strip) const { return strips_[strip].end; }
+  /// m^2 of the cells that a strip touches.
+  double coveredArea(int strip) const {
+    return static_cast<double>(strips_[strip].cells.size()) * kCell * kCell;
+  }
+
+  struct Overlap {
+    StripPair strips;
+    double area = 0.0;  ///< m^2 of cells both strips see
+  };
+  /// Every pair of strips with at least \a minimum_area in common, in order.
+  std::vector<Overlap> overlaps(double minimum_area) const;
+
+  /// Height of the first strip above the second: the median over the cells that both see of the
+  /// difference of the mean heights of their surface points. Vegetation and slopes make it good to
+  /// decimetres only.
+  struct HeightOffset {
+    double offset = 0.0;  ///< metres
+    std::size_t cells = 0;
+  };
+  HeightOffset heightOffset(const StripPair& pair) const;
+
+  struct Selection {
+    double area_size = 50.0;  ///< metres
+    double margin = 8.0;      ///< metres
+    std::size_t point_budget =
+        4'000'000;  ///< points in the chosen areas and their margins, all strips
+  };
+  /** \brief Areas seen by one of the pairs, best first within each part of the block, until the
+   * budget is used.
+   *
+   * The score of an area is its solid relief: height variation inside cells, without cells full of
+   * multiple returns. Each pair chooses in turn, one area from every 4 x 4 group of areas before a
+   * second from any, so that the choice spreads along and across the strips.
+   */
+  std::vector<SurveyArea> selectAreas(const std::vector<StripPair>& pairs,
+                                      const Selection& selection) const;
+
+ private:
+  struct Cell {
+    std::uint32_t points = 0, last_returns = 0, multiple = 0;
+    double z_sum = 0.0, z_sq_sum = 0.0, z_reference = 0.0;
+  };
+  struct StripCells {
+    std::unordered_map<std::int64_t, Cell> cells;
+    std::size_t points = 0, invalid = 0;
+    double start = 0.0, end = 0.0;
+  };
+
+  std::int64_t keyOf(const Eigen::Vector3d& position) const;
+  double score(const Cell& a, const Cell& b) const;
+
+  Eigen::Vector2d anchor_;
+  std::deque<StripCells> strips_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/survey/survey_map.h>
+
+namespace pcl_als {
+namespace {
+
+// Coordinates of a survey are multiples of its file's scale, so points lie exactly on cell borders
+// that are counted from one of them. Borders a fraction of a millimetre aside keep a point's cell
+// the same when the whole block moves.
+constexpr double kAside = 0.00037;
+
+constexpr int kGroup = 4;  // areas per side of the groups that selectAreas spreads over
+
+std::int64_t packed(std::int32_t ix, std::int32_t iy) {
+  return (static_cast<std::int64_t>(iy) << 32) | static_cast<std::uint32_t>(ix);
+}
+std::int32_t columnOf(std::int64_t key) {
+  return static_cast<std::int32_t>(key & 0xffffffff);
+}
+std::int32_t rowOf(std::int64_t key) {
+  return static_cast<std::int32_t>(key >> 32);
+}
+std::int32_t floorDiv(std::int32_t a, std::int32_t b) {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+std::int64_t coarser(std::int64_t key, int factor) {
+  return packed(floorDiv(columnOf(key), factor), floorDiv(rowOf(key), factor));
+}
+
+}  // namespace
+
+bool isSurfacePoint(const CalibrationPoint& point) {
+  const int code = point.classification;
+  const bool vegetation = code >= 3 && code <= 5;
+  const bool noise = code == 7 || code == 18;
+  return point.isLast() && !vegetation && !noise && (point.flags & kWithheld) == 0;
+}
+
+SurveyMap::SurveyMap(const Eigen::Vector2d& anchor)
+    : anchor_(anchor - Eigen::Vector2d::Constant(kAside)) {}
+
+int SurveyMap::addStrip() {
+  strips_.emplace_back();
+  strips_.back().start = std::numeric_limits<double>::infinity();
+  strips_.back().end = -std::numeric_limits<double>::infinity();
+  return static_cast<int>(strips_.size()) - 1;
+}
+
+std::int64_t SurveyMap::keyOf(const Eigen::Vector3d& position) const {
+  const double column = std::floor((position.x() - anchor_.x()) / kCell);
+  const double row = std::floor((position.y() - anchor_.y()) / kCell);
+  constexpr double kLimit = 1e9;  // far beyond the Earth: a coordinate like this is no coordinate
+  if (!(std::abs(column) < kLimit && std::abs(row) < kLimit))
+    throw InputError("a point lies 10 000 000 km away");
+  return packed(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
+}
+
+void SurveyMap::add(int index, const CalibrationPoint* points, std::size_t count) {
+  StripCells& strip = strips_[static_cast<std::size_t>(index)];
+  Cell* cell = nullptr;
+  std::int64_t cell_key = 0;
+  for (const CalibrationPoint* p = points; p != points + count; ++p) {
+    if (!p->position.allFinite() || !std::isfinite(p->time)) {
+      ++strip.invalid;
+      continue;
+    }
+    const std::int64_t key = keyOf(p->position);
+    if (cell == nullptr || key != cell_key) {
+      cell = &strip.cells[key];
+      cell_key = key;
+    }
+    ++strip.points;
+    strip.start = std::min(strip.start, p->time);
+    strip.end = std::max(strip.end, p->time);
+    ++cell->points;
+    if (!p->isSingle()) ++cell->multiple;
+    if (!isSurfacePoint(*p)) continue;
+    if (cell->last_returns++ == 0) cell->z_reference = p->position.z();
+    const double z = p->position.z() - cell->z_reference;
+    cell->z_sum += z;
+    cell->z_sq_sum += z * z;
+  }
+}
+
+std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
+  // By cell and not by pair: of a thousand strips hardly any two meet.
+  std::vector<std::pair<std::int64_t, int>> touched;
+  for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
+    for (const auto& [key, cell] : strips_[strip].cells) {
+      touched.emplace_back(key, static_cast<int>(strip));
+    }
+  }
+  std::sort(touched.begin(), touched.end());
+  std::map<StripPair, std::size_t> common;
+  for (auto first = touched.begin(); first != touched.end();) {
+    auto end = first;
+    while (end != touched.end() && end->first == first->first) ++end;
+    for (; first != end; ++first) {
+      for (auto other = first + 1; other != end; ++other) ++common[{first->second, other->second}];
+    }
+  }
+  std::vector<Overlap> found;
+  for (const auto& [strips, cells] : common) {
+    const double area = static_cast<double>(cells) * kCell * kCell;
+    if (area >= minimum_area) found.push_back({strips, area});
+  }
+  return found;
+}
+
+SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
+  constexpr std::uint32_t kEnough = 5;
+  std::vector<double> differences;
+  const auto& others = strips_[static_cast<std::size_t>(pair.second)].cells;
+  for (const auto& [key, cell] : strips_[static_cast<std::size_t>(pair.first)].cells) {
+    const auto other = others.find(key);
+    if (other == others.end() || cell.last_returns < kEnough ||
+        other->second.last_returns < kEnough) {
+      continue;
+    }
+    const auto height = [](const Cell& c) { return c.z_reference + c.z_sum / c.last_returns; };
+    differences.push_back(height(cell) - height(other->second));
+  }
+  if (differences.empty()) return {};
+  const std::size_t count = differences.size();
+  return {medianInPlace(differences), count};
+}
+
+double SurveyMap::score(const Cell& a, const Cell& b) const {
+  constexpr std::uint32_t kEnough = 10;
+  constexpr double kMostlySolid = 0.15;  // share of points of pulses with several returns
+  constexpr double kFlat = 0.2;          // metres: flat ground counts too, for heights
+  constexpr double kRelief = 2.0;        // metres: more than this is no better
+  double relief = kRelief;
+  for (const Cell* cell : {&a, &b}) {
+    if (cell->last_returns < kEnough || cell->multiple > kMostlySolid * cell->points) return 0.0;
+    const double mean = cell->z_sum / cell->last_returns;
+    relief = std::min(relief,
+                      std::sqrt(std::max(0.0, cell->z_sq_sum / cell->last_returns - mean * mean)));
+  }
+  return kFlat + relief;
+}
+
+namespace {
+
+/// Areas of one pair of strips in the order in which it wants them.
+std::vector<std::int64_t> ranked(const std::map<std::int64_t, double>& scores) {
+  std::map<std::int64_t, std::vector<std::pair<double, std::int64_t>>> groups;
+  for (const auto& [area, score] : scores) groups[coarser(area, kGroup)].emplace_back(-score, area);
+  for (auto& [group, areas] : groups) std::sort(areas.begin(), areas.end());
+  std::vector<std::int64_t> order;
+  for (std::size_t round = 0; round < static_cast<std::size_t>(kGroup) * kGroup; ++round) {
+    std::vector<std::pair<double, std::int64_t>> of_round;
+    for (const auto& [group, areas] : groups) {
+      if (round < areas.size()) of_round.push_back(areas[round]);
+    }
+    std::sort(of_round.begin(), of_round.end());
+    for (const auto& entry : of_round) order.push_back(entry.second);
+  }
+  return order;
+}
+
+}  // namespace
+
+std::vector<SurveyArea> SurveyMap::selectAreas(const std::vector<StripPair>& pairs,
+                                               const Selection& selection) const {
+  const int cells_per_area =
+      std::max(1, static_cast<int>(std::lround(selection.area_size / kCell)));
+  const double size = cells_per_area * kCell;
+  const double inflation =
+      (size + 2.0 * selection.margin) * (size + 2.0 * selection.margin) / (size * size);
+  std::map<std::int64_t, double>
+      points_of;  // expected points of an area with its margin, all strips
+  for (const StripCells& strip : strips_) {
+    for (const auto& [key, cell] : strip.cells)
+      points_of[coarser(key, cells_per_area)] += inflation * cell.points;
+  }
+  std::vector<std::vector<std::int64_t>> wishes;
+  for (const StripPair& pair : pairs) {
+    std::map<std::int64_t, double> scores;
+    for (const auto& [key, cell] : strips_[pair.first].cells) {
+      const auto other = strips_[pair.second].cells.find(key);
+      if (other == strips_[pair.second].cells.end()) continue;
+      const double gain = score(cell, other->second);
+      if (gain > 0.0) scores[coarser(key, cells_per_area)] += gain;
+    }
+    wishes.push_back(ranked(scores));
+  }
+  std::set<std::int64_t> chosen;
+  double budget = static_cast<double>(selection.point_budget);
+  std::vector<std::size_t> next(wishes.size(), 0);
+  for (bool any = true; any && budget > 0.0;) {
+    any = false;
+    for (std::size_t pair = 0; pair < wishes.size() && budget > 0.0; ++pair) {
+      if (next[pair] >= wishes[pair].size()) continue;
+      any = true;
+      const std::int64_t area = wishes[pair][next[pair]++];
+      if (chosen.insert(area).second) budget -= points_of[area];
+    }
+  }
+  std::vector<SurveyArea> areas;
+  for (const std::int64_t key : chosen) {
+    areas.push_back(
+        {anchor_ + size * Eigen::Vector2d(columnOf(key), rowOf(key)), size, selection.margin});
+  }
+  return areas;
+}
+
+}  // namespace pcl_als
