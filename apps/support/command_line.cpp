@@ -255,6 +255,10 @@ std::string optionFor(Remedy remedy) {
       return "; give one with -crs";
     case Remedy::max_distance:
       return "; -max_distance compares surfaces further apart";
+    case Remedy::extent:
+      return "; see -extent";
+    case Remedy::ground:
+      return "; see -ground and -ground_classes";
   }
   return {};
 }

@@ -30,6 +30,8 @@ enum class Remedy {
   nominal_model,   ///< the model with a level sensor whose heading is the course
   crs,             ///< to state the CRS of the points
   max_distance,    ///< to compare surfaces that are further apart
+  extent,          ///< another extent of the rasters
+  ground,          ///< other points as ground
 };
 
 /// Input that cannot be used: missing, corrupt, without time, without overlap. Tools end with exit

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/classification/gaussian_classifier.h>
+#include <pcl_als/common/class_site.h>
+#include <pcl_als/common/progress.h>
+#include <pcl_als/processing/land_cover.h>
+#include <pcl_als/processing/point_classes.h>
+#include <pcl_als/processing/strip_rasters.h>
+
+namespace pcl_als {
+
+struct LandCoverOptions {
+  SurfaceOptions surface;  ///< how the rasters are made
+  /// That classes are told by, of SurfaceAccumulator::bandNames().
+  std::vector<std::string> bands{"height", "intensity", "roughness", "multiple_returns"};
+  double cell = 1.0;                ///< metres
+  std::optional<RasterGrid> grid;   ///< default: cells of that size over all points
+  std::vector<ClassSite> training;  ///< or a model
+  std::optional<GaussianModel> model;
+  std::vector<ClassSite> checks;                       ///< to assess the accuracy at; may be empty
+  std::vector<std::pair<std::string, double>> priors;  ///< by class; the others share the rest
+  double reject = 0.0;           ///< probability below which a cell is of no class, 0 … 0.5
+  double training_radius = 0.0;  ///< metres: cells within that of a training point count, too
+  int tile = 768;                ///< cells, side of the tiles that are worked on
+  int threads = 0;
+  std::filesystem::path map;        ///< GeoTIFF of classes; empty: only rasters are made
+  std::filesystem::path grids;      ///< GeoTIFF of nine bands; empty: not kept
+  std::filesystem::path posterior;  ///< GeoTIFF of probabilities; empty: none
+  std::filesystem::path points;     ///< folder of point files with classes; empty: none
+  /// How the sites are called in messages: the names of their files.
+  std::string training_name = "training sites", checks_name = "check sites";
+};
+
+struct LandCoverResult {
+  RasterGrid grid;
+  RasterCounts rasters;
+  std::optional<GaussianModel> model;  ///< given, or trained
+  CoverCounts cover;                   ///< of the map
+  CheckReport checks;                  ///< what the check sites are classified as
+  /// Classes whose training samples determine no covariance; their cells are not reliable.
+  std::vector<std::string> undetermined;
+  std::vector<std::string> remarks;
+};
+
+/** \brief Rasters of strips, classified by Gaussian maximum likelihood, from point files.
+ *
+ * Reads the files tile by tile; memory is that of a tile per thread. Outputs appear only when they
+ * are complete. UsageError for impossible options, InputError for what cannot be used (no points
+ * in the rasters, no ground, sites outside), Cancelled.
+ */
+LandCoverResult classifyLandCover(const RasterInput& files, const LandCoverOptions& options,
+                                  const ProgressCallback& progress = {});
+
+}  // namespace pcl_als
