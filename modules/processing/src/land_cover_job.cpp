@@ -5,7 +5,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/atomic_file.h>
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/processing/land_cover_job.h>
 
 namespace pcl_als {
