@@ -20,7 +20,7 @@ ConfusionMatrix readMatrix(const std::string& path) {
 
 AccuracyReport ofMatrices(const std::string& input, const std::string& other) {
   const ConfusionMatrix matrix = readMatrix(input);
-  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}};
+  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}, {}};
   if (other.empty()) return report;
   const ConfusionMatrix second = readMatrix(other);
   report.other = assessAccuracy(second);
@@ -43,7 +43,7 @@ AccuracyReport ofSites(const std::string& input, const std::string& other) {
     second = recounted.points;
   }
   AccuracyReport report{
-      countPoints(counted.classes, counted.points), assessSites(counted), {}, {}, {}, {}, {}};
+      countPoints(counted.classes, counted.points), assessSites(counted), {}, {}, {}, {}, {}, {}};
   if (other.empty()) return report;
   report.other = assessSites({counted.classes, second});
   report.comparison = compareAccuracy(counted.classes, counted.points, second);

@@ -22,6 +22,7 @@
 
 #include "classify_options.h"
 #include "output_check.h"
+#include "strip_options.h"
 
 namespace pcl_als::app {
 namespace {
@@ -52,7 +53,13 @@ class Classification {
         files_(rasterInput(line.inputs(1, std::numeric_limits<std::size_t>::max()))) {
     checkOptions();
     if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
+    if (choosesStrips(line)) {
+      StripChoice choice = stripChoice(line);
+      choice.keep_timeless = true;  // nothing here needs times
+      chooseStrips(choice, files_);
+    }
     remarks_ = files_.remarks;
+    for (const std::string& part : describe(files_.left_out)) remarks_.push_back(part);
     const std::string crs = line.has("crs") ? line.text("crs") : files_.crs;
     grid_ = gridOf(line, files_.min_x, files_.min_y, files_.max_x, files_.max_y, crs);
     readSites();
@@ -264,7 +271,8 @@ class Classification {
                           {},
                           {},
                           {},
-                          checked.remarks};
+                          checked.remarks,
+                          files_.left_out};
     report.inputs = {line_.text("checkpoints"), line_.text("output")};
     say("\n" + accuracyText(report));
     if (line_.has("accuracy")) writeAccuracy(line_.text("accuracy"), report);
@@ -285,10 +293,11 @@ class Classification {
   void classifyPoints(const MaximumLikelihood& classifier) const {
     const fs::path folder = line_.text("points");
     PointClasses classes(std::make_shared<const MaximumLikelihood>(classifier), raster_path_);
-    for (const fs::path& path : files_.paths) {
+    for (std::size_t place = 0; place < files_.paths.size(); ++place) {
+      const fs::path& path = files_.paths[place];
       Step progress("Classifying the points of " + path.filename().string(), line_.quiet());
-      const PointClassCounts counts =
-          classifyPointFile(path, folder / path.filename(), classes, line_.threads());
+      const PointClassCounts counts = classifyPointFile(
+          path, folder / path.filename(), classes, files_.arranged.get(), place, line_.threads());
       progress.done(grouped(counts.points) + " points, " + grouped(counts.unclassified) +
                     " without a class");
     }

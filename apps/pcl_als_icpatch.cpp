@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
@@ -11,8 +13,10 @@
 #include <pcl_als/processing/strip_positions.h>
 #include <pcl_als/registration/patch_alignment.h>
 #include <pcl_als/report/alignment_report.h>
+#include <pcl_als/survey/arranged_files.h>
 
 #include "command_line.h"
+#include "strip_options.h"
 
 namespace {
 
@@ -25,13 +29,14 @@ CommandLine commandLine() {
   CommandLine line("pcl_als_icpatch",
                    "finds the rigid motion that brings one strip onto another: points against TIN "
                    "patches (Habib et al. 2011, section 2.3).",
-                   "SOURCE TARGET -output result.json [options], or FILE… -pair SOURCE:TARGET …",
+                   "SOURCE TARGET -output result.json [options], or FILE… -pair A:B …",
                    "pcl_als_icpatch strip1.las strip2.las -output result.json -transformed "
                    "moved1.las");
   const PatchAlignmentSettings defaults;
   line.addOptional("output", "result as JSON (needed)");
   line.addOptional("transformed", "the source moved onto the target: .las, .laz or .pcd as SOURCE");
-  line.addOptional("pair", "A:B, point source ids: strip A of the files onto strip B of the files");
+  line.addOptional("pair", "A:B: strip A of the files onto strip B of the files");
+  app::addStripOptions(line);
   line.addFlag("scale", "estimate a scale, too");
   line.add("search_distance", "how far surfaces may be apart, m, 0.1 to 200",
            defaults.search_distance);
@@ -46,41 +51,73 @@ CommandLine commandLine() {
   return line;
 }
 
-std::uint16_t stripId(const std::string& text) {
-  std::size_t used = 0;
-  unsigned long id = 0;
-  try {
-    id = std::stoul(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || id > 65535)
-    throw UsageError("option -pair: '" + text + "' is no point source id (0 to 65535)");
-  return static_cast<std::uint16_t>(id);
-}
-
+/// What to align: the strips, and the arrangement that they refer to, if any.
 struct Request {
+  std::unique_ptr<ArrangedFiles> arranged;
+  ArrangedFiles::Use use;
   StripFiles source, target;
 };
 
-Request requestOf(const CommandLine& line) {
-  Request request;
-  if (!line.has("pair")) {
-    const auto& files = line.inputs(2, 2);
-    request.source.files = {files[0]};
-    request.target.files = {files[1]};
-    return request;
+bool isSourceId(const std::string& text) {
+  constexpr std::size_t kMostDigits = 5;
+  return !text.empty() && text.size() <= kMostDigits &&
+         text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// A number that no strip has is input without the strip; another word is no strip's name.
+int indexOf(const ArrangedFiles& arranged, const std::string& strip) {
+  const std::vector<std::string>& names = arranged.arrangement().names();
+  const bool known = std::find(names.begin(), names.end(), strip) != names.end();
+  if (known || !isSourceId(strip)) return static_cast<int>(stripNamed(names, strip, "pair"));
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  throw InputError("option -pair: no point is of strip " + strip + "; there are " + all);
+}
+
+StripFiles stripOf(const Request& request, const std::string& strip) {
+  const ArrangedFiles& arranged = *request.arranged;
+  StripFiles files;
+  files.strip = strip;
+  files.arrangement = &arranged.arrangement();
+  files.index = indexOf(arranged, strip);
+  files.box = request.use.boxes[static_cast<std::size_t>(files.index)];
+  for (std::size_t file = 0; file < arranged.files().size(); ++file) {
+    files.files.push_back(arranged.files()[file].sources.info.path);
+    files.places.push_back(file);
   }
-  if (line.has("transformed"))
+  return files;
+}
+
+StripFiles fileOf(const Request& request, const std::string& path, std::size_t place) {
+  StripFiles files;
+  files.files = {path};
+  if (request.arranged) files.arrangement = &request.arranged->arrangement();
+  files.places = {place};
+  return files;
+}
+
+Request requestOf(const CommandLine& line) {
+  if (line.has("pair") && line.has("transformed"))
     throw UsageError("option -transformed: needs SOURCE and TARGET as files, not -pair");
-  const std::string pair = line.text("pair");
+  const std::string pair = line.has("pair") ? line.text("pair") : "";
   const std::size_t colon = pair.find(':');
-  if (colon == std::string::npos) throw UsageError("option -pair: '" + pair + "' is not A:B");
-  request.source.id = stripId(pair.substr(0, colon));
-  request.target.id = stripId(pair.substr(colon + 1));
-  for (const std::string& file : line.inputs(1, 100000)) {
-    request.source.files.emplace_back(file);
-    request.target.files.emplace_back(file);
+  if (line.has("pair") && (colon == std::string::npos || colon == 0 || colon + 1 == pair.size()))
+    throw UsageError("option -pair: '" + pair + "' is not A:B");
+  const auto& inputs = line.has("pair") ? line.inputs(1, 100000) : line.inputs(2, 2);
+  Request request;
+  if (line.has("pair") || app::choosesStrips(line)) {
+    StripChoice choice = app::stripChoice(line);
+    choice.keep_timeless = true;  // nothing here needs times
+    request.arranged = std::make_unique<ArrangedFiles>(
+        std::vector<std::filesystem::path>(inputs.begin(), inputs.end()), choice);
+    request.use = request.arranged->use();
+  }
+  if (line.has("pair")) {
+    request.source = stripOf(request, pair.substr(0, colon));
+    request.target = stripOf(request, pair.substr(colon + 1));
+  } else {
+    request.source = fileOf(request, inputs[0], 0);
+    request.target = fileOf(request, inputs[1], 1);
   }
   return request;
 }
@@ -158,6 +195,7 @@ int icpatch(int argc, char** argv) {
   reading.done(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
                " points in common reach");
   app::remarks(line, reference.remarks);
+  app::remarks(line, describe(request.use.left_out));
 
   Step aligning("Aligning", line.quiet());
   const PatchAlignmentResult result = alignPatches(source.view(), target.view(), settings);
@@ -168,7 +206,7 @@ int icpatch(int argc, char** argv) {
                      result.message);
   writeAlignment(line.text("output"), result,
                  {request.source.name(), request.target.name(), source.positions.size(),
-                  target.positions.size()});
+                  target.positions.size(), request.use.left_out});
   if (!line.quiet()) std::cout << '\n' << alignmentTable(result) << std::endl;
   if (result.hasConverged() && line.has("transformed")) {
     Step writing("Writing " + line.text("transformed"), line.quiet());

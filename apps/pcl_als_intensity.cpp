@@ -39,7 +39,7 @@ CommandLine commandLine() {
       "-temperature 29.8 -pressure 101.81 -estimate strip_gains -report report");
   app::addFlightOptions(line);
   app::addForceOption(line);
-  app::addStripOptions(line, false);
+  app::addStripOptions(line);
   app::addIntensityOptions(line);
   return line;
 }
@@ -173,7 +173,7 @@ int intensity(int argc, const char* const* argv) {
 
   IntensityOutcome outcome(run.strips().size());
   const auto page = line.has("report") ? makeIntensityPage(run, outcome) : nullptr;
-  IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}};
+  IntensityReport report{&run, &outcome, extinction, output, files.outputs, {}, {}, {}, {}};
   report.warnings = run.warnings();
   learn(line, run, report);
   for (std::size_t i = 0; i < files.inputs.size(); ++i) {
@@ -183,6 +183,11 @@ int intensity(int argc, const char* const* argv) {
         outcome);
     step.done(grouped(outcome.counts[i].points) + " points");
     if (!line.quiet()) std::cout << countsText(outcome.counts[i], run);
+  }
+  report.left_out = run.leftOut(allCounts(outcome));
+  for (const std::string& text : describe(report.left_out)) {
+    report.warnings.push_back(text);
+    app::remark(line, text);
   }
   if (line.has("json")) writeIntensityJson(line.text("json"), report);
   const LostIntensities lost = lostIntensities(allCounts(outcome));

@@ -8,6 +8,8 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "strip_options.h"
+
 namespace pcl_als::app {
 namespace {
 
@@ -40,8 +42,8 @@ void addOutputs(CommandLine& line) {
   line.addOptional("captions", "of -beside and the map, comma-separated (default: before,after)");
   line.addOptional(
       "points",
-      "folder for copies of the point files with ASPRS classes; noise (7, 18) and points "
-      "without a class keep theirs");
+      "folder for copies of the point files with ASPRS classes; noise (7, 18), points without a "
+      "class and points of strips that are left out keep theirs");
 }
 
 }  // namespace
@@ -58,6 +60,7 @@ CommandLine declareClassify() {
   line.addOptional("model", "statistics of the classes from -save_model instead of training");
   line.addOptional("checkpoints", "check sites, as training");
   addUnitsOption(line, "sites", "-training and -checkpoints");
+  addStripOptions(line);
   addOutputs(line);
   line.add<double>("cell", "side of the cells, m", 1.0);
   line.addOptional("extent", "WEST,SOUTH,EAST,NORTH: of the rasters, m (default: all points)");

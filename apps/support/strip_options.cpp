@@ -27,6 +27,10 @@ void addStripOptions(CommandLine& line, bool split) {
                "files without source ids (lines are named line1, line2, ... in order of time)");
 }
 
+bool choosesStrips(const CommandLine& line) {
+  return line.has("strips") || line.has("without") || line.has("split");
+}
+
 StripChoice stripChoice(const CommandLine& line) {
   StripChoice choice{namesOf(line, "strips"), namesOf(line, "without"), line.has("split")};
   for (const std::string& name : choice.without) {

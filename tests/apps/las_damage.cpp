@@ -4,6 +4,8 @@
 // las_damage IN OUT CHANGE…: a copy of a LAS file with lies in it, for tests.
 //   set FIELD VALUE   a field of the header, see kFields
 //   zero_times        the GPS time of every point (formats 6-10)
+//   some_times        the GPS time of every tenth point (formats 6-10)
+//   append FILE       the points of another file of the same layout (no lie; formats 6-10)
 //   source_id BYTE    both bytes of the point source id of every point (formats 6-10)
 //   class CODE        of every point
 //   keep BYTES        only the first bytes
@@ -53,11 +55,17 @@ void set(std::vector<char>& bytes, const Field& field, const std::string& text) 
   }
 }
 
-/// Sets bytes of every record.
-void fillRecords(std::vector<char>& bytes, std::size_t at, std::size_t size, int value) {
+std::vector<char> readAll(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Sets bytes of every record, or of some.
+void fillRecords(std::vector<char>& bytes, std::size_t at, std::size_t size, int value,
+                 std::size_t every = 1) {
   const std::size_t length = load<std::uint16_t>(bytes, 105);
   const auto count = load<std::uint64_t>(bytes, 247);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; i += every)
     std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + at, value, size);
 }
 
@@ -69,6 +77,17 @@ void setClasses(std::vector<char>& bytes, int code) {
       old ? load<std::uint32_t>(bytes, 107) : load<std::uint64_t>(bytes, 247);
   for (std::size_t i = 0; i < count; ++i)
     bytes[load<std::uint32_t>(bytes, 96) + i * length + at] = static_cast<char>(code);
+}
+
+/// Puts the records of another file behind those there are; its scale and offset must be the same.
+void append(std::vector<char>& bytes, const std::vector<char>& other) {
+  const std::size_t length = load<std::uint16_t>(bytes, 105);
+  const auto mine = load<std::uint64_t>(bytes, 247), theirs = load<std::uint64_t>(other, 247);
+  const auto first = other.begin() + load<std::uint32_t>(other, 96);
+  bytes.resize(load<std::uint32_t>(bytes, 96) + mine * length);
+  bytes.insert(bytes.end(), first, first + static_cast<std::ptrdiff_t>(theirs * length));
+  const std::uint64_t all = mine + theirs;
+  std::memcpy(bytes.data() + 247, &all, sizeof(all));
 }
 
 void cropNorthings(std::vector<char>& bytes, double from, double to) {
@@ -96,14 +115,17 @@ void cropNorthings(std::vector<char>& bytes, double from, double to) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 2) return EXIT_FAILURE;
-  std::ifstream in(words[0], std::ios::binary);
-  std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+  std::vector<char> bytes = readAll(words[0]);
   for (std::size_t i = 2; i < words.size(); ++i) {
     if (words[i] == "set" && i + 2 < words.size() && kFields.count(words[i + 1]) != 0) {
       set(bytes, kFields.at(words[i + 1]), words[i + 2]);
       i += 2;
     } else if (words[i] == "zero_times") {
       fillRecords(bytes, 22, 8, 0);
+    } else if (words[i] == "some_times") {
+      fillRecords(bytes, 22, 8, 0, 10);
+    } else if (words[i] == "append" && i + 1 < words.size()) {
+      append(bytes, readAll(words[++i]));
     } else if (words[i] == "source_id" && i + 1 < words.size()) {
       fillRecords(bytes, 20, 2, std::stoi(words[++i]));
     } else if (words[i] == "crop_y" && i + 2 < words.size()) {

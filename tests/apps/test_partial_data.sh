@@ -46,4 +46,80 @@ expect 0 "" check "${strips[@]}" -trajectory second.csv -output q.json
 for i in 1 2 3 4; do "$damage" "${strips[i - 1]}" "id0_$i.las" source_id 0 || failed "damage"; done
 expect 0 "" check id0_*.las -split -output split.json
 check "four lines" grep -q '"id": "line4"' split.json
+
+# The other tools: strips by name, flight lines, several flights in one file, points without a time.
+left_out() {  # FILE STRIP REASON: the result counts points of that strip
+  check "$1: $2 is left out: $3" awk -v strip="\"$2\"," -v reason="\"$3\"," '
+    $1 == "\"strip\":" { on = $2 == strip } on && $1 == "\"reason\":" && $2 == reason { found = 1 }
+    END { exit !found }' "$1"
+}
+expect 0 "line4" info id0_*.las -split -without line2 -json info.json
+left_out info.json line2 excluded
+check "line2 is no strip of the census" sh -c '! grep -q "\"id\": \"line2\"" info.json'
+expect 0 "the strip was not chosen" info "${strips[@]}" -strips 1,3 -json info.json
+left_out info.json 2 excluded
+expect 1 "option -strips: there is no strip 'x'; there are 1, 2, 3, 4" info "${strips[@]}" -strips x
+
+expect 0 "the strip was not chosen" icpatch id0_*.las -split -without line4 -pair line1:line2 \
+  -output lines.json
+left_out lines.json line4 excluded
+expect 0 "" icpatch "${strips[@]}" -pair 1:2 -output pair.json
+check "lines are aligned as the strips they were cut from" cmp \
+  <(sed -n '/"centroid"/,$p' lines.json) <(sed -n '/"centroid"/,$p' pair.json)
+expect 1 "option -pair: there is no strip 'line9'" icpatch id0_*.las -split -pair line1:line9 -output x.json
+expect 2 "no strip is left" icpatch id0_*.las -split -without line1,line2,line3,line4 \
+  -pair line1:line2 -output x.json
+absent x.json
+
+training=(-training "$block/training.csv" -cell 1)
+expect 0 "" classify "${strips[@]:0:2}" "${training[@]}" -output two.tif
+expect 0 "the strip was not chosen" classify "${strips[@]}" "${training[@]}" -strips 1,2 -output some.tif \
+  -checkpoints "$block/checkpoints.csv" -accuracy accuracy.json -points classified
+check "the map is that of the two strips" cmp two.tif some.tif
+left_out accuracy.json 3 excluded
+check "points that were left out keep their class" cmp "${strips[3]}" classified/strip4.las
+check "others are classified" sh -c "! cmp -s '${strips[0]}' classified/strip1.las"
+expect 0 "" classify id0_*.las "${training[@]}" -split -without line3,line4 -output lines.tif
+check "lines give the map of the strips they were cut from" cmp two.tif lines.tif
+
+flight=(-trajectory "$good")
+mkdir -p by_strip by_line
+expect 0 "" intensity "${strips[@]:0:2}" "${flight[@]}" -corrected by_strip -json strips.json \
+  -estimate strip_gains
+expect 0 "" intensity id0_1.las id0_2.las "${flight[@]}" -split -corrected by_line -json lines.json \
+  -estimate strip_gains
+check "gains of lines are those of the strips they were cut from" test \
+  "$(awk '/"strip_gains"/,/\]/' lines.json | sed 's/line//')" = "$(awk '/"strip_gains"/,/\]/' strips.json)"
+for i in 1 2; do
+  "$damage" "by_strip/strip$i.las" "same_$i.las" source_id 0 || failed damage
+  check "so are intensities, $i" cmp "same_$i.las" "by_line/id0_$i.las"
+done
+expect 0 "the strip was not chosen" intensity id0_1.las id0_2.las "${flight[@]}" -split \
+  -corrected by_line -json x.json -strips line1
+left_out x.json line2 excluded
+expect 0 "measured before the trajectory begins" intensity "${strips[0]}" out.las -trajectory late.csv \
+  -keep_uncovered -json uncovered.json
+left_out uncovered.json 1 before_trajectory
+# Without surfaces, in columns.
+expect 0 "measured before the trajectory begins" intensity "${strips[0]}" fast.las -trajectory late.csv \
+  -keep_uncovered -no_incidence -no_fields
+"$damage" "${strips[0]}" timeless.las some_times || failed damage
+expect 0 "their GPS time is 0" intensity timeless.las out.las "${flight[@]}" -keep_uncovered -json x.json
+left_out x.json 1 zero_time
+expect 0 "" icpatch timeless.las "${strips[1]}" -strips 1,2 -output x.json
+check "alignment needs no times" grep -q '"left_out": \[\]' x.json
+mv timeless.las strip_1.las
+expect 0 "their GPS time is 0" calibrate strip_1.las "${strips[@]:1}" "${flight[@]}" \
+  -output calibration.json -estimate boresight_roll,boresight_pitch
+left_out calibration.json 1 zero_time
+
+# Four flights in one file without source ids.
+"$damage" id0_1.las one.las append id0_2.las append id0_3.las append id0_4.las || failed damage
+expect 0 "line4" info one.las -split -json info.json
+expect 0 "" icpatch one.las -split -pair line1:line2 -output one.json
+check "the file's lines are aligned as the strips they were cut from" cmp \
+  <(sed -n '/"centroid"/,$p' one.json) <(sed -n '/"centroid"/,$p' pair.json)
+expect 0 "" calibrate one.las -split "${flight[@]}" -output one.json \
+  -estimate boresight_roll,boresight_pitch
+check "line 1 and line 2 are a pair" grep -q '"a": "line1"' one.json
 finish

@@ -29,8 +29,8 @@ constexpr auto kAnyCoordinates = PointReader::OtherCoordinates::as_stored;
 class Census {
  public:
   Census(const std::vector<std::filesystem::path>& paths, double cell,
-         const std::function<void(double)>& progress)
-      : progress_(progress) {
+         const std::function<void(double)>& progress, const CensusStrips& strips)
+      : progress_(progress), given_(strips) {
     for (const auto& path : paths) {
       survey_.files.push_back({PointReader::open(path, kAnyCoordinates)->info(), {}, {}});
       total_ += survey_.files.back().info.point_count;
@@ -49,7 +49,7 @@ class Census {
   }
 
  private:
-  using SourceKey = std::pair<std::size_t, std::uint16_t>;  // file, point source id
+  using SourceKey = std::pair<std::size_t, int>;  // file; point source id, or index of given_
 
   /// By the density that the headers declare, so that a cell holds about 20 points.
   double usualCell() const {
@@ -77,16 +77,22 @@ class Census {
       if (key.first == f) detail::mergeStatistics(survey_.files[f].statistics, tally.statistics());
   }
 
-  /// Runs of the same id, as most chunks have few.
+  /// Runs of the same strip, as most chunks have few.
   void addChunk(std::size_t f, const PointChunk& chunk) {
-    const auto& ids = chunk.point_source_id;
-    for (std::size_t first = 0; first < ids.size();) {
-      std::size_t last = first + 1;
-      while (last < ids.size() && ids[last] == ids[first]) ++last;
-      sources_[{f, ids[first]}].add(chunk, first, last, survey_.cell);
+    for (std::size_t first = 0; first < chunk.size();) {
+      const auto [last, source] =
+          given_.run ? given_.run(f, chunk, first) : sourceRun(chunk, first);
+      sources_[{f, source}].add(chunk, first, last, survey_.cell);
       first = last;
     }
     limitMemory();
+  }
+
+  static std::pair<std::size_t, int> sourceRun(const PointChunk& chunk, std::size_t first) {
+    const auto& ids = chunk.point_source_id;
+    std::size_t last = first + 1;
+    while (last < ids.size() && ids[last] == ids[first]) ++last;
+    return {last, ids[first]};
   }
 
   /// Blocks of cells of all sources after joining squares of 2^doublings cells.
@@ -108,23 +114,41 @@ class Census {
     survey_.cell = std::ldexp(survey_.cell, static_cast<int>(doublings));
   }
 
-  StripNaming nameStrips() const {
+  /// By key; points of no strip have none.
+  std::map<SourceKey, std::string> nameStrips(std::vector<std::string>& names) const {
+    std::map<SourceKey, std::string> name_of;
+    if (given_.run) {
+      names = given_.names;
+      for (const auto& source : sources_) {
+        const int strip = source.first.second;
+        if (strip >= 0) name_of[source.first] = names[static_cast<std::size_t>(strip)];
+      }
+      return name_of;
+    }
     std::vector<PointFileSources> files;
     for (const FileCensus& file : survey_.files) files.push_back({file.info, {}});
     for (const auto& [key, tally] : sources_) {
       const PointStatistics& s = tally.statistics();
-      files[key.first].sources.push_back(
-          {key.second, s.points, s.first_time, s.last_time, s.minimum, s.maximum});
+      files[key.first].sources.push_back({static_cast<std::uint16_t>(key.second), s.points,
+                                          s.first_time, s.last_time, s.minimum, s.maximum});
     }
-    return StripNaming(files);
+    const StripNaming naming(files);
+    names = naming.names();
+    for (const auto& source : sources_) {
+      const auto id = static_cast<std::uint16_t>(source.first.second);
+      name_of[source.first] = naming.nameOf(source.first.first, id);
+    }
+    return name_of;
   }
 
   void joinStrips() {
-    const StripNaming naming = nameStrips();
+    std::vector<std::string> names;
+    const std::map<SourceKey, std::string> name_of = nameStrips(names);
     std::map<std::string, SourceTally> strips;
     for (auto& [key, tally] : sources_) {
-      const std::string& name = naming.nameOf(key.first, key.second);
-      const auto [strip, is_new] = strips.try_emplace(name);
+      const auto name = name_of.find(key);
+      if (name == name_of.end()) continue;
+      const auto [strip, is_new] = strips.try_emplace(name->second);
       if (is_new)
         strip->second = std::move(tally);
       else
@@ -132,7 +156,7 @@ class Census {
       tally = SourceTally();
     }
     const double cell_area = survey_.cell * survey_.cell;
-    for (const std::string& name : naming.names()) {
+    for (const std::string& name : names) {
       SourceTally& tally = strips[name];
       StripCensus strip;
       strip.id = name;
@@ -180,6 +204,7 @@ class Census {
   }
 
   const std::function<void(double)>& progress_;
+  const CensusStrips& given_;
   SurveyCensus survey_;
   std::uint64_t total_ = 0, done_ = 0;
   std::map<SourceKey, SourceTally> sources_;
@@ -190,9 +215,9 @@ class Census {
 }  // namespace
 
 SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell,
-                        const std::function<void(double)>& progress) {
+                        const std::function<void(double)>& progress, const CensusStrips& strips) {
   if (!(std::isfinite(cell) && cell >= 0.0)) throw UsageError("cell size must be positive, metres");
-  return Census(files, cell, progress).take();
+  return Census(files, cell, progress, strips).take();
 }
 
 }  // namespace pcl_als

@@ -81,9 +81,14 @@ RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t fi
       offset_(run.input(file).las()->toMetres().offset),
       scale_(scale),
       saturation_(run.saturation()),
+      run_(run),
+      file_(file),
       original_at_(original_at) {
-  for (const auto& [source, strip] : run.stripsOf(file))
-    divisors_[source] = strip < 0 ? 1.0 : run.gain(strip);
+  StripArrangement::Sorter sorter(run.arrangement(), file);
+  for (const PointSource& source : run.sources(file).sources) {
+    const std::size_t label = sorter.label(source.id, source.first_time);
+    sources_[source.id] = {run.gain(run.arrangement().labels()[label].index), label};
+  }
 }
 
 std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t length,
@@ -112,11 +117,25 @@ std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t 
 }
 
 /// The map is asked when the strip changes.
-void RangeOnlyCorrection::setDivisors(std::size_t count, Tile& tile) const {
+void RangeOnlyCorrection::setDivisors(std::size_t count, Tile& tile,
+                                      IntensityCounts& counts) const {
   for (std::size_t first = 0, last = 0; first < count; first = last) {
-    const std::uint16_t source = tile.source[first];
-    const double divisor = divisors_.at(source);
-    for (; last < count && tile.source[last] == source; ++last) tile.divisor[last] = divisor;
+    const std::uint16_t id = tile.source[first];
+    const Source& source = sources_.at(id);
+    for (; last < count && tile.source[last] == id; ++last) tile.divisor[last] = source.divisor;
+    counts.labels[source.label] += last - first;
+  }
+}
+
+void RangeOnlyCorrection::countUncovered(std::size_t count, const std::byte* records,
+                                         std::size_t length, const Tile& tile,
+                                         IntensityCounts& counts) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (tile.range[i] == tile.range[i] ||
+        run_.trajectory()->coverage(tile.time[i]) == Trajectory::Coverage::covered)
+      continue;
+    const auto time = loadLas<double>(records + i * length + layout_.gps_time);
+    ++counts.uncovered[{sources_.at(tile.source[i]).label, run_.whyUncovered(file_, time)}];
   }
 }
 
@@ -142,16 +161,18 @@ void RangeOnlyCorrection::scatter(std::byte* records, std::size_t length, std::s
 
 IntensityCounts RangeOnlyCorrection::apply(const LasRecordBlock& block) const {
   IntensityCounts counts;
+  counts.labels.resize(run_.arrangement().labels().size());
   Tile tile;
   RadiometryCursor cursor;
   for (std::size_t at = 0; at < block.count; at += kTile) {
     const std::size_t size = std::min(kTile, block.count - at);
     std::byte* records = block.records + at * block.record_length;
     std::uint64_t partial = gather(records, block.record_length, size, tile);
-    setDivisors(size, tile);
+    setDivisors(size, tile, counts);
     const RangeCounts left =
         evaluator_.evaluateRanges({tile.time.data(), tile.x.data(), tile.y.data(), tile.z.data()},
                                   size, {tile.range.data(), tile.factor.data()}, cursor);
+    if (left.uncovered > 0) countUncovered(size, records, block.record_length, tile, counts);
     round(size, tile, counts);
     scatter(records, block.record_length, size, tile);
     const std::uint64_t corrected = size - left.uncovered - left.above_sensor;

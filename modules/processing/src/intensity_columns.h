@@ -32,7 +32,9 @@ class RangeOnlyCorrection {
   /// Returns the number of returns that are not the last of their pulse.
   std::uint64_t gather(const std::byte* records, std::size_t length, std::size_t count,
                        Tile& tile) const;
-  void setDivisors(std::size_t count, Tile& tile) const;
+  void setDivisors(std::size_t count, Tile& tile, IntensityCounts& counts) const;
+  void countUncovered(std::size_t count, const std::byte* records, std::size_t length,
+                      const Tile& tile, IntensityCounts& counts) const;
   void round(std::size_t count, Tile& tile, IntensityCounts& counts) const;
   void scatter(std::byte* records, std::size_t length, std::size_t count, const Tile& tile) const;
 
@@ -40,8 +42,14 @@ class RangeOnlyCorrection {
   TimeAlignment alignment_;
   LasRecordLayout layout_;
   Eigen::Vector3d metres_per_step_, offset_;
-  std::map<std::uint16_t, double> divisors_;  ///< by point source id
+  struct Source {
+    double divisor = 1.0;
+    std::size_t label = 0;  ///< in the arrangement of the strips
+  };
+  std::map<std::uint16_t, Source> sources_;  ///< by point source id
   double scale_, saturation_;
+  const IntensityRun& run_;
+  std::size_t file_;
   std::ptrdiff_t original_at_;
 };
 

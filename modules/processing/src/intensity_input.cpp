@@ -26,21 +26,29 @@ using Lanes = std::int32_t __attribute__((vector_size(16)));
 /// Sorts single and last returns by strip; the map is asked when the strip changes.
 class SurfacePoints {
  public:
-  explicit SurfacePoints(IntensityWindow& window) : window_(window) {}
+  SurfacePoints(const StripArrangement& arrangement, IntensityWindow& window)
+      : arrangement_(arrangement), window_(window) {}
   void add(const IntensityPoint& point) {
     if (point.return_number < point.number_of_returns) return;
-    if (last_ == nullptr || source_ != point.source) {
-      source_ = point.source;
-      last_ = &window_.surface_points[source_];
+    const int strip = arrangement_.labels()[point.label].index;
+    if (strip < 0) return;
+    if (last_ == nullptr || strip_ != strip) {
+      strip_ = strip;
+      last_ = &window_.surface_points[strip];
     }
     last_->push_back(point.position);
   }
 
  private:
+  const StripArrangement& arrangement_;
   IntensityWindow& window_;
   std::vector<Eigen::Vector3f>* last_ = nullptr;
-  std::uint16_t source_ = 0;
+  int strip_ = 0;
 };
+
+std::uint32_t labelOf(StripArrangement::Sorter& sorter, const IntensityPoint& point) {
+  return static_cast<std::uint32_t>(sorter.label(point.source, point.time));
+}
 
 /// Where one strip's points of a block lie, in coordinate steps of the file.
 struct BlockBox {
@@ -91,7 +99,11 @@ class LasInput : public IntensityInput {
     const std::size_t step = request.records == nullptr ? length_ : request.record_length;
     out.origin = positionOf(records);
     out.points.resize(count);
-    for (std::size_t i = 0; i < count; ++i) out.points[i] = pointOf(records + i * step, out.origin);
+    StripArrangement::Sorter sorter(*request.arrangement, request.file);
+    for (std::size_t i = 0; i < count; ++i) {
+      out.points[i] = pointOf(records + i * step, out.origin);
+      out.points[i].label = labelOf(sorter, out.points[i]);
+    }
     out.gain_control.clear();
     if (gain_control_ >= 0)
       decodeLasExtraField(records, count, step,
@@ -99,9 +111,9 @@ class LasInput : public IntensityInput {
                           out.gain_control);
     out.surface_points.clear();
     if (!request.surfaces) return;
-    SurfacePoints surface_points(out);
+    SurfacePoints surface_points(*request.arrangement, out);
     for (const IntensityPoint& point : out.points) surface_points.add(point);
-    loadNeighbours(window, request.margins, out);
+    loadNeighbours(window, request, sorter, out);
   }
 
  private:
@@ -251,8 +263,9 @@ class LasInput : public IntensityInput {
     return blocks;
   }
 
-  void loadNeighbours(std::size_t window, const std::map<std::uint16_t, double>& margins,
-                      IntensityWindow& out) const {
+  void loadNeighbours(std::size_t window, const WindowRequest& request,
+                      StripArrangement::Sorter& sorter, IntensityWindow& out) const {
+    const std::map<std::uint16_t, double>& margins = request.margins;
     if (margins.empty()) return;
     std::map<std::uint16_t, Eigen::AlignedBox2f> reach;
     for (const IntensityPoint& point : out.points)
@@ -264,7 +277,7 @@ class LasInput : public IntensityInput {
       box.max().array() += metres;
     }
     std::vector<std::byte> records;
-    SurfacePoints surface_points(out);
+    SurfacePoints surface_points(*request.arrangement, out);
     for (const std::uint32_t block : blocksAround(window, margins)) {
       const std::uint64_t first = block * std::uint64_t{kBlock};
       const std::size_t count = std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
@@ -272,9 +285,10 @@ class LasInput : public IntensityInput {
       for (std::size_t i = 0; i < count; ++i) {
         const auto box = reach.find(sourceOf(&records[i * length_]));
         if (box == reach.end()) continue;
-        const IntensityPoint point = pointOf(&records[i * length_], out.origin);
-        if (box->second.contains(Eigen::Vector2f(point.position.head<2>())))
-          surface_points.add(point);
+        IntensityPoint point = pointOf(&records[i * length_], out.origin);
+        if (!box->second.contains(Eigen::Vector2f(point.position.head<2>()))) continue;
+        point.label = labelOf(sorter, point);
+        surface_points.add(point);
       }
     }
   }
@@ -303,16 +317,18 @@ class PcdInput : public IntensityInput {
   std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
   const Strip<PointLidar>* strip() const override { return &strip_; }
 
-  void load(std::size_t, const WindowRequest&, IntensityWindow& out) const override {
+  void load(std::size_t, const WindowRequest& request, IntensityWindow& out) const override {
     out.origin = strip_.frame.origin;
     out.points.clear();
     out.surface_points.clear();
     out.gain_control.clear();
+    StripArrangement::Sorter sorter(*request.arrangement, request.file);
+    SurfacePoints surface_points(*request.arrangement, out);
     for (const PointLidar& p : *strip_.cloud) {
-      out.points.push_back({p.gps_time, p.getVector3fMap(), p.intensity, p.point_source_id,
+      out.points.push_back({p.gps_time, p.getVector3fMap(), p.intensity, p.point_source_id, 0,
                             p.return_number, p.number_of_returns, p.classification});
-      if (p.return_number >= p.number_of_returns)
-        out.surface_points[p.point_source_id].push_back(p.getVector3fMap());
+      out.points.back().label = labelOf(sorter, out.points.back());
+      surface_points.add(out.points.back());
     }
   }
 

@@ -44,7 +44,9 @@ CorrectedPoint correctedPoint(const IntensityRun& run, const EvaluatedWindow& fo
 
 /// What a block of points adds to counts and statistics.
 struct BlockOutcome {
-  explicit BlockOutcome(std::size_t strips) : statistics(strips) {}
+  explicit BlockOutcome(const IntensityRun& run) : statistics(run.strips().size()) {
+    counts.labels.resize(run.arrangement().labels().size());
+  }
   IntensityCounts counts;
   IntensityStatistics statistics;
 };
@@ -53,10 +55,14 @@ void tally(const IntensityRun& run, const EvaluatedWindow& found, std::size_t i,
            const CorrectedPoint& point, double stored, BlockOutcome& out) {
   const IntensityPoint& given = found.window.points[i];
   ++out.counts.points;
+  ++out.counts.labels[given.label];
+  const RadiometryStatus status = found.radiometry[i].status;
   if (found.strip[i] < 0)
     ++out.counts.excluded;
   else
-    ++out.counts.status[static_cast<std::size_t>(found.radiometry[i].status)];
+    ++out.counts.status[static_cast<std::size_t>(status)];
+  if (found.strip[i] >= 0 && status == RadiometryStatus::uncovered)
+    ++out.counts.uncovered[{given.label, run.whyUncovered(found.file, given.time)}];
   out.counts.zeros += given.intensity == 0.0F ? 1 : 0;
   out.counts.saturated += static_cast<double>(given.intensity) >= run.saturation() ? 1 : 0;
   out.counts.clipped += stored > kLargestIntensity ? 1 : 0;
@@ -248,7 +254,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
     thread_local std::vector<std::uint16_t> stored;
     const std::size_t window = block.first / per_window;
     run.evaluate(file, window, found, {{}, block.records, block.record_length});
-    BlockOutcome part(run.strips().size());
+    BlockOutcome part(run);
     stored.resize(block.count);
     for (std::size_t i = 0; i < block.count; ++i) {
       std::byte* record = block.records + i * block.record_length;
@@ -280,7 +286,7 @@ void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::
     columns.push_back({field.name, std::vector<float>(strip.cloud->size())});
   EvaluatedWindow found;
   if (run.input(file).windows() > 0) run.evaluate(file, 0, found);
-  BlockOutcome part(run.strips().size());
+  BlockOutcome part(run);
   std::vector<std::uint16_t> stored(strip.cloud->size());
   for (std::size_t i = 0; i < strip.cloud->size(); ++i) {
     const CorrectedPoint point = correctedPoint(run, found, i);

@@ -23,16 +23,6 @@ constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxe
 
 }  // namespace
 
-void IntensityCounts::merge(const IntensityCounts& other) {
-  for (std::size_t i = 0; i < status.size(); ++i) status[i] += other.status[i];
-  points += other.points;
-  excluded += other.excluded;
-  zeros += other.zeros;
-  saturated += other.saturated;
-  clipped += other.clipped;
-  rounded_to_zero += other.rounded_to_zero;
-}
-
 IntensityRun::IntensityRun(const std::vector<std::string>& paths,
                            std::shared_ptr<const Trajectory> trajectory,
                            const IntensitySettings& settings)
@@ -41,13 +31,13 @@ IntensityRun::IntensityRun(const std::vector<std::string>& paths,
   settings_.surfaces.check();
   openFiles(paths);
   alignTimes();
+  arrangeStrips(paths);
   checkTrajectory();
   chooseRadii();
   chooseCells();
 }
 
 void IntensityRun::openFiles(const std::vector<std::string>& paths) {
-  std::vector<PointFileSources> sources;
   double largest = 0.0;
   IntensityInput::Options options;
   options.gain_control = settings_.gain_control;
@@ -64,12 +54,26 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
     if (!survey.sources.sources.empty() && survey.largest == 0.0)
       throw InputError(path + ": all intensities are zero; there is nothing to correct");
     largest = std::max(largest, survey.largest);
-    sources.push_back(survey.sources);
   }
   saturation_ = settings_.saturation > 0.0 ? settings_.saturation
                 : largest <= 255.0         ? 255.0
                                            : 65535.0;
-  nameStrips(sources);
+}
+
+void IntensityRun::arrangeStrips(const std::vector<std::string>& paths) {
+  StripChoice choice = settings_.strips;
+  choice.keep_timeless = true;  // they are counted among the points without a trajectory
+  for (std::size_t file = 0; file < files(); ++file) {
+    if (choice.split) {
+      surveyed_.push_back(surveyFile(paths[file]));
+      continue;
+    }
+    surveyed_.push_back({inputs_[file]->survey().sources, {}});
+    for (const PointSource& source : surveyed_.back().sources.sources)
+      surveyed_.back().tracks[source.id];
+  }
+  arrangement_.emplace(surveyed_, choice, FlownTimes{trajectory_.get(), times_, false});
+  if (strips().empty()) throw InputError("no strip is left: all are excluded or have no times");
   for (const auto* given : {&settings_.gains, &settings_.pulse_rates}) {
     for (const auto& [name, value] : *given) {
       if (std::find(strips().begin(), strips().end(), name) == strips().end())
@@ -81,25 +85,12 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
   estimated_gains_.assign(strips().size(), 1.0);
 }
 
-void IntensityRun::nameStrips(const std::vector<PointFileSources>& sources) {
-  const StripNaming naming(sources);
-  const std::vector<bool> chosen = chosenStrips(settings_.strips, naming.names());
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (chosen[i]) strips_.push_back(naming.names()[i]);
-  }
-  if (strips_.empty()) throw InputError("no strip is left: all are excluded");
-  for (std::size_t file = 0; file < sources.size(); ++file) {
-    std::map<std::uint16_t, int>& strips = strip_of_.emplace_back();
-    for (const PointSource& source : sources[file].sources) {
-      const auto at = std::find(strips_.begin(), strips_.end(), naming.nameOf(file, source.id));
-      strips[source.id] = at == strips_.end() ? -1 : static_cast<int>(at - strips_.begin());
-    }
-  }
-}
-
 bool IntensityRun::allChosen(std::size_t file) const {
-  return std::all_of(strip_of_[file].begin(), strip_of_[file].end(),
-                     [](const auto& strip) { return strip.second >= 0; });
+  if (settings_.strips.split) return false;
+  const std::vector<PointSource>& sources = surveyed_[file].sources.sources;
+  return std::all_of(sources.begin(), sources.end(), [&](const PointSource& source) {
+    return !arrangement_->stripsOf(file, source.id).empty();
+  });
 }
 
 /// Given gain, times the energy of a pulse against the mean of the strips' (constant power).
@@ -146,9 +137,10 @@ void IntensityRun::checkTrajectory() {
   const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   for (const std::string& strip : strips()) check.addStrip(strip);
   for (std::size_t file = 0; file < files(); ++file) {
+    StripArrangement::Sorter sorter(*arrangement_, file);
     const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point,
                          float scan_angle) {
-      const int strip = strip_of_[file].at(source);
+      const int strip = arrangement_->labels()[sorter.label(source, time)].index;
       if (strip >= 0) check.add(strip, times_[file](time), point, scan_angle);
     };
     if (const LasFile* las = inputs_[file]->las()) {
@@ -180,21 +172,24 @@ void IntensityRun::chooseRadii() {
     const std::size_t probes = std::min(windows, kProbes);
     for (std::size_t probe = 0; probe < probes; ++probe) {
       IntensityWindow window;
-      inputs_[file]->load(probe * windows / probes, WindowRequest(), window);
+      WindowRequest request;
+      request.arrangement = &*arrangement_;
+      request.file = file;
+      inputs_[file]->load(probe * windows / probes, request, window);
       std::size_t cursor = 0;
-      for (const auto& [source, points] : window.surface_points) {
-        if (strip_of_[file].at(source) < 0) continue;
+      for (const auto& [strip, points] : window.surface_points) {
         double radius = LocalSurfaces::radiusFor(points);
-        const auto first =
-            std::find_if(window.points.begin(), window.points.end(),
-                         [id = source](const IntensityPoint& p) { return p.source == id; });
+        const auto first = std::find_if(window.points.begin(), window.points.end(),
+                                        [&, wanted = strip](const IntensityPoint& p) {
+                                          return arrangement_->labels()[p.label].index == wanted;
+                                        });
         SensorPose pose;
         if (trajectory_->poseAt(times_[file](first->time), pose, cursor)) {
           const double range =
               (pose.position - window.origin - first->position.cast<double>()).norm();
           radius = std::max(radius, 0.5e-3 * settings_.footprint_mrad * range);
         }
-        found[static_cast<std::size_t>(strip_of_[file].at(source))].push_back(radius);
+        found[static_cast<std::size_t>(strip)].push_back(radius);
       }
     }
   }
@@ -240,29 +235,39 @@ double IntensityRun::gainControl(double value, const std::string& path) const {
   return below.gain + t * (above->gain - below.gain);
 }
 
-std::map<std::uint16_t, LocalSurfaces> IntensityRun::surfacesOf(
-    std::size_t file, const IntensityWindow& window) const {
-  std::map<std::uint16_t, LocalSurfaces> surfaces;
-  for (const auto& [source, neighbours] : window.surface_points) {
-    if (strip_of_[file].at(source) < 0) continue;
+std::map<int, LocalSurfaces> IntensityRun::surfacesOf(const IntensityWindow& window) const {
+  std::map<int, LocalSurfaces> surfaces;
+  for (const auto& [strip, neighbours] : window.surface_points) {
     LocalSurfaceSettings settings = settings_.surfaces;
-    settings.radius = radius(strip_of_[file].at(source));
-    surfaces.emplace(source, LocalSurfaces(neighbours, settings));
+    settings.radius = radius(strip);
+    surfaces.emplace(strip, LocalSurfaces(neighbours, settings));
   }
   return surfaces;
 }
 
+/// A window with what surfaces need around it.
+WindowRequest IntensityRun::requestFor(std::size_t file) const {
+  WindowRequest request;
+  request.arrangement = &*arrangement_;
+  request.file = file;
+  request.surfaces = settings_.find_surfaces;
+  if (!request.surfaces) return request;
+  for (const PointSource& source : surveyed_[file].sources.sources) {
+    for (const int strip : arrangement_->stripsOf(file, source.id))
+      request.margins[source.id] = std::max(request.margins[source.id], radius(strip));
+  }
+  return request;
+}
+
 void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
                             const WindowChoice& choice) const {
-  WindowRequest request;
-  request.surfaces = settings_.find_surfaces;
+  WindowRequest request = requestFor(file);
   request.records = choice.records;
   request.record_length = choice.record_length;
-  for (const auto& [source, strip] : strip_of_[file])
-    if (request.surfaces && strip >= 0) request.margins[source] = radius(strip);
   inputs_[file]->load(window, request, out.window);
+  out.file = file;
   const std::vector<IntensityPoint>& points = out.window.points;
-  const std::map<std::uint16_t, LocalSurfaces> surfaces = surfacesOf(file, out.window);
+  const std::map<int, LocalSurfaces> surfaces = surfacesOf(out.window);
   const RadiometricEvaluator evaluator(trajectory_, model_);
   const TimeAlignment& times = times_[file];
   out.radiometry.resize(points.size());
@@ -276,9 +281,9 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
   for (std::size_t i = 0; i < points.size(); ++i) {
     const IntensityPoint& point = points[i];
     const Eigen::Vector3d place = out.window.origin + point.position.cast<double>();
-    if (i == 0 || points[i - 1].source != point.source) {
-      strip = strip_of_[file].at(point.source);
-      const auto at = surfaces.find(point.source);
+    if (i == 0 || points[i - 1].label != point.label) {
+      strip = arrangement_->labels()[point.label].index;
+      const auto at = surfaces.find(strip);
       of_strip = at == surfaces.end() ? nullptr : &at->second;
     }
     out.strip[i] = strip;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <pcl_als/common/errors.h>
@@ -35,8 +36,25 @@ std::vector<std::uint8_t> codesOf(const GaussianModel& model) {
   return codes;
 }
 
+/// Which points of a file get a class; not to be shared between threads.
+class UsedPoints {
+ public:
+  UsedPoints(const ArrangedFiles* arranged, std::size_t place) : arranged_(arranged) {
+    if (arranged != nullptr) sorter_.emplace(arranged->arrangement(), place);
+  }
+  bool operator()(std::uint16_t source, double time) {
+    if (!sorter_) return true;
+    return arranged_->arrangement().labels()[sorter_->label(source, time)].index >= 0;
+  }
+
+ private:
+  const ArrangedFiles* arranged_;
+  std::optional<StripArrangement::Sorter> sorter_;
+};
+
 PointClassCounts classifyPcd(const std::filesystem::path& input,
-                             const std::filesystem::path& output, PointClasses& classes) {
+                             const std::filesystem::path& output, PointClasses& classes,
+                             UsedPoints used) {
   const Strip<PointLidar> strip = loadPcd(input);
   std::vector<PointClasses::Point> points;
   for (const PointLidar& point : *strip.cloud) {
@@ -47,8 +65,10 @@ PointClassCounts classifyPcd(const std::filesystem::path& input,
   const std::vector<std::uint8_t> codes = codesOf(classes.model());
   PointClassCounts counts{points.size(), 0};
   for (std::size_t i = 0; i < found.size(); ++i) {
-    auto& code = (*strip.cloud)[i].classification;
-    if (found[i] == MaximumLikelihood::kNoClass || isNoise(code))
+    PointLidar& point = (*strip.cloud)[i];
+    auto& code = point.classification;
+    if (found[i] == MaximumLikelihood::kNoClass || isNoise(code) ||
+        !used(point.point_source_id, point.gps_time))
       ++counts.unclassified;
     else
       code = codes[static_cast<std::size_t>(found[i])];
@@ -59,7 +79,7 @@ PointClassCounts classifyPcd(const std::filesystem::path& input,
 
 /// Changes the class of records; returns how many keep theirs.
 std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_t>& codes,
-                              const LasRecordBlock& block, PointClasses& classes) {
+                              const LasRecordBlock& block, PointClasses& classes, UsedPoints used) {
   const LasScaling metres = file.toMetres();
   const LasRecordLayout& layout = file.layout();
   std::vector<PointClasses::Point> points;
@@ -76,11 +96,14 @@ std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_
   const std::vector<int> found = classes.classify(points);
   std::uint64_t missed = 0;
   for (std::size_t i = 0; i < block.count; ++i) {
-    std::byte& field = block.records[i * block.record_length + layout.classification];
+    std::byte* record = block.records + i * block.record_length;
+    std::byte& field = record[layout.classification];
     const auto present = std::to_integer<unsigned>(field);
     const unsigned flags = layout.extended ? 0U : present & ~kShortClass;
     if (found[i] == MaximumLikelihood::kNoClass ||
-        isNoise(static_cast<std::uint8_t>(present & ~flags)))
+        isNoise(static_cast<std::uint8_t>(present & ~flags)) ||
+        !used(loadLas<std::uint16_t>(record + layout.point_source_id),
+              layout.gps_time < 0 ? 0.0 : loadLas<double>(record + layout.gps_time)))
       ++missed;
     else
       field = static_cast<std::byte>(flags | codes[static_cast<std::size_t>(found[i])]);
@@ -142,13 +165,14 @@ void PointClasses::classify(const std::vector<Point>& points, const Group& group
 
 PointClassCounts classifyPointFile(const std::filesystem::path& input,
                                    const std::filesystem::path& output, PointClasses& classes,
-                                   int threads) {
-  if (input.extension() == ".pcd") return classifyPcd(input, output, classes);
+                                   const ArrangedFiles* arranged, std::size_t place, int threads) {
+  if (input.extension() == ".pcd")
+    return classifyPcd(input, output, classes, UsedPoints(arranged, place));
   const LasFile file(input);
   const std::vector<std::uint8_t> codes = codesOf(classes.model());
   std::atomic<std::uint64_t> unclassified{0};
   const LasEdit edit = [&](const LasRecordBlock& block) {
-    unclassified += classifyRecords(file, codes, block, classes);
+    unclassified += classifyRecords(file, codes, block, classes, UsedPoints(arranged, place));
   };
   const std::uint64_t points = rewriteLas(file, output, edit, threads).points;
   return {points, unclassified.load()};

@@ -19,10 +19,33 @@ bool isSurface(const PointChunk& chunk, std::size_t i) {
          code != kLowNoise && code != kHighNoise && (chunk.flags[i] & kWithheld) == 0;
 }
 
+/// Adds points [from, to) of a chunk.
+void addRun(const PointChunk& chunk, std::size_t from, std::size_t to,
+            const Eigen::AlignedBox2d& box, StripPoints& points) {
+  points.read += to - from;
+  for (std::size_t i = from; i < to; ++i) {
+    const Eigen::Vector3d p(chunk.x[i], chunk.y[i], chunk.z[i]);
+    if (box.contains(p.head<2>()) && isSurface(chunk, i))
+      points.positions.emplace_back((p - points.origin).cast<float>());
+  }
+}
+
+/// Adds those points of a chunk that the arrangement says are of the strip.
+void addArranged(const StripFiles& strip, StripArrangement::Sorter& sorter, const PointChunk& chunk,
+                 const Eigen::AlignedBox2d& box, StripPoints& points) {
+  for (std::size_t from = 0; from < chunk.size();) {
+    const auto [to, label] = sorter.run(chunk, from);
+    const int index = strip.arrangement->labels()[label].index;
+    if (index >= 0 && (strip.index < 0 || strip.index == index))
+      addRun(chunk, from, to, box, points);
+    from = to;
+  }
+}
+
 }  // namespace
 
 std::string StripFiles::name() const {
-  return id ? "strip " + std::to_string(*id) : files.front().string();
+  return strip.empty() ? files.front().string() : "strip " + strip;
 }
 
 StripFileInfo stripFileInfo(const StripFiles& strip) {
@@ -36,6 +59,7 @@ StripFileInfo stripFileInfo(const StripFiles& strip) {
     info.box.extend(one.minimum);
     info.box.extend(one.maximum);
   }
+  if (!strip.box.isEmpty()) info.box = strip.box;
   return info;
 }
 
@@ -53,22 +77,16 @@ StripPoints readStripPoints(const StripFiles& strip, const Eigen::AlignedBox2d& 
   StripPoints points;
   points.origin = origin;
   PointChunk chunk;
-  for (const std::filesystem::path& file : strip.files) {
-    const auto reader = PointReader::open(file);
-    while (reader->read(chunk)) {
-      for (std::size_t i = 0; i < chunk.size(); ++i) {
-        if (strip.id && chunk.point_source_id[i] != *strip.id) continue;
-        ++points.read;
-        const Eigen::Vector3d p(chunk.x[i], chunk.y[i], chunk.z[i]);
-        if (box.contains(p.head<2>()) && isSurface(chunk, i))
-          points.positions.emplace_back((p - origin).cast<float>());
-      }
+  for (std::size_t file = 0; file < strip.files.size(); ++file) {
+    const auto reader = PointReader::open(strip.files[file]);
+    if (strip.arrangement == nullptr) {
+      while (reader->read(chunk)) addRun(chunk, 0, chunk.size(), box, points);
+      continue;
     }
+    StripArrangement::Sorter sorter(*strip.arrangement, strip.places[file]);
+    while (reader->read(chunk)) addArranged(strip, sorter, chunk, box, points);
   }
-  if (points.read == 0)
-    throw InputError(strip.files.front().string() +
-                     (strip.id ? ": has no points of strip " + std::to_string(*strip.id)
-                               : std::string(": has no points")));
+  if (points.read == 0) throw InputError(strip.name() + ": has no points");
   return points;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <optional>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/memory.h>
@@ -20,6 +21,7 @@ constexpr double kBytesPerCell = 380.0;  ///< at most, of a tile at work, see Su
 /// A file and the box its header gives, wider by its resolution.
 struct BoxedFile {
   std::filesystem::path path;
+  std::size_t place;  ///< among all files
   double min_x, min_y, max_x, max_y;
 
   bool meets(const RasterGrid& grid) const {
@@ -44,14 +46,17 @@ int threadsFor(const RasterTile& tile, int threads) {
 /// One tile: its points, its bands, its counts.
 class TileWork {
  public:
-  TileWork(const RasterTile& tile, const SurfaceOptions& options)
-      : tile_(tile), accumulator_(tile.padded, options) {}
+  TileWork(const RasterTile& tile, const SurfaceOptions& options, const ArrangedFiles* arranged)
+      : tile_(tile), accumulator_(tile.padded, options), arranged_(arranged) {}
 
   void read(const BoxedFile& file) {
     const auto reader = PointReader::open(file.path);
+    std::optional<StripArrangement::Sorter> sorter;
+    if (arranged_ != nullptr) sorter.emplace(arranged_->arrangement(), file.place);
     PointChunk chunk;
     while (reader->read(chunk))
-      for (std::size_t i = 0; i < chunk.size(); ++i) add(chunk, i);
+      for (std::size_t i = 0; i < chunk.size(); ++i)
+        if (!sorter || isUsed(*sorter, chunk, i)) add(chunk, i);
   }
 
   void write(RasterWriter& writer, std::mutex& writing) {
@@ -79,6 +84,11 @@ class TileWork {
     return tile_.padded.index(column + tile_.margin, row + tile_.margin);
   }
 
+  bool isUsed(StripArrangement::Sorter& sorter, const PointChunk& chunk, std::size_t i) const {
+    const std::size_t label = sorter.label(chunk.point_source_id[i], chunk.gps_time[i]);
+    return arranged_->arrangement().labels()[label].index >= 0;
+  }
+
   void add(const PointChunk& chunk, std::size_t i) {
     if ((chunk.flags[i] & kWithheld) != 0) return;
     const bool used = accumulator_.add({chunk.x[i], chunk.y[i], chunk.z[i], chunk.intensity[i],
@@ -93,6 +103,7 @@ class TileWork {
 
   const RasterTile& tile_;
   SurfaceAccumulator accumulator_;
+  const ArrangedFiles* arranged_;
   RasterCounts counts_;
 };
 
@@ -124,16 +135,27 @@ RasterInput rasterInput(const std::vector<std::string>& paths) {
   return files;
 }
 
+void chooseStrips(const StripChoice& choice, RasterInput& files) {
+  files.arranged = std::make_shared<ArrangedFiles>(files.paths, choice);
+  const ArrangedFiles::Use use = files.arranged->use();
+  files.left_out = use.left_out;
+  files.points = use.pointCount();
+  const Eigen::AlignedBox3d box = use.box();
+  files.min_x = box.min().x(), files.min_y = box.min().y();
+  files.max_x = box.max().x(), files.max_y = box.max().y();
+}
+
 RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& options, int tile_side,
                              int threads, RasterWriter& writer,
                              const std::function<void(double)>& progress) {
   std::vector<BoxedFile> boxed;
-  for (const std::filesystem::path& path : files.paths) {
+  for (std::size_t place = 0; place < files.paths.size(); ++place) {
+    const std::filesystem::path& path = files.paths[place];
     const PointFileInfo info = PointReader::open(path)->info();
     const double x = info.resolution.x(), y = info.resolution.y();
     if (info.point_count > 0)
-      boxed.push_back({path, info.minimum.x() - x, info.minimum.y() - y, info.maximum.x() + x,
-                       info.maximum.y() + y});
+      boxed.push_back({path, place, info.minimum.x() - x, info.minimum.y() - y,
+                       info.maximum.x() + x, info.maximum.y() + y});
   }
   const RasterGrid& grid = writer.layout().grid;
   const std::vector<RasterTile> tiles = tilesOf(grid, tile_side, options.margin(grid.cell));
@@ -141,7 +163,7 @@ RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& opt
   std::mutex writing, reporting;
   std::size_t done = 0;
   parallelFor(tiles.size(), threadsFor(tiles.front(), threads), [&](std::size_t i) {
-    TileWork work(tiles[i], options);
+    TileWork work(tiles[i], options, files.arranged.get());
     for (const BoxedFile& file : boxed)
       if (file.meets(tiles[i].padded)) work.read(file);
     work.write(writer, writing);

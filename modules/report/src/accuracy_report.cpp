@@ -14,6 +14,7 @@
 #include <pcl_als/report/accuracy_report.h>
 
 #include "json_number.h"
+#include "left_out_json.h"
 
 namespace pcl_als {
 namespace {
@@ -169,6 +170,7 @@ void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& repo
   std::vector<std::string> remarks = report.result.remarks;
   remarks.insert(remarks.end(), report.remarks.begin(), report.remarks.end());
   json["warnings"] = remarks;
+  if (!report.left_out.empty()) json["left_out"] = leftOutJson(report.left_out);
   json["inputs"] = report.inputs;
   json["tool_version"] = PCL_ALS_VERSION;
   writeFile(path, json.dump(1) + "\n");

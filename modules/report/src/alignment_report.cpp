@@ -8,6 +8,8 @@
 #include <pcl_als/io/atomic_file.h>
 #include <pcl_als/report/alignment_report.h>
 
+#include "left_out_json.h"
+
 namespace pcl_als {
 namespace {
 
@@ -150,6 +152,7 @@ void writeAlignment(const std::filesystem::path& path, const Result& result,
   json["version"] = 1;
   json["source"] = {{"name", strips.source}, {"points", strips.source_points}};
   json["target"] = {{"name", strips.target}, {"points", strips.target_points}};
+  json["left_out"] = leftOutJson(strips.left_out);
   json["status"] = statusName(result.status);
   json["message"] = result.message;
   const auto& c = result.motion.centroid;

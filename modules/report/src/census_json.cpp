@@ -5,6 +5,8 @@
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/report/census_report.h>
 
+#include "left_out_json.h"
+
 namespace pcl_als {
 namespace {
 
@@ -101,7 +103,7 @@ Json stripJson(const StripCensus& strip) {
 
 }  // namespace
 
-std::string censusJson(const SurveyCensus& survey) {
+std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out) {
   Json json;
   json["format"] = "pcl_als info";
   json["version"] = 1;
@@ -110,6 +112,7 @@ std::string censusJson(const SurveyCensus& survey) {
   for (const FileCensus& file : survey.files) json["files"].push_back(fileJson(file));
   json["strips"] = Json::array();
   for (const StripCensus& strip : survey.strips) json["strips"].push_back(stripJson(strip));
+  json["left_out"] = leftOutJson(left_out);
   json["overlaps"] = Json::array();
   for (const StripOverlap& overlap : survey.overlaps)
     json["overlaps"].push_back({{"a", survey.strips[overlap.a].id},

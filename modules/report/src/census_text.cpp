@@ -202,10 +202,12 @@ std::string className(int code) {
   return code >= 0 && code <= 18 ? names[code] : "";
 }
 
-std::string censusText(const SurveyCensus& survey) {
+std::string censusText(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out) {
   std::string text;
   for (const FileCensus& file : survey.files) text += fileText(file) + '\n';
-  return text + stripsText(survey) + overlapsText(survey) + remarksText(survey.remarks, "");
+  text += stripsText(survey);
+  for (const std::string& part : describe(left_out)) text += "  " + part + '\n';
+  return text + overlapsText(survey) + remarksText(survey.remarks, "");
 }
 
 }  // namespace pcl_als

@@ -10,6 +10,7 @@
 #include <pcl_als/report/intensity_report.h>
 
 #include "json_number.h"
+#include "left_out_json.h"
 
 namespace pcl_als {
 namespace {
@@ -230,6 +231,7 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
   json["output_scale"] = report.output.scale;
   json["saturation"] = report.run->saturation();
   json["files"] = filesJson(report);
+  json["left_out"] = leftOutJson(report.left_out);
   json["warnings"] = report.warnings;
   json["report"] = reportJson(report);
   writeFile(path, json.dump(1) + "\n");

@@ -8,6 +8,7 @@
 #include <pcl_als/report/quality_report.h>
 
 #include "json_number.h"
+#include "left_out_json.h"
 
 namespace pcl_als {
 namespace {
@@ -216,12 +217,7 @@ Json blockJson(const CheckedBlock& block) {
   }
   json["smooth_roughness_m"] = block.roughness_limit;
   json["warnings"] = block.warnings;
-  json["left_out"] = Json::array();
-  for (const LeftOutPoints& part : block.left_out)
-    json["left_out"].push_back({{"strip", part.strip},
-                                {"reason", toString(part.reason)},
-                                {"points", part.points},
-                                {"of", part.of}});
+  json["left_out"] = leftOutJson(block.left_out);
   return json;
 }
 

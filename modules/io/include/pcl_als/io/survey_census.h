@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -75,6 +76,17 @@ struct SurveyCensus {
   std::vector<std::string> remarks;
 };
 
+/// Which points are which strip, where something other than StripNaming says so (module survey).
+struct CensusStrips {
+  std::vector<std::string> names;
+  /// The end of the run of points of one strip that starts with row \a from of a chunk, and the
+  /// strip's index among the names; -1: of none, then they count for their file only. Is called
+  /// with all points of the files in order; empty: strips are those of StripNaming.
+  std::function<std::pair<std::size_t, int>(std::size_t file, const PointChunk& chunk,
+                                            std::size_t from)>
+      run;
+};
+
 /** \brief Reads point files once and lists their contents.
  *
  * Memory is that of the occupied cells (4 bytes each) and at most a few hundred MB: where the
@@ -83,8 +95,10 @@ struct SurveyCensus {
  *
  * \param cell metres; 0: 1, 2, 5 or 10 by the density that the headers declare
  * \param progress called with the fraction of points read
+ * \param strips whose names are listed, one entry each
  */
 SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell = 0.0,
-                        const std::function<void(double)>& progress = {});
+                        const std::function<void(double)>& progress = {},
+                        const CensusStrips& strips = {});
 
 }  // namespace pcl_als

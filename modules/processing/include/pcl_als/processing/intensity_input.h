@@ -14,6 +14,7 @@
 #include <pcl_als/common/strip.h>
 #include <pcl_als/io/las_file.h>
 #include <pcl_als/io/strip_naming.h>
+#include <pcl_als/survey/strip_arrangement.h>
 
 namespace pcl_als {
 
@@ -23,6 +24,7 @@ struct IntensityPoint {
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   float intensity = 0.0F;
   std::uint16_t source = 0;
+  std::uint32_t label = 0;  ///< among those of WindowRequest::arrangement
   std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
 };
 
@@ -30,8 +32,8 @@ struct IntensityPoint {
 struct IntensityWindow {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, ground frame
   std::vector<IntensityPoint> points;
-  /// By point source id: single and last returns, of the window and around it.
-  std::map<std::uint16_t, std::vector<Eigen::Vector3f>> surface_points;
+  /// By strip in use: single and last returns, of the window and around it.
+  std::map<int, std::vector<Eigen::Vector3f>> surface_points;
   std::vector<double> gain_control;  ///< by point; empty where none is read
 };
 
@@ -46,6 +48,8 @@ struct IntensitySurvey {
 
 /// What of a window is wanted.
 struct WindowRequest {
+  const StripArrangement* arrangement = nullptr;  ///< needed: the strips of the points
+  std::size_t file = 0;                           ///< place of the input in it
   /// Whether surfaces will be sought: points of other windows within these metres of the points of
   /// each source come along; sources without a margin get none.
   bool surfaces = true;

@@ -38,7 +38,7 @@ struct IntensitySettings {
   bool statistics = false;
   bool force = false;         ///< go on with a trajectory that cannot be the points'
   bool find_surfaces = true;  ///< false: no incidence angles are wanted by anyone
-  StripChoice strips;         ///< points of other strips stay as they are; it is not split
+  StripChoice strips;         ///< points of other strips stay as they are
   std::optional<int> gps_week;
   int threads = 0;
 };
@@ -47,18 +47,22 @@ struct IntensitySettings {
 struct IntensityCounts {
   std::array<std::uint64_t, kRadiometryStatusCount> status{};
   std::uint64_t points = 0, zeros = 0, saturated = 0;
-  std::uint64_t excluded = 0;         ///< of strips that were not chosen: in no status
+  std::uint64_t excluded = 0;         ///< of no strip in use: in no status
   std::uint64_t clipped = 0;          ///< beyond 65535 after correction: written as 65535
   std::uint64_t rounded_to_zero = 0;  ///< not 0 before, under 0.5 after
+  std::vector<std::uint64_t> labels;  ///< points of each label of the strips' arrangement
+  /// Points of strips in use that no trajectory covers, by label and reason.
+  std::map<std::pair<std::size_t, LeftOutReason>, std::uint64_t> uncovered;
   void merge(const IntensityCounts& other);
 };
 
 /// A window with what was found out about its points.
 struct EvaluatedWindow {
+  std::size_t file = 0;
   IntensityWindow window;
   std::vector<PointRadiometry> radiometry;
   std::vector<LocalSurface> surfaces;  ///< empty where none are sought
-  std::vector<int> strip;              ///< of each point; -1: not chosen
+  std::vector<int> strip;              ///< of each point; -1: of none in use
   std::vector<double> divisor;  ///< of each point's intensity: gains, pulse energy, gain control
 };
 
@@ -79,9 +83,11 @@ class IntensityRun {
   /// First pass over all files. InputError where they cannot be used.
   IntensityRun(const std::vector<std::string>& paths, std::shared_ptr<const Trajectory> trajectory,
                const IntensitySettings& settings);
+  IntensityRun(const IntensityRun&) = delete;
+  IntensityRun& operator=(const IntensityRun&) = delete;
 
-  /// Those that were chosen.
-  const std::vector<std::string>& strips() const { return strips_; }
+  /// Those in use.
+  const std::vector<std::string>& strips() const { return arrangement_->names(); }
   const IntensityInput& input(std::size_t file) const { return *inputs_[file]; }
   std::size_t files() const { return inputs_.size(); }
   const IntensitySettings& settings() const { return settings_; }
@@ -90,9 +96,14 @@ class IntensityRun {
   const std::vector<std::string>& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
-  /// By point source id; -1: not chosen.
-  const std::map<std::uint16_t, int>& stripsOf(std::size_t file) const { return strip_of_[file]; }
+  const StripArrangement& arrangement() const { return *arrangement_; }
+  const PointFileSources& sources(std::size_t file) const { return surveyed_[file].sources; }
+  /// Whether each point source id of a file is one strip in use.
   bool allChosen(std::size_t file) const;
+  /// Why a point of a file with that time has no trajectory.
+  LeftOutReason whyUncovered(std::size_t file, double time) const;
+  /// The points that stay as they are, from the counts of all files.
+  std::vector<LeftOutPoints> leftOut(const IntensityCounts& counts) const;
   double saturation() const { return saturation_; }
   double cellSize() const { return cell_size_; }
   double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }
@@ -121,22 +132,22 @@ class IntensityRun {
 
  private:
   void openFiles(const std::vector<std::string>& paths);
-  void nameStrips(const std::vector<PointFileSources>& sources);
   void alignTimes();
+  void arrangeStrips(const std::vector<std::string>& paths);
   void checkTrajectory();
   void chooseRadii();
   void chooseCells();
-  std::map<std::uint16_t, LocalSurfaces> surfacesOf(std::size_t file,
-                                                    const IntensityWindow& window) const;
+  WindowRequest requestFor(std::size_t file) const;
+  std::map<int, LocalSurfaces> surfacesOf(const IntensityWindow& window) const;
   double knownGain(const std::string& strip) const;
   double gainControl(double value, const std::string& path) const;
 
   IntensitySettings settings_;
   std::shared_ptr<const Trajectory> trajectory_;
   std::vector<std::unique_ptr<IntensityInput>> inputs_;
-  std::vector<std::string> strips_;
-  std::vector<std::map<std::uint16_t, int>> strip_of_;  ///< by file and source id
   std::vector<TimeAlignment> times_;
+  std::vector<SurveyedFile> surveyed_;  ///< with tracks only where strips are split
+  std::optional<StripArrangement> arrangement_;
   std::vector<double> radii_, known_gains_, estimated_gains_;
   std::vector<std::string> remarks_, warnings_;
   RadiometricModel model_;

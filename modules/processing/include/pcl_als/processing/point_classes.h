@@ -10,6 +10,7 @@
 
 #include <pcl_als/classification/land_cover_filter.h>
 #include <pcl_als/processing/land_cover.h>
+#include <pcl_als/survey/arranged_files.h>
 
 namespace pcl_als {
 
@@ -42,10 +43,11 @@ class PointClasses {
 /** \brief A copy of a point file with the ASPRS codes of land cover in its classification.
  *
  * .las and .laz record by record in constant memory, all else byte for byte. A point without a
- * class keeps its code, and so do those of noise (7, 18).
+ * class keeps its code, and so do those of noise (7, 18) and those that \a arranged, where it is
+ * given, leaves out; \a place: of the file among those arranged.
  */
 PointClassCounts classifyPointFile(const std::filesystem::path& input,
                                    const std::filesystem::path& output, PointClasses& classes,
-                                   int threads);
+                                   const ArrangedFiles* arranged, std::size_t place, int threads);
 
 }  // namespace pcl_als

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,13 +12,20 @@
 
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/registration/point_view.h>
+#include <pcl_als/survey/strip_arrangement.h>
 
 namespace pcl_als {
 
-/// Where the points of a strip are: files, and the point source id where these hold several.
+/// Where the points of a strip are: files, and which of their points it takes.
 struct StripFiles {
   std::vector<std::filesystem::path> files;
-  std::optional<std::uint16_t> id;
+  std::string strip;  ///< name, where the files hold several
+  /// Of files that include these; null: all points are taken.
+  const StripArrangement* arrangement = nullptr;
+  std::vector<std::size_t> places;  ///< of each file among those of the arrangement
+  int index = -1;                   ///< of the strip in the arrangement; -1: all that are in use
+  /// Of the strip's points, metres, where it is known; empty: that of the files' headers.
+  Eigen::AlignedBox3d box;
 
   std::string name() const;  ///< "strip1.las", "strip 3"
 };

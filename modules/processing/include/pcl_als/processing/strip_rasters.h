@@ -4,11 +4,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <pcl_als/classification/surface_rasters.h>
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/io/raster_io.h>
+#include <pcl_als/survey/arranged_files.h>
 
 namespace pcl_als {
 
@@ -19,10 +22,15 @@ struct RasterInput {
   double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< metres
   std::string crs;                                            ///< of the first file that has one
   std::vector<std::string> remarks;  ///< units that are converted or assumed
+  /// Of the same files: only points of strips that are in use are taken; null: all.
+  std::shared_ptr<const ArrangedFiles> arranged;
+  std::vector<LeftOutPoints> left_out;
 };
 
 /// Opens every file once. InputError for files without points or that commonReference() refuses.
 RasterInput rasterInput(const std::vector<std::string>& paths);
+/// Restricts it to the strips that are chosen: reads every file twice.
+void chooseStrips(const StripChoice& choice, RasterInput& files);
 
 struct RasterCounts {
   std::uint64_t points = 0;  ///< that lie in the raster and are no noise

@@ -9,6 +9,7 @@
 
 #include <pcl_als/classification/accuracy_assessment.h>
 #include <pcl_als/common/class_site.h>
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/io/class_io.h>
 
 namespace pcl_als {
@@ -21,6 +22,7 @@ struct AccuracyReport {
   std::optional<AccuracyResult> other;
   std::optional<AccuracyComparison> comparison;
   std::vector<std::string> inputs, remarks;
+  std::vector<LeftOutPoints> left_out;  ///< of the points that were classified by
 };
 
 /// The tables that the tools print.

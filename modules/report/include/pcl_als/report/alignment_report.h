@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/registration/patch_alignment_result.h>
 
 namespace pcl_als {
@@ -14,6 +16,7 @@ namespace pcl_als {
 struct AlignedStrips {
   std::string source, target;
   std::uint64_t source_points = 0, target_points = 0;  ///< in the common area
+  std::vector<LeftOutPoints> left_out;                 ///< points that took no part
 };
 
 /// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and how the strips fit.

@@ -3,16 +3,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include <pcl_als/common/left_out.h>
 #include <pcl_als/io/survey_census.h>
 
 namespace pcl_als {
 
-/// The census as text for people.
-std::string censusText(const SurveyCensus& survey);
+/// The census as text for people; \a left_out: points that are of none of its strips.
+std::string censusText(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out);
 
 /// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
-std::string censusJson(const SurveyCensus& survey);
+std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out);
 
 /// Name of an ASPRS class; empty for a code without one.
 std::string className(int code);

@@ -30,6 +30,7 @@ struct IntensityReport {
   std::vector<std::string> outputs;  ///< names, by file
   std::optional<OverlapResult> overlaps;
   std::optional<ReferenceResult> reference;
+  std::vector<LeftOutPoints> left_out;  ///< points that stay as they are
   std::vector<std::string> warnings;
 };
 

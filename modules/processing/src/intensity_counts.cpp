@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
+#include <pcl_als/processing/intensity_run.h>
+
+namespace pcl_als {
+
+void IntensityCounts::merge(const IntensityCounts& other) {
+  for (std::size_t i = 0; i < status.size(); ++i) status[i] += other.status[i];
+  points += other.points;
+  excluded += other.excluded;
+  zeros += other.zeros;
+  saturated += other.saturated;
+  clipped += other.clipped;
+  rounded_to_zero += other.rounded_to_zero;
+  labels.resize(std::max(labels.size(), other.labels.size()));
+  for (std::size_t i = 0; i < other.labels.size(); ++i) labels[i] += other.labels[i];
+  for (const auto& [key, count] : other.uncovered) uncovered[key] += count;
+}
+
+LeftOutReason IntensityRun::whyUncovered(std::size_t file, double time) const {
+  if (time == 0.0) return LeftOutReason::zero_time;
+  switch (trajectory_->coverage(times_[file](time))) {
+    case Trajectory::Coverage::before_start:
+      return LeftOutReason::before_trajectory;
+    case Trajectory::Coverage::after_end:
+      return LeftOutReason::after_trajectory;
+    default:
+      return LeftOutReason::in_trajectory_gap;
+  }
+}
+
+std::vector<LeftOutPoints> IntensityRun::leftOut(const IntensityCounts& counts) const {
+  std::vector<std::uint64_t> labels = counts.labels;
+  labels.resize(arrangement_->labels().size());
+  std::vector<LeftOutPoints> parts = arrangement_->leftOut(labels);
+  for (const auto& [key, points] : counts.uncovered) {
+    const std::string& strip = arrangement_->labels()[key.first].strip;
+    std::uint64_t all = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i)
+      all += arrangement_->labels()[i].strip == strip ? labels[i] : 0;
+    parts.push_back({strip, key.second, points, all});
+  }
+  return parts;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <pcl_als/io/survey_census.h>
+#include <pcl_als/survey/strip_arrangement.h>
+
+namespace pcl_als {
+
+/** \brief Point files, read once, and the arrangement of their points into strips: for jobs that
+ * use points by strip but need no trajectory.
+ *
+ * Reading a file again gives each of its points a label through StripArrangement::Sorter.
+ */
+class ArrangedFiles {
+ public:
+  /// InputError for a file that cannot be read and where no strip is left, UsageError for a strip
+  /// that \a choice names and no file has.
+  ArrangedFiles(const std::vector<std::filesystem::path>& paths, const StripChoice& choice);
+  ArrangedFiles(const ArrangedFiles&) = delete;
+  ArrangedFiles& operator=(const ArrangedFiles&) = delete;
+
+  const std::vector<SurveyedFile>& files() const { return files_; }
+  const StripArrangement& arrangement() const { return arrangement_; }
+
+  /// The strips for takeCensus() of the same files in the same order; adds the points of each label
+  /// to \a counts, which must outlive it, as must this.
+  CensusStrips censusStrips(std::vector<std::uint64_t>& counts) const;
+  /// What is used of all files, and what is not.
+  struct Use {
+    std::vector<std::uint64_t> points;       ///< by strip
+    std::vector<Eigen::AlignedBox3d> boxes;  ///< of these, metres
+    std::vector<LeftOutPoints> left_out;
+
+    std::uint64_t pointCount() const;
+    Eigen::AlignedBox3d box() const;
+  };
+  /// Reads all files again.
+  Use use() const;
+
+ private:
+  std::vector<SurveyedFile> files_;
+  StripArrangement arrangement_;
+};
+
+}  // namespace pcl_als

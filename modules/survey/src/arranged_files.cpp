@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <memory>
+#include <numeric>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/survey/arranged_files.h>
+
+namespace pcl_als {
+namespace {
+
+std::vector<SurveyedFile> surveyAll(const std::vector<std::filesystem::path>& paths) {
+  std::vector<SurveyedFile> files;
+  files.reserve(paths.size());
+  for (const std::filesystem::path& path : paths) files.push_back(surveyFile(path));
+  return files;
+}
+
+}  // namespace
+
+ArrangedFiles::ArrangedFiles(const std::vector<std::filesystem::path>& paths,
+                             const StripChoice& choice)
+    : files_(surveyAll(paths)), arrangement_(files_, choice, FlownTimes()) {
+  if (arrangement_.names().empty())
+    throw InputError("no strip is left: all are excluded or have no times");
+}
+
+CensusStrips ArrangedFiles::censusStrips(std::vector<std::uint64_t>& counts) const {
+  std::vector<StripArrangement::Sorter> sorters;
+  for (std::size_t file = 0; file < files_.size(); ++file) sorters.emplace_back(arrangement_, file);
+  counts.assign(arrangement_.labels().size(), 0);
+  CensusStrips strips;
+  strips.names = arrangement_.names();
+  strips.run = [this, &counts, sorters](std::size_t file, const PointChunk& chunk,
+                                        std::size_t from) mutable {
+    const auto [to, label] = sorters[file].run(chunk, from);
+    counts[label] += to - from;
+    return std::pair(to, arrangement_.labels()[label].index);
+  };
+  return strips;
+}
+
+std::uint64_t ArrangedFiles::Use::pointCount() const {
+  return std::accumulate(points.begin(), points.end(), std::uint64_t{0});
+}
+
+Eigen::AlignedBox3d ArrangedFiles::Use::box() const {
+  Eigen::AlignedBox3d all;
+  for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+  return all;
+}
+
+ArrangedFiles::Use ArrangedFiles::use() const {
+  Use use;
+  use.points.resize(arrangement_.names().size());
+  use.boxes.resize(arrangement_.names().size());
+  std::vector<std::uint64_t> counts;
+  const CensusStrips strips = censusStrips(counts);
+  PointChunk chunk;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    const auto reader = PointReader::open(files_[file].sources.info.path);
+    while (reader->read(chunk)) {
+      for (std::size_t from = 0; from < chunk.size();) {
+        const auto [to, strip] = strips.run(file, chunk, from);
+        if (strip >= 0) {
+          use.points[static_cast<std::size_t>(strip)] += to - from;
+          Eigen::AlignedBox3d& box = use.boxes[static_cast<std::size_t>(strip)];
+          for (std::size_t i = from; i < to; ++i)
+            box.extend(Eigen::Vector3d(chunk.x[i], chunk.y[i], chunk.z[i]));
+        }
+        from = to;
+      }
+    }
+  }
+  use.left_out = arrangement_.leftOut(counts);
+  return use;
+}
+
+}  // namespace pcl_als
