@@ -4,6 +4,7 @@
 // Blocks with something wrong in them: what the result says of it.
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,49 @@ TEST(CalibrationProblems, AGoodBlockIsUsableWithoutWarnings) {
   EXPECT_LT(result.misfit.change(), -2.0 * result.misfit.change_std);
   EXPECT_EQ(allOf(result.warnings), "");
   EXPECT_GT(result.control_points.size(), 5U);
+}
+
+/// What is left out because the iteration ends at its limit: names, and that each says so.
+std::vector<P> leftOutAtTheLimit(const CalibrationResult& result) {
+  std::vector<P> names;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    if (estimate.reason.find("does not converge with it") == std::string::npos) continue;
+    EXPECT_EQ(estimate.status, ParameterStatus::not_estimable) << info.name;
+    EXPECT_EQ(estimate.bias, 0.0) << info.name;
+    names.push_back(info.parameter);
+  }
+  return names;
+}
+
+/// 2026-11-22: an iteration that reached its limit ended without a result, cause or advice, though
+/// fewer parameters converge at once. A limit of one iteration is reached by every block.
+TEST(CalibrationProblems, AtTheLimitOfIterationsTheMostRestlessParameterIsLeftOut) {
+  const SimulatedSurvey survey = smallBlock();
+  CalibrationSettings settings;
+  EXPECT_TRUE(leftOutAtTheLimit(survey.calibrate(settings)).empty());
+  settings.max_iterations = 1;
+  const CalibrationResult result = survey.calibrate(settings);
+  EXPECT_TRUE(result.converged);
+  const std::vector<P> left = leftOutAtTheLimit(result);
+  ASSERT_GE(left.size(), 1U);
+  ASSERT_LE(left.size(), 3U);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = result[info.parameter];
+    if (estimate.status == ParameterStatus::estimated) EXPECT_GT(estimate.std, 0.0) << info.name;
+  }
+}
+
+TEST(CalibrationProblems, WhatWasAskedForByNameIsNotLeftOutAtTheLimit) {
+  CalibrationSettings settings;
+  settings.max_iterations = 1;
+  settings.estimate = {P::boresight_roll, P::boresight_pitch};
+  const CalibrationResult result = smallBlock().calibrate(settings);
+  EXPECT_FALSE(result.converged);
+  EXPECT_FALSE(result.verdict.usable());
+  const std::string all = result.verdict.reason + allOf(result.warnings);
+  EXPECT_NE(all.find("did not converge in"), std::string::npos) << all;
+  EXPECT_NE(all.find("estimate fewer parameters"), std::string::npos) << all;
 }
 
 TEST(CalibrationProblems, ALiftedStripIsNamedWithItsHeight) {

@@ -256,6 +256,44 @@ TEST(PatchSurface, TopologyIsKeptWhereItRemainsATriangulation) {
     ASSERT_EQ(surface.tin().triangles()[t].vertex, before[t].vertex);
 }
 
+/// Triangles inside the hull that are clockwise, counted by the sign of their area.
+std::size_t invertedTriangles(const Tin& tin) {
+  std::size_t count = 0;
+  for (const Tin::Triangle& t : tin.triangles()) {
+    if (std::count(t.neighbour.begin(), t.neighbour.end(), Tin::kNone) > 0) continue;
+    const Vector3d ab = tin.points()[t.vertex[1]] - tin.points()[t.vertex[0]];
+    const Vector3d ac = tin.points()[t.vertex[2]] - tin.points()[t.vertex[0]];
+    count += ab.x() * ac.y() - ab.y() * ac.x() <= 0.0 ? 1 : 0;
+  }
+  return count;
+}
+
+/// The rule: up to one inverted triangle in a thousand is kept, more are triangulated again. One
+/// point after the other of a grid is moved past its neighbour, until that happens.
+TEST(PatchSurface, MoreThanOneInvertedTriangleInAThousandAreTriangulatedAgain) {
+  const std::vector<Vector3d> points = test::planePoints(0.0, 0.0, 100.0, 1.0);
+  const double triangles = static_cast<double>(Tin(points).triangles().size());
+  std::size_t most_kept = 0, moved_points = 0;
+  bool again = false;
+  for (std::vector<Vector3d> moved = points; !again; ++moved_points) {
+    ASSERT_LT(moved_points, 40U);
+    const double x = 10.0 + 10.0 * static_cast<double>(moved_points % 8);
+    const double y = 10.0 + 10.0 * static_cast<double>(moved_points / 8);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      if (std::hypot(points[i].x() - x, points[i].y() - y) < 0.4) moved[i].x() += 1.3;
+    }
+    PatchSurface surface{Tin(points)};
+    surface.movePoints(moved);
+    const std::size_t inverted = invertedTriangles(surface.tin());
+    again = moved_points > 0 && inverted == 0;  // a new triangulation has none
+    most_kept = std::max(most_kept, inverted);
+  }
+  EXPECT_GT(most_kept, 0U);
+  EXPECT_LE(static_cast<double>(most_kept), 1e-3 * triangles);
+  // One moved point inverts fewer than eight triangles: the next was over the limit.
+  EXPECT_GT(static_cast<double>(most_kept + 8), 1e-3 * triangles);
+}
+
 /// A few inverted triangles are kept: positions beside them are still found.
 TEST(PatchSurface, PositionsAreFoundAmongFewInvertedTriangles) {
   std::vector<Vector3d> points = test::planePoints(0.0, 0.0, 100.0, 1.0);
