@@ -105,7 +105,7 @@ class QuasiRigorousCalibration {
   void choose(State& state) const;
   void adjust(State& state) const;
   void shrinkThreshold(State& state) const;
-  /// Whether no parameter changed by more than so many of its standard deviations.
+  /// Whether no parameter changed by more than a number of its standard deviations.
   static bool restsWithin(const State& state, const SystemVector& before, double deviations);
   /// Records what the last update changed.
   static void recordUpdate(State& state, const SystemVector& before);
