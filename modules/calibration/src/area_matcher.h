@@ -55,7 +55,7 @@ class AreaMatcher {
   /// Which points are paired with patches: all candidates, or those of the observations last kept.
   enum class Seekers { candidates, kept };
   /// Keeps the points of these observations (of match()) as seekers of the same patches; their
-  /// pairs weigh as much as those they stand for.
+  /// pairs have the weight of those that they represent.
   void keep(const AreaObservations& observations, const std::vector<ChosenPair>& chosen);
 
   /// The TIN of a strip, as corrected last; empty where the strip has hardly a point here.

@@ -19,7 +19,7 @@ namespace pcl_als {
  * significantly (chi-squared of all estimated biases, 1 %). A system that was calibrated already
  * gives biases that do not differ from zero and an unchanged misfit: that is usable.
  *
- * \param requested the parameters asked for by name; empty: chosen automatically
+ * \param requested the parameters requested by name; empty: chosen automatically
  * \param not_converged why the iteration did not converge, in words; empty when it did
  */
 void judgeCalibration(const std::vector<SystemParameter>& requested,

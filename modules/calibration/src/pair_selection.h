@@ -19,7 +19,7 @@ struct PairSelectionSettings {
   double spread = 0.25;          ///< share of the budget that goes evenly to where strips meet
 };
 
-/// A pair that was chosen to stand for others.
+/// A pair that was chosen to represent others.
 struct ChosenPair {
   std::size_t index = 0;    ///< in its area
   double stands_for = 1.0;  ///< how many pairs it weighs as much as

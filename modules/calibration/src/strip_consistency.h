@@ -21,7 +21,7 @@ struct StripErrorPrior {
   double position = 0.02;          ///< metres
   double correlation_time = 20.0;  ///< seconds
 
-  /// Standard deviation of the mean of a Gauss-Markov process over so many seconds, metres.
+  /// Standard deviation of the mean of a Gauss-Markov process over a time in seconds; metres.
   double meanStd(double seconds) const;
 };
 

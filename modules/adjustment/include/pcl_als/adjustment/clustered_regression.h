@@ -10,16 +10,16 @@
 
 namespace pcl_als {
 
-/** \brief Linear least squares whose covariance knows that neighbours err together.
+/** \brief Linear least squares with a covariance that allows for correlated errors of neighbours.
  *
  * value = row . x + error. Errors of observations of one cluster (a patch of ground: one terrain,
  * one stretch of both trajectories) may be correlated in any way, those of different clusters are
  * independent. With N = sum a'a and the score s_g = sum over cluster g of a' v,
  *   Cov = G/(G-m) N^-1 (sum_g s_g s_g') N^-1
  * (Liang and Zeger 1986) for G clusters and m unknowns; no variance less than that of independent
- * errors, sigma^2 N^-1, for few clusters may happen to agree. Where places are given, clusters
+ * errors, sigma^2 N^-1, because few clusters may agree by chance. Where places are given, clusters
  * near each other may have common errors: the strips deform along time. What all clusters share (a
- * constant error of a whole strip) is not in it, because no observation shows it.
+ * constant error of a whole strip) is not in it, because it is not observable.
  *
  * Centre the columns: rows of size about 1 keep N well-conditioned. Deterministic: sums in the
  * order of add().
@@ -30,9 +30,9 @@ class ClusteredRegression {
   explicit ClusteredRegression(int unknowns);
 
   void add(std::int64_t cluster, const Eigen::VectorXd& row, double value);
-  /// At a plan position (metres): clusters may then err together, too (CorrelatedErrors). \a
-  /// effect: of the shared error, 1 for heights, the normal for distances along it. All
-  /// observations have a place, or none.
+  /// At a plan position (metres): errors of clusters may then be correlated as well
+  /// (CorrelatedErrors). \a effect: of the shared error, 1 for heights, the normal for distances
+  /// along it. All observations have a place, or none.
   void add(std::int64_t cluster, const Eigen::VectorXd& row, double value,
            const Eigen::Vector2d& place, const Eigen::VectorXd& effect = Eigen::VectorXd::Ones(1));
   std::size_t count() const { return values_.size(); }

@@ -50,7 +50,8 @@ class CorrelatedErrors {
     bool determined = false;  ///< false: too few cells to see how errors vary
     Matrix covariance;        ///< of the unknowns
     std::size_t cells = 0;
-    double range = 0.0;  ///< metres: L of the highest likelihood; 0: cells err independently
+    double range =
+        0.0;  ///< metres: L of the highest likelihood; 0: errors of cells are independent
     double share = 0.0;  ///< of the variance of a cell that the shared error has, there
   };
   Result solve() const;

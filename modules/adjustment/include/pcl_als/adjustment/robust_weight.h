@@ -6,11 +6,11 @@
 
 namespace pcl_als {
 
-/// Residuals up to so many robust standard deviations have full weight (Huber 1964). For normally
-/// distributed errors the efficiency is 96 %.
+/// Residuals up to this number of robust standard deviations have full weight (Huber 1964). For
+/// normally distributed errors the efficiency is 96 %.
 inline constexpr double kHuberLimit = 1.5;
-/// Beyond so many, an observation is rejected where an adjustment rejects: of normally distributed
-/// errors seven in a million.
+/// Number of robust standard deviations beyond which observations are rejected: seven in a million
+/// normally distributed errors.
 inline constexpr double kRejectionLimit = 4.5;
 
 /// Huber's weight of a residual: 1 up to the limit, then limit * scale / |residual|.

@@ -64,7 +64,7 @@ class Adjustment {
                            const SystemVector& held) const;
 
   /// Solves for all of \a estimate with a prior of zero and the standard deviations \a prior
-  /// (standard deviations): what the observations leave open stays near zero. For the way to a
+  /// (standard deviations): undetermined parameters stay near zero. For the way to a
   /// solution; its covariances are the model's.
   AdjustmentSolution solveNearZero(const std::vector<SystemParameter>& estimate,
                                    const SystemVector& prior) const;

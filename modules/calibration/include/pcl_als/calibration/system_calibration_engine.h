@@ -133,7 +133,7 @@ class SystemCalibrationEngine {
   void choose(State& state) const;
   void adjust(State& state, bool estimate_components) const;
   void shrinkThreshold(State& state) const;
-  /// Whether no parameter changed by more than so many of its standard deviations.
+  /// Whether no parameter changed by more than a number of its standard deviations.
   static bool restsWithin(const State& state, const SystemVector& before, double deviations);
   /// Records what the last update changed.
   static void recordUpdate(State& state, const SystemVector& before);

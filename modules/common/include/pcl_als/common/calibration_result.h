@@ -18,7 +18,7 @@ namespace pcl_als {
 
 enum class ParameterStatus { estimated, fixed, not_estimable };
 
-/// Where a calibration's model knows the sensor's attitude from, and so must who applies its
+/// Source of the sensor's attitude in the model of a calibration; also needed to apply its
 /// biases.
 enum class AttitudeSource {
   none,        ///< none: vertical, aligned with the flight line (quasi-rigorous)
@@ -81,7 +81,7 @@ struct StripOffset {
   std::string strip;
   double offset = 0.0;        ///< metres
   double expected_std = 0.0;  ///< metres, a priori: of the mean trajectory error over the strip
-  bool consistent = true;     ///< false: does not fit the rest of the block
+  bool consistent = true;     ///< false: differs significantly from the rest of the block
 };
 
 /// What the trajectory of a strip is wrong by at a time, assumed - true.

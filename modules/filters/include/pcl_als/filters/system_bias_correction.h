@@ -20,7 +20,7 @@ namespace pcl_als {
  * point's time; with setInvert(true) the exact inverse, which puts the biases in.
  *
  * Points are relative to the LocalFrame, the trajectory is in the ground frame (east, north, up,
- * metres). A calibration brings its model and attitude (SystemCorrection); biases by themselves
+ * metres). A calibration includes its model and attitude (SystemCorrection); biases by themselves
  * (assumed - true; m, rad, 1) take the attitude of the trajectory as it is. Any point type with x,
  * y, z (float) and gps_time (double) will do; for one's own, include
  * impl/system_bias_correction.hpp.

@@ -68,10 +68,10 @@ class AdjustedBlock {
   /// Standard deviations of what was tried, internal units, if each was known beforehand to twice
   /// its limit: never larger with more observations, whatever is left out as not determined.
   const SystemVector& deviations() const { return deviations_; }
-  /// The same of what is determined; of the rest what it would be by the observations alone,
+  /// The same of what is determined; for others the value by the observations alone,
   /// infinite where they show nothing.
   SystemVector expected() const;
-  /// What was tried; range_bias among it where nothing was asked for, with control or without.
+  /// What was tried; includes range_bias where no parameter was requested, with control or without.
   const std::vector<SystemParameter>& wanted() const { return wanted_; }
   bool determines(SystemParameter p) const;
 

@@ -47,7 +47,7 @@ class Observability {
   /// Largest first: the singular values of N, as standard deviations on the ground.
   std::vector<ParameterDirection> directions() const;
   /// Standard deviations with all wanted ones estimated and known beforehand to \a prior (internal
-  /// units; infinite: not at all); infinite where nothing is known, zero for the others.
+  /// units; infinite: not at all); infinite where it is not determined, zero for the others.
   SystemVector deviations(const SystemVector& prior) const;
   /// Weakest first: what correlates by 0.85 and more, and what is beyond its limit alone.
   std::vector<WeakCombination> combinations(const BlockFacts& facts,

@@ -55,7 +55,7 @@ struct ObservedBlock {
 /** \brief Pairs as a calibration would find them between planned lines: rows from the true
  * geometry, noise of the model, misclosure zero.
  *
- * An observation stands for many: its weight is the number of pairs of its kind in its area.
+ * An observation represents many: its weight is the number of pairs of its kind in its area.
  */
 class SyntheticPairs {
  public:

@@ -17,12 +17,12 @@
 namespace pcl_als {
 
 struct FileCorrectionOptions {
-  bool strip_corrections = false;  ///< take out the errors of the trajectory as well
-  bool invert = false;             ///< put the biases in instead of taking them out
+  bool strip_corrections = false;  ///< correct the estimated errors of the trajectory as well
+  bool invert = false;             ///< apply the biases instead of removing them
   bool keep_uncovered = false;     ///< points without trajectory stay; else at most 1 %
   /// Refuse a trajectory that the points cannot have been measured from.
   bool check_trajectory = true;
-  /// Go on, with warnings, where that check refuses, where the verdict of the calibration is not
+  /// Continue, with warnings, where that check refuses, where the verdict of the calibration is not
   /// "usable", and, level, where the scanner is not linear and has no attitude.
   bool force = false;
   std::optional<int> gps_week;  ///< of times that are seconds of the week; default: found
@@ -39,7 +39,7 @@ struct FileCorrectionResult {
   std::string attitude_remark;
 };
 
-/** \brief Takes a calibration out of a point file: .las and .laz in constant memory on the raw
+/** \brief Applies a calibration to a point file: .las and .laz in constant memory on the raw
  * integers, with every other byte kept, .pcd through SystemBiasCorrection.
  *
  * Where the calibration's attitude is that of the points, the one it holds is used, so that a strip
@@ -49,7 +49,7 @@ struct FileCorrectionResult {
  * \param flight as delivered, made with trajectoryOptions(calibration)
  *
  * UsageError for input and output of different kinds or the same file, and for a calibration that
- * should not be applied; InputError for what the files cannot serve; Cancelled. The output appears
+ * should not be applied; InputError for files that cannot be used; Cancelled. The output appears
  * only when it is complete.
  */
 FileCorrectionResult correctPointFile(const std::filesystem::path& input,

@@ -21,7 +21,7 @@
 
 namespace pcl_als {
 
-/// What the user wants of a radiometric correction.
+/// Options of a radiometric correction.
 struct IntensitySettings {
   RadiometricModel model;
   LocalSurfaceSettings surfaces;

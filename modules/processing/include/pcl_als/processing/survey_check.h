@@ -19,7 +19,7 @@ namespace pcl_als {
 struct SeparationImageOptions {
   std::filesystem::path folder;
   std::string name = "swath_separation";  ///< of the files, without extension
-  double cell = 0.0;                      ///< metres; 0: as the quality level asks
+  double cell = 0.0;                      ///< metres; 0: as the quality level requires
   int quality_level = 2;                  ///< of the USGS Lidar Base Specification, 0 … 3
 };
 

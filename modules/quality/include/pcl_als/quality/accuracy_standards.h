@@ -52,7 +52,7 @@ struct VerticalAccuracy {
   double fit = 0.0, survey = 0.0;
   double class_cm = 0.0;  ///< the accuracy class that rmse_v falls into: the next whole centimetre
   double nva_95 = 0.0;    ///< Edition 1: 1.96 fit, at 95 % if errors are normal
-  bool enough_points = false;  ///< Edition 2 asks for kFewestCheckPoints
+  bool enough_points = false;  ///< Edition 2 requires kFewestCheckPoints
 };
 inline constexpr std::size_t kFewestCheckPoints = 30;
 VerticalAccuracy verticalAccuracy(double fit, double survey, std::size_t points);

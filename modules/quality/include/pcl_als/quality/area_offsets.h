@@ -21,7 +21,7 @@ namespace pcl_als {
 struct SurfaceLimits : SurfaceCriterion {
   double level_slope = 0.17453292519943295;  ///< radians (10 degrees): steeper is not for RMSDz
   double maximum_distance = 1.0;             ///< metres: more is another object, not an offset
-  std::size_t candidates = 400;  ///< places of a strip and area: so many level, so many steep
+  std::size_t candidates = 400;  ///< places of a strip and area: this number level, and steep
 };
 
 /** \brief The points of one area by strip, and the offsets between the strips there.

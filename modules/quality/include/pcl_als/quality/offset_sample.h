@@ -38,10 +38,11 @@ struct OffsetSummary {
   std::size_t count = 0;
   double mean = 0.0, std = 0.0, rms = 0.0;
   double median = 0.0;
-  double nmad = 0.0;                ///< 1.4826 times the median absolute deviation
-  double percentile_95 = 0.0;       ///< of the absolute values
-  double largest = 0.0;             ///< absolute value
-  double std_of_mean = 0.0;         ///< places err together (ClusteredRegression); NaN: unknown
+  double nmad = 0.0;           ///< 1.4826 times the median absolute deviation
+  double percentile_95 = 0.0;  ///< of the absolute values
+  double largest = 0.0;        ///< absolute value
+  double std_of_mean =
+      0.0;  ///< with correlated errors of places (ClusteredRegression); NaN: unknown
   double std_of_mean_formal = 0.0;  ///< the same with clusters as independent; NaN: unknown
 };
 

@@ -77,7 +77,7 @@ struct PairOffset {
 
 /// Three strips that see the same ground: what is left of the offsets going round, a-b + b-c -
 /// (a-c), as the mean over the cells that all three pairs have. On other ground the strips'
-/// trajectories err differently, and nothing has to close.
+/// trajectory errors differ, and closure is not expected.
 struct TriangleClosure {
   std::string a, b, c;
   std::size_t cells = 0;

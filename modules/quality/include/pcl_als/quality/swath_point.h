@@ -36,9 +36,9 @@ bool isSolid(const SwathPoint& point);
 /** \brief Drops the points of one strip that are classified as vegetation (3-5) and lie more than
  * one metre above the lowest point of their cell of 5 m.
  *
- * Vegetation nearer to the ground stays: many classifications call vegetation whatever lies some
- * centimetres or decimetres above a ground that was found in all strips together. Leaving that out
- * would keep the low points of every strip and move the higher strip down.
+ * Vegetation nearer to the ground stays: many classifications assign to vegetation everything that
+ * lies some centimetres or decimetres above a ground that was found in all strips together. Leaving
+ * that out would keep the low points of every strip and move the higher strip down.
  */
 void dropHighVegetation(std::vector<SwathPoint>& points);
 

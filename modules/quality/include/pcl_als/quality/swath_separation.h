@@ -20,8 +20,8 @@ namespace pcl_als {
  * Lidar Base Specification: that separation as green, yellow or red over the intensity.
  *
  * Of every cell and strip the mean position, height and intensity of the last returns are kept
- * (withheld points and noise left out, as the specification asks; no threshold), and the return
- * nearest to the cell's centre, which stands for the mean where the cell holds several surfaces (a
+ * (withheld points and noise left out, as the specification requires; no threshold), and the return
+ * nearest to the cell's centre, which replaces the mean where the cell holds several surfaces (a
  * step of half a metre). Where strips share a cell, each one's height is carried to the cell's
  * centre along the local slope, found from its neighbours, unless these lie on no plane (eaves,
  * trees); the separation is the largest height minus the smallest. So a slope by itself separates

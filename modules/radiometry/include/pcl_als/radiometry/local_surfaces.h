@@ -42,9 +42,9 @@ struct LocalSurfaceSettings {
  * points are two rows with nothing between (one on a roof, one on the ground).
  *
  * Which points count as neighbours is the caller's choice: single and last returns of one strip.
- * Points: metres in any frame in which floats serve (LocalFrame). Const functions may be called by
- * several threads. The planes depend on the points alone, not on the order of the calls. Memory: 16
- * bytes per point, 4 per grid cell.
+ * Points: metres in a frame in which floats are sufficient (LocalFrame). Const functions may be
+ * called by several threads. The planes depend on the points alone, not on the order of the calls.
+ * Memory: 16 bytes per point, 4 per grid cell.
  */
 class LocalSurfaces {
  public:

@@ -60,7 +60,7 @@ struct OverlapResult {
   bool converged = false;  ///< true where there was nothing to estimate
   std::vector<std::string> warnings;
   CellVariation before, physics, after;  ///< as they are; with the given model; with this result
-  bool reliable() const;                 ///< converged, and nothing asked for was left out
+  bool reliable() const;                 ///< converged, and every requested term is estimated
 };
 
 /** \brief Estimates radiometric parameters from what overlapping strips saw in the same cells.

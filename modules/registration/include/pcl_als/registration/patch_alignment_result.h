@@ -28,7 +28,7 @@ struct DistanceSummary {
 struct PatchAlignmentResult {
   enum class Status {
     converged,
-    not_converged,  ///< still moving after the last iteration, or a guess out of reach
+    not_converged,  ///< no convergence in the last iteration, or the initial motion is too far away
     too_few_pairs,  ///< hardly any patches in common
     no_overlap      ///< the clouds do not overlap, or have no surface
   };
@@ -42,7 +42,7 @@ struct PatchAlignmentResult {
 
   Status status = Status::no_overlap;
   std::string message;  ///< one line, empty when converged and everything is determined
-  RigidMotion motion;   ///< about the overlap's centroid; the guess is part of it
+  RigidMotion motion;   ///< about the overlap's centroid; includes the initial motion
   std::array<Parameter, kParameters> parameters;
 
   /// m^2, m rad, rad^2. The formal one, sigma0^2 N^-1 (Habib et al. 2011, Eq. (26)), with each
@@ -60,7 +60,7 @@ struct PatchAlignmentResult {
   /// it.
   Eigen::Matrix<double, kParameters, 1> surface_std = Eigen::Matrix<double, kParameters, 1>::Zero();
   /// Metres, radians: what the pairs still ask for where the iteration went round in a cycle and
-  /// was damped; zero where it converged by itself. Part of covariance.
+  /// was damped; zero where it converged without damping. Part of covariance.
   Eigen::Matrix<double, kParameters, 1> convergence_std =
       Eigen::Matrix<double, kParameters, 1>::Zero();
   double scale_std = 0.0;  ///< of motion.scale; 0 where the scale is not estimated

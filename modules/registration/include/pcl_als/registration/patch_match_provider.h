@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/// Someone who has found the patches of source points already, so that a rejector need not search
+/// A source of the patches of source points, so that a rejector need not search
 /// again.
 class PatchMatchProvider {
  public:

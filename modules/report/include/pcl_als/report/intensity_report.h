@@ -52,7 +52,7 @@ LostIntensities lostIntensities(const IntensityCounts& counts);
 /// "10-15", or "no surface".
 std::string slopeName(std::size_t bin);
 
-/// Factor that brings corrected values to the mean of the given ones.
+/// Factor by which corrected values have the mean of the given ones.
 double meanScale(const BeforeAfter& all);
 
 /// model.json of a run; see the tool's help for what it holds.

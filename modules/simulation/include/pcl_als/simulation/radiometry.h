@@ -23,7 +23,7 @@ double extinctionPerKilometre(const AtmosphereOptions& atmosphere);
 double digitalNumber(double gain, double signal, double range, double extinction_per_km,
                      double range_exponent = 2.0);
 
-/// cos(incidence) that stands for the leaves of a clump, which turn to all sides.
+/// cos(incidence) that represents the leaves of a clump, which have all orientations.
 inline constexpr double kFoliageCosine = 0.5;
 
 }  // namespace pcl_als::simulation

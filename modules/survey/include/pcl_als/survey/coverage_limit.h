@@ -6,7 +6,7 @@
 
 namespace pcl_als {
 
-/// Whether points of a file that no trajectory covers may stay as they are without being asked for:
+/// Whether points of a file that no trajectory covers may stay unchanged by default:
 /// a few at the ends of a flight line are usual, more are the trajectory of another flight.
 inline bool fewUncovered(std::uint64_t uncovered, std::uint64_t points) {
   constexpr double kFew = 0.01;

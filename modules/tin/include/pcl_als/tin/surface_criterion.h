@@ -29,7 +29,7 @@ struct SurfaceCriterion {
   /// Radians, between the triangle and the plane of its neighbourhood.
   double bend = std::numeric_limits<double>::infinity();
   /// Metres, roughness that the noise alone gives plain ground (found from the data): no plane is
-  /// better known than that.
+  /// determined better than that.
   double plain_roughness = 0.0;
 
   /// Without slope and roughness. \a median_edge: metres in plan, medianPlanEdge().
@@ -42,7 +42,7 @@ struct SurfaceCriterion {
 /// Radians (15 degrees): slopes up to it show the roughness that the noise gives plain ground.
 inline constexpr double kGentleSlope = 0.26;
 
-/// Median length in plan of the edges of a TIN, metres, from so many of its triangles at most; 0
+/// Median length in plan of the edges of a TIN, metres, from a limited number of its triangles; 0
 /// for an empty one.
 double medianPlanEdge(const Tin& tin,
                       std::size_t triangles = std::numeric_limits<std::size_t>::max());
@@ -50,8 +50,8 @@ double medianPlanEdge(const Tin& tin,
 /** \brief One triangle for each vertex that \a wanted accepts, by orientation class (every step-th
  * triangle).
  *
- * The class is that of the triangle beyond the edge opposite to the vertex: points that are chosen
- * because their own noise tilts their triangle to the west would not have a mean error of zero.
+ * The class is that of the triangle beyond the edge opposite to the vertex: the noise of points
+ * that are chosen because it tilts their own triangle would not have zero mean.
  */
 std::vector<std::vector<std::int32_t>> trianglesByOrientation(
     const PatchSurface& surface, std::size_t step,

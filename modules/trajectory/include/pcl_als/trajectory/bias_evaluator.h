@@ -21,7 +21,7 @@ struct EffectColumns {
   double* z = nullptr;
 };
 
-/// Which points the trajectory could not serve, and why. Their effect is zero.
+/// Points without trajectory, by reason. Their effect is zero.
 struct CoverageCount {
   std::size_t points = 0;  ///< all that were processed
   std::size_t before_start = 0, after_end = 0, in_gap = 0;

@@ -13,7 +13,7 @@
 namespace pcl_als {
 
 /** \brief What a calibration changes in points: its model, attitude, biases, strip corrections and
- * the alignment of times, for everyone who applies it.
+ * the alignment of times, for every consumer.
  *
  * corrected = biased - A(biased) delta (Habib et al. 2011, Eq. (13), not linearised), with the
  * attitude by which the calibration was estimated: the trajectory's, nominal, none, or the pitch
@@ -25,8 +25,8 @@ namespace pcl_als {
 class SystemCorrection {
  public:
   struct Options {
-    bool strip_corrections = false;  ///< take out the errors of the trajectory as well
-    bool invert = false;             ///< put the biases in instead of taking them out
+    bool strip_corrections = false;  ///< correct the estimated errors of the trajectory as well
+    bool invert = false;             ///< apply the biases instead of removing them
     bool force = false;              ///< accept a calibration whose verdict is not usable
     /// Pitch and crab at times of which the calibration has none (other flights, files of earlier
     /// versions): AttitudeRecovery::Outcome::attitude.
@@ -61,7 +61,8 @@ class SystemCorrection {
   bool knowsAttitude(double flight_time) const;
 
   /// What is to be added to each point, metres. Times are the flight's (flightTime()). Points that
-  /// cannot be served are counted, their change is zero. Columns of an axis may be the same.
+  /// without trajectory or attitude are counted, their change is zero. Columns of an axis may be
+  /// the same.
   void change(const PointColumns& points, std::size_t count, const EffectColumns& change,
               CoverageCount& coverage) const;
 

@@ -25,9 +25,8 @@ enum class VerdictGrade { good, attention, bad };
 /** \brief A report that a person can decide from: one self-contained HTML page with the pictures
  * inside, and the same without pictures as Markdown and CSV.
  *
- * The page asks nothing of a network, runs no script, and prints. Everything given is escaped.
- * \code
- * HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.1.0");
+ * The page needs no network and no script, and has a style for printing. Everything given is
+ * escaped. \code HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.1.0");
  * report.setVerdict(VerdictGrade::good, "The strips agree to 2.1 cm.");
  * report.addVerdict("Boresight roll is −90.1 ± 0.8 arcsec.");
  * report.addSection("Pairs of strips");
@@ -49,7 +48,7 @@ class HtmlReport {
   void addText(std::string paragraph);
   void addList(std::vector<std::string> items);
   void addTable(ReportTable table);
-  /// The caption also stands for the picture where it cannot be seen.
+  /// The caption is also the alternative text of the picture.
   void addPicture(const Image& image, std::string caption);
 
   void addSetting(std::string name, std::string value);

@@ -44,7 +44,7 @@ struct IntervalPlot {
 Canvas drawBeforeAfter(const BeforeAfterPlot& plot, PictureSize size = {});
 Canvas drawIntervals(const IntervalPlot& plot, PictureSize size = {});
 
-/// A height that leaves room for so many rows.
+/// A height sufficient for a number of rows.
 int heightForRows(std::size_t rows);
 
 }  // namespace pcl_als

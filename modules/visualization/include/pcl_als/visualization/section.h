@@ -18,7 +18,7 @@ struct SectionLine {
   double half_width = 1.0;                                                       ///< metres
 
   double length() const { return (to - from).norm(); }
-  /// Whether a place is in the section, or so many metres beside it at most.
+  /// Whether a place is in the section, or at most a distance in metres beside it.
   bool contains(const Eigen::Vector2d& place, double margin = 0.0) const;
 };
 

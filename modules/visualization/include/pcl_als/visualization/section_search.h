@@ -42,7 +42,7 @@ class SectionSearch {
 
   void add(const Eigen::Vector3d& ground, std::size_t strip) { grids_[strip].add(ground); }
 
-  /// The best places, at most so many; fewer where there are no more, none where strips do not
+  /// The best places, up to a number; fewer where there are no more, none where strips do not
   /// overlap on slopes.
   std::vector<Place> find(std::size_t most) const;
 

@@ -22,9 +22,9 @@ Ticks niceTicks(double low, double high, int most);
 /// The largest of 1, 2, 5 times a power of ten that is not above \a limit (> 0).
 double roundDown125(double limit);
 
-/// A number with so many decimals; minus is a true minus sign, and zero has no sign.
+/// A number with a given number of decimals; minus is a true minus sign, and zero has no sign.
 std::string numberText(double value, int decimals);
-/// A number with so many significant digits, never as a power of ten.
+/// A number with a given number of significant digits, never as a power of ten.
 std::string significantText(double value, int digits);
 /// 12345 → "12 345".
 std::string countText(std::size_t count);

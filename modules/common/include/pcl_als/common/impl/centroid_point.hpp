@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-// pcl::VoxelGrid and friends merge points through pcl::CentroidPoint, which knows how to average a
-// few fields and resets all others. A strip's time, return or source id has no mean (points of two
-// passes may share a voxel), so a merged PointLidar takes position and intensity as means and every
-// other field, bit for bit, from its first point.
+// pcl::VoxelGrid and related filters merge points through pcl::CentroidPoint, which knows how to
+// average a few fields and resets all others. A strip's time, return or source id has no mean
+// (points of two passes may share a voxel), so a merged PointLidar takes position and intensity as
+// means and every other field, bit for bit, from its first point.
 
 #include <cstddef>
 

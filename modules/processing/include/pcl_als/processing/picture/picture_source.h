@@ -40,16 +40,16 @@ class PictureSource {
 
   /// Cells for a SectionSearch among the chosen strips.
   double sectionCell(const std::vector<bool>& chosen) const;
-  /// Side of a cell in which a strip has so many points on average, 0.5 to 20 m.
+  /// Side of a cell in which a strip has a given number of points on average, 0.5 to 20 m.
   double cellFor(int strip, double points) const;
 
-  /// One point as a picture wants it.
+  /// Attributes of one point in a picture.
   struct Point {
     Eigen::Vector3d position;
     int strip;
     std::size_t index;  ///< in the chunk
     const PointChunk* chunk;
-    double extra;  ///< value of the extra-bytes field, if one was asked for
+    double extra;  ///< value of the extra-bytes field, if one was requested
   };
   /// Calls \a sink with every point, in file order. \a extra_field: empty or the name of an
   /// extra-bytes field; UsageError where no file has it, points of files without it get NaN.

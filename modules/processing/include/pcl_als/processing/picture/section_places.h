@@ -17,7 +17,7 @@ struct StripDensity {
   double area = 0.0;  ///< m^2
   std::uint64_t points = 0;
 
-  /// Side of a cell in which so many points are on average, 0.5 to 20 m.
+  /// Side of a cell with a given number of points on average, 0.5 to 20 m.
   double cellFor(double points_in_it) const;
 };
 /// In the order of StripArrangement::names().
