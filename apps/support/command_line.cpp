@@ -10,7 +10,9 @@
 #include <new>
 #include <set>
 #include <sstream>
+#include <type_traits>
 
+#include <boost/program_options.hpp>
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
@@ -24,26 +26,59 @@ namespace po = boost::program_options;
 
 namespace pcl_als::app {
 
+struct CommandLine::Parser {
+  po::options_description options{"Options (one dash or two)", 100, 60};
+  po::variables_map values;
+};
+
 CommandLine::CommandLine(std::string tool, std::string purpose, std::string synopsis,
                          std::string example)
     : tool_(std::move(tool)),
       purpose_(std::move(purpose)),
       synopsis_(std::move(synopsis)),
       example_(std::move(example)),
-      options_("Options (one dash or two)", 100, 60) {}
+      parser_(std::make_unique<Parser>()) {}
+
+CommandLine::CommandLine(CommandLine&&) noexcept = default;
+CommandLine::~CommandLine() = default;
+
+template <typename T>
+void CommandLine::add(const char* name, const char* help, const T& default_value) {
+  auto* const value = po::value<T>();
+  if constexpr (std::is_floating_point_v<T>) {
+    value->default_value(default_value, shortText(default_value));
+  } else {
+    value->default_value(default_value);
+  }
+  parser_->options.add_options()(name, value, help);
+}
+
+template <typename T>
+T CommandLine::get(const char* name) const {
+  return parser_->values[name].as<T>();
+}
+
+template void CommandLine::add(const char*, const char*, const double&);
+template void CommandLine::add(const char*, const char*, const int&);
+template void CommandLine::add(const char*, const char*, const std::uint64_t&);
+template void CommandLine::add(const char*, const char*, const std::string&);
+template double CommandLine::get(const char*) const;
+template int CommandLine::get(const char*) const;
+template std::uint64_t CommandLine::get(const char*) const;
+template std::string CommandLine::get(const char*) const;
 
 void CommandLine::addOptional(const char* name, const char* help) {
-  options_.add_options()(name, po::value<std::string>(), help);
+  parser_->options.add_options()(name, po::value<std::string>(), help);
 }
 
 void CommandLine::addFlag(const char* name, const char* help) {
-  options_.add_options()(name, help);
+  parser_->options.add_options()(name, help);
 }
 
 std::string CommandLine::help() const {
   std::ostringstream text;
   text << tool_ << ": " << purpose_ << "\n\nUsage: " << tool_ << ' ' << synopsis_ << "\n\n"
-       << options_ << "\nExample:\n  " << example_
+       << parser_->options << "\nExample:\n  " << example_
        << "\n\nExit status: 0 done, 1 wrong usage, 2 unusable input, 3 no reliable numerical "
           "answer.\n";
   return text.str();
@@ -55,7 +90,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   addFlag("help,h", "print this help");
   addFlag("version", "print the version");
   po::options_description all;
-  all.add(options_).add_options()("input", po::value<std::vector<std::string>>());
+  all.add(parser_->options).add_options()("input", po::value<std::vector<std::string>>());
   po::positional_options_description positional;
   positional.add("input", -1);
   const int style =
@@ -64,8 +99,8 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   try {
     po::store(
         po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
-        values_);
-    po::notify(values_);
+        parser_->values);
+    po::notify(parser_->values);
   } catch (const po::unknown_option& error) {
     throw UsageError(error.what() + suggestionFor(error.get_option_name()) + " (see " + tool_ +
                      " -h)");
@@ -80,7 +115,8 @@ bool CommandLine::parse(int argc, const char* const* argv) {
     std::cout << toolAndVersion() << '\n';
     return false;
   }
-  if (values_.count("input") != 0) inputs_ = values_["input"].as<std::vector<std::string>>();
+  if (parser_->values.count("input") != 0)
+    inputs_ = parser_->values["input"].as<std::vector<std::string>>();
   if (get<int>("threads") < 0) throw UsageError("option -threads: must be 0 or more");
   refuseToOverwrite();
   return true;
@@ -88,7 +124,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
 
 std::string CommandLine::suggestionFor(const std::string& option) const {
   std::vector<std::string> names;
-  for (const auto& known : options_.options()) names.push_back(known->long_name());
+  for (const auto& known : parser_->options.options()) names.push_back(known->long_name());
   const std::size_t start = option.find_first_not_of('-');
   if (start == std::string::npos) return {};
   const std::string name = nearestName(option.substr(start, option.find('=') - start), names);
@@ -111,7 +147,7 @@ void CommandLine::refuseToOverwrite() const {
                                              "map",    "save_model", "transformed"};
   std::vector<std::filesystem::path> inputs(inputs_.begin(), inputs_.end());
   std::vector<std::pair<std::string, std::string>> written;
-  for (const auto& [name, value] : values_) {
+  for (const auto& [name, value] : parser_->values) {
     const auto* text = boost::any_cast<std::string>(&value.value());
     if (text == nullptr) continue;
     if (outputs.count(name) != 0)
@@ -123,7 +159,7 @@ void CommandLine::refuseToOverwrite() const {
 }
 
 bool CommandLine::has(const char* name) const {
-  return values_.count(name) != 0;
+  return parser_->values.count(name) != 0;
 }
 
 double CommandLine::number(const char* name, double low, double high, const char* unit) const {
@@ -154,7 +190,7 @@ std::string CommandLine::toolAndVersion() const {
 
 std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
   std::vector<std::pair<std::string, std::string>> settings;
-  for (const auto& [name, value] : values_) {
+  for (const auto& [name, value] : parser_->values) {
     if (name == "input") continue;
     std::ostringstream text;
     if (const auto* number = boost::any_cast<double>(&value.value())) text << *number;

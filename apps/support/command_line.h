@@ -5,12 +5,10 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
-
-#include <boost/program_options.hpp>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/linear_units.h>
@@ -32,8 +30,10 @@ class CommandLine {
   /// \param tool "pcl_als_info"; \param purpose one sentence; \param synopsis "FILE…"; \param
   /// example a full command
   CommandLine(std::string tool, std::string purpose, std::string synopsis, std::string example);
+  CommandLine(CommandLine&&) noexcept;
+  ~CommandLine();
 
-  /// Adds an option that takes a value; an empty \a default_text means "no value unless given".
+  /// Adds an option that takes a value: double, int, std::uint64_t or std::string.
   template <typename T>
   void add(const char* name, const char* help, const T& default_value);
   void addOptional(const char* name, const char* help);  ///< text value, absent by default
@@ -70,8 +70,8 @@ class CommandLine {
   void refuseToOverwrite() const;
 
   std::string tool_, purpose_, synopsis_, example_;
-  boost::program_options::options_description options_;
-  boost::program_options::variables_map values_;
+  struct Parser;  ///< what Boost keeps of options and values
+  std::unique_ptr<Parser> parser_;
   std::vector<std::string> inputs_;
 };
 
@@ -117,5 +117,3 @@ int run(const char* tool, const std::function<int()>& body);
 std::vector<std::string> splitList(const std::string& list);
 
 }  // namespace pcl_als::app
-
-#include "command_line.hpp"

@@ -21,10 +21,15 @@ set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 
 find_program(PCL_ALS_CCACHE ccache)
 if(PCL_ALS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PCL_ALS_CCACHE})
+  # ccache caches what uses precompiled headers only with this setting.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PCL_ALS_CCACHE})
 endif()
 
 add_compile_options(-Wall -Wextra)
+if(UNIX AND NOT APPLE)
+  add_link_options(LINKER:--as-needed)  # a tool loads at its start only what it uses
+endif()
 if(PCL_ALS_SANITIZE)
   add_compile_options(-fsanitize=${PCL_ALS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PCL_ALS_SANITIZE})

@@ -1,5 +1,6 @@
 # One call per module, tool and test. Unknown arguments are fatal, sources are listed by hand.
 include(GNUInstallDirs)
+include(${CMAKE_CURRENT_LIST_DIR}/pcl_als_precompiled.cmake)
 
 function(_pcl_als_check_arguments caller unparsed)
   if(unparsed)
@@ -10,8 +11,9 @@ endfunction()
 # als_add_module(NAME io SOURCES src/a.cpp … [MODULES common …] [PUBLIC …] [PRIVATE …] [DEFINITIONS …])
 #   MODULES  modules this one may include (checked by tests/architecture)
 #   PUBLIC   third-party targets seen in headers; PRIVATE: used in sources only
+#   PRECOMPILED  kind of precompiled headers, see als_precompile (default: library)
 function(als_add_module)
-  cmake_parse_arguments(ARG "" "NAME" "SOURCES;MODULES;PUBLIC;PRIVATE;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;PRECOMPILED" "SOURCES;MODULES;PUBLIC;PRIVATE;DEFINITIONS" ${ARGN})
   _pcl_als_check_arguments(als_add_module "${ARG_UNPARSED_ARGUMENTS}")
   set(target pcl_als_${ARG_NAME})
   add_library(${target} ${ARG_SOURCES})
@@ -22,6 +24,10 @@ function(als_add_module)
   list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
   target_link_libraries(${target} PUBLIC ${ARG_MODULES} ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_compile_definitions(${target} PRIVATE ${ARG_DEFINITIONS})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED library)
+  endif()
+  als_precompile(${target} ${ARG_PRECOMPILED})
   # Installed libraries find each other wherever the prefix is moved to.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME} INSTALL_RPATH "$ORIGIN"
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
@@ -53,6 +59,7 @@ function(als_add_app)
   list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
   target_link_libraries(${target} PRIVATE pcl_als_app_support ${ARG_MODULES} ${ARG_PRIVATE})
   target_compile_definitions(${target} PRIVATE PCL_ALS_VERSION="${PROJECT_VERSION}")
+  als_precompile(${target} library)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME pcl_als_${ARG_VERB}
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
@@ -68,6 +75,8 @@ function(als_add_test)
   list(TRANSFORM ARG_MODULES PREPEND pcl_als::)
   target_link_libraries(${ARG_NAME} PRIVATE ${ARG_MODULES} ${ARG_PRIVATE} GTest::gtest_main)
   target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+  target_compile_options(${ARG_NAME} PRIVATE ${PCL_ALS_TEST_OPTIONS})
+  als_precompile(${ARG_NAME} test)
   target_compile_definitions(${ARG_NAME} PRIVATE
     PCL_ALS_TEST_SCRATCH="${CMAKE_CURRENT_BINARY_DIR}/scratch"
     PCL_ALS_TEST_DATA_DEFAULT="${PCL_ALS_TEST_DATA}")

@@ -5,12 +5,11 @@
 #include <limits>
 #include <map>
 
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/adjustment/correlated_errors.h>
 #include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
@@ -24,11 +23,10 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& normal) {
   const Eigen::VectorXd diagonal = normal.diagonal();
   if (!(diagonal.minCoeff() > 0.0)) return {};
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * normal *
-                                                              scale.asDiagonal());
-  if (solver.eigenvalues().minCoeff() < kSingular) return {};
-  const Eigen::MatrixXd& v = solver.eigenvectors();
-  return scale.asDiagonal() * v * solver.eigenvalues().cwiseInverse().asDiagonal() * v.transpose() *
+  const auto eigen = symmetricEigen(scale.asDiagonal() * normal * scale.asDiagonal());
+  if (eigen.values.minCoeff() < kSingular) return {};
+  const Eigen::MatrixXd& v = eigen.vectors;
+  return scale.asDiagonal() * v * eigen.values.cwiseInverse().asDiagonal() * v.transpose() *
          scale.asDiagonal();
 }
 

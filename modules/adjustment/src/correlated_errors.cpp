@@ -4,12 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include <pcl_als/adjustment/correlated_errors.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 namespace {
@@ -96,10 +93,10 @@ Eigen::MatrixXd kernel(const Scaled& scaled, double range, double in_plan) {
 void addKernel(const Scaled& scaled, const Eigen::MatrixXd& rest, const Eigen::MatrixXd& inverse,
                double range, double in_plan, double log_prior, Average& average) {
   const Eigen::MatrixXd matrix = kernel(scaled, range, in_plan);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rest.transpose() * matrix * rest);
-  const Eigen::ArrayXd values = solver.eigenvalues().array().max(0.0);
+  const auto eigen = symmetricEigen(rest.transpose() * matrix * rest);
+  const Eigen::ArrayXd values = eigen.values.array().max(0.0);
   const Eigen::ArrayXd squares =
-      (solver.eigenvectors().transpose() * (rest.transpose() * scaled.values)).array().square();
+      (eigen.vectors.transpose() * (rest.transpose() * scaled.values)).array().square();
   const Eigen::MatrixXd shared =
       inverse * (scaled.design.transpose() * matrix * scaled.design) * inverse;
   const auto redundancy = static_cast<double>(values.size());
@@ -195,11 +192,11 @@ CorrelatedErrors::Result CorrelatedErrors::solve() const {
   scaled.effects.resize(most, components_);
   Eigen::Index n = 0;
   for (const auto& [key, cell] : cells) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(cell.effects);
+    const auto eigen = symmetricEigen(cell.effects);
     for (int k = 0; k < components_; ++k) {
-      const double information = solver.eigenvalues()[k];
-      if (!(information > kNothing * solver.eigenvalues()[components_ - 1])) continue;
-      const Eigen::VectorXd direction = solver.eigenvectors().col(k);
+      const double information = eigen.values[k];
+      if (!(information > kNothing * eigen.values[components_ - 1])) continue;
+      const Eigen::VectorXd direction = eigen.vectors.col(k);
       scaled.design.row(n) = direction.transpose() * cell.mixed / std::sqrt(information);
       scaled.values[n] = direction.dot(cell.score) / std::sqrt(information);
       scaled.effects.row(n++) = std::sqrt(information) * direction.transpose();
@@ -209,13 +206,9 @@ CorrelatedErrors::Result CorrelatedErrors::solve() const {
   scaled.design.conservativeResize(n, Eigen::NoChange);
   scaled.values.conservativeResize(n);
   scaled.effects.conservativeResize(n, Eigen::NoChange);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled.design);
-  const Eigen::Index redundancy = n - qr.rank();
-  const Eigen::FullPivLU<Eigen::MatrixXd> normal(normal_);
-  if (redundancy < 3 || !normal.isInvertible()) return result;
-  const Eigen::MatrixXd orthogonal = qr.householderQ();
-  const Eigen::MatrixXd rest = orthogonal.rightCols(redundancy);
-  const Eigen::MatrixXd inverse = normal.inverse();
+  const Eigen::MatrixXd rest = orthogonalComplement(scaled.design);
+  const Eigen::MatrixXd inverse = inverseOrEmpty(normal_);
+  if (rest.cols() < 3 || inverse.size() == 0) return result;
   result.determined = true;
   if (!((rest.transpose() * scaled.values).squaredNorm() > 0.0)) {
     result.covariance = Matrix::Zero(unknowns_, unknowns_);

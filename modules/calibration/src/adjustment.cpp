@@ -5,11 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SparseCholesky>
-
 #include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/parallel.h>
 
 #include "area_normal.h"
@@ -46,13 +43,11 @@ bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log
   if (matrix.size() == 0 || !matrix.allFinite()) return false;
   if ((matrix.diagonal().array() <= 0.0).any()) return false;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
+  const LdltFactor ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
   constexpr double kSingular = 1e-11;  // of a matrix with a unit diagonal
-  if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() < kSingular) return false;
-  log_determinant = ldlt.vectorD().array().log().sum() - 2.0 * scale.array().log().sum();
-  inverse = scale.asDiagonal() *
-            ldlt.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols())) *
-            scale.asDiagonal();
+  if (!ldlt.succeeded() || ldlt.diagonal().minCoeff() < kSingular) return false;
+  log_determinant = ldlt.diagonal().array().log().sum() - 2.0 * scale.array().log().sum();
+  inverse = scale.asDiagonal() * ldlt.inverse() * scale.asDiagonal();
   return true;
 }
 
@@ -158,7 +153,6 @@ Adjustment::Reduced Adjustment::reduce(const Normal& normal,
                                        const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
   const ErrorFactor factor(normal.tt, prior);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> prior_ldlt(prior);
   Reduced reduced;
   reduced.elimination = factor.solve(normal.tg);
   reduced.eliminated_right = factor.solve(normal.right_t);
@@ -169,7 +163,7 @@ Adjustment::Reduced Adjustment::reduce(const Normal& normal,
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
   reduced.prior_share = reduced.elimination.transpose() * (prior * reduced.elimination);
   reduced.log_determinant =
-      normal.log_determinant + factor.logDeterminant() - prior_ldlt.vectorD().array().log().sum();
+      normal.log_determinant + factor.logDeterminant() - sparseLogDeterminant(prior);
   reduced.explained = normal.explained + normal.right_t.dot(reduced.eliminated_right);
   return reduced;
 }
@@ -279,15 +273,14 @@ Eigen::VectorXd Adjustment::slopeNoise(const Eigen::MatrixXd& independent,
                                        const std::vector<SystemParameter>& estimate) const {
   constexpr double kCaution = 2.0, kLeast = 1e-4;
   const Eigen::VectorXd scale = independent.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> llt(scale.asDiagonal() * independent * scale.asDiagonal());
+  const CholeskyFactor cholesky(scale.asDiagonal() * independent * scale.asDiagonal());
   const Eigen::MatrixXd noise =
       scale.asDiagonal() * sub(slope_noise_, estimate) * scale.asDiagonal();
-  const Eigen::MatrixXd half = llt.matrixL().solve(noise);
-  const Eigen::MatrixXd share = llt.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (share + share.transpose()));
-  const Eigen::VectorXd left =
-      (1.0 - kCaution * solver.eigenvalues().array()).max(kLeast).rsqrt().matrix();
-  const Eigen::MatrixXd root = llt.matrixL().transpose().solve(solver.eigenvectors());
+  const Eigen::MatrixXd half = cholesky.solveLower(noise);
+  const Eigen::MatrixXd share = cholesky.solveLower(Eigen::MatrixXd(half.transpose()));
+  const auto eigen = symmetricEigen(0.5 * (share + share.transpose()));
+  const Eigen::VectorXd left = (1.0 - kCaution * eigen.values.array()).max(kLeast).rsqrt().matrix();
+  const Eigen::MatrixXd root = cholesky.solveUpper(eigen.vectors);
   return ((root * left.asDiagonal()).rowwise().norm().array() / root.rowwise().norm().array())
       .matrix();
 }

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 
@@ -114,16 +114,17 @@ AreaNormal::Reduced AreaNormal::reduced(double shift_variance) const {
   if (shifts == 0) return reduced;
   Eigen::MatrixXd own = matrix_.bottomRightCorner(shifts, shifts);
   own.diagonal().array() += 1.0 / shift_variance;
-  const Eigen::LLT<Eigen::MatrixXd> llt(own);
+  const CholeskyFactor cholesky(own);
   // Eliminated through the Cholesky factor, so that the result is symmetric and positive by
   // construction.
-  const Eigen::MatrixXd half = llt.matrixL().solve(matrix_.bottomLeftCorner(shifts, kept));
-  const Eigen::VectorXd half_right = llt.matrixL().solve(right_.tail(shifts));
+  const Eigen::MatrixXd coupling = matrix_.bottomLeftCorner(shifts, kept);
+  const Eigen::VectorXd right = right_.tail(shifts);
+  const Eigen::MatrixXd half = cholesky.solveLower(coupling);
+  const Eigen::VectorXd half_right = cholesky.solveLower(right);
   reduced.matrix.noalias() -= half.transpose() * half;
   reduced.right.noalias() -= half.transpose() * half_right;
-  const Eigen::VectorXd diagonal = llt.matrixLLT().diagonal();
   reduced.log_determinant =
-      2.0 * diagonal.array().log().sum() + static_cast<double>(shifts) * std::log(shift_variance);
+      cholesky.logDeterminant() + static_cast<double>(shifts) * std::log(shift_variance);
   reduced.explained = half_right.squaredNorm();
   return reduced;
 }

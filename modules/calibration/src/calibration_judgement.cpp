@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/Cholesky>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 namespace {
@@ -87,8 +87,7 @@ bool biasesAreSignificant(const CalibrationResult& result) {
     const ParameterEstimate& p = result[result.correlation_order[static_cast<std::size_t>(i)]];
     standardised[i] = p.std > 0.0 ? p.bias / p.std : 0.0;
   }
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(result.correlation);
-  const double chi_squared = standardised.dot(ldlt.solve(standardised));
+  const double chi_squared = standardised.dot(solveSymmetric(result.correlation, standardised));
   return chi_squared > chiSquared99(static_cast<double>(size));
 }
 

@@ -37,17 +37,20 @@ ErrorFactor::ErrorFactor(const KnotBlocks& blocks, const Eigen::SparseMatrix<dou
   for (const auto& [knots, block] : blocks) {
     matrix.block<kKnot, kKnot>(knots.first * kKnot, knots.second * kKnot) += block;
   }
-  llt_.compute(matrix);
+  cholesky_ = CholeskyFactor(matrix);
 }
 
 Eigen::MatrixXd ErrorFactor::solve(const Eigen::MatrixXd& right) const {
-  if (dense_) return llt_.solve(right);
+  if (dense_) return cholesky_.solve(right);
   return ldlt_.solve(right);
 }
 
 double ErrorFactor::logDeterminant() const {
-  return dense_ ? 2.0 * llt_.matrixLLT().diagonal().array().log().sum()
-                : ldlt_.vectorD().array().log().sum();
+  return dense_ ? cholesky_.logDeterminant() : ldlt_.vectorD().array().log().sum();
+}
+
+double sparseLogDeterminant(const Eigen::SparseMatrix<double>& matrix) {
+  return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).vectorD().array().log().sum();
 }
 
 }  // namespace pcl_als

@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
 #include <pcl_als/calibration/shared_errors.h>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 
@@ -30,8 +30,11 @@ class ErrorFactor {
 
  private:
   bool dense_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
+  CholeskyFactor cholesky_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;
 };
+
+/// Logarithm of the determinant of a sparse symmetric matrix that is positive definite.
+double sparseLogDeterminant(const Eigen::SparseMatrix<double>& matrix);
 
 }  // namespace pcl_als

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Cholesky>
-
 #include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/tin/orientation_classes.h>
 
 namespace pcl_als {
@@ -64,7 +63,7 @@ Movement missing(const MovementEquations& all, MovementEquations part) {
   const double trace = part.normal.topLeftCorner<3, 3>().trace();
   part.normal.diagonal().array() += kNothing * trace;
   part.normal.diagonal().segment<6>(3).array() += kLittle * trace;
-  return part.normal.ldlt().solve(all.right - part.right);
+  return solveSymmetric(part.normal, all.right - part.right);
 }
 
 }  // namespace

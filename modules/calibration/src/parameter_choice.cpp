@@ -4,10 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 namespace {
@@ -56,8 +54,7 @@ std::vector<P> weakestDirection(const SystemMatrix& normal, const std::vector<P>
       scaled(i, j) = normal(a, b) / std::sqrt(normal(a, a) * normal(b, b));
     }
   }
-  const Eigen::VectorXd weakest =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvectors().col(0);
+  const Eigen::VectorXd weakest = symmetricEigen(scaled).vectors.col(0);
   std::vector<P> taking_part;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     if (std::abs(weakest[i]) >= kTakesPart) taking_part.push_back(estimate[i]);
@@ -126,7 +123,7 @@ void consider(const Adjustment& adjustment, const std::vector<P>& estimate, P he
   }
   const Eigen::MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();
   const Eigen::VectorXd effect =
-      scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * coupling);
+      scale.asDiagonal() * solveSymmetric(scaled, scale.asDiagonal() * coupling);
   SystemVector shift = SystemVector::Zero();
   for (Eigen::Index i = 0; i < size; ++i)
     shift[indexOf(estimate[static_cast<std::size_t>(i)])] = effect[i] * sigma;

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numeric>
 
-#include <Eigen/Cholesky>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 namespace {
@@ -85,7 +85,7 @@ void StripConsistency::findOffsets(const std::vector<StripFacts>& strips,
     normal(a, b) -= weight, normal(b, a) -= weight;
     right[a] += weight * pair.mean_after, right[b] -= weight * pair.mean_after;
   }
-  const Eigen::VectorXd offsets = normal.ldlt().solve(right);
+  const Eigen::VectorXd offsets = solveSymmetric(normal, right);
   for (Eigen::Index i = 0; i < size; ++i) {
     const StripFacts& strip = strips_[static_cast<std::size_t>(i)];
     offsets_.push_back({strip.id, offsets[i], prior_.meanStd(strip.end - strip.start), true});

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/classification/gaussian_classifier.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 namespace {
@@ -60,8 +59,7 @@ Eigen::VectorXd commonVariances(const std::vector<Moments>& classes, Eigen::Inde
 double leastEigenvalue(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& variances) {
   const Eigen::VectorXd scale = variances.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
-      .eigenvalues()[0];
+  return symmetricEigenvalues(scaled)[0];
 }
 
 std::string text(const char* pattern, double value) {

@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include <pcl_als/classification/gaussian_classifier.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 
@@ -26,7 +26,7 @@ void GaussianModel::check() const {
                       c.covariance.cols() == size && c.mean.allFinite() && c.covariance.allFinite();
     if (!fits) throw UsageError("class " + c.name + ": mean and covariance must fit the bands");
     if (!c.covariance.isApprox(c.covariance.transpose(), 1e-9) ||
-        Eigen::LLT<Eigen::MatrixXd>(c.covariance).info() != Eigen::Success)
+        !CholeskyFactor(c.covariance).succeeded())
       throw UsageError("class " + c.name + ": its covariance is not positive definite");
     if (!(c.prior > 0.0 && c.prior <= 1.0))
       throw UsageError("class " + c.name + ": its prior is no probability");
@@ -46,10 +46,10 @@ MaximumLikelihood::MaximumLikelihood(GaussianModel model, double rejection)
     largest_distance_sq_ = boost::math::quantile(boost::math::complement(
         boost::math::chi_squared_distribution<double>(static_cast<double>(bands)), rejection));
   for (const GaussianClass& c : model_.classes) {
-    const Eigen::MatrixXd lower = c.covariance.llt().matrixL();
-    whitening_.emplace_back(
-        lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(bands, bands)));
-    constant_.push_back(std::log(c.prior) - lower.diagonal().array().log().sum());
+    const CholeskyFactor cholesky(c.covariance);
+    whitening_.push_back(
+        cholesky.solveLower(Eigen::MatrixXd(Eigen::MatrixXd::Identity(bands, bands))));
+    constant_.push_back(std::log(c.prior) - cholesky.lower().diagonal().array().log().sum());
   }
 }
 

@@ -6,9 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/planning/observability.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
@@ -103,16 +101,15 @@ std::vector<ParameterDirection> Observability::directions() const {
   std::vector<ParameterDirection> directions;
   // A matrix that is not finite (weights beyond the range of numbers) knows no directions.
   if (wanted_.empty() || !scaledNormal().allFinite()) return directions;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaledNormal());
-  for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k) {
+  const auto eigen = symmetricEigen(scaledNormal());
+  for (Eigen::Index k = 0; k < eigen.values.size(); ++k) {
     ParameterDirection direction;
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      direction.components[indexOf(wanted_[i])] =
-          eigen.eigenvectors()(static_cast<Eigen::Index>(i), k);
+      direction.components[indexOf(wanted_[i])] = eigen.vectors(static_cast<Eigen::Index>(i), k);
     }
-    const double value = eigen.eigenvalues()[k];
+    const double value = eigen.values[k];
     const bool observed =
-        value > 1.0 / (kNothing * kNothing) && value > 1e-14 * eigen.eigenvalues().maxCoeff();
+        value > 1.0 / (kNothing * kNothing) && value > 1e-14 * eigen.values.maxCoeff();
     direction.std = observed ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity();
     direction.text = describe(direction.components, direction.std);
     directions.push_back(std::move(direction));
@@ -169,9 +166,8 @@ Observability::Known Observability::known(const SystemVector& prior) const {
     const int at = indexOf(wanted_[static_cast<std::size_t>(i)]);
     normal(i, i) += 1.0 / std::pow(std::min(kUnknown, prior[at] * effect_[at]), 2);
   }
-  const auto size = normal.rows();
   Known known;
-  known.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  known.covariance = inverseOfSymmetric(normal);
   known.std = known.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   return known;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <pcl_als/adjustment/clustered_regression.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/quality/overlap_trends.h>
@@ -34,7 +34,7 @@ Eigen::Vector2d longerAxis(const Samples& samples) {
     const Eigen::Vector2d d = s->position.head<2>() - mean;
     spread += d * d.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+  return symmetricEigen2(spread).vectors.col(1);
 }
 
 /// The middle of the overlap: halfway between its edges across and along, outliers aside.

@@ -8,10 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/adjustment/robust_weight.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als::detail {
@@ -182,8 +180,7 @@ void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighi
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell)
     addCell(unknowns, cell, weighing, ignored, all);
-  solution.formal =
-      weighing.scale * weighing.scale * all.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  solution.formal = weighing.scale * weighing.scale * inverseOfSymmetric(all);
   solution.covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::ArrayXd fourths = Eigen::ArrayXd::Zero(n);
   for (std::size_t at = 0; at < by_cluster_.size();) {
@@ -192,7 +189,7 @@ void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighi
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n);
     for (; at < by_cluster_.size() && cluster_[by_cluster_[at]] == cluster; ++at)
       addCell(unknowns, by_cluster_[at], weighing, score, own);
-    Eigen::VectorXd moved = (all - own).ldlt().solve(score);
+    Eigen::VectorXd moved = solveSymmetric(all - own, score);
     // An unknown that stands on this cluster alone has no other witness.
     if (!moved.allFinite()) moved.setConstant(kNoWitness);
     solution.covariance += moved * moved.transpose();
@@ -220,10 +217,9 @@ OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
     const Eigen::VectorXd diagonal = reduced.normal.diagonal().cwiseSqrt().cwiseMax(1e-150);
     const Eigen::MatrixXd scaled = diagonal.cwiseInverse().asDiagonal() * reduced.normal *
                                    diagonal.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-    solution.regular = eigen.eigenvalues()[0] > kSingular;
+    solution.regular = symmetricEigen(scaled).values[0] > kSingular;
     if (!solution.regular) return solution;
-    const Eigen::VectorXd next = reduced.normal.ldlt().solve(reduced.right);
+    const Eigen::VectorXd next = solveSymmetric(reduced.normal, reduced.right);
     const double change = (next - solution.unknowns).cwiseAbs().maxCoeff();
     solution.unknowns = next;
     solution.iterations = round;

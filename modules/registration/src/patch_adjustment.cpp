@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <pcl_als/adjustment/correlated_errors.h>
 #include <pcl_als/adjustment/robust_weight.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 
@@ -181,9 +179,9 @@ Directions analyse(const NormalEquations& equations, int unknowns, double limit)
   directions.weights = equations.weights;
   const UnknownsMatrix sure = equations.matrix - kNoiseFactor * equations.noise;
   const Eigen::MatrixXd part = sure.topLeftCorner(unknowns, unknowns);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part);
-  directions.vectors.topLeftCorner(unknowns, unknowns) = solver.eigenvectors();
-  directions.values.head(unknowns) = solver.eigenvalues().cwiseMax(0.0);
+  const auto eigen = symmetricEigen(part);
+  directions.vectors.topLeftCorner(unknowns, unknowns) = eigen.vectors;
+  directions.values.head(unknowns) = eigen.values.cwiseMax(0.0);
   const double least = 1.0 / (limit * limit);
   while (directions.weak < unknowns && !(directions.values[directions.weak] > least))
     ++directions.weak;
@@ -197,7 +195,7 @@ Unknowns solveDetermined(const NormalEquations& equations, const Directions& dir
   const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
   Eigen::MatrixXd normal = basis.transpose() * equations.matrix * basis;
   normal.diagonal().array() += prior_information;
-  return basis * normal.ldlt().solve(basis.transpose() * equations.right);
+  return basis * solveSymmetric(normal, basis.transpose() * equations.right);
 }
 
 UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& directions) {
@@ -205,7 +203,7 @@ UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& dire
   if (strong == 0) return UnknownsMatrix::Zero();
   const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
   const Eigen::MatrixXd normal = basis.transpose() * equations.matrix * basis;
-  return basis * normal.inverse() * basis.transpose();
+  return basis * inverseOfRegular(normal) * basis.transpose();
 }
 
 UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions) {
@@ -218,7 +216,7 @@ UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Direc
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(strong);
   for (const NormalEquations& group : groups) {
     const Eigen::MatrixXd rest = basis.transpose() * (all.matrix - group.matrix) * basis;
-    solutions.push_back(rest.ldlt().solve(basis.transpose() * (all.right - group.right)));
+    solutions.push_back(solveSymmetric(rest, basis.transpose() * (all.right - group.right)));
     mean += solutions.back();
   }
   mean /= static_cast<double>(groups.size());

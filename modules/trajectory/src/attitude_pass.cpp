@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
 
@@ -146,9 +146,7 @@ void smoothPlanes(std::vector<PassBin>& bins) {
     const double weight = std::min(1.0, kMostCounted / std::max(1.0, bin.sums.n)) / (noise * noise);
     Equations e = equationsOf(bin.sums);
     e.normal *= weight, e.right *= weight;
-    const double weakest =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(e.normal, Eigen::EigenvaluesOnly)
-            .eigenvalues()[0];
+    const double weakest = symmetricEigenvalues2(e.normal)[0];
     bin.well_determined =
         bin.sums.n >= kFewestOfBin && weakest * kWellDetermined * kWellDetermined > 1.0;
     e.normal.diagonal().array() += prior;

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
@@ -171,11 +170,11 @@ Eigen::Vector2d TrajectoryPlausibility::offset(const std::vector<View>& views) c
   if (hh == 0.0) return offset;
   // The forward direction c eliminated; then each axis that enough strips see from both sides.
   constexpr double kSeen = 0.3;  // two strips at a right angle: 1; a turn of 30 degrees: 0.13
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(dd - hd * hd.transpose() / hh);
+  const SymmetricEigen<2> axes = symmetricEigen2(dd - hd * hd.transpose() / hh);
   for (int i = 0; i < 2; ++i) {
-    const Eigen::Vector2d axis = axes.eigenvectors().col(i);
-    if (axes.eigenvalues()[i] < kSeen) continue;
-    offset -= axis * (axis.dot(da - hd * ha / hh) / axes.eigenvalues()[i]);
+    const Eigen::Vector2d axis = axes.vectors.col(i);
+    if (axes.values[i] < kSeen) continue;
+    offset -= axis * (axis.dot(da - hd * ha / hh) / axes.values[i]);
   }
   return offset;
 }

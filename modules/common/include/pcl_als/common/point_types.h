@@ -8,13 +8,18 @@
 #include <cmath>
 #include <cstdint>
 
-#include <pcl/impl/point_types.hpp>
-#include <pcl/point_types.h>
+#include <Eigen/Core>
+#include <pcl/memory.h>
+#include <pcl/pcl_macros.h>
 #include <pcl/register_point_struct.h>
+#include <pcl/type_traits.h>
 
 #include <pcl_als/common/point_flag.h>
 
 namespace pcl_als {
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"  // an unnamed struct, as in all of PCL's points
 
 /** \brief A LiDAR return: 48 bytes, relative to a LocalFrame.
  *
@@ -22,7 +27,14 @@ namespace pcl_als {
  * for what pcl::VoxelGrid does with the fields that have no mean, such as gps_time).
  */
 struct EIGEN_ALIGN16 PointLidar {
-  PCL_ADD_POINT4D;  ///< x, y, z: metres from the LocalFrame's origin
+  // What PCL_ADD_POINT4D adds. It stands in <pcl/point_types.h>, whose many other point types would
+  // cost every source a second of compilation: include that where one of them is used.
+  union EIGEN_ALIGN16 {
+    float data[4];
+    struct {
+      float x, y, z;  ///< metres from the LocalFrame's origin
+    };
+  };
   double gps_time =
       0.0;  ///< seconds; week seconds or adjusted standard GPS time, as the source file has it
   float intensity = 0.0F;  ///< digital number of the source file
@@ -36,8 +48,19 @@ struct EIGEN_ALIGN16 PointLidar {
 
   PointLidar() { x = y = z = 0.0F, data[3] = 1.0F; }
   PointLidar(float px, float py, float pz) { x = px, y = py, z = pz, data[3] = 1.0F; }
+
+  auto getVector3fMap() { return Eigen::Map<Eigen::Vector3f>(data); }
+  auto getVector3fMap() const { return Eigen::Map<const Eigen::Vector3f>(data); }
+  auto getVector4fMap() { return Eigen::Map<Eigen::Vector4f, Eigen::Aligned>(data); }
+  auto getVector4fMap() const { return Eigen::Map<const Eigen::Vector4f, Eigen::Aligned>(data); }
+  auto getArray3fMap() { return Eigen::Map<Eigen::Array3f>(data); }
+  auto getArray3fMap() const { return Eigen::Map<const Eigen::Array3f>(data); }
+  auto getArray4fMap() { return Eigen::Map<Eigen::Array4f, Eigen::Aligned>(data); }
+  auto getArray4fMap() const { return Eigen::Map<const Eigen::Array4f, Eigen::Aligned>(data); }
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
+
+#pragma GCC diagnostic pop
 
 }  // namespace pcl_als
 

@@ -10,10 +10,14 @@
 #include <cstddef>
 
 #include <Eigen/Core>
-#include <pcl/common/centroid.h>
-#include <pcl/common/copy_point.h>
 
 namespace pcl {
+
+// Declared, not included: PCL's headers that use it bring the template and copyPoint().
+template <typename PointT>
+class CentroidPoint;
+template <typename PointInT, typename PointOutT>
+void copyPoint(const PointInT& in, PointOutT& out);
 
 template <>
 class CentroidPoint<pcl_als::PointLidar> {

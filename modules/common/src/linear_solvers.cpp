@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <pcl_als/common/linear_solvers.h>
+
+namespace pcl_als {
+
+SymmetricEigen<Eigen::Dynamic> symmetricEigen(const Eigen::MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SymmetricEigen<2> symmetricEigen2(const Eigen::Matrix2d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(matrix);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SymmetricEigen<3> symmetricEigen3(const Eigen::Matrix3d& matrix) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+Eigen::Vector2d symmetricEigenvalues2(const Eigen::Matrix2d& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+Eigen::VectorXd solveSymmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  return matrix.ldlt().solve(right);
+}
+
+Eigen::MatrixXd inverseOfSymmetric(const Eigen::MatrixXd& matrix) {
+  return LdltFactor(matrix).inverse();
+}
+
+Eigen::MatrixXd inverseOfRegular(const Eigen::MatrixXd& matrix) {
+  return matrix.inverse();
+}
+
+Eigen::MatrixXd inverseOrEmpty(const Eigen::MatrixXd& matrix) {
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
+  if (!lu.isInvertible()) return {};
+  return lu.inverse();
+}
+
+Eigen::MatrixXd orthogonalComplement(const Eigen::MatrixXd& design) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
+  const Eigen::MatrixXd orthogonal = qr.householderQ();
+  return orthogonal.rightCols(design.rows() - qr.rank());
+}
+
+LdltFactor::LdltFactor(const Eigen::MatrixXd& matrix) : ldlt_(matrix) {}
+
+bool LdltFactor::succeeded() const {
+  return ldlt_.info() == Eigen::Success;
+}
+
+Eigen::VectorXd LdltFactor::diagonal() const {
+  return ldlt_.vectorD();
+}
+
+Eigen::MatrixXd LdltFactor::inverse() const {
+  return ldlt_.solve(Eigen::MatrixXd::Identity(ldlt_.rows(), ldlt_.cols()));
+}
+
+CholeskyFactor::CholeskyFactor(const Eigen::MatrixXd& matrix) : llt_(matrix) {}
+
+bool CholeskyFactor::succeeded() const {
+  return llt_.info() == Eigen::Success;
+}
+
+Eigen::MatrixXd CholeskyFactor::lower() const {
+  return llt_.matrixL();
+}
+
+double CholeskyFactor::logDeterminant() const {
+  return 2.0 * llt_.matrixLLT().diagonal().array().log().sum();
+}
+
+Eigen::MatrixXd CholeskyFactor::solve(const Eigen::MatrixXd& right) const {
+  return llt_.solve(right);
+}
+
+Eigen::MatrixXd CholeskyFactor::solveLower(const Eigen::MatrixXd& right) const {
+  return llt_.matrixL().solve(right);
+}
+
+Eigen::VectorXd CholeskyFactor::solveLower(const Eigen::VectorXd& right) const {
+  return llt_.matrixL().solve(right);
+}
+
+Eigen::MatrixXd CholeskyFactor::solveUpper(const Eigen::MatrixXd& right) const {
+  return llt_.matrixL().transpose().solve(right);
+}
+
+}  // namespace pcl_als
