@@ -55,6 +55,9 @@ SystemVector parseBiases(const std::string& list) {
     }
     const double value = app::numberIn(part.substr(equals + 1), "option -biases");
     biases[indexOf(parameter)] = value * infoOf(parameter).internal_per_unit;
+    const std::string refused = refusedBias(parameter, biases[indexOf(parameter)]);
+    if (!refused.empty())
+      throw UsageError("option -biases: " + part.substr(0, equals) + ": " + refused);
   }
   if (given.empty()) throw UsageError("option -biases: names no parameter");
   return biases;

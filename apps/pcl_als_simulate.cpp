@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -83,21 +82,14 @@ CommandLine declare() {
   return line;
 }
 
-double factorIn(const std::string& text) {
-  double value = 0.0;
-  const char* last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, value);
-  if (error == std::errc() && end == last && std::isfinite(value)) return value;
-  throw UsageError("option -strip_gains: '" + text + "' is not a number");
-}
-
 void setStripGains(const std::string& list, SimulationOptions& options) {
   for (const std::string& part : splitList(list)) {
     const std::size_t equals = std::min(part.find('='), part.size());
     bool found = false;
     for (simulation::PlannedLine& planned : options.lines) {
       if (std::to_string(planned.id) != part.substr(0, equals)) continue;
-      planned.gain = factorIn(part.substr(std::min(equals + 1, part.size())));
+      planned.gain =
+          app::numberIn(part.substr(std::min(equals + 1, part.size())), "option -strip_gains");
       found = true;
     }
     if (!found) throw UsageError("option -strip_gains: '" + part + "' names no line (ID=FACTOR)");
@@ -117,9 +109,9 @@ Eigen::Vector3d parseOrigin(const std::string& text) {
   Eigen::Vector3d origin;
   bool good = parts.size() == 3;
   for (int i = 0; good && i < 3; ++i) {
-    const char* last = parts[i].data() + parts[i].size();
-    const auto [end, error] = std::from_chars(parts[i].data(), last, origin[i]);
-    good = error == std::errc() && end == last && std::isfinite(origin[i]);
+    const auto value = app::decimalNumber(parts[i]);
+    good = value.has_value();
+    origin[i] = value.value_or(0.0);
   }
   if (good) return origin;
   throw UsageError("option -origin: '" + text + "' is not X,Y,Z in metres");

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "command_line.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -324,6 +325,21 @@ int run(const char* tool, const std::function<int()>& body) {
   } catch (const std::exception& error) {
     return failed(error.what(), kUnusableInput);
   }
+}
+
+std::optional<double> decimalNumber(const std::string& text) {
+  double value = 0.0;
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (text.size() > 1 && *first == '+' && first[1] != '-') ++first;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+double numberIn(const std::string& text, const std::string& what) {
+  if (const auto value = decimalNumber(text)) return *value;
+  throw UsageError(what + ": '" + text + "' is not a finite number");
 }
 
 std::vector<std::string> splitList(const std::string& list) {

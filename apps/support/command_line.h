@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -112,6 +113,11 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts);
 /// Runs a tool's body and turns exceptions into one line on stderr ("pcl_als_info: …") and the exit
 /// status.
 int run(const char* tool, const std::function<int()>& body);
+
+/// The finite number that a text is as a whole, in decimal digits (no hexadecimal, no blanks).
+std::optional<double> decimalNumber(const std::string& text);
+/// The same; UsageError that names \a what for another text.
+double numberIn(const std::string& text, const std::string& what);
 
 /// "a, b, c" → {"a", "b", "c"}, without blanks and empty parts.
 std::vector<std::string> splitList(const std::string& list);

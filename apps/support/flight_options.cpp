@@ -37,20 +37,6 @@ SystemParameter parameterNamed(const std::string& name, const std::string& what)
   throw UsageError(what + ": '" + name + "' is none of" + names);
 }
 
-double numberIn(const std::string& text, const std::string& what) {
-  std::size_t used = 0;
-  double value = 0.0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(value)) {
-    throw UsageError(what + ": '" + text + "' is not a finite number");
-  }
-  return value;
-}
-
 std::optional<int> gpsWeek(const CommandLine& line) {
   if (!line.has("gps_week")) return std::nullopt;
   const double week = numberIn(line.text("gps_week"), "option -gps_week");

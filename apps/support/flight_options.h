@@ -34,7 +34,4 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
 /// The parameter of that name; UsageError that names \a what and all parameters otherwise.
 SystemParameter parameterNamed(const std::string& name, const std::string& what);
 
-/// A finite number; UsageError that names \a what otherwise.
-double numberIn(const std::string& text, const std::string& what);
-
 }  // namespace pcl_als::app

@@ -21,13 +21,9 @@ std::vector<double> parsed(const std::string& text, char separator) {
   std::vector<double> numbers;
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, separator);) {
-    std::size_t used = 0;
-    try {
-      numbers.push_back(std::stod(part, &used));
-    } catch (const std::exception&) {
-      return {};
-    }
-    if (used != part.size() || !std::isfinite(numbers.back())) return {};
+    const auto number = decimalNumber(part);
+    if (!number) return {};
+    numbers.push_back(*number);
   }
   return numbers;
 }

@@ -51,6 +51,21 @@ if command -v Xvfb >/dev/null; then
   wait "$server" 2>/dev/null
   check "no server is left behind" eval '! pgrep -P $$ Xvfb'
 
+  # Closed standard streams, and too little memory: a picture, or status 2, a message and nothing
+  # half written. Libraries of the display may print lines of their own before.
+  check "closed standard streams" eval '"$bin/pcl_als_view" "${strips[@]}" -output top_closed.png \
+    -size 800x600 <&- >&- 2>&-'
+  check "the picture is the same with closed streams" cmp top.png top_closed.png
+  for kilobytes in 100000 200000 400000; do
+    checks=$((checks + 1))
+    status=0
+    (ulimit -v "$kilobytes"; exec "$bin/pcl_als_view" "${strips[@]}" -output small.png) >out.txt \
+      2>err.txt || status=$?
+    [[ $status == 2 && $(tail -n 1 err.txt) == "pcl_als_view: "* ]] ||
+      failed "view with $kilobytes kB of memory: status $status"
+    absent small.png
+  done
+
   # Few points, and points without use.
   expect 0 "1 points" view one.pcd -output one.png
   check "one point is drawn" is_png one.png 1600x1000
