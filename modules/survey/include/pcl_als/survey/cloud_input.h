@@ -15,10 +15,14 @@
 
 namespace pcl_als {
 
+/// InputError where the floats of a cloud have steps of more than 2 mm (16 km from its frame's
+/// origin): a tenth of the noise of points, and more is a cloud that has lost its frame.
+void requireFineFloats(const PointFileInfo& cloud);
+
 /** \brief Reads a cloud as if it were a point file. Points that are not finite are left out.
  *
  * The points of a cloud and those of the PCD file that savePcd() makes of it are equal to the last
- * bit. Fields that the type lacks are as PointFields says. Memory: one chunk.
+ * bit. Fields that the type lacks are as PointFields says. Memory: one chunk. requireFineFloats().
  */
 template <typename PointT>
 class CloudReader : public LocalPointReader {
@@ -32,6 +36,7 @@ class CloudReader : public LocalPointReader {
     info_.units.source = info_.units.vertical_source = "LocalFrame";
     info_.format = "point cloud";
     survey(frame.origin, HasGpsTime<PointT>::value);
+    requireFineFloats(info_);
   }
 
  private:
