@@ -22,6 +22,9 @@ fi
 # The README's lines of C++ are those that are compiled here.
 diff <(sed -n '/^```cpp$/,/^```$/p' "$root/README.md" | grep -v '^```') <(sed '1,4d' "$here/project/readme.cpp") ||
   { echo "README.md and tests/consumer/project/readme.cpp differ"; exit 1; }
+diff <(sed -n '/^```c++$/,/^```$/p' "$root/README.md" | grep -v '^```') \
+  <(sed -n '/^  \/\/ README$/,/^  \/\/ end$/p' "$here/project/clouds.cpp" | sed '1d;$d;s/^  //') ||
+  { echo "README.md and tests/consumer/project/clouds.cpp differ"; exit 1; }
 
 flags=()
 [[ -z ${SANITIZE:-} ]] || flags=(-DCMAKE_CXX_FLAGS="-fsanitize=$SANITIZE")
@@ -35,7 +38,7 @@ done
 ./project/consumer "$block/strip1.las" "$block/trajectory.csv"
 "$prefix/bin/pcl_als_calibrate" "$block"/strip*.las -trajectory "$block/trajectory.csv" \
   -control "$block/control.csv" -output calibration.json -quiet || [[ $? == 3 ]]
-./pipeline/pipeline "$block/strip1.las" "$block/strip2.las" "$block/trajectory.csv" calibration.json a.pcd
+./pipeline/pipeline "$block/trajectory.csv" "$block/control.csv" pipeline.json a.pcd "$block"/strip*.las
 grep -aq '^FIELDS x y z .*gps_time' a.pcd
 "$prefix/bin/pcl_als_info" a.pcd
 
@@ -73,7 +76,12 @@ jobs/register corrected/strip2.las corrected/strip1.las >shift.txt
 awk '{ exit !(NF == 4 && $1^2 + $2^2 + $3^2 < 0.02^2) }' shift.txt || { cat shift.txt; exit 1; }
 if [[ -x jobs/draw ]]; then env -u DISPLAY jobs/draw drawn.png "$block"/strip*.las && test -s drawn.png; fi
 
-ln -s "$block"/{strip1.las,strip2.las,trajectory.csv} .
+ln -s "$block"/{strip1.las,strip2.las,trajectory.csv,control.csv} .
+# From clouds as from the PCD files of the same points.
+./project/clouds "$block"/strip*.las
+"$prefix/bin/pcl_als_calibrate" cloud*.pcd -trajectory trajectory.csv -control control.csv \
+  -output from_files.json -quiet || [[ $? == 3 ]]
+cmp <("$here/stable.sh" from_clouds.json) <("$here/stable.sh" from_files.json)
 ./project/readme
 test -s corrected1.pcd -a -s corrected2.pcd
 

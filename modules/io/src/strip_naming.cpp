@@ -81,11 +81,15 @@ const std::string& StripNaming::nameOf(std::size_t file, std::uint16_t id) const
 
 PointFileSources surveySources(const std::filesystem::path& path,
                                const std::function<void(const PointChunk&)>& also) {
-  const auto reader = PointReader::open(path);
-  PointFileSources file{reader->info(), {}};
+  return surveySources(*PointReader::open(path), also);
+}
+
+PointFileSources surveySources(PointReader& reader,
+                               const std::function<void(const PointChunk&)>& also) {
+  PointFileSources file{reader.info(), {}};
   std::map<std::uint16_t, PointSource> sources;
   PointChunk chunk;
-  while (reader->read(chunk)) {
+  while (reader.read(chunk)) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
       const double time = chunk.gps_time[i];

@@ -11,11 +11,26 @@
 #include <pcl_als/processing/survey_reader.h>
 
 namespace pcl_als {
+namespace {
+
+std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths) {
+  std::vector<SurveyInput> inputs;
+  for (const std::string& path : paths) inputs.push_back(SurveyInput::ofFile(path));
+  return inputs;
+}
+
+}  // namespace
 
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
-    : threads_(threads), files_(paths.size()), times_(paths.size()) {
-  parallelFor(paths.size(), threads,
-              [&](std::size_t file) { files_[file] = surveyFile(paths[file]); });
+    : SurveyReader(inputsOf(paths), threads) {}
+
+SurveyReader::SurveyReader(std::vector<SurveyInput> inputs, int threads)
+    : threads_(threads),
+      inputs_(std::move(inputs)),
+      files_(inputs_.size()),
+      times_(inputs_.size()) {
+  parallelFor(inputs_.size(), threads,
+              [&](std::size_t file) { files_[file] = surveyFile(inputs_[file]); });
   std::vector<PointFileInfo> infos;
   infos.reserve(files_.size());
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
@@ -74,6 +89,11 @@ std::vector<std::string> SurveyReader::alignTimes(const Flight& flight) {
   std::string objection;
   std::size_t met = 0;
   for (std::size_t file = 0; file < files_.size(); ++file) {
+    if (inputs_[file].time) {
+      times_[file] = *inputs_[file].time;
+      ++met;
+      continue;
+    }
     TimeRange range;
     for (const PointSource& source : files_[file].sources.sources) {
       if (!source.hasTimes()) continue;
@@ -193,7 +213,7 @@ void SurveyReader::readRuns(const RunSink& sink) const {
 void SurveyReader::readFile(std::size_t file, const RunSink& sink,
                             std::vector<std::uint64_t>& counts) const {
   StripArrangement::Sorter sorter(*arrangement_, file);
-  const auto reader = PointReader::open(files_[file].sources.info.path);
+  const auto reader = inputs_[file].open();
   PointChunk chunk;
   while (reader->read(chunk)) {
     for (std::size_t from = 0; from < chunk.size();) {

@@ -112,11 +112,12 @@ std::vector<StripArrangement::Piece> StripArrangement::pieces(const StripChoice&
   std::map<std::string, std::size_t> place;
   for (std::size_t file = 0; file < files_.size(); ++file) {
     for (const PointSource& source : sources[file].sources) {
-      if (choice.split && source.hasTimes()) {
+      const std::string& given = files_[file].strip;
+      if (choice.split && source.hasTimes() && given.empty()) {
         pools[source.id].emplace_back(file, source.id);
         continue;
       }
-      const std::string& name = naming.nameOf(file, source.id);
+      const std::string& name = given.empty() ? naming.nameOf(file, source.id) : given;
       const auto [known, added] = place.try_emplace(name, found.size());
       if (added) {
         found.emplace_back();

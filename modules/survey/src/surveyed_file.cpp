@@ -4,9 +4,20 @@
 
 namespace pcl_als {
 
+SurveyInput SurveyInput::ofFile(const std::filesystem::path& path) {
+  SurveyInput input;
+  input.open = [path] { return PointReader::open(path); };
+  return input;
+}
+
 SurveyedFile surveyFile(const std::filesystem::path& path) {
+  return surveyFile(SurveyInput::ofFile(path));
+}
+
+SurveyedFile surveyFile(const SurveyInput& input) {
   SurveyedFile file;
-  file.sources = surveySources(path, [&file](const PointChunk& chunk) {
+  file.strip = input.strip;
+  file.sources = surveySources(*input.open(), [&file](const PointChunk& chunk) {
     for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
       const std::uint16_t id = chunk.point_source_id[from];
       for (to = from + 1; to < chunk.size() && chunk.point_source_id[to] == id; ++to) {

@@ -1,34 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 //
-// pipeline A.las B.las trajectory.csv calibration.json OUT.pcd: takes the system biases out of two
-// overlapping strips and measures what is left between them, with PCL's filters and ICP around
-// pcl_als's correction and point-to-patch correspondences.
+// pipeline TRAJECTORY CONTROL.csv CALIBRATION.json OUT.pcd STRIP STRIP…: loads strips, selects the
+// points of the overlap that lie on surfaces suitable for measurement, calibrates the system from
+// the clouds, corrects them, registers the first two, before and after, and saves. PCL's filters
+// and ICP around pcl_als's selections, calibration, correction and correspondences.
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include <pcl/features/normal_3d.h>
-#include <pcl/filters/passthrough.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/icp.h>
 
+#include <pcl_als/filters/incidence_selection.h>
+#include <pcl_als/filters/overlap_selection.h>
+#include <pcl_als/filters/surface_selection.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/system_calibration.h>
 #include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
 #include <pcl_als/registration/correspondence_rejection_patch.h>
-#include <pcl_als/trajectory/trajectory.h>
 
 using pcl_als::PointLidar;
 using Cloud = pcl::PointCloud<PointLidar>;
 using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
 using Strip = pcl_als::Strip<PointLidar>;
+using Flight = std::shared_ptr<const pcl_als::Trajectory>;
+
+/// Points of a strip on surfaces that another strip sees, too, and that the pulse met at less than
+/// 60 degrees.
+Cloud::Ptr measurable(const Strip& strip, const Strip& other, const Flight& flight) {
+  pcl::IndicesPtr indices(new pcl::Indices);
+  pcl_als::OverlapSelection<PointLidar> overlap;
+  overlap.setInputCloud(strip.cloud);
+  overlap.setLocalFrame(strip.frame);
+  overlap.addOtherStrip(other.cloud, other.frame);
+  overlap.filter(*indices);
+  pcl_als::SurfaceSelection<PointLidar> surfaces;
+  surfaces.setInputCloud(strip.cloud);
+  surfaces.setLocalFrame(strip.frame);
+  surfaces.setIndices(indices);
+  pcl::IndicesPtr smooth(new pcl::Indices);
+  surfaces.filter(*smooth);
+  pcl_als::IncidenceSelection<PointLidar> incidence;
+  incidence.setInputCloud(strip.cloud);
+  incidence.setLocalFrame(strip.frame);
+  incidence.setTrajectory(flight);
+  incidence.setAngleLimits(0.0, 60.0);
+  incidence.setIndices(smooth);
+  Cloud::Ptr selected(new Cloud);
+  incidence.filter(*selected);
+  return selected;
+}
+
+/// The biases of the system that measured these strips.
+pcl_als::CalibrationResult calibrated(const std::vector<Strip>& strips, const Flight& flight,
+                                      const char* control) {
+  pcl_als::SystemCalibration<PointLidar> calibration;
+  for (const Strip& strip : strips) calibration.addInputStrip(strip.cloud, strip.frame, strip.id);
+  calibration.setTrajectory(flight);
+  calibration.setControl(pcl_als::readControl(control));
+  calibration.calibrate();
+  return calibration.getResult();
+}
 
 /// Eq. (13) of Habib et al. 2011 on a strip; every other field keeps its bits.
-Strip corrected(const Strip& strip, const std::shared_ptr<const pcl_als::Trajectory>& trajectory,
+Strip corrected(const Strip& strip, const Flight& trajectory,
                 const pcl_als::CalibrationResult& calibration) {
   pcl_als::SystemBiasCorrection<PointLidar> correction;
   correction.setTrajectory(trajectory);
@@ -42,16 +85,13 @@ Strip corrected(const Strip& strip, const std::shared_ptr<const pcl_als::Traject
   return result;
 }
 
-/// Single returns, one point per cubic metre, with normals from PCL, in the frame \a frame.
-NormalCloud::Ptr surfaceOf(const Strip& strip, const pcl_als::LocalFrame& frame) {
-  Cloud::Ptr single(new Cloud), thinned(new Cloud);
-  pcl::PassThrough<PointLidar> pass;
-  pass.setInputCloud(strip.cloud);
-  pass.setFilterFieldName("intensity");  // any float field of PointLidar will do
-  pass.setFilterLimits(1.0F, 65535.0F);
-  pass.filter(*single);
+/// What can be measured of a strip against another, one point per cubic metre, with normals from
+/// PCL, in the frame \a frame.
+NormalCloud::Ptr surfaceOf(const Strip& strip, const Strip& other, const Flight& flight,
+                           const pcl_als::LocalFrame& frame) {
+  Cloud::Ptr thinned(new Cloud);
   pcl::VoxelGrid<PointLidar> grid;
-  grid.setInputCloud(single);
+  grid.setInputCloud(measurable(strip, other, flight));
   grid.setLeafSize(1.0F, 1.0F, 1.0F);
   grid.filter(*thinned);
 
@@ -89,23 +129,25 @@ Eigen::Vector3d remainingShift(const NormalCloud::Ptr& source, const NormalCloud
   return (icp.getFinalTransformation() * centre - centre).head<3>();
 }
 
+double shiftBetween(const Strip& a, const Strip& b, const Flight& flight) {
+  return remainingShift(surfaceOf(b, a, flight, a.frame), surfaceOf(a, b, flight, a.frame)).norm();
+}
+
 int main(int argc, char** argv) try {
-  if (argc != 6) {
-    std::cerr << "usage: pipeline A.las B.las trajectory.csv calibration.json OUT.pcd\n";
+  if (argc < 7) {
+    std::cerr << "usage: pipeline TRAJECTORY CONTROL.csv CALIBRATION.json OUT.pcd STRIP STRIP...\n";
     return EXIT_FAILURE;
   }
-  const pcl_als::CalibrationResult calibration = pcl_als::readCalibration(argv[4]);
-  const auto trajectory = std::make_shared<const pcl_als::Trajectory>(
-      pcl_als::readTrajectory(argv[3]), pcl_als::trajectoryOptions(calibration));
-  const Strip a = pcl_als::loadStrips({argv[1]}).front(),
-              b = pcl_als::loadStrips({argv[2]}).front();
-  const Strip good_a = corrected(a, trajectory, calibration);
-  const Strip good_b = corrected(b, trajectory, calibration);
-  const double before = remainingShift(surfaceOf(b, a.frame), surfaceOf(a, a.frame)).norm();
-  const double after =
-      remainingShift(surfaceOf(good_b, a.frame), surfaceOf(good_a, a.frame)).norm();
+  const Flight flight = pcl_als::readFlight(argv[1]).trajectory;
+  const std::vector<Strip> strips = pcl_als::loadStrips({argv + 5, argv + argc});
+  const pcl_als::CalibrationResult calibration = calibrated(strips, flight, argv[2]);
+  pcl_als::writeCalibration(argv[3], calibration);
+  const Strip &a = strips.at(0), &b = strips.at(1);
+  const Strip good_a = corrected(a, flight, calibration),
+              good_b = corrected(b, flight, calibration);
+  const double before = shiftBetween(a, b, flight), after = shiftBetween(good_a, good_b, flight);
   std::cout << "shift between the strips: " << before << " m before, " << after << " m after\n";
-  pcl_als::savePcd(argv[5], good_a);
+  pcl_als::savePcd(argv[4], good_a);
   return after < before ? EXIT_SUCCESS : EXIT_FAILURE;
 } catch (const std::exception& error) {
   std::cerr << "pipeline: " << error.what() << '\n';

@@ -41,6 +41,9 @@ struct PointFileSources {
 /// Reads a file once and returns its ids. Constant memory. \a also gets every chunk, too.
 PointFileSources surveySources(const std::filesystem::path& path,
                                const std::function<void(const PointChunk&)>& also = {});
+/// The same of points that are read already, from the first one.
+PointFileSources surveySources(PointReader& reader,
+                               const std::function<void(const PointChunk&)>& also = {});
 
 /** \brief Assigns the points of a set of files to strips, and names these.
  *

@@ -15,15 +15,18 @@
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/survey/calibration_point.h>
 #include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/survey_input.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
 
-/** \brief The point files of a survey as strips: read again and again, chunk by chunk.
+/** \brief The points of a survey as strips, from files or clouds: read again and again, chunk by
+ * chunk.
  *
  * Strips are those of StripArrangement; points that it leaves out are counted and not handed on.
  * Files that share a strip are read one after the other in the given order, others at the same
- * time: what a strip sees does not depend on the number of threads.
+ * time: what a strip sees does not depend on the number of threads. "File" stands for any
+ * SurveyInput; makeCloudInput() makes one of a cloud.
  */
 class SurveyReader {
  public:
@@ -50,6 +53,7 @@ class SurveyReader {
   /// or that commonReference() refuses.
   /// \a threads: 0: all cores; results do not depend on it.
   explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0);
+  explicit SurveyReader(std::vector<SurveyInput> inputs, int threads = 0);
 
   /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
   /// them. Returns how times were matched to the trajectory's, one line each. UsageError for an
@@ -90,6 +94,7 @@ class SurveyReader {
   std::vector<std::vector<std::size_t>> groupsOfFiles() const;
 
   int threads_;
+  std::vector<SurveyInput> inputs_;
   std::vector<SurveyedFile> files_;
   std::optional<StripArrangement> arrangement_;
   PointReference reference_;

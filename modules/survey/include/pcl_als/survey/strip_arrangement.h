@@ -45,7 +45,8 @@ struct FlownTimes {
 
 /** \brief Assigns each point of a set of files to a strip, or gives the reason why it is left out.
  *
- * Without StripChoice::split, strips are those of StripNaming. With it, points of one point source
+ * Without StripChoice::split, strips are those that the inputs name, else those of StripNaming.
+ * With it, points of one point source
  * id in all files are cut into stretches by splitTrack(): of id 0 called line1, line2, … in order
  * of time, of another id by the number where they are one stretch, else 7.1, 7.2, …; files whose
  * points have no times stay as they are.

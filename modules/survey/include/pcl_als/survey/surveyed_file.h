@@ -5,19 +5,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <string>
 
 #include <pcl_als/io/strip_naming.h>
+#include <pcl_als/survey/survey_input.h>
 #include <pcl_als/survey/swath_track.h>
 
 namespace pcl_als {
 
-/// Result of a first reading of a point file: its point source ids, with times and positions.
+/// Result of a first reading of a point file or cloud: its point source ids, with times and
+/// positions.
 struct SurveyedFile {
   PointFileSources sources;
   std::map<std::uint16_t, SwathTrack> tracks;  ///< by point source id, on the file's clock
+  std::string strip;  ///< that all its points are of; empty: strips are told apart by StripNaming
 };
 
 /// Reads a file once; memory: see SwathTrack. InputError for a file that cannot be read.
 SurveyedFile surveyFile(const std::filesystem::path& path);
+SurveyedFile surveyFile(const SurveyInput& input);
 
 }  // namespace pcl_als

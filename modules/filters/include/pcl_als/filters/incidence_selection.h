@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <pcl/point_types.h>
+
+#include <pcl_als/common/time_alignment.h>
+#include <pcl_als/filters/point_selection.h>
+#include <pcl_als/radiometry/local_surfaces.h>
+#include <pcl_als/radiometry/radiometric_model.h>
+
+namespace pcl_als {
+
+/** \brief Selects points by their incidence angle: between the pulse and the normal of the surface.
+ *
+ * The pulse comes from the trajectory's position at the point's time (RadiometricEvaluator); 0
+ * degrees is perpendicular incidence. Normals are those given, of either sign, or local planes
+ * (LocalSurfaces) of the last returns of the cloud, which is one strip. A point has no incidence
+ * angle, and is not selected, where it has no surface (leaves, wires, edges), where it is not a
+ * last return, or where the trajectory does not cover its time.
+ *
+ * The point type needs x, y, z (float) and gps_time (double); return_number and number_of_returns
+ * are used where the type has them. For one's own include impl/incidence_selection.hpp.
+ * \code
+ * pcl_als::IncidenceSelection<pcl_als::PointLidar> incidence;
+ * incidence.setInputCloud(strip.cloud);
+ * incidence.setLocalFrame(strip.frame);
+ * incidence.setTrajectory(trajectory);  // std::shared_ptr<const pcl_als::Trajectory>
+ * incidence.setAngleLimits(0.0, 30.0);  // degrees
+ * incidence.filter(steep_view);
+ * \endcode
+ */
+template <typename PointT>
+class IncidenceSelection : public PointSelection<PointT> {
+ public:
+  using Ptr = std::shared_ptr<IncidenceSelection<PointT>>;
+  using ConstPtr = std::shared_ptr<const IncidenceSelection<PointT>>;
+  using NormalsConstPtr = pcl::PointCloud<pcl::Normal>::ConstPtr;
+
+  explicit IncidenceSelection(bool extract_removed_indices = false)
+      : PointSelection<PointT>(extract_removed_indices) {
+    this->filter_name_ = "IncidenceSelection";
+  }
+
+  void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
+    trajectory_ = std::move(trajectory);
+  }
+  std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
+
+  /// Degrees, 0 <= minimum <= maximum <= 90, both included; UsageError; default 0 and 90.
+  void setAngleLimits(double minimum, double maximum);
+  double getMinimumAngle() const { return minimum_; }
+  double getMaximumAngle() const { return maximum_; }
+
+  /// Normals of the input cloud, one per point; NaN: no surface. Null (default): local planes.
+  void setInputNormals(NormalsConstPtr normals) { normals_ = std::move(normals); }
+  NormalsConstPtr getInputNormals() const { return normals_; }
+
+  void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
+  const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
+
+  /// How point times become the trajectory's; default: they are the same.
+  void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
+  const TimeAlignment& getTimeAlignment() const { return alignment_; }
+
+  /// Of the last filter(): incidence angles of its finite points in order, degrees; NaN: none.
+  const std::vector<float>& getAngles() const { return angles_; }
+  /// Of the last filter(): points whose time the trajectory does not cover.
+  std::size_t getUncovered() const { return uncovered_; }
+
+ protected:
+  /// UsageError without a trajectory, or for normals that are not one per point; InputError where
+  /// the trajectory covers none of the points.
+  std::vector<bool> select(const pcl::Indices& points) override;
+
+ private:
+  std::vector<Eigen::Vector3f> surfacePoints() const;
+  LocalSurface surfaceAt(const LocalSurfaces& planes, std::size_t index) const;
+
+  std::shared_ptr<const Trajectory> trajectory_;
+  NormalsConstPtr normals_;
+  LocalSurfaceSettings surfaces_;
+  TimeAlignment alignment_;
+  double minimum_ = 0.0, maximum_ = 90.0;
+  std::vector<float> angles_;
+  std::size_t uncovered_ = 0;
+};
+
+extern template class IncidenceSelection<PointLidar>;
+
+}  // namespace pcl_als

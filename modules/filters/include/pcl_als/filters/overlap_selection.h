@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include <pcl_als/common/strip.h>
+#include <pcl_als/filters/point_selection.h>
+
+namespace pcl_als {
+
+/** \brief Selects the points of a strip that lie where another strip has points.
+ *
+ * The ground is divided into square cells, counted from the origin of the ground frame; a point is
+ * selected where one of the other strips has at least setMinimumPoints() points in its cell. Each
+ * cloud is relative to its own LocalFrame. A cell should be some point spacings wide: finer, and
+ * the gaps between points are no overlap; coarser, and the border of the overlap is blurred by as
+ * much.
+ *
+ * The point type needs x, y, z (float); for one's own include impl/overlap_selection.hpp. Time and
+ * memory are linear in the number of points and of cells.
+ * \code
+ * pcl_als::OverlapSelection<pcl_als::PointLidar> overlap;
+ * overlap.setInputCloud(a.cloud);
+ * overlap.setLocalFrame(a.frame);
+ * overlap.addOtherStrip(b.cloud, b.frame);
+ * overlap.filter(common);
+ * \endcode
+ */
+template <typename PointT>
+class OverlapSelection : public PointSelection<PointT> {
+ public:
+  using Ptr = std::shared_ptr<OverlapSelection<PointT>>;
+  using ConstPtr = std::shared_ptr<const OverlapSelection<PointT>>;
+  using PointCloudConstPtr = typename PointSelection<PointT>::PointCloudConstPtr;
+
+  explicit OverlapSelection(bool extract_removed_indices = false)
+      : PointSelection<PointT>(extract_removed_indices) {
+    this->filter_name_ = "OverlapSelection";
+  }
+
+  /// Adds a strip; UsageError for a null cloud.
+  void addOtherStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame);
+  /// These in place of all that were added.
+  void setOtherStrips(const std::vector<Strip<PointT>>& strips);
+  void clearOtherStrips() { others_.clear(); }
+
+  /// Metres, > 0; UsageError; default 2.
+  void setCellSize(double metres);
+  double getCellSize() const { return cell_; }
+
+  /// Points of one other strip in a cell, at least; 1 or more, UsageError; default 1.
+  void setMinimumPoints(std::size_t points);
+  std::size_t getMinimumPoints() const { return minimum_points_; }
+
+ protected:
+  /// UsageError where no other strip is set.
+  std::vector<bool> select(const pcl::Indices& points) override;
+
+ private:
+  struct Other {
+    PointCloudConstPtr cloud;
+    LocalFrame frame;
+  };
+  std::int64_t cellOf(const LocalFrame& frame, const PointT& point) const;
+  void addCovered(const Other& other, std::unordered_set<std::int64_t>& covered) const;
+
+  std::vector<Other> others_;
+  double cell_ = 2.0;
+  std::size_t minimum_points_ = 1;
+};
+
+extern template class OverlapSelection<PointLidar>;
+
+}  // namespace pcl_als

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/filters/impl/surface_selection.hpp>
+
+template class pcl_als::SurfaceSelection<pcl_als::PointLidar>;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/system_calibration.h>
+
+namespace pcl_als {
+
+template <typename PointT>
+void SystemCalibration<PointT>::calibrate() {
+  static_assert(HasGpsTime<PointT>::value,
+                "SystemCalibration needs a point type with x, y, z and gps_time (double)");
+  calibration_.reset();
+  if (strips_.size() == 0) throw UsageError("SystemCalibration: no strips are set");
+  if (!trajectory_) throw UsageError("SystemCalibration: no trajectory is set");
+  SurveyReader survey(strips_.inputs(alignment_), options_.settings.threads);
+  calibration_ = calibrateSurvey(survey, trajectory_, options_, progress_);
+}
+
+template <typename PointT>
+const SurveyCalibration& SystemCalibration<PointT>::getSurveyCalibration() const {
+  if (!calibration_) throw UsageError("SystemCalibration: calibrate() has given no result yet");
+  return *calibration_;
+}
+
+template <typename PointT>
+const CalibrationResult& SystemCalibration<PointT>::getResult() const {
+  return getSurveyCalibration().result;
+}
+
+}  // namespace pcl_als

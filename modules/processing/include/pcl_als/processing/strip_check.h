@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pcl_als/common/point_types.h>
+#include <pcl_als/common/strip.h>
+#include <pcl_als/processing/cloud_strips.h>
+#include <pcl_als/processing/survey_check.h>
+
+namespace pcl_als {
+
+/** \brief Measures how well strips that are clouds in memory fit each other and control.
+ *
+ * The same computation as checkSurvey() and pcl_als_check; points in the same order give the same
+ * result, from PCD files to the last bit. Each cloud is relative to its own LocalFrame; floats do
+ * to it what the page of SystemCalibration says.
+ *
+ * The point type needs x, y and z (float). gps_time, return_number and number_of_returns,
+ * classification, flags (bits of PointFlag) and scan_angle are used where the type has them;
+ * without scan angles and a trajectory, trends across the swath are not told. For a type of one's
+ * own include impl/strip_check.hpp.
+ *
+ * UsageError for wrong arguments, InputError for data that cannot be used, Cancelled.
+ * \code
+ * pcl_als::StripCheck<pcl_als::PointLidar> check;
+ * for (const auto& strip : strips) check.addInputStrip(strip.cloud, strip.frame, strip.id);
+ * check.setControl(pcl_als::readControl("control.csv"));
+ * check.check();
+ * for (const pcl_als::CheckedPair& pair : check.getResult().pairs)
+ *   std::cout << pair.a << ':' << pair.b << ' ' << pair.assessment.vertical.rms << " m\n";
+ * \endcode
+ */
+template <typename PointT>
+class StripCheck {
+ public:
+  using Ptr = std::shared_ptr<StripCheck<PointT>>;
+  using ConstPtr = std::shared_ptr<const StripCheck<PointT>>;
+  using PointCloud = pcl::PointCloud<PointT>;
+  using PointCloudConstPtr = typename PointCloud::ConstPtr;
+
+  /// Adds a strip, or a further part of the strip of that id. Points that are not finite take no
+  /// part. UsageError for a null cloud or an empty id.
+  void addInputStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame,
+                     const std::string& id) {
+    strips_.add(cloud, frame, id);
+  }
+  void clearInputStrips() { strips_.clear(); }
+
+  /// For scan angles finer than the points' own; default none.
+  void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
+    trajectory_ = std::move(trajectory);
+  }
+  std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
+
+  /// Settings::control: points on the ground, used vertically; default none.
+  void setControl(std::vector<ControlPoint> control) {
+    options_.settings.control = std::move(control);
+  }
+  const std::vector<ControlPoint>& getControl() const { return options_.settings.control; }
+
+  /// Everything else, and the control.
+  void setSettings(const CheckSettings& settings) { options_.settings = settings; }
+  const CheckSettings& getSettings() const { return options_.settings; }
+
+  /// Areas to compare at, such as those of an earlier check of the same block; empty (default):
+  /// chosen.
+  void setAreas(std::vector<SurveyArea> areas) { options_.areas = std::move(areas); }
+  /// Those that the last check() compared at.
+  const std::vector<SurveyArea>& getAreas() const { return requireCheck().areas; }
+
+  /// How point times become the trajectory's; default: they are the same.
+  void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
+  const TimeAlignment& getTimeAlignment() const { return alignment_; }
+
+  /// Told of phases; false cancels.
+  void setProgressCallback(ProgressCallback callback) { progress_ = std::move(callback); }
+
+  /// Measures; getResult() then is the result. Where it throws, there is none.
+  void check();
+  /// Of the last check(); UsageError where there is none.
+  const CheckedBlock& getResult() const { return requireCheck().block; }
+
+ private:
+  const SurveyCheck& requireCheck() const;
+
+  CloudStrips<PointT> strips_;
+  std::shared_ptr<const Trajectory> trajectory_;
+  SurveyCheckOptions options_;
+  TimeAlignment alignment_;
+  ProgressCallback progress_;
+  std::optional<SurveyCheck> check_;
+};
+
+extern template class StripCheck<PointLidar>;
+
+}  // namespace pcl_als

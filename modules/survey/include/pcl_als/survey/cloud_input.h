@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include <pcl/point_cloud.h>
+
+#include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/point_fields.h>
+#include <pcl_als/io/local_point_reader.h>
+#include <pcl_als/survey/survey_input.h>
+
+namespace pcl_als {
+
+/// InputError where the floats of a cloud have steps of more than 2 mm (16 km from its frame's
+/// origin): a tenth of the noise of points, and more is a cloud that has lost its frame.
+void requireFineFloats(const PointFileInfo& cloud);
+
+/** \brief Reads a cloud as if it were a point file. Points that are not finite are left out.
+ *
+ * The points of a cloud and those of the PCD file that savePcd() makes of it are equal to the last
+ * bit. Fields that the type lacks are as PointFields says. Memory: one chunk. requireFineFloats().
+ */
+template <typename PointT>
+class CloudReader : public LocalPointReader {
+ public:
+  using CloudConstPtr = typename pcl::PointCloud<PointT>::ConstPtr;
+
+  CloudReader(CloudConstPtr cloud, const LocalFrame& frame, const std::string& name)
+      : cloud_(std::move(cloud)) {
+    info_.path = name;
+    info_.crs = frame.crs;
+    info_.units.source = info_.units.vertical_source = "LocalFrame";
+    info_.format = "point cloud";
+    survey(frame.origin, HasGpsTime<PointT>::value);
+    requireFineFloats(info_);
+  }
+
+ private:
+  bool readLocal(PointChunk& chunk) override {
+    const std::size_t count = std::min(kChunk, cloud_->size() - next_);
+    chunk.resize(count);
+    std::size_t row = 0;
+    for (std::size_t i = next_; i < next_ + count; ++i) {
+      const PointFields<PointT> fields{(*cloud_)[i]};
+      if (fields.isFinite()) fill(fields, chunk, row++);
+    }
+    chunk.resize(row);
+    next_ += count;
+    return count > 0;
+  }
+  void rewind() override { next_ = 0; }
+
+  static void fill(const PointFields<PointT>& fields, PointChunk& chunk, std::size_t row) {
+    chunk.x[row] = static_cast<double>(fields.point.x);
+    chunk.y[row] = static_cast<double>(fields.point.y);
+    chunk.z[row] = static_cast<double>(fields.point.z);
+    chunk.gps_time[row] = fields.gpsTime();
+    chunk.intensity[row] = fields.intensity();
+    chunk.scan_angle[row] = fields.scanAngle();
+    chunk.point_source_id[row] = 0;
+    chunk.return_number[row] = fields.returnNumber();
+    chunk.number_of_returns[row] = fields.numberOfReturns();
+    chunk.classification[row] = fields.classification();
+    chunk.flags[row] = fields.flags();
+  }
+
+  CloudConstPtr cloud_;
+  std::size_t next_ = 0;
+};
+
+/// A cloud as a source of points of one strip. \a time: to the trajectory's clock
+template <typename PointT>
+SurveyInput makeCloudInput(const std::shared_ptr<const pcl::PointCloud<PointT>>& cloud,
+                           const LocalFrame& frame, const std::string& strip,
+                           const TimeAlignment& time = TimeAlignment()) {
+  SurveyInput input;
+  input.open = [cloud, frame, strip] {
+    return std::make_unique<CloudReader<PointT>>(cloud, frame, "strip " + strip);
+  };
+  input.strip = strip;
+  input.time = time;
+  return input;
+}
+
+}  // namespace pcl_als
