@@ -22,9 +22,13 @@ std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths) {
 }  // namespace
 
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
-    : SurveyReader(inputsOf(paths), threads) {}
+    : SurveyReader(threads, inputsOf(paths)) {}
 
-SurveyReader::SurveyReader(std::vector<SurveyInput> inputs, int threads)
+SurveyReader SurveyReader::ofInputs(std::vector<SurveyInput> inputs, int threads) {
+  return {threads, std::move(inputs)};
+}
+
+SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs)
     : threads_(threads),
       inputs_(std::move(inputs)),
       files_(inputs_.size()),

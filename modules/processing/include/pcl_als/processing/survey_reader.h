@@ -53,7 +53,8 @@ class SurveyReader {
   /// or that commonReference() refuses.
   /// \a threads: 0: all cores; results do not depend on it.
   explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0);
-  explicit SurveyReader(std::vector<SurveyInput> inputs, int threads = 0);
+  /// The same from other sources than files.
+  static SurveyReader ofInputs(std::vector<SurveyInput> inputs, int threads = 0);
 
   /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
   /// them. Returns how times were matched to the trajectory's, one line each. UsageError for an
@@ -87,6 +88,7 @@ class SurveyReader {
   void readRuns(const RunSink& sink) const;
 
  private:
+  SurveyReader(int threads, std::vector<SurveyInput> inputs);
   std::vector<std::string> alignTimes(const Flight& flight);
   void checkAnyLeft(const Flight& flight) const;
   /// Adds the points of each label to \a counts.

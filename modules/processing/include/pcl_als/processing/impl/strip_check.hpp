@@ -11,7 +11,8 @@ template <typename PointT>
 void StripCheck<PointT>::check() {
   check_.reset();
   if (strips_.size() == 0) throw UsageError("StripCheck: no strips are set");
-  SurveyReader survey(strips_.inputs(alignment_), options_.settings.threads);
+  SurveyReader survey =
+      SurveyReader::ofInputs(strips_.inputs(alignment_), options_.settings.threads);
   check_ = checkSurvey(survey, trajectory_, options_, progress_);
 }
 

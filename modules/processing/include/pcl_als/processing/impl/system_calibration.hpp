@@ -14,7 +14,8 @@ void SystemCalibration<PointT>::calibrate() {
   calibration_.reset();
   if (strips_.size() == 0) throw UsageError("SystemCalibration: no strips are set");
   if (!trajectory_) throw UsageError("SystemCalibration: no trajectory is set");
-  SurveyReader survey(strips_.inputs(alignment_), options_.settings.threads);
+  SurveyReader survey =
+      SurveyReader::ofInputs(strips_.inputs(alignment_), options_.settings.threads);
   calibration_ = calibrateSurvey(survey, trajectory_, options_, progress_);
 }
 
