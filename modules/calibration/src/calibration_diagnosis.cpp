@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include <pcl_als/calibration/control_consistency.h>
 #include <pcl_als/calibration/quasi_rigorous_calibration.h>
 #include <pcl_als/calibration/strip_consistency.h>
+
+#include "calibration_state.h"
 
 namespace pcl_als {
 
@@ -41,6 +44,21 @@ std::string QuasiRigorousCalibration::lostStrip(int strip) const {
                 "(unit, height reference, trajectory), or leave it out (-without)",
                 best.offset, ids_[static_cast<std::size_t>(partner)].c_str(), best.cells);
   return start + text;
+}
+
+void QuasiRigorousCalibration::assessControl(State& state, const SharedErrors& errors,
+                                             CalibrationResult& result) const {
+  const ControlConsistency control(result.control_points);
+  SystemVector spread = SystemVector::Zero();
+  if (control.two_groups) {
+    weigh(state);  // the pairs are newer than their weights
+    ControlledAdjustment adjustment{
+        errors, state.adjustment.levels(), state.observations, state.weights.weights(), pair_areas_,
+        {},     state.choice.estimate,     settings_.threads};
+    for (const ControlPoint& point : control_) adjustment.control.push_back(point.id);
+    spread = controlSpread(control, adjustment);
+  }
+  judgeControl(control, spread, result);
 }
 
 void QuasiRigorousCalibration::diagnose(CalibrationResult& result) const {

@@ -190,6 +190,7 @@ void QuasiRigorousCalibration::checkTrajectory() {
   for (const std::string& warning : plausibility_.check(settings_.force)) {
     warnings_.push_back(warning);
   }
+  height_error_ = plausibility_.heightError();
 }
 
 int QuasiRigorousCalibration::stripNamed(const std::string& id) const {

@@ -124,6 +124,8 @@ class QuasiRigorousCalibration {
   std::string lostStrip(int strip) const;
   /// Adds what is wrong with strips: those without pairs, those that do not fit the others.
   void diagnose(CalibrationResult& result) const;
+  /// Adds what control shows, with the parameters that depend on control that contradicts itself.
+  void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
   std::vector<std::string> observability(const State& state,
                                          const std::vector<std::pair<double, double>>& spans,
                                          const CalibrationResult& result) const;
@@ -148,6 +150,7 @@ class QuasiRigorousCalibration {
   std::vector<AreaMatcher> matchers_;
   std::vector<double> information_;  ///< by area
   std::vector<std::string> warnings_, attitude_remarks_;
+  std::string height_error_;  ///< of the trajectory, as recorded scan angles show it
   std::function<void(const CalibrationIteration&)> progress_;
 };
 
