@@ -130,6 +130,11 @@ std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int index,
   return errors;
 }
 
+void SharedErrors::setVarianceFactor(int strip, int component, double factor) {
+  strips_[static_cast<std::size_t>(strip)].variance_factors[static_cast<std::size_t>(component)] =
+      factor;
+}
+
 Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
   const double position = model_.position * model_.position * levels.position;
   const double roll_pitch = model_.roll_pitch * model_.roll_pitch * levels.roll_pitch;
@@ -137,13 +142,13 @@ Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLeve
   const double variances[kPerKnot] = {position,   position,   position,
                                       roll_pitch, roll_pitch, heading};
   std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int row_knot, int column_knot, double factor) {
-    for (int i = 0; i < kPerKnot; ++i) {
-      entries.emplace_back(row_knot * kPerKnot + i, column_knot * kPerKnot + i,
-                           factor / variances[i]);
-    }
-  };
   for (const StripKnots& strip : strips_) {
+    const auto add = [&](int row_knot, int column_knot, double factor) {
+      for (int i = 0; i < kPerKnot; ++i) {
+        entries.emplace_back(row_knot * kPerKnot + i, column_knot * kPerKnot + i,
+                             factor / (variances[i] * strip.variance_factors[i]));
+      }
+    };
     // Inverse covariance of a Gauss-Markov process: tridiagonal. Each step adds the information of
     // a value that is rho times the one before, with variance 1 - rho^2.
     add(strip.first, strip.first, 1.0);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -93,6 +94,10 @@ class SharedErrors {
     return model_.local * model_.local * levels.local;
   }
 
+  /// Multiplies the prior variance of one component (east north up pitch roll heading) of a strip's
+  /// errors, 1 by default; for the sensitivity of a solution to its prior.
+  void setVarianceFactor(int strip, int component, double factor);
+
   /// Information matrix of the prior, unknowns x unknowns, knot by knot (east north up pitch roll
   /// heading).
   Eigen::SparseMatrix<double> priorInformation(
@@ -104,6 +109,7 @@ class SharedErrors {
     int steps = 0;                      ///< from start to end
     int first = 0;                      ///< knot, counted over all strips
     std::vector<int> at;                ///< steps at which the strip has its knots
+    std::array<double, kPerKnot> variance_factors{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     /// The knot of the strip at or before a step; 0 before the first.
     int before(double step) const;
   };
