@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "strip_error_check.h"
-
 #include "simulated_observations.h"
+#include "strip_error_check.h"
 
 namespace pcl_als {
 namespace {

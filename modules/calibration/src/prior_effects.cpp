@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include "strip_error_check.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "strip_error_check.h"
 
 namespace pcl_als {
 namespace {
@@ -15,12 +15,6 @@ constexpr double kHalfInformation = 1.4142135623730951;  // ratio of standard de
 
 int indexOfStrip(const std::vector<std::string>& strips, const std::string& id) {
   return static_cast<int>(std::find(strips.begin(), strips.end(), id) - strips.begin());
-}
-
-/// What the variance components already allow for.
-double levelOf(const SharedErrorLevels& levels, int component) {
-  if (component < 3) return levels.position;
-  return component < 5 ? levels.roll_pitch : levels.heading;
 }
 
 }  // namespace
@@ -35,9 +29,11 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
   std::vector<PriorEffect> effects;
   if (large.empty() || choice.estimate.empty()) return effects;
   const SharedErrorLevels levels = adjustment.levels();
+  const SharedErrors::Variances priors = errors.variances(SharedErrorLevels());
+  const SharedErrors::Variances adjusted = errors.variances(levels);
   const auto setFactors = [&](bool enlarged) {
     for (const StripErrorSize& e : large) {
-      const double factor = e.ratio() * e.ratio() / levelOf(levels, e.component);
+      const double factor = e.ratio() * e.ratio() * priors[e.component] / adjusted[e.component];
       errors.setVarianceFactor(indexOfStrip(strips, e.strip), e.component,
                                enlarged ? std::max(1.0, factor) : 1.0);
     }

@@ -234,9 +234,8 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   state.threshold = settings_.max_normal_distance;
   state.seekers = AreaMatcher::Seekers::candidates;
   pairUp(state);
-  report.addControlPoints(
-      control_, state.observations, used,
-      settings_.shared_errors.position * std::sqrt(state.adjustment.levels().position), result);
+  report.addControlPoints(control_, state.observations, used,
+                          std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
   report.addFit(state.observations, result.biases(), true, result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
   result.misfit = misfit.change(state.observations, result.biases());
