@@ -14,16 +14,47 @@
 namespace pcl_als {
 namespace {
 
-TEST(SharedErrors, PriorIsTheGaussMarkovCovariance) {
+/// Correlation of the smooth component at two times, by the sum over the B-splines of all nodes.
+double smoothCorrelation(double a, double b, double node_spacing) {
+  const auto spline = [](double x) {  // by the definition with truncated powers
+    double sum = 0.0;
+    const double binomial[] = {1.0, -4.0, 6.0, -4.0, 1.0};
+    for (int k = 0; k <= 4; ++k) sum += binomial[k] * std::pow(std::max(0.0, x + 2.0 - k), 3);
+    return sum / 6.0;
+  };
+  double sum = 0.0;
+  for (int node = -10; node < 30; ++node)
+    sum += spline(a / node_spacing - node) * spline(b / node_spacing - node);
+  return sum / (151.0 / 315.0);  // mean square of the spline: variance one on average
+}
+
+TEST(SharedErrors, PriorIsTheSumOfItsComponents) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 105.0}}, model());
   ASSERT_EQ(errors.knotCount(), 4 + 2);  // 25 s at 10 s: three steps of 8.33 s; 5 s: one step
-  const Eigen::MatrixXd covariance = Eigen::MatrixXd(errors.priorInformation()).inverse();
-  const double step = 25.0 / 3.0;
-  EXPECT_NEAR(covariance(0, 0), 4e-4, 1e-15);  // 2 cm
-  EXPECT_NEAR(covariance(0, 12), 4e-4 * std::exp(-2.0 * step / 30.0),
-              1e-15);                          // east, two knots later
+  SharedErrorLevels levels;
+  levels.constant.position = 0.5, levels.smooth.position = 3.0, levels.gauss_markov.heading = 4.0;
+  const Eigen::MatrixXd covariance = Eigen::MatrixXd(errors.priorInformation(levels)).inverse();
+  const double step = 25.0 / 3.0, node = 7.5;  // a quarter of the correlation time of 30 s
+  const auto expected = [&](int i, int j) {    // knots, east; 2 cm
+    return 4e-4 * (0.2 * 0.5 + 0.4 * 3.0 * smoothCorrelation(i * step, j * step, node) +
+                   0.4 * std::exp(-std::abs(i - j) * step / 30.0));
+  };
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) EXPECT_NEAR(covariance(6 * i, 6 * j), expected(i, j), 1e-14);
+  }
   EXPECT_NEAR(covariance(0, 24), 0.0, 1e-18);  // another strip
-  EXPECT_NEAR(covariance(5, 5), std::pow(16.0 * kRadiansPerArcsec, 2), 1e-20);
+  const double heading = 0.2 + 0.4 * smoothCorrelation(0.0, 0.0, node) + 0.4 * 4.0;
+  EXPECT_NEAR(covariance(5, 5), std::pow(16.0 * kRadiansPerArcsec, 2) * heading, 1e-20);
+  EXPECT_NEAR(errors.variances(levels)[0], 4e-4 * (0.2 * 0.5 + 0.4 * 3.0 + 0.4), 1e-18);
+}
+
+TEST(SharedErrors, PriorDeterminantIsThatOfItsInformation) {
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 100.0}}, model(), {{{3.0, 9.0}}, {}});
+  SharedErrorLevels levels;
+  levels.constant.heading = 0.5, levels.smooth.roll_pitch = 3.0, levels.gauss_markov.position = 4.0;
+  const Eigen::MatrixXd information = errors.priorInformation(levels);
+  EXPECT_NEAR(errors.priorLogDeterminant(levels), information.ldlt().vectorD().array().log().sum(),
+              1e-8);
 }
 
 TEST(SharedErrors, PlacesTimesBetweenKnots) {
@@ -72,6 +103,33 @@ TEST(SharedErrors, ExpectsOfUnobservedTimesWhatTheProcessDoes) {
   ASSERT_EQ(errors.size(), 11U);
   EXPECT_DOUBLE_EQ(errors[7].position.x(), 0.03);
   for (int i = 0; i < 7; ++i) EXPECT_NEAR(errors[open[i]].position.x(), expected[i], 1e-15);
+}
+
+TEST(SharedErrors, ExpectsOfUnobservedTimesWhatAllComponentsDo) {
+  // The best prediction from the errors at the knots: with coefficients as the knots let expect
+  // them, those between are C_ok C_kk^-1 x_k of the whole chain.
+  const SharedErrors whole({{0.0, 100.0}}, model());
+  const SharedErrors part({{0.0, 100.0}}, model(), {{{72.0, 72.0}, {0.0, 5.0}}});
+  const Eigen::MatrixXd all = Eigen::MatrixXd(whole.priorInformation()).inverse();
+  const Eigen::MatrixXd kept = Eigen::MatrixXd(part.priorInformation()).inverse();
+  const Eigen::Vector4d values(0.01, 0.02, -0.03, 0.04);
+  Eigen::Matrix4d among;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) among(i, j) = kept(6 * i, 6 * j);
+  }
+  const Eigen::Vector4d weights = among.ldlt().solve(values);
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(part.unknowns());
+  for (int k = 0; k < part.unknowns(); k += 6) {
+    for (int i = 0; i < 4; ++i) solution[k] += kept(k, 6 * i) * weights[i];
+  }
+  const auto errors = part.errorsOf(0, solution);
+  ASSERT_EQ(errors.size(), 11U);
+  const int steps[] = {0, 1, 7, 8};
+  for (int step = 0; step <= 10; ++step) {
+    double expected = 0.0;
+    for (int i = 0; i < 4; ++i) expected += all(6 * step, 6 * steps[i]) * weights[i];
+    EXPECT_NEAR(errors[step].position.x(), expected, 1e-12) << step;
+  }
 }
 
 TEST(SharedErrors, RefusesAnImpossibleModel) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // Blocks with something wrong in them: what the result says of it.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -110,6 +111,48 @@ TEST(CalibrationProblems, ControlThatContradictsItselfIsSaidAndAllowedFor) {
   EXPECT_NE(result.verdict.reason.find("contradict"), std::string::npos) << result.verdict.reason;
   const ParameterEstimate& range = result[P::range_bias];
   EXPECT_LT(std::abs(range.bias - survey.bias[indexOf(P::range_bias)]), 2.0 * range.std);
+}
+
+// Which group is right may change more than range_bias: half of the block too high is a tilt.
+TEST(CalibrationProblems, ParametersThatDependOnContradictingControlAllowForEither) {
+  SimulatedSurvey survey = smallBlock();
+  std::vector<double> east;
+  for (const ControlPoint& point : survey.control) east.push_back(point.position.x());
+  std::sort(east.begin(), east.end());
+  for (ControlPoint& point : survey.control) {
+    point.sigma = 0.01;
+    if (point.position.x() > east[east.size() / 2]) point.position.z() += 0.2;
+  }
+  const CalibrationResult result = survey.calibrate();
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected) << result.verdict.reason;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& p = result[info.parameter];
+    if (p.status != ParameterStatus::estimated) continue;
+    EXPECT_LT(std::abs(p.bias - survey.bias[indexOf(info.parameter)]), 2.5 * p.std) << info.name;
+  }
+}
+
+// 2026-11: lever_arm_x was five standard deviations off, and the result was usable.
+TEST(CalibrationProblems, ATrajectoryTooHighAffectsParameters) {
+  SimulatedSurvey survey = smallBlock();
+  for (TrajectorySample& sample : survey.trajectory) sample.position.z() += 50.0;
+  const CalibrationResult result = survey.calibrate();
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected) << result.verdict.reason;
+  EXPECT_NEAR(numberAfter("the trajectory is ", result.verdict.reason), 50.0, 3.0)
+      << result.verdict.reason;
+  EXPECT_NE(result.verdict.reason.find("lever_arm_x"), std::string::npos);
+}
+
+TEST(CalibrationProblems, HeightsInFeetAffectParameters) {
+  SimulatedSurvey survey = smallBlock();
+  for (TrajectorySample& sample : survey.trajectory) sample.position.z() /= 0.3048;
+  const CalibrationResult result = survey.calibrate();
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected) << result.verdict.reason;
+  EXPECT_NE(result.verdict.reason.find("too high by the recorded scan angles"), std::string::npos)
+      << result.verdict.reason;
+  EXPECT_NE(result.verdict.reason.find("parameters that depend on these corrections"),
+            std::string::npos)
+      << result.verdict.reason;
 }
 
 TEST(CalibrationProblems, ARejectedControlPointIsNamed) {

@@ -30,8 +30,14 @@ CalibrationResult resultWith(const std::vector<ControlPointFit>& fits) {
   CalibrationResult result;
   result[SystemParameter::range_bias].status = ParameterStatus::estimated;
   result[SystemParameter::range_bias].std = 0.01;
+  result[SystemParameter::boresight_roll].status = ParameterStatus::estimated;
+  result[SystemParameter::boresight_roll].std = 1e-5;
   result.control_points = fits;
-  judgeControl(result);
+  const ControlConsistency control(fits);
+  SystemVector spread = SystemVector::Zero();
+  spread[indexOf(SystemParameter::range_bias)] = 0.5 * control.separation;
+  spread[indexOf(SystemParameter::boresight_roll)] = 1e-7;
+  judgeControl(control, spread, result);
   return result;
 }
 
@@ -60,6 +66,9 @@ TEST(ControlConsistency, HalfOfThePointsTooHighIsSaidAndAllowedFor) {
   EXPECT_NEAR(control.separation, 0.2, 0.02);
   for (const std::string& id : control.lower) EXPECT_LT(std::stoi(id), 6);
   EXPECT_NEAR(result[SystemParameter::range_bias].std, 0.1, 0.02);
+  EXPECT_NE(result.warnings[0].find("standard deviations of range_bias allow"), std::string::npos)
+      << result.warnings[0];
+  EXPECT_EQ(result[SystemParameter::boresight_roll].std, 1e-5) << "does not depend on it";
 }
 
 TEST(ControlConsistency, AScatterFarBeyondTheStatedSigmaIsSaid) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "simulated_observations.h"
 #include "strip_error_check.h"
 
 namespace pcl_als {
@@ -18,17 +21,30 @@ CalibrationResult resultWith(double up, double roll) {
   return result;
 }
 
+/// lever_arm_x depends on the prior, boresight_roll does not.
+std::vector<PriorEffect> effects() {
+  return {{SystemParameter::boresight_roll, 1e-7, 1e-6, 1.1e-6},
+          {SystemParameter::lever_arm_x, -0.2, 0.02, 0.3}};
+}
+
+/// With \a effects, where any correction is large.
+void assess(CalibrationResult& result) {
+  const SharedErrorModel model;
+  const bool large = !largeStripErrors(result.strip_errors, model, kNoticeableCorrection).empty();
+  assessStripErrors(model, large ? effects() : std::vector<PriorEffect>(), result);
+}
+
 TEST(StripErrorCheck, AcceptsErrorsOfTheAPrioriSize) {
   CalibrationResult result = resultWith(0.04, -16.0 * kRadiansPerArcsec);  // two deviations each
-  assessStripErrors(SharedErrorModel(), result);
+  assess(result);
   EXPECT_TRUE(result.warnings.empty());
   EXPECT_TRUE(result.verdict.usable());
 }
 
 TEST(StripErrorCheck, WarnsBeyondThreeDeviations) {
   CalibrationResult result = resultWith(0.0, -32.0 * kRadiansPerArcsec);
-  assessStripErrors(SharedErrorModel(), result);
-  ASSERT_EQ(result.warnings.size(), 1U);
+  assess(result);
+  ASSERT_EQ(result.warnings.size(), 2U);  // the correction, and the parameters
   EXPECT_NE(result.warnings[0].find("strip 8: trajectory correction in roll of 32 arcsec"),
             std::string::npos)
       << result.warnings[0];
@@ -38,11 +54,58 @@ TEST(StripErrorCheck, WarnsBeyondThreeDeviations) {
 
 TEST(StripErrorCheck, ObjectsBeyondFive) {
   CalibrationResult result = resultWith(-0.307, 0.0);
-  assessStripErrors(SharedErrorModel(), result);
+  assess(result);
   EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
   EXPECT_NE(result.verdict.reason.find("height of 307 mm"), std::string::npos)
       << result.verdict.reason;
   EXPECT_NE(result.verdict.reason.find("20 mm"), std::string::npos);
+  // The parameters that change are named with the change; the others are not.
+  EXPECT_NE(result.verdict.reason.find("lever_arm_x (-0.2 m, 10.0 standard deviations"),
+            std::string::npos)
+      << result.verdict.reason;
+  EXPECT_EQ(result.verdict.reason.find("boresight_roll"), std::string::npos);
+  EXPECT_NE(result[SystemParameter::lever_arm_x].reason, "");
+  EXPECT_EQ(result[SystemParameter::boresight_roll].reason, "");
+}
+
+TEST(StripErrorCheck, NoObjectionWhereNoParameterDependsOnThem) {
+  CalibrationResult result = resultWith(-0.307, 0.0);
+  assessStripErrors(SharedErrorModel(), {effects().front()}, result);
+  EXPECT_TRUE(result.verdict.usable());
+  EXPECT_EQ(result.warnings.size(), 1U);
+}
+
+// Had errors of the size found been expected, the solution is the one that expects them.
+TEST(StripErrorCheck, EffectsAreThoseOfAnEnlargedPrior) {
+  std::vector<AreaObservations> areas = simulated(someBiases(), 0.01, 3);
+  for (AreaObservations& area : areas) {
+    for (PairObservation& o : area) {
+      o.misclosure += (o.a == 1 ? 0.3 : -0.3) * o.normal.x();  // strip 1 lies east
+    }
+  }
+  const std::vector<TimeSpan> spans{{0.0, 25.0}, {100.0, 125.0}};
+  const auto weights = unitWeights(areas);
+  SharedErrors errors(spans, model());
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, weights);
+  ParameterChoice choice;
+  choice.estimate = kSix;
+  choice.solution = adjustment.solve(kSix, SystemVector::Zero());
+  const std::vector<StripErrorSize> large{{"1", 0, 0.3, model().position}};
+  const auto found = priorEffects(large, {"0", "1"}, errors, adjustment, choice);
+  ASSERT_EQ(found.size(), kSix.size());
+  // Afterwards all is as before.
+  EXPECT_TRUE(adjustment.solve(kSix, SystemVector::Zero()).biases.isApprox(choice.solution.biases));
+  errors.setVarianceFactor(1, 0, std::pow(0.3 / model().position, 2));
+  Adjustment enlarged(errors);
+  enlarged.accumulate(areas, weights);
+  const AdjustmentSolution other = enlarged.solve(kSix, SystemVector::Zero());
+  for (const PriorEffect& effect : found) {
+    const int i = indexOf(effect.parameter);
+    EXPECT_NEAR(effect.change, other.biases[i] - choice.solution.biases[i],
+                1e-9 + 1e-6 * effect.std);
+    EXPECT_NEAR(effect.std_enlarged, std::sqrt(other.covariance(i, i)), 1e-6 * effect.std_enlarged);
+  }
 }
 
 TEST(StripErrorCheck, ReportsThatOnlyCorrectionsMakeStripsAgree) {
@@ -52,19 +115,19 @@ TEST(StripErrorCheck, ReportsThatOnlyCorrectionsMakeStripsAgree) {
   fit.rms_strips = 0.03;
   CalibrationResult small = resultWith(0.0, 0.0);  // as after an earlier calibration
   small.pairs = {fit};
-  assessStripErrors(SharedErrorModel(), small);
+  assess(small);
   EXPECT_EQ(small.warnings.size(), 1U);
   EXPECT_TRUE(small.verdict.usable());
   CalibrationResult large = resultWith(0.08, 0.0);  // four a priori standard deviations
   large.pairs = {fit};
-  assessStripErrors(SharedErrorModel(), large);
+  assess(large);
   EXPECT_EQ(large.verdict.status, CalibrationStatus::parameters_affected);
   large = resultWith(0.08, 0.0);
   fit.rms_after = 0.05;  // the biases explain most of the misfit
   large.pairs = {fit};
-  assessStripErrors(SharedErrorModel(), large);
+  assess(large);
   EXPECT_TRUE(large.verdict.usable());
-  EXPECT_EQ(large.warnings.size(), 1U);
+  EXPECT_EQ(large.warnings.size(), 2U);
 }
 
 }  // namespace

@@ -105,8 +105,6 @@ struct Adjustment::Reduced {
   Eigen::Matrix<double, Eigen::Dynamic, kGlobal> elimination;  ///< N_tt^-1 N_tg
   Eigen::VectorXd eliminated_right;                            ///< N_tt^-1 h_t
   Eigen::VectorXd with_ranging;  ///< N_tt^-1, the column of the ranging share
-  double log_determinant = 0.0;  ///< ln |N_tt| - ln |prior|, shifts included
-  double explained = 0.0;        ///< h_t' N_tt^-1 h_t, shifts included
 };
 
 Adjustment::Adjustment(const SharedErrors& errors, int threads)
@@ -152,7 +150,7 @@ void Adjustment::setLevels(const SharedErrorLevels& levels) {
 Adjustment::Reduced Adjustment::reduce(const Normal& normal,
                                        const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
-  const ErrorFactor factor(normal.tt, prior);
+  const ErrorFactor factor(normal.tt, prior, errors_.observedUnknowns());
   Reduced reduced;
   reduced.elimination = factor.solve(normal.tg);
   reduced.eliminated_right = factor.solve(normal.right_t);
@@ -162,9 +160,6 @@ Adjustment::Reduced Adjustment::reduce(const Normal& normal,
   reduced.normal = (0.5 * (reduced.normal + reduced.normal.transpose())).eval();
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
   reduced.prior_share = reduced.elimination.transpose() * (prior * reduced.elimination);
-  reduced.log_determinant =
-      normal.log_determinant + factor.logDeterminant() - sparseLogDeterminant(prior);
-  reduced.explained = normal.explained + normal.right_t.dot(reduced.eliminated_right);
   return reduced;
 }
 
@@ -173,14 +168,23 @@ double Adjustment::deviance(const SharedErrorLevels& levels,
   const bool same_local = levels.local == levels_.local;
   const std::unique_ptr<const Normal> other =
       same_local ? nullptr : assemble(errors_.localVariance(levels));
-  const Reduced reduced = reduce(same_local ? *normal_ : *other, levels);
+  const Normal& normal = same_local ? *normal_ : *other;
+  const ErrorFactor factor(normal.tt, errors_.priorInformation(levels), errors_.observedUnknowns());
+  Eigen::MatrixXd couplings(errors_.unknowns(), kGlobal + 1);  // with parameters, right hand side
+  couplings << normal.tg, normal.right_t;
+  const Eigen::MatrixXd eliminated = factor.quadraticForm(couplings);
+  const SystemMatrix reduced = normal.gg - eliminated.topLeftCorner<kGlobal, kGlobal>();
   Eigen::MatrixXd inverse;
   double log_normal = 0.0;
-  if (!invert(sub(reduced.normal, estimate), inverse, log_normal))
+  if (!invert(sub(reduced, estimate), inverse, log_normal))
     return std::numeric_limits<double>::infinity();
   Eigen::VectorXd right(estimate.size());
-  for (std::size_t i = 0; i < estimate.size(); ++i) right[i] = reduced.right[indexOf(estimate[i])];
-  return reduced.log_determinant + log_normal - reduced.explained - right.dot(inverse * right);
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const int p = indexOf(estimate[i]);
+    right[static_cast<Eigen::Index>(i)] = normal.right_g[p] - eliminated(p, kGlobal);
+  }
+  return normal.log_determinant + factor.logDeterminant() - errors_.priorLogDeterminant(levels) +
+         log_normal - normal.explained - eliminated(kGlobal, kGlobal) - right.dot(inverse * right);
 }
 
 const SystemMatrix& Adjustment::reducedNormal() const {

@@ -8,7 +8,10 @@
 
 #include <pcl_als/calibration/system_calibration_engine.h>
 
+#include "control_consistency.h"
 #include "strip_consistency.h"
+
+#include "calibration_state.h"
 
 namespace pcl_als {
 
@@ -42,6 +45,21 @@ std::string SystemCalibrationEngine::lostStrip(int strip) const {
                 "(unit, height reference, trajectory), or leave it out (-without)",
                 best.offset, ids_[static_cast<std::size_t>(partner)].c_str(), best.cells);
   return start + text;
+}
+
+void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& errors,
+                                            CalibrationResult& result) const {
+  const ControlConsistency control(result.control_points);
+  SystemVector spread = SystemVector::Zero();
+  if (control.two_groups) {
+    weigh(state);  // the pairs are newer than their weights
+    ControlledAdjustment adjustment{
+        errors, state.adjustment.levels(), state.observations, state.weights.weights(), pair_areas_,
+        {},     state.choice.estimate,     settings_.threads};
+    for (const ControlPoint& point : control_) adjustment.control.push_back(point.id);
+    spread = controlSpread(control, adjustment);
+  }
+  judgeControl(control, spread, result);
 }
 
 void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {

@@ -191,6 +191,7 @@ void SystemCalibrationEngine::checkTrajectory() {
   for (const std::string& warning : plausibility_.check(settings_.force)) {
     warnings_.push_back(warning);
   }
+  height_error_ = plausibility_.heightError();
 }
 
 int SystemCalibrationEngine::stripNamed(const std::string& id) const {

@@ -89,18 +89,52 @@ ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& point
   }
 }
 
+SystemVector controlSpread(const ControlConsistency& control,
+                           const ControlledAdjustment& adjustment) {
+  SystemVector spread = SystemVector::Zero();
+  if (!control.two_groups) return spread;
+  const auto solution = [&](const std::vector<std::string>& group, double shift) {
+    std::vector<AreaObservations> moved = adjustment.observations;
+    for (std::size_t i = 0; i < adjustment.control.size(); ++i) {
+      if (std::find(group.begin(), group.end(), adjustment.control[i]) == group.end()) continue;
+      for (PairObservation& o : moved[adjustment.first_control + i]) {
+        o.misclosure += shift * o.normal.z();
+      }
+    }
+    Adjustment solver(adjustment.errors, adjustment.threads);
+    solver.setLevels(adjustment.levels);
+    solver.accumulate(moved, adjustment.weights);
+    return solver.solve(adjustment.estimate, SystemVector::Zero()).biases;
+  };
+  const SystemVector as_given = solution({}, 0.0);
+  // The misclosure of control is control minus strip.
+  const SystemVector lower_right = solution(control.higher, control.separation);
+  const SystemVector higher_right = solution(control.lower, -control.separation);
+  return (lower_right - as_given).cwiseAbs().cwiseMax((higher_right - as_given).cwiseAbs());
+}
+
 namespace {
 
-void enlargeRangeBias(double half_separation, CalibrationResult& result) {
-  ParameterEstimate& range = result[SystemParameter::range_bias];
-  if (range.status == ParameterStatus::estimated)
-    range.std = std::hypot(range.std, half_separation);
+constexpr double kNoChange = 0.2;  // of a standard deviation: 2 % more of it
+
+/// The parameters whose standard deviation allows for either group now.
+std::string enlarge(const SystemVector& spread, CalibrationResult& result) {
+  std::string names;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    ParameterEstimate& p = result[info.parameter];
+    const double change = spread[indexOf(info.parameter)];
+    if (p.status != ParameterStatus::estimated || !(change > kNoChange * p.std)) continue;
+    p.std = std::hypot(p.std, change);
+    p.reason = "depends on which of two contradicting groups of control points is right";
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  }
+  return names;
 }
 
 }  // namespace
 
-void judgeControl(CalibrationResult& result) {
-  const ControlConsistency control(result.control_points);
+void judgeControl(const ControlConsistency& control, const SystemVector& spread,
+                  CalibrationResult& result) {
   std::vector<std::string> rejected;
   for (const ControlPointFit& point : result.control_points) {
     if (!point.used) rejected.push_back(point.id + " (" + inMetres(point.after) + ")");
@@ -116,9 +150,12 @@ void judgeControl(CalibrationResult& result) {
                              listed(control.higher) + ") than above the other " +
                              std::to_string(control.lower.size()) + " (" + listed(control.lower) +
                              ")";
-    result.warnings.push_back(what + "; the standard deviation of range_bias allows for either");
-    result.verdict.object(CalibrationStatus::parameters_affected, what);
-    enlargeRangeBias(0.5 * control.separation, result);
+    const std::string affected = enlarge(spread, result);
+    const std::string effect =
+        affected.empty() ? "; no parameter depends on it"
+                         : "; the standard deviations of " + affected + " allow for either";
+    result.warnings.push_back(what + effect);
+    result.verdict.object(CalibrationStatus::parameters_affected, what + effect);
   } else if (control.scatter > kScatter) {
     char times[32];
     std::snprintf(times, sizeof times, "%.1f", control.scatter);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/calibration_result.h>
 
 namespace pcl_als {
@@ -30,9 +31,31 @@ struct ControlConsistency {
   explicit ControlConsistency(const std::vector<ControlPointFit>& points);
 };
 
+/// The adjustment that control takes part in.
+struct ControlledAdjustment {
+  const SharedErrors& errors;
+  SharedErrorLevels levels;
+  const std::vector<AreaObservations>& observations;
+  const std::vector<std::vector<double>>& weights;
+  std::size_t first_control = 0;     ///< the area of the first control point; the others follow
+  std::vector<std::string> control;  ///< ids
+  std::vector<SystemParameter> estimate;
+  int threads = 0;
+};
+
+/** \brief How far each parameter moves if one or the other of two groups of control is right.
+ *
+ * The adjustment is solved again with the heights of the one group, then of the other, moved by the
+ * separation of the groups, with the same observations and weights; the larger change of the two
+ * counts (internal units; zero without two groups).
+ */
+SystemVector controlSpread(const ControlConsistency& control,
+                           const ControlledAdjustment& adjustment);
+
 /// Adds to a result what its control points show: warnings that name rejected points and say where
-/// control is worse than stated; for two groups an objection to the verdict, and the standard
-/// deviation of range_bias that allows for either group.
-void judgeControl(CalibrationResult& result);
+/// control is worse than stated; for two groups an objection to the verdict, and standard
+/// deviations that allow for either group, by what controlSpread() found.
+void judgeControl(const ControlConsistency& control, const SystemVector& spread,
+                  CalibrationResult& result);
 
 }  // namespace pcl_als

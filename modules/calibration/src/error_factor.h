@@ -19,22 +19,26 @@ using KnotBlocks = std::map<std::pair<int, int>,
 /** \brief Cholesky factor of blocks + prior, for eliminating the shared errors.
  *
  * Knots of overlapping strips fill the factor of a small block almost entirely, which a dense
- * factorisation does several times faster; a large block stays sparse.
+ * factorisation does several times faster; a large block stays sparse. Unknowns from \a observed on
+ * occur in the prior only and are eliminated first in a small block, where they hardly add to the
+ * cost.
  */
 class ErrorFactor {
  public:
-  ErrorFactor(const KnotBlocks& blocks, const Eigen::SparseMatrix<double>& prior);
+  ErrorFactor(const KnotBlocks& blocks, const Eigen::SparseMatrix<double>& prior,
+              Eigen::Index observed);
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
+  /// right' M^-1 right of the factorised matrix M; \a right is zero from row \a observed on.
+  Eigen::MatrixXd quadraticForm(const Eigen::MatrixXd& right) const;
   double logDeterminant() const;
 
  private:
   bool dense_;
-  CholeskyFactor cholesky_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;
+  Eigen::Index observed_;
+  CholeskyFactor cholesky_;                                  ///< the rest eliminated
+  Eigen::SparseMatrix<double> coupling_;                     ///< of the rest with the observed
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;  ///< of the rest, or of everything
 };
-
-/// Logarithm of the determinant of a sparse symmetric matrix that is positive definite.
-double sparseLogDeterminant(const Eigen::SparseMatrix<double>& matrix);
 
 }  // namespace pcl_als

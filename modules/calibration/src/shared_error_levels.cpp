@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,15 +9,14 @@
 namespace pcl_als {
 namespace {
 
-constexpr int kKinds = 4;
+constexpr int kKinds = SharedErrorLevels::kCount;
 constexpr int kSteps = 4;  // of the search to a factor of two
 constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
 using Powers = std::array<int, kKinds>;  // of 2^(1/kSteps); local last: it costs most to change
 
-// -2 ln of the prior of a variance component relative to the model: Cauchy in ln(level), with a
-// scale of a factor of e. A system may be far better than its data sheet or have no such error; the
-// heavy tails let the observations decide then.
-double minusTwoLogPrior(double level) {
+// -2 ln of the prior: Cauchy in ln(level), of scale 1. A system may also be far better than its
+// data sheet, or have no such error at all.
+double priorDeviance(double level) {
   const double factor = std::log(level);
   return 2.0 * std::log1p(factor * factor);
 }
@@ -30,47 +30,71 @@ int powerOf(double level) {
 }
 
 SharedErrorLevels levelsOf(const Powers& power) {
-  return {levelOf(power[0]), levelOf(power[1]), levelOf(power[2]), levelOf(power[3])};
+  std::array<double, kKinds> values{};
+  std::transform(power.begin(), power.end(), values.begin(), levelOf);
+  return SharedErrorLevels::of(values);
 }
 
-double cost(const Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
-            const Powers& power) {
-  double prior_term = 0.0;
-  for (const int p : power) prior_term += minusTwoLogPrior(levelOf(p));
-  return adjustment.deviance(levelsOf(power), estimate) + prior_term;
-}
+/// Coordinate descent over the powers.
+class Search {
+ public:
+  Search(Adjustment& adjustment, const std::vector<SystemParameter>& estimate)
+      : adjustment_(adjustment), estimate_(estimate) {
+    const auto now = adjustment.levels().values();
+    std::transform(now.begin(), now.end(), best_.begin(), powerOf);
+    direction_.fill(-1);
+    lowest_ = cost(best_);
+  }
+
+  /// Until no component is better by this step.
+  void descend(int step) {
+    int settled = 0;
+    for (int kind = kKinds - 1; settled < kKinds; kind = (kind + kKinds - 1) % kKinds) {
+      const int first = direction_[kind];
+      const bool changed = follow(kind, first * step) || follow(kind, -first * step);
+      settled = changed ? 1 : settled + 1;
+      // The next evaluations are of this local level, which is expensive to change.
+      if (changed && kind == kKinds - 1) adjustment_.setLevels(levelsOf(best_));
+    }
+  }
+  SharedErrorLevels result() const { return levelsOf(best_); }
+
+ private:
+  double cost(const Powers& power) const {
+    double prior = 0.0;
+    for (const int p : power) prior += priorDeviance(levelOf(p));
+    return adjustment_.deviance(levelsOf(power), estimate_) + prior;
+  }
+
+  bool follow(int kind, int step) {
+    bool changed = false;
+    for (Powers next = best_;; changed = true) {
+      next[kind] += step;
+      if (next[kind] < kLowest || next[kind] > kHighest) return changed;
+      const double value = cost(next);
+      if (!(value < lowest_)) return changed;
+      lowest_ = value;
+      best_ = next;
+      direction_[kind] = step > 0 ? 1 : -1;
+    }
+  }
+
+  Adjustment& adjustment_;
+  const std::vector<SystemParameter>& estimate_;
+  Powers best_{}, direction_{};
+  double lowest_ = 0.0;
+};
 
 }  // namespace
 
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate) {
-  const SharedErrorLevels now = adjustment.levels();
-  Powers best{powerOf(now.position), powerOf(now.roll_pitch), powerOf(now.heading),
-              powerOf(now.local)};
-  double lowest = cost(adjustment, estimate, best);
-  const auto follow = [&](int kind, int step) {
-    bool changed = false;
-    for (Powers next = best;; changed = true) {
-      next[kind] += step;
-      if (next[kind] < kLowest || next[kind] > kHighest) return changed;
-      const double value = cost(adjustment, estimate, next);
-      if (!(value < lowest)) return changed;
-      lowest = value;
-      best = next;
-    }
-  };
-  // First where the minimum is, by factors of two; then where in it: estimates follow the levels,
-  // and would jump with them.
-  for (const int step : {kSteps, 1}) {
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (int kind = kKinds - 1; kind >= 0; --kind) {
-        if (follow(kind, -step) || follow(kind, step)) changed = true;
-        adjustment.setLevels(levelsOf(best));
-      }
-    }
-  }
-  return levelsOf(best);
+  Search search(adjustment, estimate);
+  // Large steps first: components that are absent end far from the model's variance. The last ones
+  // are small because the estimates of the parameters change with the variance components.
+  for (const int step : {4 * kSteps, kSteps, 1}) search.descend(step);
+  adjustment.setLevels(search.result());
+  return search.result();
 }
 
 }  // namespace pcl_als

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -9,6 +10,18 @@
 #include <pcl_als/common/errors.h>
 
 namespace pcl_als {
+namespace {
+
+constexpr double kNodeSpacing = 0.25;  // correlation times, between nodes of the smooth component
+
+double cubicBSpline(double x) {
+  const double u = std::abs(x);
+  if (u >= 2.0) return 0.0;
+  return u < 1.0 ? (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0 : std::pow(2.0 - u, 3) / 6.0;
+}
+constexpr double kMeanSquare = 151.0 / 315.0;  // integral of the square of the cubic B-spline
+
+}  // namespace
 
 void SharedErrorModel::validate() const {
   const std::pair<const char*, double> values[] = {
@@ -17,6 +30,9 @@ void SharedErrorModel::validate() const {
       {"trajectory heading sigma (rad)", heading},
       {"trajectory correlation time (s)", correlation_time},
       {"trajectory knot spacing (s)", knot_spacing},
+      {"share of constant trajectory errors", constant_share},
+      {"share of smooth trajectory errors", smooth_share},
+      {"share of Gauss-Markov trajectory errors", 1.0 - constant_share - smooth_share},
       {"local shift sigma (m)", local},
       {"ranging share", ranging_incidence},
       {"range scale", range_scale}};
@@ -30,10 +46,22 @@ void SharedErrorModel::validate() const {
   }
 }
 
+std::array<double, SharedErrorLevels::kCount> SharedErrorLevels::values() const {
+  return {gauss_markov.position, gauss_markov.roll_pitch,
+          gauss_markov.heading,  smooth.position,
+          smooth.roll_pitch,     smooth.heading,
+          constant.position,     constant.roll_pitch,
+          constant.heading,      local};
+}
+
+SharedErrorLevels SharedErrorLevels::of(const std::array<double, kCount>& v) {
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, v[9]};
+}
+
 bool SharedErrorLevels::near(const SharedErrorLevels& other) const {
-  const auto alike = [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); };
-  return alike(position, other.position) && alike(roll_pitch, other.roll_pitch) &&
-         alike(heading, other.heading) && alike(local, other.local);
+  const auto mine = values(), theirs = other.values();
+  return std::equal(mine.begin(), mine.end(), theirs.begin(),
+                    [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); });
 }
 
 std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
@@ -93,6 +121,63 @@ SharedErrors::SharedErrors(const std::vector<TimeSpan>& spans, const SharedError
     strips_.back().first = knot_count_;
     knot_count_ += static_cast<int>(strips_.back().at.size());
   }
+  for (StripKnots& strip : strips_) addCoefficients(strip);
+  assembleGaussMarkov();
+}
+
+void SharedErrors::addCoefficients(StripKnots& strip) {
+  strip.per_node = kNodeSpacing * model_.correlation_time / strip.spacing;
+  for (const int step : strip.at) {
+    const int node = static_cast<int>(std::floor(step / strip.per_node));
+    for (int i = node - 1; i <= node + 2; ++i) {
+      if (strip.nodes.empty() || strip.nodes.back() < i) strip.nodes.push_back(i);
+    }
+  }
+  strip.first_node = instrumentBlock() + 1 + coefficient_count_;
+  strip.constant = strip.first_node + static_cast<int>(strip.nodes.size());
+  coefficient_count_ += static_cast<int>(strip.nodes.size()) + 1;
+}
+
+SharedErrors::Weights SharedErrors::coefficientsAt(const StripKnots& strip, int step) const {
+  Weights weights{{strip.constant, 1.0}};
+  const double place = step / strip.per_node;
+  const int first = static_cast<int>(std::floor(place)) - 1;
+  const auto from = std::lower_bound(strip.nodes.begin(), strip.nodes.end(), first);
+  for (auto node = from; node != strip.nodes.end() && *node < first + 4; ++node) {
+    weights.emplace_back(strip.first_node + static_cast<int>(node - strip.nodes.begin()),
+                         cubicBSpline(place - *node) / std::sqrt(kMeanSquare));
+  }
+  return weights;
+}
+
+void SharedErrors::assembleGaussMarkov() {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < unknowns(); ++i) entries.emplace_back(i, i, 0.0);
+  for (const StripKnots& strip : strips_) {
+    // The Gauss-Markov component at a knot, the error there less the other components, is rho times
+    // that at the knot before, with variance 1 - rho^2.
+    Weights before;
+    for (std::size_t k = 0; k < strip.at.size(); ++k) {
+      Weights here{{strip.first + static_cast<int>(k), 1.0}};
+      for (const auto& [block, weight] : coefficientsAt(strip, strip.at[k]))
+        here.emplace_back(block, -weight);
+      const double seconds = k > 0 ? strip.spacing * (strip.at[k] - strip.at[k - 1]) : 0.0;
+      const double rho = k > 0 ? std::exp(-seconds / model_.correlation_time) : 0.0;
+      Weights change = here;
+      for (const auto& [block, weight] : before) change.emplace_back(block, -rho * weight);
+      const double variance = 1.0 - rho * rho;
+      gauss_markov_log_ -= kPerKnot * std::log(variance);
+      for (const auto& [row, a] : change) {
+        for (const auto& [column, b] : change) {
+          for (int i = 0; i < kPerKnot; ++i)
+            entries.emplace_back(row * kPerKnot + i, column * kPerKnot + i, a * b / variance);
+        }
+      }
+      before = std::move(here);
+    }
+  }
+  gauss_markov_.resize(unknowns(), unknowns());
+  gauss_markov_.setFromTriplets(entries.begin(), entries.end());
 }
 
 SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
@@ -109,9 +194,17 @@ SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
 std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int index,
                                                         const Eigen::VectorXd& solution) const {
   const StripKnots& strip = strips_[static_cast<std::size_t>(index)];
-  using Knot = Eigen::Matrix<double, kPerKnot, 1>;
-  const auto valueOf = [&](int knot) -> Knot {
-    return solution.segment<kPerKnot>(static_cast<Eigen::Index>(strip.first + knot) * kPerKnot);
+  using Block = Eigen::Matrix<double, kPerKnot, 1>;
+  const auto blockOf = [&](int block) -> Block {
+    return solution.segment<kPerKnot>(static_cast<Eigen::Index>(block) * kPerKnot);
+  };
+  const auto smoothAt = [&](int step) {
+    Block sum = Block::Zero();
+    for (const auto& [block, weight] : coefficientsAt(strip, step)) sum += weight * blockOf(block);
+    return sum;
+  };
+  const auto gaussMarkovAt = [&](int knot) -> Block {
+    return blockOf(strip.first + knot) - smoothAt(strip.at[knot]);
   };
   const double unit = strip.spacing / model_.correlation_time;
   std::vector<TrajectoryErrorKnot> errors;
@@ -119,54 +212,93 @@ std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int index,
     // Expectation of a Gauss-Markov process between two known values, or beyond the last one.
     const int knot = strip.before(step);
     const double since = unit * (step - strip.at[knot]);
-    Knot value = valueOf(knot) * std::exp(-std::abs(since));
+    Block value = gaussMarkovAt(knot) * std::exp(-std::abs(since));
     if (since > 0.0 && knot + 1 < static_cast<int>(strip.at.size())) {
       const double until = unit * (strip.at[knot + 1] - step);
-      value = (std::sinh(until) * valueOf(knot) + std::sinh(since) * valueOf(knot + 1)) /
-              std::sinh(since + until);
+      value =
+          (std::sinh(until) * gaussMarkovAt(knot) + std::sinh(since) * gaussMarkovAt(knot + 1)) /
+          std::sinh(since + until);
     }
+    value += smoothAt(step);
     errors.push_back({strip.start + step * strip.spacing, value.head<3>(), value.tail<3>()});
   }
   return errors;
 }
 
+SharedErrors::Variances SharedErrors::shareOf(double share,
+                                              const SharedErrorLevels::Trajectory& levels) const {
+  const double position = share * model_.position * model_.position * levels.position;
+  const double roll_pitch = share * model_.roll_pitch * model_.roll_pitch * levels.roll_pitch;
+  const double heading = share * model_.heading * model_.heading * levels.heading;
+  return {position, position, position, roll_pitch, roll_pitch, heading};
+}
+
+SharedErrors::PriorVariances SharedErrors::priorVariances(const SharedErrorLevels& levels) const {
+  const double ranging = model_.ranging_incidence, scale = model_.range_scale;
+  return {shareOf(1.0 - model_.smooth_share - model_.constant_share, levels.gauss_markov),
+          shareOf(model_.smooth_share, levels.smooth),
+          shareOf(model_.constant_share, levels.constant),
+          {ranging * ranging, scale * scale, 1.0, 1.0, 1.0, 1.0}};
+}
+
+SharedErrors::Variances SharedErrors::variances(const SharedErrorLevels& levels) const {
+  const PriorVariances prior = priorVariances(levels);
+  Variances sum{};
+  for (int i = 0; i < kPerKnot; ++i)
+    sum[i] = prior.gauss_markov[i] + prior.smooth[i] + prior.constant[i];
+  return sum;
+}
+
+void SharedErrors::setVarianceFactor(int strip, int component, double factor) {
+  strips_[static_cast<std::size_t>(strip)].variance_factors[static_cast<std::size_t>(component)] =
+      factor;
+}
+
 Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
-  const double position = model_.position * model_.position * levels.position;
-  const double roll_pitch = model_.roll_pitch * model_.roll_pitch * levels.roll_pitch;
-  const double heading = model_.heading * model_.heading * levels.heading;
-  const double variances[kPerKnot] = {position,   position,   position,
-                                      roll_pitch, roll_pitch, heading};
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int row_knot, int column_knot, double factor) {
-    for (int i = 0; i < kPerKnot; ++i) {
-      entries.emplace_back(row_knot * kPerKnot + i, column_knot * kPerKnot + i,
-                           factor / variances[i]);
-    }
+  const PriorVariances prior = priorVariances(levels);
+  // By unknown: information of its own, and that of a Gauss-Markov component of its strip.
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(unknowns());
+  Eigen::VectorXd gauss_markov = Eigen::VectorXd::Zero(unknowns());
+  const auto add = [](Eigen::VectorXd& information, int block, const Variances& variances,
+                      const Variances& factors) {
+    for (int i = 0; i < kPerKnot; ++i)
+      information[block * kPerKnot + i] = 1.0 / (variances[i] * factors[i]);
   };
+  add(own, instrumentBlock(), prior.instrument, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});
   for (const StripKnots& strip : strips_) {
-    // Inverse covariance of a Gauss-Markov process: tridiagonal. Each step adds the information of
-    // a value that is rho times the one before, with variance 1 - rho^2.
-    add(strip.first, strip.first, 1.0);
-    for (int k = 0; k + 1 < static_cast<int>(strip.at.size()); ++k) {
-      const double seconds = strip.spacing * (strip.at[k + 1] - strip.at[k]);
-      const double rho = std::exp(-seconds / model_.correlation_time);
-      const double scale = 1.0 / (1.0 - rho * rho);
-      const int here = strip.first + k, next = here + 1;
-      add(here, here, scale * rho * rho);
-      add(next, next, scale);
-      add(here, next, -scale * rho);
-      add(next, here, -scale * rho);
+    const Variances& factors = strip.variance_factors;
+    for (std::size_t k = 0; k < strip.at.size(); ++k)
+      add(gauss_markov, strip.first + static_cast<int>(k), prior.gauss_markov, factors);
+    for (int node = strip.first_node; node <= strip.constant; ++node) {
+      add(gauss_markov, node, prior.gauss_markov, factors);
+      add(own, node, node < strip.constant ? prior.smooth : prior.constant, factors);
     }
   }
-  const double instrument[kPerKnot] = {
-      model_.ranging_incidence, model_.range_scale, 1.0, 1.0, 1.0, 1.0};
-  for (int i = 0; i < kPerKnot; ++i) {
-    const int at = instrumentBlock() * kPerKnot + i;
-    entries.emplace_back(at, at, 1.0 / (instrument[i] * instrument[i]));
+  Eigen::SparseMatrix<double> information = gauss_markov_;
+  for (Eigen::Index column = 0; column < information.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(information, column); entry; ++entry)
+      entry.valueRef() =
+          entry.value() * gauss_markov[column] + (entry.row() == column ? own[column] : 0.0);
   }
-  Eigen::SparseMatrix<double> information(unknowns(), unknowns());
-  information.setFromTriplets(entries.begin(), entries.end());
   return information;
+}
+
+double SharedErrors::priorLogDeterminant(const SharedErrorLevels& levels) const {
+  const PriorVariances prior = priorVariances(levels);
+  const auto logOf = [](const Variances& variances) {
+    double sum = 0.0;
+    for (const double variance : variances) sum += std::log(variance);
+    return sum;
+  };
+  const auto strips = static_cast<double>(strips_.size());
+  double factors = 0.0;
+  for (const StripKnots& strip : strips_) {
+    const std::size_t blocks = strip.at.size() + strip.nodes.size() + 1;
+    factors += static_cast<double>(blocks) * logOf(strip.variance_factors);
+  }
+  return gauss_markov_log_ - factors - knot_count_ * logOf(prior.gauss_markov) -
+         logOf(prior.instrument) - strips * logOf(prior.constant) -
+         (coefficient_count_ - strips) * logOf(prior.smooth);
 }
 
 }  // namespace pcl_als

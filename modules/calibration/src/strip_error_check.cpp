@@ -10,9 +10,6 @@
 namespace pcl_als {
 namespace {
 
-// RMS over a strip against the a priori standard deviation. Of a Gaussian error that is constant
-// over the strip, 3 is exceeded by chance in 0.3 % of components; 5 never.
-constexpr double kNoticeable = 3.0, kContradiction = 5.0;
 constexpr std::size_t kListed = 5;
 
 struct Component {
@@ -65,6 +62,42 @@ double overall(const CalibrationResult& result, double PairFit::*rms) {
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+/// "+0.0512 m", "-12.3 arcsec", "+0.00012"
+std::string valueText(SystemParameter parameter, double value) {
+  char text[48];
+  const SystemParameterInfo& info = infoOf(parameter);
+  std::snprintf(text, sizeof text, "%+.3g", value / info.internal_per_unit);
+  return info.unit == "1" ? text : std::string(text) + " " + std::string(info.unit);
+}
+
+/// Names the affected parameters, largest change first; their reason says by how much. Empty: none.
+std::string affectedText(std::vector<PriorEffect> effects, CalibrationResult& result) {
+  std::sort(effects.begin(), effects.end(), [](const PriorEffect& a, const PriorEffect& b) {
+    return std::abs(a.change) * b.std > std::abs(b.change) * a.std;
+  });
+  std::string names;
+  for (const PriorEffect& effect : effects) {
+    if (!effect.affected()) continue;
+    char text[160];
+    if (std::isfinite(effect.std_enlarged)) {
+      std::snprintf(text, sizeof text, "%s, %.1f standard deviations; standard deviation then %s",
+                    valueText(effect.parameter, effect.change).c_str(),
+                    std::abs(effect.change) / effect.std,
+                    valueText(effect.parameter, effect.std_enlarged).c_str() + 1);
+    } else {
+      std::snprintf(text, sizeof text, "not determined then");
+    }
+    names += (names.empty() ? "" : ", ") + std::string(infoOf(effect.parameter).name) + " (" +
+             text + ")";
+    result[effect.parameter].reason =
+        std::string("affected by large trajectory corrections: ") + text;
+  }
+  if (names.empty()) return names;
+  return "parameters that depend on these corrections, and what they change by if errors of this "
+         "size are expected: " +
+         names;
+}
+
 /// Small trajectory errors may be all that is left of a calibrated system: alone, this is no
 /// objection.
 void assessNeed(bool corrections_are_large, CalibrationResult& result) {
@@ -106,9 +139,10 @@ std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& str
   return large;
 }
 
-void assessStripErrors(const SharedErrorModel& model, CalibrationResult& result) {
+void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEffect>& effects,
+                       CalibrationResult& result) {
   const std::vector<StripErrorSize> large =
-      largeStripErrors(result.strip_errors, model, kNoticeable);
+      largeStripErrors(result.strip_errors, model, kNoticeableCorrection);
   for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
     result.warnings.push_back(describe(large[i]));
   if (large.size() > kListed) {
@@ -116,9 +150,13 @@ void assessStripErrors(const SharedErrorModel& model, CalibrationResult& result)
                               " further trajectory corrections exceed three a priori standard "
                               "deviations");
   }
-  if (!large.empty() && large.front().ratio() > kContradiction)
-    result.verdict.object(CalibrationStatus::parameters_affected, describe(large.front()));
-  assessNeed(!large.empty(), result);
+  const std::string affected = affectedText(effects, result);
+  if (!affected.empty()) result.warnings.push_back(affected);
+  if (!affected.empty() && large.front().ratio() > kContradictingCorrection) {
+    result.verdict.object(CalibrationStatus::parameters_affected,
+                          describe(large.front()) + "; " + affected);
+  }
+  assessNeed(!affected.empty(), result);
 }
 
 }  // namespace pcl_als

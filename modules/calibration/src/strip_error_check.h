@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 
@@ -20,9 +21,36 @@ struct StripErrorSize {
   double ratio() const { return rms / sigma; }
 };
 
+/// Ratio from which corrections are named, and beyond which the model is contradicted; see the
+/// module's README for what blocks without faults show.
+constexpr double kNoticeableCorrection = 3.0, kContradictingCorrection = 5.0;
+
 /// The components that exceed \a ratio a priori standard deviations, largest ratio first.
 std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& strips,
                                              const SharedErrorModel& model, double ratio);
+
+/// How one parameter depends on the a priori standard deviations that corrections exceed.
+struct PriorEffect {
+  SystemParameter parameter;
+  double change = 0.0;        ///< of the estimate; metres, radians, 1
+  double std = 0.0;           ///< as estimated
+  double std_enlarged = 0.0;  ///< with the enlarged a priori standard deviations
+
+  /// Whether it would change by more than one standard deviation, or be determined by less than
+  /// half of the information.
+  bool affected() const;
+};
+
+/** \brief The sensitivity of the parameters to corrections that exceed what was expected of them.
+ *
+ * The adjustment is solved again with the a priori standard deviation of each component in
+ * \a large enlarged to the correction that was found (RMS over the strip): had such errors been
+ * expected, how would the parameters differ? The observations and their weights stay as they are.
+ * \a errors and \a adjustment are as they were afterwards.
+ */
+std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
+                                      const std::vector<std::string>& strips, SharedErrors& errors,
+                                      Adjustment& adjustment, const ParameterChoice& choice);
 
 /** \brief Reports estimated trajectory errors (strip corrections) that contradict the model.
  *
@@ -31,9 +59,11 @@ std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& str
  * them, in proportion to their a priori variances. Corrections beyond three a priori standard
  * deviations give a warning, and so does a misfit that only the corrections reduce; beyond five, or
  * where both are found, the verdict is that parameters are affected. Names strip, component, size,
- * a priori standard deviation and likely causes. Call after the fits are in the result and before
- * judgeCalibration().
+ * a priori standard deviation and likely causes, and the parameters that are affected (\a effects),
+ * with the change as the reason of each; where none is, corrections alone are no objection. Call
+ * after the fits are in the result and before judgeCalibration().
  */
-void assessStripErrors(const SharedErrorModel& model, CalibrationResult& result);
+void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEffect>& effects,
+                       CalibrationResult& result);
 
 }  // namespace pcl_als

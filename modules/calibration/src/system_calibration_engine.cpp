@@ -200,7 +200,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
     spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
                              : std::pair(0.0, 0.0));
   }
-  const SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
+  SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
   State state(errors, settings_.threads);
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
@@ -223,6 +223,9 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   report.addStrips(errors, used_, state.choice.solution, result);
+  const std::vector<PriorEffect> effects = priorEffects(
+      largeStripErrors(result.strip_errors, settings_.shared_errors, kNoticeableCorrection), ids_,
+      errors, state.adjustment, state.choice);
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
   information_ = state.adjustment.informationShares(state.choice.estimate);
   information_.resize(areas_.size(), 0.0);
@@ -231,15 +234,16 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   state.threshold = settings_.max_normal_distance;
   state.seekers = AreaMatcher::Seekers::candidates;
   pairUp(state);
-  report.addControlPoints(
-      control_, state.observations, used,
-      settings_.shared_errors.position * std::sqrt(state.adjustment.levels().position), result);
+  report.addControlPoints(control_, state.observations, used,
+                          std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
   report.addFit(state.observations, result.biases(), true, result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
   result.misfit = misfit.change(state.observations, result.biases());
   diagnose(result);
-  judgeControl(result);
-  assessStripErrors(settings_.shared_errors, result);
+  assessControl(state, errors, result);
+  assessStripErrors(settings_.shared_errors, effects, result);
+  if (!height_error_.empty())
+    result.verdict.object(CalibrationStatus::parameters_affected, height_error_);
   judgeCalibration(settings_.estimate, open ? whyOpen(state, result) : "", result);
   return result;
 }

@@ -83,6 +83,8 @@ void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& 
                                         : Eigen::Vector2d(forward.head<2>().normalized());
   const double along = direction.dot(d.head<2>());
   const double lateral = direction.y() * d.x() - direction.x() * d.y();
+  if (std::isfinite(scan_angle))
+    s.angles.add(lateral, along, -d.z(), scan_angle * kRadiansPerDegree);
   s.direction_sum += direction;
   s.mean_ahead_sum += forward.dot(d);
   s.height_sum -= d.z();
@@ -202,6 +204,23 @@ void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
                                 "coordinates of the points"});
 }
 
+void TrajectoryPlausibility::checkHeight(std::vector<Finding>& findings) const {
+  std::vector<HeightCheck> strips;
+  for (const Strip& strip : strips_) {
+    if (strip.used) strips.push_back(strip.angles);
+  }
+  const HeightError error = pcl_als::heightError(strips);
+  if (error.kind == HeightError::Kind::none) return;
+  findings.push_back({false, error.text, error.kind != HeightError::Kind::scale});
+}
+
+std::string TrajectoryPlausibility::heightError() const {
+  for (const Finding& finding : findings()) {
+    if (finding.height) return finding.text;
+  }
+  return {};
+}
+
 void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const {
   HeadingCheck all;
   for (const Strip& strip : strips_) {
@@ -249,7 +268,9 @@ std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() 
   if (!findings.empty()) return findings;  // what follows would repeat it
   checkTimes(findings);
   checkHeading(findings);
-  if (findings.empty()) checkRollAndPitch(findings);
+  const bool clean = findings.empty();
+  checkHeight(findings);
+  if (clean) checkRollAndPitch(findings);
   if (findings.empty()) checkOffset(findings);
   return findings;
 }

@@ -119,13 +119,13 @@ class Adjustment {
   std::unique_ptr<Reduced> reduced_;
 };
 
-/** \brief Sets an adjustment to the levels of shared errors that its observations show best
- * (restricted maximum likelihood), and returns them.
+/** \brief Estimates the variance components of the shared errors by restricted maximum likelihood
+ * (REML), sets the adjustment to them, and returns them.
  *
- * Searched by factors of two between 1/4096 and 16 times the model's variances, then of 2^(1/4),
- * one kind after the other until none changes. The model counts as one observation of each level,
- * right within a factor of e (Cauchy): where the observations contain no information, the model is
- * kept; where they contain much, the prior has little weight.
+ * Each is the variance of the model times a factor between 1/4096 and 16, with a Cauchy prior on
+ * the logarithm of the factor (scale: a factor of e): a component that the observations do not
+ * determine keeps the model's variance, and one that they do determine is hardly affected by the
+ * prior. The minimum is found by coordinate descent, with factors of 16, of two, then of 2^(1/4).
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -17,9 +18,12 @@ namespace pcl_als {
 /** \brief Errors that observations share and that do not average out over the points of a strip.
  *
  * Trajectory: each of six errors of a strip (east, north, up; pitch, roll, heading about the flight
- * line) is a stationary Gauss-Markov process with the given standard deviation and correlation
- * exp(-|dt| / correlation_time). Strips are independent. Defaults: post-processed survey-grade
- * GNSS/INS.
+ * line) has the given standard deviation and is the sum of three independent components: a
+ * constant, a smooth component (a cubic B-spline with independent coefficients, a quarter of the
+ * correlation time apart; its autocorrelation is close to a Gaussian function) and a first-order
+ * Gauss-Markov process with correlation exp(-|dt| / correlation_time). Strips are independent.
+ * Defaults: post-processed survey-grade GNSS/INS. The variance of a Gauss-Markov process alone
+ * would be estimated mainly from changes within seconds, and be too small where errors are smooth.
  *
  * Local: the remaining errors of a strip between the knots, and those of the surface, are one shift
  * of the strip (east, north, up) in every area, independent from area to area.
@@ -35,6 +39,8 @@ struct SharedErrorModel {
   double roll_pitch = 8.0 * kRadiansPerArcsec;  ///< radians
   double heading = 16.0 * kRadiansPerArcsec;    ///< radians
   double correlation_time = 20.0;               ///< seconds
+  double constant_share = 0.2;                  ///< of the variance: the constant
+  double smooth_share = 0.4;                    ///< of the variance: the smooth component
   double knot_spacing = 1.0;                    ///< seconds, at least, between knots of the
                                                 ///< linear splines used for the trajectory
   double local = 0.01;                          ///< metres, each axis
@@ -45,21 +51,32 @@ struct SharedErrorModel {
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
 
-/// How much of the model's variance the observations show, by kind of error.
+/// Estimated variance over the variance of the model, by component and kind of error.
 struct SharedErrorLevels {
-  double position = 1.0, roll_pitch = 1.0, heading = 1.0, local = 1.0;
+  /// Of one component of the trajectory errors.
+  struct Trajectory {
+    double position = 1.0, roll_pitch = 1.0, heading = 1.0;
+  };
+  Trajectory gauss_markov, smooth, constant;
+  double local = 1.0;
 
-  /// Whether none differs by more than a factor of 1.5: less than observations can resolve.
+  /// All of them, trajectory components one after the other.
+  static constexpr int kCount = 10;
+  std::array<double, kCount> values() const;
+  static SharedErrorLevels of(const std::array<double, kCount>& values);
+
+  /// Whether none differs by more than a factor of 1.5, less than their standard deviation.
   bool near(const SharedErrorLevels& other) const;
 };
 
 /** \brief The unknowns of the model: six at every knot of every strip (linear in time between
- * knots), then one block of six for the instrument: the ranging share, the range scale, and four
- * unused.
+ * knots), then one block of six for the instrument (the ranging share, the range scale, and four
+ * unused), then six for each coefficient of the strips' smooth and constant components.
  *
- * Knots are a knot_spacing apart, and only where something was observed: what lies between is
- * bridged by the process itself, exactly, so that a survey costs what its observations cost and not
- * what its flight lines are long.
+ * An error at a knot is the sum of all components, so that observations depend on knots and the
+ * instrument alone. Knots are a knot_spacing apart, and only where something was observed: what
+ * lies between is bridged by the process itself, exactly, so that the cost depends on the
+ * observations and not on the length of the flight lines.
  */
 class SharedErrors {
  public:
@@ -74,7 +91,9 @@ class SharedErrors {
   int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
   int rangingUnknown() const { return instrumentBlock() * kPerKnot; }
   const SharedErrorModel& model() const { return model_; }
-  int unknowns() const { return (knot_count_ + 1) * kPerKnot; }
+  /// Knots and instrument: what observations depend on.
+  int observedUnknowns() const { return (knot_count_ + 1) * kPerKnot; }
+  int unknowns() const { return observedUnknowns() + coefficient_count_ * kPerKnot; }
 
   /// Where a time lies between two knots of its strip.
   struct Place {
@@ -93,10 +112,20 @@ class SharedErrors {
     return model_.local * model_.local * levels.local;
   }
 
-  /// Information matrix of the prior, unknowns x unknowns, knot by knot (east north up pitch roll
+  /// Multiplies the prior variance of one component (east north up pitch roll heading) of a strip's
+  /// errors, 1 by default; for the sensitivity of a solution to its prior.
+  void setVarianceFactor(int strip, int component, double factor);
+
+  /// A priori variances of the errors at a knot, m^2 and rad^2, sums of their components.
+  using Variances = std::array<double, kPerKnot>;
+  Variances variances(const SharedErrorLevels& levels) const;
+
+  /// Information matrix of the prior, unknowns x unknowns, block by block (east north up pitch roll
   /// heading).
   Eigen::SparseMatrix<double> priorInformation(
       const SharedErrorLevels& levels = SharedErrorLevels()) const;
+  /// Its ln determinant.
+  double priorLogDeterminant(const SharedErrorLevels& levels = SharedErrorLevels()) const;
 
  private:
   struct StripKnots {
@@ -104,14 +133,35 @@ class SharedErrors {
     int steps = 0;                      ///< from start to end
     int first = 0;                      ///< knot, counted over all strips
     std::vector<int> at;                ///< steps at which the strip has its knots
+    double per_node = 1.0;              ///< steps between nodes of the smooth component
+    std::vector<int> nodes;             ///< of the coefficients that have an effect at a knot
+    int first_node = 0;                 ///< block of unknowns of the first coefficient
+    int constant = 0;                   ///< block of unknowns of the constant
+    std::array<double, kPerKnot> variance_factors{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     /// The knot of the strip at or before a step; 0 before the first.
     int before(double step) const;
   };
   static StripKnots knotsOf(const TimeSpan& span, double spacing,
                             const std::vector<TimeSpan>* observed);
 
+  using Weights = std::vector<std::pair<int, double>>;  ///< blocks of unknowns with their weights
+  void addCoefficients(StripKnots& strip);
+  /// The constant and the smooth component at a step, linear in their coefficients.
+  Weights coefficientsAt(const StripKnots& strip, int step) const;
+  void assembleGaussMarkov();
+  /// A priori variance of the unknowns of a block: a knot's Gauss-Markov component, the instrument,
+  /// a coefficient.
+  Variances shareOf(double share, const SharedErrorLevels::Trajectory& levels) const;
+  struct PriorVariances {
+    Variances gauss_markov, smooth, constant, instrument;
+  };
+  PriorVariances priorVariances(const SharedErrorLevels& levels) const;
+
   std::vector<StripKnots> strips_;
-  int knot_count_ = 0;
+  int knot_count_ = 0, coefficient_count_ = 0;
+  /// Information of the Gauss-Markov components with a variance of one, and its ln determinant.
+  Eigen::SparseMatrix<double> gauss_markov_;
+  double gauss_markov_log_ = 0.0;
   SharedErrorModel model_;
 };
 

@@ -159,6 +159,8 @@ class SystemCalibrationEngine {
   void diagnose(CalibrationResult& result) const;
   /// Moves what was adjusted out of the state.
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
+  /// Adds what control shows, with the parameters that depend on contradictory control.
+  void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   CalibrationSettings settings_;
@@ -181,6 +183,7 @@ class SystemCalibrationEngine {
   std::vector<double> information_;  ///< by area
   AdjustedSurvey adjusted_;
   std::vector<std::string> warnings_, attitude_remarks_;
+  std::string height_error_;  ///< of the trajectory, as recorded scan angles show it
   std::function<void(const CalibrationIteration&)> progress_;
 };
 

@@ -14,6 +14,7 @@
 
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/heading_check.h>
+#include <pcl_als/trajectory/height_check.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
@@ -26,7 +27,8 @@ namespace pcl_als {
  * decides. A trajectory that is displaced by less shows where strips of several courses see it from
  * different sides. The heading is compared with the course, pitch with the planes of the pulses,
  * and roll with the edges of the swath and with recorded scan angles, where these are the mirror's;
- * without changes of pitch and roll these are not judged. Times of coarse steps leave the firing
+ * without changes of pitch and roll these are not judged. The height is compared with the one that
+ * recorded scan angles imply. Times of coarse steps leave the firing
  * point open by the distance flown in a step.
  *
  * Give some points of every strip; one in a hundred will do. Points at times outside the trajectory
@@ -64,11 +66,14 @@ class TrajectoryPlausibility {
   struct Finding {
     bool refuse = false;  ///< results would be wrong; otherwise only suspicious
     std::string text;     ///< what is wrong, the likely cause and the remedy
+    bool height = false;  ///< the trajectory's height is wrong: parameters that depend on it are
   };
   std::vector<Finding> findings() const;
   /// Findings that refuse are thrown as an InputError, the first one; with \a force all are
   /// returned, as are those that only warn.
   std::vector<std::string> check(bool force) const;
+  /// The finding on the height of the trajectory that results are wrong by; empty: none.
+  std::string heightError() const;
 
  private:
   struct Strip {
@@ -85,6 +90,7 @@ class TrajectoryPlausibility {
     double shortest_step = std::numeric_limits<double>::infinity();  ///< seconds
     std::size_t path_cursor = 0;
     HeadingCheck heading;
+    HeightCheck angles;
     std::optional<AttitudeRecovery> recovery;  ///< where the trajectory's attitude is used
   };
   /// What a strip's points lie like on average, seen from where they were measured.
@@ -100,6 +106,7 @@ class TrajectoryPlausibility {
   void checkStrips(std::vector<Finding>& findings) const;
   void checkTimes(std::vector<Finding>& findings) const;
   void checkOffset(std::vector<Finding>& findings) const;
+  void checkHeight(std::vector<Finding>& findings) const;
   void checkHeading(std::vector<Finding>& findings) const;
   void checkRollAndPitch(std::vector<Finding>& findings) const;
   Finding ofAttitude(bool wrong, const std::string& text) const;

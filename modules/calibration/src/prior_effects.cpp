@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "strip_error_check.h"
+
+namespace pcl_als {
+namespace {
+
+// Of the standard deviation: the estimate changes by more than it states.
+constexpr double kChange = 1.0;
+constexpr double kHalfInformation = 1.4142135623730951;  // ratio of standard deviations
+
+int indexOfStrip(const std::vector<std::string>& strips, const std::string& id) {
+  return static_cast<int>(std::find(strips.begin(), strips.end(), id) - strips.begin());
+}
+
+}  // namespace
+
+bool PriorEffect::affected() const {
+  return !(std::abs(change) <= kChange * std) || !(std_enlarged <= kHalfInformation * std);
+}
+
+std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
+                                      const std::vector<std::string>& strips, SharedErrors& errors,
+                                      Adjustment& adjustment, const ParameterChoice& choice) {
+  std::vector<PriorEffect> effects;
+  if (large.empty() || choice.estimate.empty()) return effects;
+  const SharedErrorLevels levels = adjustment.levels();
+  const SharedErrors::Variances priors = errors.variances(SharedErrorLevels());
+  const SharedErrors::Variances adjusted = errors.variances(levels);
+  const auto setFactors = [&](bool enlarged) {
+    for (const StripErrorSize& e : large) {
+      const double factor = e.ratio() * e.ratio() * priors[e.component] / adjusted[e.component];
+      errors.setVarianceFactor(indexOfStrip(strips, e.strip), e.component,
+                               enlarged ? std::max(1.0, factor) : 1.0);
+    }
+    adjustment.setLevels(levels);
+  };
+  setFactors(true);
+  const AdjustmentSolution other = adjustment.solve(choice.estimate, choice.solution.biases);
+  setFactors(false);
+  for (const SystemParameter p : choice.estimate) {
+    const int i = indexOf(p);
+    PriorEffect effect{p, 0.0, std::sqrt(choice.solution.covariance(i, i)),
+                       std::numeric_limits<double>::infinity()};
+    if (other.solved) {
+      effect.change = other.biases[i] - choice.solution.biases[i];
+      effect.std_enlarged = std::sqrt(other.covariance(i, i));
+    }
+    effects.push_back(effect);
+  }
+  return effects;
+}
+
+}  // namespace pcl_als
