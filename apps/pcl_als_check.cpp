@@ -133,13 +133,13 @@ void checkOutputs(const CommandLine& line) {
 /// The images of a report; none in a build without GDAL.
 std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
                                                    const std::string& name) {
+  const double cell = line.number("cell", 0.0, 100.0, "m");
   if (!line.has("report")) return std::nullopt;
   if (!PCL_ALS_WITH_GDAL) {
     app::remark(line, "built without GDAL: no swath separation image");
     return std::nullopt;
   }
-  return SeparationImageOptions{line.text("report"), name, line.number("cell", 0.0, 100.0, "m"),
-                                qualityLevel(line)};
+  return SeparationImageOptions{line.text("report"), name, cell, qualityLevel(line)};
 }
 
 /// Checks one set of files; \a image: name of its swath separation image.

@@ -144,7 +144,8 @@ void writeReport(const CommandLine& line, const IntensityReport& report, const I
                             : "report.md, CSV; no report.html: built without VTK");
 }
 
-void checkCombinations(const CommandLine& line) {
+void checkOptions(const CommandLine& line) {
+  line.number("target_radius", 0.01, 1000.0, "m");  // is needed late
   if (line.has("radiometry") && line.has("estimate"))
     throw UsageError("options -radiometry and -estimate exclude each other");
 }
@@ -152,7 +153,7 @@ void checkCombinations(const CommandLine& line) {
 int intensity(int argc, const char* const* argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
-  checkCombinations(line);
+  checkOptions(line);
   const ExtinctionChoice extinction = app::extinctionChoice(line);
   const IntensitySettings settings = app::intensitySettings(line, extinction.per_km);
   const IntensityOutput output = app::intensityOutput(line);

@@ -63,8 +63,8 @@ SectionLine lineOf(const CommandLine& line) {
   if (!line.has("from") || !line.has("to")) {
     throw UsageError("-from X,Y and -to X,Y are needed, or -auto N");
   }
-  const std::vector<double> from = app::numbersOf(line, "from", ',', 2);
-  const std::vector<double> to = app::numbersOf(line, "to", ',', 2);
+  const std::vector<double> from = app::numbersOf(line, "from", ',', 2, app::kFarthest);
+  const std::vector<double> to = app::numbersOf(line, "to", ',', 2, app::kFarthest);
   const double width = line.number("width", 0.0, 1000.0, "m");
   SectionLine section{{from[0], from[1]}, {to[0], to[1]}, width > 0.0 ? 0.5 * width : 1.0};
   if (section.from == section.to) throw UsageError("options -from and -to: are the same point");
@@ -75,7 +75,7 @@ std::size_t countOf(const CommandLine& line) {
   if (line.has("from") || line.has("to")) {
     throw UsageError("option -auto: finds the sections itself, without -from and -to");
   }
-  const double count = app::numbersOf(line, "auto", ' ', 1)[0];
+  const double count = app::numbersOf(line, "auto", ' ', 1, 100.0)[0];
   if (!(count >= 1.0 && count <= 100.0 && count == std::floor(count))) {
     throw UsageError("option -auto: must be a whole number from 1 to 100");
   }

@@ -38,7 +38,7 @@ CommandLine declare() {
                         "paper");
   line.add<double>("scale", "factor on the lengths of the lines, 0.05 to 10", 1.0);
   line.add<double>("density", "factor on the pulses per square metre, 0.01 to 50", 1.0);
-  line.add<std::uint64_t>("seed", "of scene, flight and noise", 1);
+  line.add<std::string>("seed", "of scene, flight and noise", "1");
   line.add<std::string>("noise",
                         "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
                         "control and slowly drifting trajectory errors",
@@ -88,8 +88,8 @@ void setStripGains(const std::string& list, SimulationOptions& options) {
     bool found = false;
     for (simulation::PlannedLine& planned : options.lines) {
       if (std::to_string(planned.id) != part.substr(0, equals)) continue;
-      planned.gain =
-          app::numberIn(part.substr(std::min(equals + 1, part.size())), "option -strip_gains");
+      planned.gain = app::numberIn(part.substr(std::min(equals + 1, part.size())),
+                                   "option -strip_gains", 0.01, 100.0);
       found = true;
     }
     if (!found) throw UsageError("option -strip_gains: '" + part + "' names no line (ID=FACTOR)");
@@ -122,7 +122,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
       SimulationOptions::preset(line.text("preset"), line.number("scale", 0.05, 10.0, "(factor)"),
                                 line.number("density", 0.01, 50.0, "(factor)"),
                                 line.number("fov", 10.0, 60.0, "degrees") * kRadiansPerDegree);
-  options.seed = line.get<std::uint64_t>("seed");
+  options.seed = line.wholeNumber("seed");
   options.noise = NoiseOptions::named(line.text("noise"));
   options.noise.process = simulation::errorProcessNamed(line.text("error_process"));
   if (line.has("bias")) simulation::setBiases(line.text("bias"), options.bias);

@@ -56,7 +56,7 @@ PointShade shadeOf(const CommandLine& line) {
 }
 
 Eigen::AlignedBox2d extentOf(const CommandLine& line) {
-  const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4);
+  const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4, app::kFarthest);
   if (!(edges[0] < edges[2] && edges[1] < edges[3])) {
     throw UsageError("option -extent: XMIN,YMIN,XMAX,YMAX needs the smaller values first");
   }
@@ -64,7 +64,7 @@ Eigen::AlignedBox2d extentOf(const CommandLine& line) {
 }
 
 std::pair<double, double> rangeOf(const CommandLine& line) {
-  const std::vector<double> range = app::numbersOf(line, "range", ':', 2);
+  const std::vector<double> range = app::numbersOf(line, "range", ':', 2, app::kFarthest);
   if (!(range[0] < range[1])) throw UsageError("option -range: LOW:HIGH needs LOW below HIGH");
   return {range[0], range[1]};
 }
@@ -77,7 +77,7 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   if (line.has("reference")) options.reference = line.text("reference");
   options.difference_cell = line.number("cell", 0.0, 1000.0, "m");
   options.strips = app::stripChoice(line);
-  options.azimuth = line.get<double>("azimuth");
+  options.azimuth = line.number("azimuth", -360.0, 360.0, "degrees");
   options.elevation = line.get<double>("elevation");
   options.zoom = line.number("zoom", 1e-3, 1e6, "times");
   if (line.has("extent")) options.extent = extentOf(line);

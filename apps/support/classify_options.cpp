@@ -96,8 +96,8 @@ SurfaceOptions surfaceOptionsOf(const CommandLine& line) {
   options.texture_window = line.number("texture_window", 0.0, 1000.0, "m");
   options.ground_classes.clear();
   for (const std::string& text : splitList(line.text("ground_classes"))) {
-    const double code = numberIn(text, "option -ground_classes");
-    if (code < 0.0 || code > 255.0 || code != std::floor(code))
+    const double code = numberIn(text, "option -ground_classes", 0.0, 255.0);
+    if (code != std::floor(code))
       throw UsageError("option -ground_classes: '" + text + "' is no class code (0 to 255)");
     options.ground_classes.push_back(static_cast<std::uint8_t>(code));
   }
@@ -125,7 +125,8 @@ std::vector<std::pair<std::string, double>> priorsOf(const CommandLine& line) {
     const std::size_t equals = entry.rfind('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError("option -priors: '" + entry + "' is not CLASS=PROBABILITY");
-    priors.emplace_back(entry.substr(0, equals), numberIn(entry.substr(equals + 1), "option -priors"));
+    priors.emplace_back(entry.substr(0, equals),
+                        numberIn(entry.substr(equals + 1), "option -priors", 0.0, 1.0));
   }
   return priors;
 }
@@ -138,7 +139,8 @@ RasterGrid gridOf(const CommandLine& line, double min_x, double min_y, double ma
   if (parts.size() != 4)
     throw UsageError("option -extent: '" + line.text("extent") + "' is not WEST,SOUTH,EAST,NORTH");
   double edges[4];
-  for (std::size_t i = 0; i < 4; ++i) edges[i] = numberIn(parts[i], "option -extent");
+  for (std::size_t i = 0; i < 4; ++i)
+    edges[i] = numberIn(parts[i], "option -extent", -kFarthest, kFarthest);
   if (edges[0] >= edges[2] || edges[1] >= edges[3])
     throw UsageError("option -extent: west must be less than east, south less than north");
   // Edges that are multiples of the cell size give no further row or column.

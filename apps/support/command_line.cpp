@@ -61,11 +61,9 @@ T CommandLine::get(const char* name) const {
 
 template void CommandLine::add(const char*, const char*, const double&);
 template void CommandLine::add(const char*, const char*, const int&);
-template void CommandLine::add(const char*, const char*, const std::uint64_t&);
 template void CommandLine::add(const char*, const char*, const std::string&);
 template double CommandLine::get(const char*) const;
 template int CommandLine::get(const char*) const;
-template std::uint64_t CommandLine::get(const char*) const;
 template std::string CommandLine::get(const char*) const;
 
 void CommandLine::addOptional(const char* name, const char* help) {
@@ -337,9 +335,25 @@ std::optional<double> decimalNumber(const std::string& text) {
   return value;
 }
 
-double numberIn(const std::string& text, const std::string& what) {
-  if (const auto value = decimalNumber(text)) return *value;
-  throw UsageError(what + ": '" + text + "' is not a finite number");
+double numberIn(const std::string& text, const std::string& what, double low, double high) {
+  const auto value = decimalNumber(text);
+  if (value && *value >= low && *value <= high) return *value;
+  std::ostringstream message;
+  message << what << ": '" << text << "' is not a ";
+  if (std::isfinite(low))
+    message << "number from " << low << " to " << high;
+  else
+    message << "finite number";
+  throw UsageError(message.str());
+}
+
+std::uint64_t CommandLine::wholeNumber(const char* name) const {
+  const std::string& text = this->text(name);
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && !text.empty()) return value;
+  throw UsageError(std::string("option -") + name + ": '" + text +
+                   "' is not a whole number from 0 to 18446744073709551615");
 }
 
 std::vector<std::string> splitList(const std::string& list) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,7 +35,7 @@ class CommandLine {
   CommandLine(CommandLine&&) noexcept;
   ~CommandLine();
 
-  /// Adds an option that takes a value: double, int, std::uint64_t or std::string.
+  /// Adds an option that takes a value: double, int or std::string.
   template <typename T>
   void add(const char* name, const char* help, const T& default_value);
   void addOptional(const char* name, const char* help);  ///< text value, absent by default
@@ -50,6 +51,8 @@ class CommandLine {
   std::string text(const char* name) const { return get<std::string>(name); }
   /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
   double number(const char* name, double low, double high, const char* unit) const;
+  /// The value of a std::string option as a whole number; UsageError for anything else.
+  std::uint64_t wholeNumber(const char* name) const;
 
   /// Positional arguments; UsageError unless their number is in [low, high], and for one that is
   /// given twice in a list of any length.
@@ -116,8 +119,12 @@ int run(const char* tool, const std::function<int()>& body);
 
 /// The finite number that a text is as a whole, in decimal digits (no hexadecimal, no blanks).
 std::optional<double> decimalNumber(const std::string& text);
-/// The same; UsageError that names \a what for another text.
-double numberIn(const std::string& text, const std::string& what);
+/// The same from \a low to \a high; UsageError that names \a what for another text.
+double numberIn(const std::string& text, const std::string& what,
+                double low = -std::numeric_limits<double>::infinity(),
+                double high = std::numeric_limits<double>::infinity());
+/// The greatest coordinate that options take, metres: beyond any projected CRS.
+constexpr double kFarthest = 1e9;
 
 /// "a, b, c" → {"a", "b", "c"}, without blanks and empty parts.
 std::vector<std::string> splitList(const std::string& list);

@@ -39,8 +39,8 @@ SystemParameter parameterNamed(const std::string& name, const std::string& what)
 
 std::optional<int> gpsWeek(const CommandLine& line) {
   if (!line.has("gps_week")) return std::nullopt;
-  const double week = numberIn(line.text("gps_week"), "option -gps_week");
-  if (week < 0.0 || week > 9999.0 || week != std::floor(week)) {
+  const double week = numberIn(line.text("gps_week"), "option -gps_week", 0.0, 9999.0);
+  if (week != std::floor(week)) {
     throw UsageError("option -gps_week: must be a whole number from 0 to 9999");
   }
   return static_cast<int>(week);
@@ -77,14 +77,8 @@ namespace {
 /// -line_fit; \a otherwise where it is not given.
 double halfWidthOf(const CommandLine& line, double otherwise) {
   if (!line.has("line_fit")) return otherwise;
-  const double half_width = numberIn(line.text("line_fit"), "option -line_fit");
-  if (half_width <= 0.0) throw UsageError("option -line_fit: must be more than 0 seconds");
-  if (half_width > kLongestWindow) {
-    throw UsageError(
-        "option -line_fit: must not exceed 60 seconds: the flight is taken as "
-        "straight within it");
-  }
-  return half_width;
+  // The flight is taken as straight within it.
+  return numberIn(line.text("line_fit"), "option -line_fit, seconds", 0.001, kLongestWindow);
 }
 
 }  // namespace

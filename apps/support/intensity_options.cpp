@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "intensity_options.h"
 
+#include <map>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
@@ -86,13 +87,6 @@ void addOutputOptions(CommandLine& line) {
       "correction did");
 }
 
-double positiveOption(const CommandLine& line, const char* option) {
-  const std::string what = std::string("option -") + option;
-  const double value = numberIn(line.text(option), what);
-  if (value <= 0.0) throw UsageError(what + ": must be more than 0");
-  return value;
-}
-
 void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {
   if (!line.has("estimate")) return;
   for (const std::string& name : splitList(line.text("estimate"))) {
@@ -108,6 +102,22 @@ void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {
                        "' is none of range_exponent, incidence_exponent, extinction, strip_gains, "
                        "all");
   }
+}
+
+std::map<std::string, double> valuesByStrip(const CommandLine& line, const char* option, double low,
+                                            double high) {
+  std::map<std::string, double> values;
+  if (!line.has(option)) return values;
+  const std::string what = std::string("option -") + option;
+  for (const std::string& part : splitList(line.text(option))) {
+    const std::size_t equals = part.rfind('=');
+    if (equals == std::string::npos) throw UsageError(what + ": '" + part + "' is not STRIP=VALUE");
+    const double value = numberIn(part.substr(equals + 1), what, low, high);
+    if (!values.emplace(part.substr(0, equals), value).second)
+      throw UsageError(what + ": strip " + part.substr(0, equals) + " is given twice");
+  }
+  if (values.empty()) throw UsageError(what + ": names no strip");
+  return values;
 }
 
 }  // namespace
@@ -131,8 +141,8 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
   }
   if (line.has("attenuation")) {
     try {
-      choice.per_km =
-          extinctionFromDecibel(numberIn(line.text("attenuation"), "option -attenuation"));
+      choice.per_km = extinctionFromDecibel(
+          numberIn(line.text("attenuation"), "option -attenuation", 0.0, 1000.0));
     } catch (const UsageError& error) {
       throw UsageError(std::string("option -attenuation: ") + error.what());
     }
@@ -156,22 +166,6 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
   return choice;
 }
 
-std::map<std::string, double> valuesByStrip(const CommandLine& line, const char* option) {
-  std::map<std::string, double> values;
-  if (!line.has(option)) return values;
-  const std::string what = std::string("option -") + option;
-  for (const std::string& part : splitList(line.text(option))) {
-    const std::size_t equals = part.rfind('=');
-    if (equals == std::string::npos) throw UsageError(what + ": '" + part + "' is not STRIP=VALUE");
-    const double value = numberIn(part.substr(equals + 1), what);
-    if (value <= 0.0) throw UsageError(what + ": '" + part + "' must be more than 0");
-    if (!values.emplace(part.substr(0, equals), value).second)
-      throw UsageError(what + ": strip " + part.substr(0, equals) + " is given twice");
-  }
-  if (values.empty()) throw UsageError(what + ": names no strip");
-  return values;
-}
-
 IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km) {
   IntensitySettings settings;
   RadiometricModel& model = settings.model;
@@ -187,15 +181,16 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
   settings.footprint_mrad = line.number("divergence", 0.0, 10.0, "mrad");
   settings.cell = line.number("cell", 0.0, 100.0, "m");
   setEstimates(line, settings.overlaps);
-  settings.gains = valuesByStrip(line, "gains");
-  settings.pulse_rates = valuesByStrip(line, "pulse_rates");
+  settings.gains = valuesByStrip(line, "gains", 1e-6, 1e6);
+  settings.pulse_rates = valuesByStrip(line, "pulse_rates", 1.0, 1e9);
   if (line.has("agc_field") != line.has("agc_gain"))
     throw UsageError("options -agc_field and -agc_gain: give both or none");
   if (line.has("agc_field")) {
     settings.gain_control = line.text("agc_field");
     settings.gain_steps = readGainSteps(line.text("agc_gain"));
   }
-  if (line.has("saturation")) settings.saturation = positiveOption(line, "saturation");
+  if (line.has("saturation"))
+    settings.saturation = numberIn(line.text("saturation"), "option -saturation", 1.0, 65535.0);
   settings.keep_uncovered = line.has("keep_uncovered");
   settings.strips = stripChoice(line);
   settings.statistics = line.has("json") || line.has("report");

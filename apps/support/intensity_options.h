@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -21,8 +20,5 @@ void addIntensityOptions(CommandLine& line);
 ExtinctionChoice extinctionChoice(const CommandLine& line);
 IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km);
 IntensityOutput intensityOutput(const CommandLine& line);
-
-/// "NAME=VALUE,…" of an option, values greater than 0.
-std::map<std::string, double> valuesByStrip(const CommandLine& line, const char* option);
 
 }  // namespace pcl_als::app

@@ -60,11 +60,15 @@ std::string pictureFile(const CommandLine& line) {
 }
 
 std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
-                              std::size_t count) {
+                              std::size_t count, double largest) {
   std::vector<double> numbers = parsed(line.text(option), separator);
-  if (numbers.size() == count) return numbers;
-  throw UsageError(std::string("option -") + option + ": '" + line.text(option) + "' is not " +
-                   std::to_string(count) + " numbers parted by '" + separator + "'");
+  const bool small = std::all_of(numbers.begin(), numbers.end(),
+                                 [&](double number) { return std::abs(number) <= largest; });
+  if (numbers.size() == count && small) return numbers;
+  std::ostringstream message;
+  message << "option -" << option << ": '" << line.text(option) << "' is not " << count
+          << " numbers separated by '" << separator << "', at most " << largest;
+  throw UsageError(message.str());
 }
 
 std::string namesOf(const std::vector<std::string>& paths) {

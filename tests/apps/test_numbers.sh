@@ -33,7 +33,7 @@ numbers() {
 # part OPTION TEMPLATE VERB ARG…: a number in the middle of a text, in place of @.
 part() {
   local value
-  for value in nan inf 1e309 0x10 5abc 1e30 '' '1 2'; do
+  for value in nan inf 1e309 0x10 5abc 1e30 '1 2'; do
     refused "$1" "${2/@/$value}" "${@:3}"
   done
 }

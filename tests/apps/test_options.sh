@@ -69,7 +69,7 @@ expect 1 "wobble" calibrate "${two[@]}" -output x.json -estimate boresight_roll,
 expect 1 "pairs" calibrate "${two[@]}" -output x.json -pairs 1-2
 expect 1 "model" calibrate "${two[@]}" -output x.json -model perfect
 expect 1 "-vertical exclude each other" calibrate "${two[@]}" -output x.json -model rigorous -vertical
-expect 1 "line_fit*60 seconds" calibrate "${two[@]}" -output x.json -line_fit 1e9
+expect 1 "line_fit, seconds*from 0.001 to 60" calibrate "${two[@]}" -output x.json -line_fit 1e9
 expect 1 "scan_angle_scale: -1 is not between -0.1 and 0.1" apply "$strip" x.las -trajectory "$block/trajectory.csv" \
   -biases scan_angle_scale=-1
 absent x.json
