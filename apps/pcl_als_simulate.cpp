@@ -9,11 +9,11 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/crs.h>
+#include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
 #include <pcl_als/simulation/simulator.h>
 
 #include "command_line.h"
-#include "simulation_files.h"
 
 namespace {
 

@@ -120,6 +120,50 @@ std::map<std::string, double> valuesByStrip(const CommandLine& line, const char*
   return values;
 }
 
+IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km) {
+  IntensitySettings settings;
+  RadiometricModel& model = settings.model;
+  model.reference_range = line.number("reference_range", 1.0, 20000.0, "m");
+  model.range_exponent = line.number("range_exponent", 0.0, 6.0, "(exponent)");
+  model.incidence_exponent = line.number("incidence_exponent", 0.0, 4.0, "(exponent)");
+  model.largest_incidence = line.number("largest_incidence", 1.0, 89.0, "degrees");
+  model.extinction_per_km = extinction_per_km;
+  if (line.has("no_range")) model.range_exponent = 0.0;
+  if (line.has("no_incidence")) model.incidence_exponent = 0.0;
+  settings.surfaces.radius = line.number("surface_radius", 0.0, 1000.0, "m");
+  settings.surfaces.tolerance = line.number("surface_tolerance", 0.001, 10.0, "m");
+  settings.footprint_mrad = line.number("divergence", 0.0, 10.0, "mrad");
+  settings.cell = line.number("cell", 0.0, 100.0, "m");
+  setEstimates(line, settings.overlaps);
+  settings.gains = valuesByStrip(line, "gains", 1e-6, 1e6);
+  settings.pulse_rates = valuesByStrip(line, "pulse_rates", 1.0, 1e9);
+  if (line.has("agc_field") != line.has("agc_gain"))
+    throw UsageError("options -agc_field and -agc_gain: give both or none");
+  if (line.has("agc_field")) {
+    settings.gain_control = line.text("agc_field");
+    settings.gain_steps = readGainSteps(line.text("agc_gain"));
+  }
+  if (line.has("saturation"))
+    settings.saturation = numberIn(line.text("saturation"), "option -saturation", 1.0, 65535.0);
+  settings.keep_uncovered = line.has("keep_uncovered");
+  settings.strips = stripChoice(line);
+  settings.statistics = line.has("json") || line.has("report");
+  settings.find_surfaces = model.incidence_exponent != 0.0 || settings.statistics ||
+                           !line.has("no_fields") || line.has("estimate") || line.has("targets");
+  settings.gps_week = gpsWeek(line);
+  settings.force = line.has("force");
+  settings.threads = line.threads();
+  return settings;
+}
+
+IntensityOutput intensityOutput(const CommandLine& line) {
+  IntensityOutput output;
+  output.scale = line.number("scale", 1e-6, 1e6, "(factor)");
+  output.keep_original = !line.has("no_original");
+  output.extra_fields = !line.has("no_fields");
+  return output;
+}
+
 }  // namespace
 
 void addIntensityOptions(CommandLine& line) {
@@ -166,48 +210,17 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
   return choice;
 }
 
-IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km) {
-  IntensitySettings settings;
-  RadiometricModel& model = settings.model;
-  model.reference_range = line.number("reference_range", 1.0, 20000.0, "m");
-  model.range_exponent = line.number("range_exponent", 0.0, 6.0, "(exponent)");
-  model.incidence_exponent = line.number("incidence_exponent", 0.0, 4.0, "(exponent)");
-  model.largest_incidence = line.number("largest_incidence", 1.0, 89.0, "degrees");
-  model.extinction_per_km = extinction_per_km;
-  if (line.has("no_range")) model.range_exponent = 0.0;
-  if (line.has("no_incidence")) model.incidence_exponent = 0.0;
-  settings.surfaces.radius = line.number("surface_radius", 0.0, 1000.0, "m");
-  settings.surfaces.tolerance = line.number("surface_tolerance", 0.001, 10.0, "m");
-  settings.footprint_mrad = line.number("divergence", 0.0, 10.0, "mrad");
-  settings.cell = line.number("cell", 0.0, 100.0, "m");
-  setEstimates(line, settings.overlaps);
-  settings.gains = valuesByStrip(line, "gains", 1e-6, 1e6);
-  settings.pulse_rates = valuesByStrip(line, "pulse_rates", 1.0, 1e9);
-  if (line.has("agc_field") != line.has("agc_gain"))
-    throw UsageError("options -agc_field and -agc_gain: give both or none");
-  if (line.has("agc_field")) {
-    settings.gain_control = line.text("agc_field");
-    settings.gain_steps = readGainSteps(line.text("agc_gain"));
-  }
-  if (line.has("saturation"))
-    settings.saturation = numberIn(line.text("saturation"), "option -saturation", 1.0, 65535.0);
-  settings.keep_uncovered = line.has("keep_uncovered");
-  settings.strips = stripChoice(line);
-  settings.statistics = line.has("json") || line.has("report");
-  settings.find_surfaces = model.incidence_exponent != 0.0 || settings.statistics ||
-                           !line.has("no_fields") || line.has("estimate") || line.has("targets");
-  settings.gps_week = gpsWeek(line);
-  settings.force = line.has("force");
-  settings.threads = line.threads();
-  return settings;
-}
-
-IntensityOutput intensityOutput(const CommandLine& line) {
-  IntensityOutput output;
-  output.scale = line.number("scale", 1e-6, 1e6, "(factor)");
-  output.keep_original = !line.has("no_original");
-  output.extra_fields = !line.has("no_fields");
-  return output;
+IntensityOptions intensityOptions(const CommandLine& line, double extinction_per_km) {
+  if (line.has("radiometry") && line.has("estimate"))
+    throw UsageError("options -radiometry and -estimate exclude each other");
+  IntensityOptions options;
+  options.settings = intensitySettings(line, extinction_per_km);
+  options.output = intensityOutput(line);
+  options.target_radius = line.number("target_radius", 0.01, 1000.0, "m");
+  if (line.has("radiometry")) options.stored = readIntensityJson(line.text("radiometry"));
+  if (line.has("targets"))
+    options.targets = readReferenceTargets(line.text("targets"), unitOption(line, "targets"));
+  return options;
 }
 
 }  // namespace pcl_als::app

@@ -2,11 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include <pcl_als/processing/intensity_output.h>
-#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/processing/intensity_job.h>
 #include <pcl_als/report/intensity_report.h>
 
 #include "command_line.h"
@@ -18,7 +14,6 @@ void addIntensityOptions(CommandLine& line);
 
 /// UsageError naming the option for values out of range.
 ExtinctionChoice extinctionChoice(const CommandLine& line);
-IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km);
-IntensityOutput intensityOutput(const CommandLine& line);
+IntensityOptions intensityOptions(const CommandLine& line, double extinction_per_km);
 
 }  // namespace pcl_als::app

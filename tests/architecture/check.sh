@@ -11,7 +11,8 @@ cd -- "$1"
 breaches=0
 breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 
-# What a module may declare: arrows go down only, and nobody may use simulation or visualization.
+# What a module may declare: arrows go down only. An estimator that used simulation would share its
+# errors, so that only the writer of simulated surveys does.
 declare -A may=(
   [common]="" [adjustment]="common" [las]="common" [io]="common las" [trajectory]="common"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
@@ -19,7 +20,7 @@ declare -A may=(
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [planning]="common trajectory survey tin calibration"
-  [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification visualization"
+  [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification visualization simulation"
   [report]="common io survey registration calibration planning radiometry quality classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )
@@ -30,12 +31,12 @@ declared() {
   awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
          for (i = 1; i <= NF; ++i) {
            if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
-           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage)}/CMakeLists.txt"
+           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage|simulation)}/CMakeLists.txt"
 }
 declare -A reach
 closure() {  # X and all that it declares, directly or through others
   [[ -n ${reach[$1]:-} ]] && return
-  local all=" $1 ${1%_@(raster|picture|page|coverage)} " next
+  local all=" $1 ${1%_@(raster|picture|page|coverage|simulation)} " next
   reach[$1]=$all  # a circle of declarations is a breach, not an endless loop
   for next in $(declared "$1"); do
     closure "$next"
@@ -52,7 +53,7 @@ for folder in modules/*/; do
   module=$(basename -- "$folder")
   [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
   for other in $(declared "$module"); do
-    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage)} "* ]] ||
+    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage|simulation)} "* ]] ||
       breach "modules/$module/CMakeLists.txt" "must not use module $other"
   done
   grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&
@@ -66,6 +67,8 @@ for folder in modules/*/; do
           used=${target#<pcl_als/}
           [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
             breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
+          [[ $used != simulation/* || $module == simulation || $file == */simulated_survey.* ]] ||
+            breach "$file" "includes $target: only the writer of simulated surveys uses module simulation"
           [[ $module != @(calibration|planning) || $used != @(io|las)/* ]] ||
             breach "$file" "includes $target: module $module reads no files" ;;
         *'../'*) breach "$file" "includes $target across folders" ;;

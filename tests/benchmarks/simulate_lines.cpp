@@ -9,9 +9,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulator.h>
-
-#include "simulation_files.h"
 
 namespace {
 
@@ -49,15 +48,15 @@ int main(int argc, char** argv) {
   }
   const int count = argc > 2 ? std::atoi(argv[2]) : 10;
   const double millions = argc > 3 ? std::atof(argv[3]) : 5.0;
-  app::StripFileOptions files;
+  StripFileOptions files;
   files.folder = argv[1];
   std::filesystem::create_directories(files.folder);
   const simulation::Simulator simulator(linesOf(count, millions));
   for (std::size_t strip = 0; strip < simulator.stripCount(); ++strip) {
-    const app::StripSummary written = app::writeStrip(simulator, strip, files, 0, [](double) {});
+    const StripSummary written = writeStrip(simulator, strip, files, 0, [](double) {});
     std::printf("%s: %llu points\n", written.file.c_str(),
                 static_cast<unsigned long long>(written.points));
   }
-  app::writeSurveyFiles(simulator, files.folder);
+  writeSurveyFiles(simulator, files.folder);
   return 0;
 }

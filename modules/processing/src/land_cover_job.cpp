@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/processing/land_cover_job.h>
 
 namespace pcl_als {

@@ -334,4 +334,13 @@ OverlapResult adjustOverlaps(const std::vector<SharedCell>& cells, double cell_s
   return result;
 }
 
+std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
+  std::string names;
+  forEachTerm(overlaps, strips, [&names](const std::string& name, const EstimatedTerm& term) {
+    if (term.status != TermStatus::not_estimable) return;
+    names += (names.empty() ? "" : ", ") + name;
+  });
+  return names.empty() ? "the adjustment did not converge" : names;
+}
+
 }  // namespace pcl_als

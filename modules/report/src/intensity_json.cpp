@@ -81,32 +81,33 @@ Json overlapJson(const OverlapResult& overlaps, double cell_size) {
 
 Json estimatesJson(const IntensityReport& report) {
   Json terms, gains = Json::array();
-  const RadiometricModel& model = report.run->model();
+  const RadiometricModel& model = report.result->run->model();
   for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
     const auto term = static_cast<RadiometricTerm>(t);
-    Json json = report.overlaps ? termJson(report.overlaps->terms[t])
-                                : Json{{"value", valueOf(term, model)}, {"status", "fixed"}};
+    Json json = report.result->overlaps
+                    ? termJson(report.result->overlaps->terms[t])
+                    : Json{{"value", valueOf(term, model)}, {"status", "fixed"}};
     json["unit"] = unitOf(term);
     terms[nameOf(term)] = json;
   }
-  for (std::size_t i = 0; i < report.run->strips().size(); ++i) {
-    Json json = {{"strip", report.run->strips()[i]}};
-    if (report.overlaps)
-      json.update(termJson(report.overlaps->gains[i]));
+  for (std::size_t i = 0; i < report.result->run->strips().size(); ++i) {
+    Json json = {{"strip", report.result->run->strips()[i]}};
+    if (report.result->overlaps)
+      json.update(termJson(report.result->overlaps->gains[i]));
     else
-      json.update(Json{{"value", report.run->estimatedGains()[i]}, {"status", "fixed"}});
+      json.update(Json{{"value", report.result->run->estimatedGains()[i]}, {"status", "fixed"}});
     gains.push_back(json);
   }
   return {{"terms", terms}, {"strip_gains", gains}};
 }
 
 Json referenceJson(const IntensityReport& report) {
-  Json json = {{"constant", report.run->constant()}};
-  if (!report.reference) return json;
-  json["relative_std"] = report.reference->relative_std;
-  json["relative_rms"] = report.reference->relative_rms;
+  Json json = {{"constant", report.result->run->constant()}};
+  if (!report.result->reference) return json;
+  json["relative_std"] = report.result->reference->relative_std;
+  json["relative_rms"] = report.result->reference->relative_rms;
   json["targets"] = Json::array();
-  for (const ReferenceResult::Target& t : report.reference->targets) {
+  for (const ReferenceResult::Target& t : report.result->reference->targets) {
     json["targets"].push_back({{"id", t.id},
                                {"points", t.points},
                                {"used", t.used},
@@ -162,7 +163,7 @@ Json histogramJson(const IntensityHistogram& histogram) {
 }
 
 Json reportJson(const IntensityReport& report) {
-  const IntensityStatistics& statistics = report.outcome->statistics;
+  const IntensityStatistics& statistics = report.result->outcome.statistics;
   const double scale = meanScale(statistics.all());
   Json json;
   json["note"] =
@@ -181,12 +182,12 @@ Json reportJson(const IntensityReport& report) {
   }
   json["strips"] = Json::array();
   for (std::size_t i = 0; i < statistics.strips(); ++i) {
-    Json entry = {{"strip", report.run->strips()[i]}};
+    Json entry = {{"strip", report.result->run->strips()[i]}};
     const double own = meanScale(statistics.strip(i));
     entry.update(pairJson(statistics.strip(i), own));
     entry["slopes"] =
         slopesJson([&](std::size_t bin) { return statistics.stripSlope(i, bin); }, own);
-    entry["histogram"] = histogramJson(report.outcome->histograms[i]);
+    entry["histogram"] = histogramJson(report.result->outcome.histograms[i]);
     json["strips"].push_back(entry);
   }
   return json;
@@ -194,12 +195,12 @@ Json reportJson(const IntensityReport& report) {
 
 Json filesJson(const IntensityReport& report) {
   Json files = Json::array();
-  for (std::size_t i = 0; i < report.run->files(); ++i) {
-    const IntensityCounts& counts = report.outcome->counts[i];
+  for (std::size_t i = 0; i < report.result->run->files(); ++i) {
+    const IntensityCounts& counts = report.result->outcome.counts[i];
     Json status;
     for (std::size_t k = 0; k < kRadiometryStatusCount; ++k)
       status[nameOf(static_cast<RadiometryStatus>(k))] = counts.status[k];
-    files.push_back({{"input", report.run->input(i).path()},
+    files.push_back({{"input", report.result->run->input(i).path()},
                      {"output", report.outputs[i]},
                      {"points", counts.points},
                      {"points_by_status", status},
@@ -223,16 +224,17 @@ double positive(const Json& json, const char* name, const std::string& file) {
 
 void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report) {
   Json json = {{"format", kFormat}, {"version", 1}, {"tool_version", PCL_ALS_VERSION}};
-  json["model"] = modelJson(report.run->model());
+  json["model"] = modelJson(report.result->run->model());
   json["atmosphere"] = atmosphereJson(report.extinction);
   json.update(estimatesJson(report));
-  if (report.overlaps) json["overlaps"] = overlapJson(*report.overlaps, report.run->cellSize());
+  if (report.result->overlaps)
+    json["overlaps"] = overlapJson(*report.result->overlaps, report.result->run->cellSize());
   json["reflectance"] = referenceJson(report);
   json["output_scale"] = report.output.scale;
-  json["saturation"] = report.run->saturation();
+  json["saturation"] = report.result->run->saturation();
   json["files"] = filesJson(report);
-  json["left_out"] = leftOutJson(report.left_out);
-  json["warnings"] = report.warnings;
+  json["left_out"] = leftOutJson(report.result->left_out);
+  json["warnings"] = report.result->warnings;
   json["report"] = reportJson(report);
   writeFile(path, json.dump(1) + "\n");
 }

@@ -44,7 +44,7 @@ class PairTable {
 };
 
 void addSlopes(const IntensityReport& intensity, HtmlReport& report) {
-  const IntensityStatistics& statistics = intensity.outcome->statistics;
+  const IntensityStatistics& statistics = intensity.result->outcome.statistics;
   const double scale = meanScale(statistics.all());
   PairTable table("slope, degrees", "Intensities by slope of the surface");
   CurvePlot plot{"Variance to mean of intensity by slope",
@@ -70,7 +70,7 @@ void addSlopes(const IntensityReport& intensity, HtmlReport& report) {
 }
 
 void addClasses(const IntensityReport& intensity, HtmlReport& report) {
-  const IntensityStatistics& statistics = intensity.outcome->statistics;
+  const IntensityStatistics& statistics = intensity.result->outcome.statistics;
   PairTable table("class", "Intensities by class");
   for (int code = 0; code < 256; ++code)
     table.add(std::to_string(code) + " " + className(code),
@@ -106,7 +106,7 @@ std::size_t mostOf(const std::vector<std::uint64_t>& counts) {
 }
 
 void addHistograms(const IntensityReport& intensity, HtmlReport& report) {
-  const std::vector<IntensityHistogram>& histograms = intensity.outcome->histograms;
+  const std::vector<IntensityHistogram>& histograms = intensity.result->outcome.histograms;
   std::size_t most = 1;
   for (const IntensityHistogram& histogram : histograms)
     most = std::max({most, mostOf(histogram.before), mostOf(histogram.after)});
@@ -118,7 +118,7 @@ void addHistograms(const IntensityReport& intensity, HtmlReport& report) {
   for (std::size_t strip = 0; strip < histograms.size(); ++strip) {
     const IntensityHistogram& histogram = histograms[strip];
     if (mostOf(histogram.before) == 0) continue;
-    plot.panels.push_back({"strip " + intensity.run->strips()[strip],
+    plot.panels.push_back({"strip " + intensity.result->run->strips()[strip],
                            {histogramSeries("before", histogram.before, width, bins),
                             histogramSeries("after", histogram.after, width, bins)}});
   }
@@ -138,12 +138,12 @@ void addGains(const IntensityReport& intensity, HtmlReport& report) {
   plot.x_label = "factor on what the strip received";
   plot.reference = 1.0;
   bool any = false;
-  for (std::size_t i = 0; i < intensity.run->strips().size() && i < 60; ++i) {
-    const EstimatedTerm& gain = intensity.overlaps->gains[i];
+  for (std::size_t i = 0; i < intensity.result->run->strips().size() && i < 60; ++i) {
+    const EstimatedTerm& gain = intensity.result->overlaps->gains[i];
     const bool known = gain.status == TermStatus::estimated;
     any = any || known;
     plot.rows.push_back(
-        {"strip " + intensity.run->strips()[i], gain.value,
+        {"strip " + intensity.result->run->strips()[i], gain.value,
          known ? gain.value * gain.std : kNothing,
          known ? numberText(gain.value, 4) + " ± " + numberText(gain.value * gain.std, 4)
                : std::string(nameOf(gain.status))});
@@ -154,13 +154,14 @@ void addGains(const IntensityReport& intensity, HtmlReport& report) {
 }
 
 void addStrips(const IntensityReport& intensity, HtmlReport& report) {
-  const IntensityStatistics& statistics = intensity.outcome->statistics;
+  const IntensityStatistics& statistics = intensity.result->outcome.statistics;
   PairTable table("strip", "Intensities by strip; ratios at the mean of the strip");
   for (std::size_t i = 0; i < statistics.strips(); ++i)
-    table.add(intensity.run->strips()[i], statistics.strip(i), meanScale(statistics.strip(i)));
+    table.add(intensity.result->run->strips()[i], statistics.strip(i),
+              meanScale(statistics.strip(i)));
   report.addSection("By strip");
   addHistograms(intensity, report);
-  if (intensity.overlaps) addGains(intensity, report);
+  if (intensity.result->overlaps) addGains(intensity, report);
   report.addTable(table.table());
 }
 
@@ -176,20 +177,20 @@ void addLines(const std::string& text, HtmlReport& report) {
 }
 
 void addEstimates(const IntensityReport& intensity, HtmlReport& report) {
-  if (intensity.overlaps) {
+  if (intensity.result->overlaps) {
     report.addSection("Overlaps");
-    addLines(overlapText(*intensity.overlaps, intensity.run->strips()), report);
+    addLines(overlapText(*intensity.result->overlaps, intensity.result->run->strips()), report);
   }
-  if (!intensity.reference) return;
+  if (!intensity.result->reference) return;
   report.addSection("Targets");
-  addLines(referenceText(*intensity.reference), report);
+  addLines(referenceText(*intensity.result->reference), report);
 }
 
 void addPoints(const IntensityReport& intensity, HtmlReport& report) {
   report.addSection("Points");
-  for (std::size_t i = 0; i < intensity.run->files(); ++i) {
-    report.addText(intensity.run->input(i).path());
-    addLines(countsText(intensity.outcome->counts[i], *intensity.run), report);
+  for (std::size_t i = 0; i < intensity.result->run->files(); ++i) {
+    report.addText(intensity.result->run->input(i).path());
+    addLines(countsText(intensity.result->outcome.counts[i], *intensity.result->run), report);
   }
 }
 
@@ -207,32 +208,30 @@ StripCoverage emptyCoverage(const IntensityRun& run) {
 
 class DrawnIntensityPage : public IntensityPage {
  public:
-  DrawnIntensityPage(const IntensityRun& run, IntensityOutcome& outcome)
-      : coverage_(emptyCoverage(run)) {
-    outcome.seen = [this](int strip, const Eigen::Vector3d& place) {
-      coverage_.add(place, static_cast<std::size_t>(strip));
+  IntensityOptions::SeenPoint observe(const IntensityRun& run) override {
+    coverage_.emplace(emptyCoverage(run));
+    return [this](int strip, const Eigen::Vector3d& place) {
+      coverage_->add(place, static_cast<std::size_t>(strip));
     };
   }
-  void write(const ReportOrigin& origin, const IntensityReport& intensity,
-             bool reliable) const override;
+  void write(const ReportOrigin& origin, const IntensityReport& intensity) const override;
 
  private:
-  StripCoverage coverage_;
+  std::optional<StripCoverage> coverage_;
 };
 
-void DrawnIntensityPage::write(const ReportOrigin& origin, const IntensityReport& intensity,
-                               bool reliable) const {
-  const IntensityRun& run = *intensity.run;
+void DrawnIntensityPage::write(const ReportOrigin& origin, const IntensityReport& intensity) const {
+  const IntensityRun& run = *intensity.result->run;
   HtmlReport report("Intensity of " + std::to_string(run.strips().size()) + " strips",
                     origin.program);
-  addVerdict(verdictOf(intensity, reliable), report);
-  addWarnings(intensity.warnings, report);
+  addVerdict(verdictOf(intensity), report);
+  addWarnings(intensity.result->warnings, report);
   addSlopes(intensity, report);
   addStrips(intensity, report);
   addClasses(intensity, report);
   addEstimates(intensity, report);
   addPoints(intensity, report);
-  if (!run.strips().empty()) addMap(origin.control, coverage_, run.strips(), {}, report);
+  if (!run.strips().empty()) addMap(origin.control, *coverage_, run.strips(), {}, report);
   std::vector<std::string> inputs;
   for (std::size_t i = 0; i < run.files(); ++i) inputs.push_back(run.input(i).path());
   addOrigin(origin, inputs, report);
@@ -241,9 +240,8 @@ void DrawnIntensityPage::write(const ReportOrigin& origin, const IntensityReport
 
 }  // namespace
 
-std::unique_ptr<IntensityPage> makeIntensityPage(const IntensityRun& run,
-                                                 IntensityOutcome& outcome) {
-  return std::make_unique<DrawnIntensityPage>(run, outcome);
+std::unique_ptr<IntensityPage> makeIntensityPage() {
+  return std::make_unique<DrawnIntensityPage>();
 }
 
 }  // namespace pcl_als

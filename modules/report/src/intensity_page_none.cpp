@@ -4,8 +4,7 @@
 
 namespace pcl_als {
 
-std::unique_ptr<IntensityPage> makeIntensityPage(const IntensityRun& /*run*/,
-                                                 IntensityOutcome& /*outcome*/) {
+std::unique_ptr<IntensityPage> makeIntensityPage() {
   return nullptr;
 }
 

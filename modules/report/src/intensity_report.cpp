@@ -67,11 +67,11 @@ struct Table {
 std::string histogramsCsv(const IntensityReport& report) {
   std::ostringstream csv;
   csv << "strip,intensity,before,after\n";
-  for (std::size_t strip = 0; strip < report.outcome->histograms.size(); ++strip) {
-    const IntensityHistogram& histogram = report.outcome->histograms[strip];
+  for (std::size_t strip = 0; strip < report.result->outcome.histograms.size(); ++strip) {
+    const IntensityHistogram& histogram = report.result->outcome.histograms[strip];
     for (std::size_t i = 0; i < histogram.before.size(); ++i) {
       if (histogram.before[i] + histogram.after[i] == 0) continue;
-      csv << report.run->strips()[strip] << ',' << i << ',' << histogram.before[i] << ','
+      csv << report.result->run->strips()[strip] << ',' << i << ',' << histogram.before[i] << ','
           << histogram.after[i] << '\n';
     }
   }
@@ -95,18 +95,6 @@ void termLine(const std::string& name, const EstimatedTerm& term, std::ostream& 
   out << '\n';
 }
 
-/// \a each(name, term) of the terms, then of the strips' gains.
-template <typename Function>
-void forEachTerm(const OverlapResult& overlaps, const std::vector<std::string>& strips,
-                 const Function& each) {
-  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
-    each(std::string(nameOf(static_cast<RadiometricTerm>(t))), overlaps.terms[t]);
-  }
-  for (std::size_t i = 0; i < strips.size(); ++i) {
-    each("gain of strip " + strips[i], overlaps.gains[i]);
-  }
-}
-
 }  // namespace
 
 std::string slopeName(std::size_t bin) {
@@ -118,15 +106,6 @@ std::string slopeName(std::size_t bin) {
 
 double meanScale(const BeforeAfter& all) {
   return all.after.mean() > 0.0 ? all.before.mean() / all.after.mean() : 1.0;
-}
-
-std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
-  std::string names;
-  forEachTerm(overlaps, strips, [&names](const std::string& name, const EstimatedTerm& term) {
-    if (term.status != TermStatus::not_estimable) return;
-    names += (names.empty() ? "" : ", ") + name;
-  });
-  return names.empty() ? "the adjustment did not converge" : names;
 }
 
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips) {
@@ -181,34 +160,11 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
         << ", their values are lower bounds\n";
   if (counts.clipped > 0)
     out << "  beyond 65535 after correction: " << grouped(counts.clipped)
-        << " points, written as 65535; a smaller -scale keeps them\n";
+        << " points, written as 65535; a smaller scale keeps them\n";
   if (counts.rounded_to_zero > 0)
     out << "  under 0.5 after correction: " << grouped(counts.rounded_to_zero)
-        << " points, written as 0; a larger -scale keeps them\n";
+        << " points, written as 0; a larger scale keeps them\n";
   return out.str();
-}
-
-LostIntensities lostIntensities(const IntensityCounts& counts) {
-  const struct {
-    std::uint64_t count;
-    const char* what;
-  } kinds[] = {
-      {counts.clipped,
-       "beyond 65535 after correction and written as 65535; use a smaller -scale, "
-       "or check that trajectory and points belong together"},
-      {counts.saturated, "saturated as received: corrected values are lower bounds"},
-      {counts.rounded_to_zero, "under 0.5 after correction and written as 0; use a larger -scale"}};
-  LostIntensities lost;
-  const std::uint64_t with_intensity = counts.points - counts.zeros;
-  if (with_intensity == 0) return lost;
-  for (const auto& kind : kinds) {
-    const double share = static_cast<double>(kind.count) / static_cast<double>(with_intensity);
-    if (share <= lost.share) continue;
-    lost.share = share;
-    lost.text =
-        grouped(kind.count) + " of " + grouped(with_intensity) + " intensities are " + kind.what;
-  }
-  return lost;
 }
 
 namespace {
@@ -216,7 +172,7 @@ namespace {
 std::string markdownOf(const IntensityReport& report, const Table& slopes, const Table& classes,
                        const Table& strips) {
   std::ostringstream page;
-  const RadiometricModel& model = report.run->model();
+  const RadiometricModel& model = report.result->run->model();
   page << "# Radiometric correction\n\nReference range " << model.reference_range
        << " m, range exponent " << model.range_exponent << ", incidence exponent "
        << model.incidence_exponent << ", extinction " << model.extinction_per_km << " per km; "
@@ -228,17 +184,17 @@ std::string markdownOf(const IntensityReport& report, const Table& slopes, const
        << slopes.markdown.str() << "\n## By class\n\n"
        << classes.markdown.str() << "\n## By strip\n\n"
        << strips.markdown.str();
-  if (report.overlaps)
+  if (report.result->overlaps)
     page << "\n## Overlaps\n\n```\n"
-         << overlapText(*report.overlaps, report.run->strips()) << "```\n";
-  if (report.reference)
-    page << "\n## Targets\n\n```\n" << referenceText(*report.reference) << "```\n";
+         << overlapText(*report.result->overlaps, report.result->run->strips()) << "```\n";
+  if (report.result->reference)
+    page << "\n## Targets\n\n```\n" << referenceText(*report.result->reference) << "```\n";
   page << "\n## Points\n";
-  for (std::size_t i = 0; i < report.run->files(); ++i)
+  for (std::size_t i = 0; i < report.result->run->files(); ++i)
     page << "\n"
-         << report.run->input(i).path() << "\n```\n"
-         << countsText(report.outcome->counts[i], *report.run) << "```\n";
-  for (const std::string& warning : report.warnings) page << "\n- " << warning;
+         << report.result->run->input(i).path() << "\n```\n"
+         << countsText(report.result->outcome.counts[i], *report.result->run) << "```\n";
+  for (const std::string& warning : report.result->warnings) page << "\n- " << warning;
   return page.str() + "\n";
 }
 
@@ -250,7 +206,7 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + ": cannot make this folder");
-  const IntensityStatistics& statistics = report.outcome->statistics;
+  const IntensityStatistics& statistics = report.result->outcome.statistics;
   const double scale = meanScale(statistics.all());
   Table slopes("slope_deg"), classes("class"), strips("strip");
   for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
@@ -259,7 +215,8 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
     classes.add(std::to_string(code) + " " + className(code),
                 statistics.classOf(static_cast<std::uint8_t>(code)), scale);
   for (std::size_t i = 0; i < statistics.strips(); ++i)
-    strips.add(report.run->strips()[i], statistics.strip(i), meanScale(statistics.strip(i)));
+    strips.add(report.result->run->strips()[i], statistics.strip(i),
+               meanScale(statistics.strip(i)));
   writeFile(folder / "slopes.csv", slopes.csv.str());
   writeFile(folder / "classes.csv", classes.csv.str());
   writeFile(folder / "strips.csv", strips.csv.str());

@@ -27,7 +27,7 @@ const CellVariation& variationAfter(const OverlapResult& overlaps) {
 
 IntensityCounts allCounts(const IntensityReport& report) {
   IntensityCounts all;
-  for (const IntensityCounts& counts : report.outcome->counts) all.merge(counts);
+  for (const IntensityCounts& counts : report.result->outcome.counts) all.merge(counts);
   return all;
 }
 
@@ -42,7 +42,7 @@ class VerdictOnIntensity {
  public:
   explicit VerdictOnIntensity(const IntensityReport& report)
       : report_(report),
-        all_(report.outcome->statistics.all()),
+        all_(report.result->outcome.statistics.all()),
         scale_(meanScale(all_)),
         before_(varianceToMean(all_.before)),
         after_(scale_ * varianceToMean(all_.after)) {}
@@ -50,8 +50,8 @@ class VerdictOnIntensity {
   Verdict verdict(bool reliable) {
     bool worse = after_ > before_;
     if (overlapping()) {
-      const double before = report_.overlaps->before.median,
-                   after = variationAfter(*report_.overlaps).median;
+      const double before = report_.result->overlaps->before.median,
+                   after = variationAfter(*report_.result->overlaps).median;
       worse = after > before;
       verdict_.headline = "Where strips overlap their intensities differ by " + percent(after) +
                           " (" + percent(before) + " as received).";
@@ -66,7 +66,7 @@ class VerdictOnIntensity {
     sayTargets();
     sayCounts();
     const IntensityCounts counts = allCounts(report_);
-    const bool remarks = !report_.warnings.empty() || counts.clipped > 0 || worse;
+    const bool remarks = !report_.result->warnings.empty() || counts.clipped > 0 || worse;
     verdict_.grade = !reliable ? VerdictGrade::bad
                      : remarks ? VerdictGrade::attention
                                : VerdictGrade::good;
@@ -74,7 +74,7 @@ class VerdictOnIntensity {
   }
 
  private:
-  bool overlapping() const { return report_.overlaps && report_.overlaps->cells > 0; }
+  bool overlapping() const { return report_.result->overlaps && report_.result->overlaps->cells > 0; }
   void say(const std::string& sentence) { verdict_.sentences.push_back(sentence); }
 
   std::string ratioText() const {
@@ -85,15 +85,15 @@ class VerdictOnIntensity {
   void sayRatio() {
     if (overlapping()) {
       say(ratioText() + ", at the same mean.");
-      say("Differences are standard deviation over mean in " + countText(report_.overlaps->cells) +
+      say("Differences are standard deviation over mean in " + countText(report_.result->overlaps->cells) +
           " smooth cells that several strips see, median of the cells; the given model alone "
           "leaves " +
-          percent(report_.overlaps->physics.median) + ".");
+          percent(report_.result->overlaps->physics.median) + ".");
     }
     double best = 0.0;
     std::size_t best_bin = 0;
     for (std::size_t bin = 0; bin < IntensityStatistics::kSlopeBins; ++bin) {
-      const BeforeAfter pair = report_.outcome->statistics.slope(bin);
+      const BeforeAfter pair = report_.result->outcome.statistics.slope(bin);
       const double before = varianceToMean(pair.before);
       if (pair.before.count() < 1000 || before <= 0.0) continue;
       const double relative = scale_ * varianceToMean(pair.after) / before - 1.0;
@@ -106,7 +106,7 @@ class VerdictOnIntensity {
   }
 
   void sayModel() {
-    const RadiometricModel& model = report_.run->model();
+    const RadiometricModel& model = report_.result->run->model();
     std::string text =
         "Corrected to a range of " + numberText(model.reference_range, 0) + " m with ";
     for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
@@ -115,15 +115,15 @@ class VerdictOnIntensity {
       std::replace(name.begin(), name.end(), '_', ' ');
       EstimatedTerm known;
       known.value = valueOf(term, model);
-      if (report_.overlaps) known = report_.overlaps->terms[t];
+      if (report_.result->overlaps) known = report_.result->overlaps->terms[t];
       text += (t == 0 ? "" : ", ") + name + " " + termText(known, 3);
     }
     say(text + " per km.");
   }
 
   void sayGains() {
-    if (!report_.overlaps) return;
-    const std::vector<EstimatedTerm>& gains = report_.overlaps->gains;
+    if (!report_.result->overlaps) return;
+    const std::vector<EstimatedTerm>& gains = report_.result->overlaps->gains;
     const auto off = [](const EstimatedTerm& gain) {
       return gain.status == TermStatus::estimated ? std::abs(gain.value - 1.0) : -1.0;
     };
@@ -131,19 +131,19 @@ class VerdictOnIntensity {
         gains.begin(), gains.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
     if (most == gains.end() || off(*most) < 0.0) return;
     const auto strip = static_cast<std::size_t>(most - gains.begin());
-    say("Of the strips' gains, that of strip " + report_.run->strips()[strip] +
+    say("Of the strips' gains, that of strip " + report_.result->run->strips()[strip] +
         " is farthest from 1: " + numberText(most->value, 4) + " ± " +
         numberText(most->value * most->std, 4) + ".");
   }
 
   void sayTargets() {
-    if (!report_.reference) return;
-    if (report_.reference->constant <= 0.0) {
+    if (!report_.result->reference) return;
+    if (report_.result->reference->constant <= 0.0) {
       say("No reflectance: no target has enough points.");
       return;
     }
-    say("Reflectance is corrected intensity / " + significantText(report_.reference->constant, 5) +
-        ", good to " + percent(report_.reference->relative_std) + ".");
+    say("Reflectance is corrected intensity / " + significantText(report_.result->reference->constant, 5) +
+        ", good to " + percent(report_.result->reference->relative_std) + ".");
   }
 
   void sayCounts() {
@@ -163,7 +163,7 @@ class VerdictOnIntensity {
       say(countText(counts.saturated) + " points were saturated: their values are lower bounds.");
     if (counts.clipped > 0)
       say(countText(counts.clipped) +
-          " points are beyond 65535 after the correction; a smaller -scale keeps them.");
+          " points are beyond 65535 after the correction; a smaller scale keeps them.");
   }
 
   const IntensityReport& report_;
@@ -174,8 +174,8 @@ class VerdictOnIntensity {
 
 }  // namespace
 
-Verdict verdictOf(const IntensityReport& report, bool reliable) {
-  return VerdictOnIntensity(report).verdict(reliable);
+Verdict verdictOf(const IntensityReport& report) {
+  return VerdictOnIntensity(report).verdict(report.result->unreliable.empty());
 }
 
 }  // namespace pcl_als

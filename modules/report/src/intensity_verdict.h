@@ -9,6 +9,6 @@
 namespace pcl_als {
 
 /// \a reliable: whether all that was asked for could be estimated.
-Verdict verdictOf(const IntensityReport& report, bool reliable);
+Verdict verdictOf(const IntensityReport& report);
 
 }  // namespace pcl_als

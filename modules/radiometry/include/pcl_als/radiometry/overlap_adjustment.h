@@ -63,6 +63,21 @@ struct OverlapResult {
   bool reliable() const;                 ///< converged, and every requested term is estimated
 };
 
+/// Calls each(name, term) with the terms of the model, then with the gains of the strips.
+template <typename Function>
+void forEachTerm(const OverlapResult& overlaps, const std::vector<std::string>& strips,
+                 const Function& each) {
+  for (std::size_t t = 0; t < kRadiometricTermCount; ++t) {
+    each(std::string(nameOf(static_cast<RadiometricTerm>(t))), overlaps.terms[t]);
+  }
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    each("gain of strip " + strips[i], overlaps.gains[i]);
+  }
+}
+
+/// The names of requested terms that are not estimable, or that the adjustment did not converge.
+std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips);
+
 /** \brief Estimates radiometric parameters from what overlapping strips saw in the same cells.
  *
  * ln I_cs = ln rho_c + ln g_s - m ln(r / r0) + k ln cos(theta) - 2 a (r - r0) + e: reflectances of

@@ -18,13 +18,13 @@ namespace pcl_als {
 class IntensityPage {
  public:
   virtual ~IntensityPage() = default;
+  /// For IntensityOptions::observe: the page needs to know where points are.
+  virtual IntensityOptions::SeenPoint observe(const IntensityRun& run) = 0;
   /// Writes into the folder of \a origin.
-  virtual void write(const ReportOrigin& origin, const IntensityReport& report,
-                     bool reliable) const = 0;
+  virtual void write(const ReportOrigin& origin, const IntensityReport& report) const = 0;
 };
 
-/// A page that sees where the points are that go into \a outcome; null without VTK.
-std::unique_ptr<IntensityPage> makeIntensityPage(const IntensityRun& run,
-                                                 IntensityOutcome& outcome);
+/// Null without VTK.
+std::unique_ptr<IntensityPage> makeIntensityPage();
 
 }  // namespace pcl_als

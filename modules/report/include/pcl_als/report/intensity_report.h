@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/processing/intensity_output.h>
-#include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/processing/intensity_job.h>
 #include <pcl_als/radiometry/atmosphere.h>
 
 namespace pcl_als {
@@ -23,31 +22,16 @@ struct ExtinctionChoice {
 
 /// Everything about a run that is printed or written.
 struct IntensityReport {
-  const IntensityRun* run = nullptr;
-  const IntensityOutcome* outcome = nullptr;
+  const IntensityResult* result = nullptr;
   ExtinctionChoice extinction;
   IntensityOutput output;
   std::vector<std::string> outputs;  ///< names, by file
-  std::optional<OverlapResult> overlaps;
-  std::optional<ReferenceResult> reference;
-  std::vector<LeftOutPoints> left_out;  ///< points that stay as they are
-  std::vector<std::string> warnings;
 };
 
 /// What estimation and targets found, as lines for a user.
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips);
-/// The names of requested terms that are not estimable, or that the adjustment did not converge.
-std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips);
 std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
-
-/// Points without a usable corrected intensity: saturated, clipped or rounded to zero.
-struct LostIntensities {
-  static constexpr double kAll = 0.99, kMany = 0.1;  ///< shares: no answer; worth a warning
-  double share = 0.0;                                ///< of the points with an intensity
-  std::string text;
-};
-LostIntensities lostIntensities(const IntensityCounts& counts);
 
 /// "10-15", or "no surface".
 std::string slopeName(std::size_t bin);
@@ -63,12 +47,7 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
 void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
                           bool markdown);
 
-/// Model, gains by strip and constant of a JSON of an earlier run.
-struct StoredRadiometry {
-  RadiometricModel model;
-  std::map<std::string, double> gains;
-  double constant = 0.0;
-};
+/// What a JSON of an earlier run contains of model, gains and constant.
 StoredRadiometry readIntensityJson(const std::filesystem::path& path);
 
 }  // namespace pcl_als

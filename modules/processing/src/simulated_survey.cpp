@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include "simulation_files.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,14 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/io/crs.h>
 #include <pcl_als/io/las_writer.h>
+#include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/radiometry.h>
 
-#include "command_line.h"
-
-namespace pcl_als::app {
-
+namespace pcl_als {
 namespace {
 
 using simulation::SimulatedPoint;
@@ -251,4 +248,4 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
   writeFile(options.folder / "truth.json", json.dump(1) + "\n");
 }
 
-}  // namespace pcl_als::app
+}  // namespace pcl_als

@@ -10,7 +10,7 @@
 
 #include <pcl_als/simulation/simulator.h>
 
-namespace pcl_als::app {
+namespace pcl_als {
 
 /// How the strips are written.
 struct StripFileOptions {
@@ -46,4 +46,4 @@ std::string writeSurveyFiles(const simulation::Simulator& simulator,
 void writeTruth(const simulation::Simulator& simulator, const std::string& noise_name,
                 const StripFileOptions& options, const std::vector<StripSummary>& strips);
 
-}  // namespace pcl_als::app
+}  // namespace pcl_als

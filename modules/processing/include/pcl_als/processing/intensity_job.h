@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/progress.h>
+#include <pcl_als/processing/intensity_output.h>
+#include <pcl_als/processing/intensity_run.h>
+
+namespace pcl_als {
+
+/// Model, gains by strip and constant that an earlier run estimated.
+struct StoredRadiometry {
+  RadiometricModel model;
+  std::map<std::string, double> gains;
+  double constant = 0.0;
+};
+
+struct IntensityOptions {
+  IntensitySettings settings;
+  IntensityOutput output;
+  std::optional<StoredRadiometry> stored;  ///< used instead of estimating
+  std::vector<ReferenceTarget> targets;    ///< of known reflectance; may be empty
+  double target_radius = 1.0;              ///< metres: points this close belong to a target
+
+  using SeenPoint = std::function<void(int strip, const Eigen::Vector3d& place)>;
+  /// Called once when the files have been read for the first time; what it returns is called with
+  /// every point that is written, one at a time (pictures of a report). May be empty.
+  std::function<SeenPoint(const IntensityRun& run)> observe;
+};
+
+/// Points without a usable corrected intensity: saturated, clipped or rounded to zero.
+struct LostIntensities {
+  static constexpr double kAll = 0.99, kMany = 0.1;  ///< shares: no result; worth a warning
+  double share = 0.0;                                ///< of the points with an intensity
+  std::string text;
+};
+LostIntensities lostIntensities(const IntensityCounts& counts);
+
+struct IntensityResult {
+  std::unique_ptr<const IntensityRun> run;  ///< strips, and model and gains as they were used
+  IntensityOutcome outcome{0};
+  std::optional<OverlapResult> overlaps;     ///< where strips were compared
+  std::optional<ReferenceResult> reference;  ///< where there are targets
+  std::vector<LeftOutPoints> left_out;       ///< points that stay as they are
+  std::vector<std::string> warnings;
+  /// Why the result is not reliable, in one line; empty: it is.
+  std::string unreliable;
+
+  IntensityCounts counts() const;  ///< of all files
+};
+
+/** \brief Corrects intensities of point files for range, incidence angle and atmosphere.
+ *
+ * Estimates gains, exponents and extinction from overlaps where IntensityOptions::settings ask for
+ * it, the factor to reflectance from targets, then writes each file. Memory: that of IntensityRun.
+ *
+ * \param outputs a file for each of \a paths, of the same kind; each appears only when it is
+ *        complete
+ * \param flight whose positions the points were measured from
+ *
+ * UsageError for impossible options; InputError for files that cannot be used, for a stored
+ * radiometry that lacks a strip, and where points have no trajectory; Cancelled.
+ */
+IntensityResult correctIntensity(const std::vector<std::string>& paths,
+                                 const std::vector<std::string>& outputs,
+                                 std::shared_ptr<const Trajectory> flight,
+                                 const IntensityOptions& options = {},
+                                 const ProgressCallback& progress = {});
+
+}  // namespace pcl_als

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/intensity_job.h>
+
+namespace pcl_als {
+namespace {
+
+/// The job: what its phases share.
+class IntensityJob {
+ public:
+  IntensityJob(const IntensityOptions& options, IntensityRun& run, IntensityResult& result,
+               ProgressReport& progress)
+      : options_(options), run_(run), result_(result), progress_(progress) {}
+
+  void useStored(const StoredRadiometry& stored);
+  void compareStrips();
+  void useTargets();
+  void write(const std::vector<std::string>& outputs);
+  void judge();
+
+ private:
+  bool estimates() const {
+    const OverlapSettings& overlaps = run_.settings().overlaps;
+    return overlaps.estimate_gains ||
+           std::any_of(overlaps.estimate.begin(), overlaps.estimate.end(),
+                       [](bool e) { return e; });
+  }
+  void warn(const std::string& text) {
+    result_.warnings.push_back(text);
+    progress_.remark(text);
+  }
+  std::string whyUnreliable(const LostIntensities& lost) const;
+
+  const IntensityOptions& options_;
+  IntensityRun& run_;
+  IntensityResult& result_;
+  ProgressReport& progress_;
+};
+
+void IntensityJob::useStored(const StoredRadiometry& stored) {
+  std::vector<double> gains;
+  for (const std::string& strip : run_.strips()) {
+    const auto at = stored.gains.find(strip);
+    if (at == stored.gains.end())
+      throw InputError("the radiometry of an earlier run has no strip " + strip);
+    gains.push_back(at->second);
+  }
+  run_.useModel(stored.model);
+  run_.useConstant(stored.constant);
+  run_.useGains(gains);
+}
+
+void IntensityJob::compareStrips() {
+  if (!estimates() && !(run_.settings().statistics && run_.strips().size() > 1)) return;
+  progress_.begin("Comparing strips");
+  result_.overlaps = run_.adjust([this](double fraction) { progress_.advance(fraction); });
+  progress_.end(grouped(result_.overlaps->cells) + " smooth cells measured in several strips");
+  for (const std::string& warning : result_.overlaps->warnings) warn(warning);
+}
+
+void IntensityJob::useTargets() {
+  if (options_.targets.empty()) return;
+  progress_.begin("Measuring reference targets");
+  result_.reference = run_.refer(options_.targets, options_.target_radius);
+  progress_.end(grouped(result_.reference->targets.size()) + " targets");
+  for (const std::string& warning : result_.reference->warnings) warn(warning);
+  if (!(result_.reference->constant > 0.0))
+    warn("no reflectance is written: no target has enough points");
+}
+
+void IntensityJob::write(const std::vector<std::string>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    progress_.begin("Writing " + outputs[i]);
+    writeCorrected(
+        run_, i, outputs[i], options_.output,
+        [this](double fraction) { progress_.advance(fraction); }, result_.outcome);
+    progress_.end(grouped(result_.outcome.counts[i].points) + " points");
+  }
+}
+
+std::string IntensityJob::whyUnreliable(const LostIntensities& lost) const {
+  if (lost.share > LostIntensities::kAll) return lost.text;
+  if (result_.reference && !(result_.reference->constant > 0.0))
+    return "no reference target was seen: intensities are relative";
+  if (!estimates() || result_.overlaps->reliable()) return "";
+  return "not all terms that were to be estimated are determined by the overlaps (" +
+         notEstimable(*result_.overlaps, run_.strips()) + "): the given values were kept";
+}
+
+void IntensityJob::judge() {
+  const IntensityCounts all = result_.counts();
+  result_.left_out = run_.leftOut(all);
+  for (const std::string& text : describe(result_.left_out)) warn(text);
+  const LostIntensities lost = lostIntensities(all);
+  if (lost.share > LostIntensities::kMany) {
+    result_.warnings.push_back(lost.text);
+    progress_.remark("warning: " + lost.text);
+  }
+  result_.unreliable = whyUnreliable(lost);
+}
+
+void requireOutputs(const std::vector<std::string>& paths,
+                    const std::vector<std::string>& outputs) {
+  if (paths.empty()) throw UsageError("intensity: no file is given");
+  if (paths.size() != outputs.size())
+    throw UsageError("intensity: there must be one output for each input");
+}
+
+}  // namespace
+
+LostIntensities lostIntensities(const IntensityCounts& counts) {
+  const struct {
+    std::uint64_t count;
+    const char* what;
+  } kinds[] = {
+      {counts.clipped,
+       "beyond 65535 after correction and written as 65535; use a smaller scale, "
+       "or check that trajectory and points belong together"},
+      {counts.saturated, "saturated as received: corrected values are lower bounds"},
+      {counts.rounded_to_zero, "under 0.5 after correction and written as 0; use a larger scale"}};
+  LostIntensities lost;
+  const std::uint64_t with_intensity = counts.points - counts.zeros;
+  if (with_intensity == 0) return lost;
+  for (const auto& kind : kinds) {
+    const double share = static_cast<double>(kind.count) / static_cast<double>(with_intensity);
+    if (share <= lost.share) continue;
+    lost.share = share;
+    lost.text =
+        grouped(kind.count) + " of " + grouped(with_intensity) + " intensities are " + kind.what;
+  }
+  return lost;
+}
+
+IntensityCounts IntensityResult::counts() const {
+  IntensityCounts all;
+  for (const IntensityCounts& file : outcome.counts) all.merge(file);
+  return all;
+}
+
+IntensityResult correctIntensity(const std::vector<std::string>& paths,
+                                 const std::vector<std::string>& outputs,
+                                 std::shared_ptr<const Trajectory> flight,
+                                 const IntensityOptions& options,
+                                 const ProgressCallback& callback) {
+  requireOutputs(paths, outputs);
+  ProgressReport progress(callback);
+  progress.begin("Reading " + counted(paths.size(), "file"));
+  auto run = std::make_unique<IntensityRun>(paths, std::move(flight), options.settings);
+  progress.end(counted(run->strips().size(), "strip"));
+  for (const std::string& remark : run->remarks()) progress.remark(remark);
+  IntensityResult result;
+  result.outcome = IntensityOutcome(run->strips().size());
+  if (options.observe) result.outcome.seen = options.observe(*run);
+  result.warnings = run->warnings();
+  for (const std::string& warning : result.warnings) progress.remark(warning);
+  IntensityJob job(options, *run, result, progress);
+  if (options.stored) job.useStored(*options.stored);
+  job.compareStrips();
+  job.useTargets();
+  job.write(outputs);
+  job.judge();
+  result.outcome.seen = nullptr;
+  result.run = std::move(run);
+  return result;
+}
+
+}  // namespace pcl_als
