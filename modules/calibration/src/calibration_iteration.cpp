@@ -72,7 +72,7 @@ void SystemCalibrationEngine::selectPairs(State& state) {
   parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
     matchers_[i].keep(state.observations[i], selection.chosen()[i]);
   });
-  state.seekers = AreaMatcher::Seekers::kept;
+  state.seekers = AreaMatcher::Points::kept;
 }
 
 bool SystemCalibrationEngine::restsWithin(const State& state, const SystemVector& before,
@@ -127,7 +127,7 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
 
 void SystemCalibrationEngine::pairAllCandidates(State& state) const {
   if (state.all()) return;
-  state.seekers = AreaMatcher::Seekers::candidates;
+  state.seekers = AreaMatcher::Points::candidates;
   pairUp(state);
 }
 

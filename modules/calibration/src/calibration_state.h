@@ -66,7 +66,7 @@ struct SystemCalibrationEngine::State {
   /// Nothing is left out for being uncertain, for mismatched pairs make all uncertain.
   bool isCoarse() const { return phase == Phase::initial || phase == Phase::coarse; }
   /// Whether all pairs are adjusted, not a selection of them.
-  bool all() const { return seekers == AreaMatcher::Seekers::candidates; }
+  bool all() const { return seekers == AreaMatcher::Points::candidates; }
 
   /// What was estimated of the variance components so far.
   struct VarianceComponents {
@@ -94,7 +94,7 @@ struct SystemCalibrationEngine::State {
   SystemVector unrest = SystemVector::Zero();
   /// Left out because the iteration does not converge with them, and why.
   std::map<SystemParameter, std::string> excluded;
-  AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
+  AreaMatcher::Points seekers = AreaMatcher::Points::candidates;
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

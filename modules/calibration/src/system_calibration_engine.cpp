@@ -232,7 +232,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   const std::vector<bool> used = state.usedAreas();
   keepAdjusted(state, spans);
   state.threshold = settings_.max_normal_distance;
-  state.seekers = AreaMatcher::Seekers::candidates;
+  state.seekers = AreaMatcher::Points::candidates;
   pairUp(state);
   report.addControlPoints(control_, state.observations, used,
                           std::sqrt(errors.variances(state.adjustment.levels())[0]), result);

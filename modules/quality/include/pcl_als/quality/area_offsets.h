@@ -84,8 +84,9 @@ class AreaOffsets {
     std::vector<Place> places;
   };
   const StripPart& part(int strip) const { return strips_[static_cast<std::size_t>(strip)]; }
-  /// One triangle for each single-return vertex inside the area, every so manyth.
-  std::vector<std::int32_t> looks(const StripPart& part, std::size_t count) const;
+  /// Triangles of the single-return vertices inside the area, one for each vertex, thinned to a
+  /// count.
+  std::vector<std::int32_t> sampledTriangles(const StripPart& part, std::size_t count) const;
   void choosePlaces(StripPart& part) const;
   void measure(const StripPart& from, const StripPart& to, double sign,
                std::vector<OffsetSample>& found) const;
