@@ -99,7 +99,7 @@ void AreaMatcher::keep(const AreaObservations& observations,
   for (const ChosenPair& pair : chosen) {
     const PairObservation& o = observations[pair.index];
     if (o.a != PairObservation::kControl)
-      kept_[{o.a, o.b}].push_back({o.point, o.sharing / pair.stands_for, pair.offset});
+      kept_[{o.a, o.b}].push_back({o.point, o.sharing / pair.represented, pair.offset});
   }
 }
 

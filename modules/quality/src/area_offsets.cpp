@@ -146,7 +146,7 @@ bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const Str
                             double sign, OffsetSample& sample) const {
   const SwathPoint& point = from.points[place.point];
   sample.position = place.position;
-  // How far the surface of the strip lies above that of the other one around a patch.
+  // Height of the surface of the strip above that of the other one around a patch.
   const auto compare = [&](const PatchMatch& match, const PatchQuality& quality) {
     const Tin::Triangle& triangle = to.surface.tin().triangles()[match.triangle];
     const SwathPoint& other = to.points[nearestVertex(triangle, match.weights)];

@@ -44,8 +44,8 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceCriterion& cr
   criterion_ = criterion;
   verdicts_.assign(verdicts_.size(), kUnknown);
   planes_.clear();
-  // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
-  // is there.
+  // The normals of single triangles are noisy and only select triangles that are examined; the
+  // orientation is that of the neighbourhood's plane.
   constexpr std::size_t kExaminedPerCandidate = 2, kEnough = 16;
   const Tin& tin = surface_.tin();
   const std::size_t step = std::max<std::size_t>(1, tin.triangles().size() / (kEnough * count));
