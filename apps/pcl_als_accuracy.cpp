@@ -56,7 +56,7 @@ int accuracy(int argc, char** argv) {
                    "MATRIX.csv -output accuracy.json [-compare OTHER.csv]",
                    "pcl_als_accuracy corrected_checked.csv -compare raw_checked.csv -output "
                    "accuracy.json");
-  line.addOptional("output", "the figures as JSON (needed)");
+  line.addOptional("output", "accuracy figures as JSON (needed)");
   line.addOptional(
       "compare",
       "the other classification, of the same kind as the input: McNemar's test and the "

@@ -32,12 +32,12 @@ CommandLine commandLine() {
   app::addModelOption(line);
   line.addFlag("invert", "apply the biases instead of removing them");
   line.addFlag("strip_corrections",
-               "with -calibration: correct its estimated trajectory errors of each strip, too");
+               "with -calibration: also correct the estimated trajectory errors of each strip");
   app::addForceOption(
       line, "the calibration's verdict is not \"usable\" or inputs do not belong together");
   line.addFlag("keep_uncovered",
-               "leave points without a trajectory as they are, however many (default: up to 1 % of "
-               "a file, which are counted; a file with more is refused)");
+               "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
+               "file, which are counted; a file with more is refused)");
   return line;
 }
 

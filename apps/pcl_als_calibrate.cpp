@@ -38,34 +38,34 @@ CommandLine commandLine() {
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   app::addUnitsOption(line, "control", "the control file");
   app::addStripOptions(line);
-  line.addOptional(
-      "pairs",
-      "strip pairs to use, e.g. 1:2,3:4 (default: all that overlap); without -control, "
-      "other strips take no part");
+  line.addOptional("pairs",
+                   "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
+                   "strips are used for control only");
   app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
   app::addForceOption(line,
                       "inputs do not belong together or, with -corrected, the result should not "
                       "be applied");
   line.addFlag("vertical",
-               "with quasi_rigorous: take the sensor as vertical and aligned with the flight "
-               "line, as published, instead of recovering pitch and crab from the points");
+               "with quasi_rigorous: assume a vertical sensor aligned with the flight line, as "
+               "published, instead of recovering pitch and crab from the points");
   line.addOptional("output", "calibration.json to write (needed)");
   line.addOptional("corrected", "folder for corrected copies of all strips");
   line.addFlag("strip_corrections",
-               "with -corrected: correct the estimated trajectory errors of each strip, too");
+               "with -corrected: also correct the estimated trajectory errors of each strip");
   line.addOptional("report",
                    "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
-  line.add("max_distance", "normal distance of a pair at the start, m",
+  line.add("max_distance", "largest normal distance of a pair at the start, m",
            defaults.max_normal_distance);
-  line.add("points", "points used at most, millions",
+  line.add("points", "largest number of points that are used, millions",
            1e-6 * static_cast<double>(defaults.selection.point_budget));
   line.add("candidates",
-           "of them, candidate points that are paired with patches of other strips, thousands",
+           "number of these that may form pairs with patches of other strips, thousands",
            1e-3 * static_cast<double>(defaults.candidates));
   line.add("select",
-           "pairs adjusted at most, thousands: those that determine the parameters; 0: all",
+           "largest number of pairs that are adjusted, thousands, chosen for the precision of the "
+           "parameters; 0: all",
            1e-3 * static_cast<double>(defaults.pair_budget));
   return line;
 }
@@ -84,7 +84,7 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
   return pairs;
 }
 
-/// A pair of strips that other options leave out.
+/// Refuses pairs with a strip that other options leave out.
 void refuseExcluded(const SurveyCalibrationOptions& options) {
   const auto holds = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -99,14 +99,14 @@ void refuseExcluded(const SurveyCalibrationOptions& options) {
   }
 }
 
-/// -vertical ignores the attitude that -model rigorous is about.
+/// The attitude that is used: -vertical ignores the attitude that -model rigorous needs.
 AttitudeUse attitudeToUse(const CommandLine& line) {
   const AttitudeUse use = app::attitudeUse(line);
   if (!line.has("vertical")) return use;
   if (use == AttitudeUse::needed) {
     throw UsageError(
-        "options -model rigorous and -vertical exclude each other: -vertical takes the sensor as "
-        "vertical, the rigorous model takes its attitude from the trajectory");
+        "options -model rigorous and -vertical exclude each other: -vertical assumes a vertical "
+        "sensor, the rigorous model uses the attitude of the trajectory");
   }
   return AttitudeUse::ignore;
 }
@@ -130,7 +130,7 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   return settings;
 }
 
-/// What can be known to fail should fail before the work, not after it.
+/// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
@@ -139,7 +139,7 @@ void checkOutputs(const CommandLine& line) {
   }
 }
 
-/// For a message: what was not used, in short.
+/// Writes the corrected copies of all strips (-corrected).
 void writeCorrected(const CommandLine& line, const std::vector<std::string>& files,
                     const std::shared_ptr<const Trajectory>& flight,
                     const CalibrationResult& result) {

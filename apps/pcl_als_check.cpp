@@ -31,19 +31,19 @@ namespace fs = std::filesystem;
 
 CommandLine commandLine() {
   const CheckSettings defaults;
-  CommandLine line("pcl_als_check",
-                   "measures how well overlapping strips fit each other and control, and judges it "
-                   "by the USGS Lidar Base Specification and the ASPRS standards.",
-                   "STRIP... [-before DIR|FILE,FILE] [-control C] [-trajectory T] -output "
-                   "quality.json [-report DIR]",
-                   "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
-                   "quality.json -report report");
-  app::addFlightOptions(line, "for scan angles finer than the files' own");
+  CommandLine line(
+      "pcl_als_check",
+      "measures how well overlapping strips agree with each other and with control, and assesses "
+      "them by the USGS Lidar Base Specification and the ASPRS standards.",
+      "STRIP... [-before DIR|FILE,FILE] [-control C] [-trajectory T] -output "
+      "quality.json [-report DIR]",
+      "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
+      "quality.json -report report");
+  app::addFlightOptions(line, "for scan angles that are finer than those of the files");
   app::addForceOption(line);
-  line.addOptional(
-      "before",
-      "the same strips before a calibration: a folder, or files parted by commas; both "
-      "are reported side by side");
+  line.addOptional("before",
+                   "the same strips before the correction: a folder, or files separated by commas; "
+                   "both are reported side by side");
   app::addStripOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   app::addUnitsOption(line, "control", "the control file");
@@ -52,13 +52,14 @@ CommandLine commandLine() {
       "report",
       "folder for report.html (pictures inside), tables as Markdown and CSV, swath separation "
       "images");
-  line.add("quality_level", "level (QL0 to QL3) that the strips are to keep", 2);
-  line.add("control_sigma", "heights of control points whose file gives no sigma, m",
+  line.add("quality_level", "required quality level, 0 to 3 (QL0 to QL3)", 2);
+  line.add("control_sigma", "standard deviation of control points whose file gives none, m",
            defaults.control_sigma);
-  line.add("max_distance", "offsets beyond are another object, m",
+  line.add("max_distance", "larger offsets count as different objects, m",
            defaults.limits.maximum_distance);
-  line.add("cell", "cells of the swath separation image, m; 0: as the quality level asks", 0.0);
-  line.add("points", "points in areas of measurement, at most, millions", 12.0);
+  line.add("cell",
+           "cell size of the swath separation image, m; 0: as required by the quality level", 0.0);
+  line.add("points", "largest number of points in the areas that are compared, millions", 12.0);
   return line;
 }
 
@@ -101,7 +102,7 @@ std::vector<std::string> filesBefore(const CommandLine& line,
         files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
   }
-  if (files.empty()) throw InputError("option -before: " + text + " holds no point files");
+  if (files.empty()) throw InputError("option -before: " + text + " contains no point files");
   const auto place = [&](const std::string& file) {
     return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
       return fs::path(other).filename() == fs::path(file).filename();

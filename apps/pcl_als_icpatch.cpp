@@ -27,27 +27,31 @@ using Eigen::AlignedBox2d;
 
 CommandLine commandLine() {
   CommandLine line("pcl_als_icpatch",
-                   "finds the rigid motion that brings one strip onto another: points against TIN "
-                   "patches (Habib et al. 2011, section 2.3).",
+                   "estimates the rigid motion of one strip onto another from points and TIN "
+                   "patches (ICPatch; Habib et al. 2011, section 2.3).",
                    "SOURCE TARGET -output result.json [options], or FILE… -pair A:B …",
                    "pcl_als_icpatch strip1.las strip2.las -output result.json -transformed "
                    "moved1.las");
   const PatchAlignmentSettings defaults;
   line.addOptional("output", "result as JSON (needed)");
-  line.addOptional("transformed", "the source moved onto the target: .las, .laz or .pcd as SOURCE");
+  line.addOptional("transformed",
+                   "the source moved onto the target: .las, .laz or .pcd like SOURCE");
   line.addOptional("pair", "A:B: strip A of the files onto strip B of the files");
   app::addStripOptions(line);
-  line.addFlag("scale", "estimate a scale, too");
-  line.add("search_distance", "how far surfaces may be apart, m, 0.1 to 200",
+  line.addFlag("scale", "also estimate a scale");
+  line.add("search_distance", "largest distance of the surfaces at the start, m, 0.1 to 200",
            defaults.search_distance);
   line.add("determined_std",
-           "what is known less well is reported as not determined, m at the overlap's radius",
+           "parameters with a larger standard deviation are reported as not determined, m at the "
+           "radius of the overlap",
            defaults.determined_std);
-  line.add("points", "of each strip that are triangulated, about; at least 1000",
+  line.add("points",
+           "approximate number of points of each strip that are triangulated, at least 1000",
            static_cast<double>(defaults.points));
-  line.add("pairs", "candidate points in each direction, about; at least 1000",
+  line.add("pairs", "approximate number of candidate points in each direction, at least 1000",
            static_cast<double>(defaults.pairs));
-  line.add("iterations", "at most, of the last stage", defaults.maximum_iterations);
+  line.add("iterations", "largest number of iterations of the last stage",
+           defaults.maximum_iterations);
   return line;
 }
 

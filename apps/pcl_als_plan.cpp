@@ -24,27 +24,27 @@ using app::Step;
 CommandLine commandLine() {
   const SurfaceModel surface;
   CommandLine line("pcl_als_plan",
-                   "predicts what a planned calibration flight will determine, how well, and which "
-                   "line to add.",
+                   "predicts the standard deviations of the parameters from a planned calibration "
+                   "flight, and which line to add.",
                    "-lines plan.csv [options]",
                    "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");
   line.addOptional("lines",
                    "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local frame, "
                    "height above mean ground (needed)");
   line.add("fov", "full field of view, degrees", 40.0);
-  line.add("speed", "of lines whose file gives none, m/s", 60.0);
+  line.add("speed", "speed of lines whose file gives none, m/s", 60.0);
   line.addOptional("density", "pulses per m2, of lines whose file gives none (default: 1)");
-  line.addOptional("spacing", "the same as distance between points, m");
+  line.addOptional("spacing", "point spacing instead of -density, m");
   line.add("ground_slope", "RMS slope of open ground, degrees; 0: a plane",
            surface.ground_slope / kRadiansPerDegree);
-  line.add("slope", "of steep surfaces (roofs, banks), degrees",
+  line.add("slope", "slope of steep surfaces (roofs, banks), degrees",
            surface.steep_slope / kRadiansPerDegree);
-  line.add("sloped", "their share of the usable surface, 0 to 1", surface.steep_share);
+  line.add("sloped", "share of steep surfaces in the usable surface, 0 to 1", surface.steep_share);
   line.add("usable", "share of the points on solid, smooth surfaces, 0 to 1", surface.usable);
   line.addOptional("terrain",
                    "elevations in the frame of the lines: ESRI ASCII grid (.asc), in "
                    "place of -ground_slope");
-  line.add("control", "vertical control points, spread over the block", 0);
+  line.add("control", "number of vertical control points, distributed over the block", 0);
   app::addEstimateOption(line, "the flight determines");
   line.addOptional("output", "plan.json to write");
   app::addErrorOptions(line);

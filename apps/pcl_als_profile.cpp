@@ -32,14 +32,15 @@ CommandLine commandLine() {
                    "pcl_als_profile block/strip*.las -after corrected -auto 3 -output profiles");
   line.addOptional("from", "start of the section: X,Y, m");
   line.addOptional("to", "end of the section: X,Y, m");
-  line.add("width", "of the section, m; 0: 2 m, with -auto by the density of the points", 0.0);
+  line.add("width", "width of the section, m; 0: 2 m, with -auto by the density of the points",
+           0.0);
   line.addOptional("auto",
                    "instead of -from and -to: find so many places where a misfit shows best: "
                    "gable roofs (two planar faces with a sharp ridge, above the ground around), "
                    "other opposite slopes, slopes");
   line.addOptional("after",
-                   "the same strips corrected, drawn below: a folder with files of the "
-                   "same names, or files parted by commas");
+                   "the corrected strips, drawn below: a folder with files of the same names, or "
+                   "files separated by commas");
   app::addStripOptions(line);
   line.addOptional("output", "PNG to write, with -auto a folder for profile1.png, … (needed)");
   app::addSizeOption(line);

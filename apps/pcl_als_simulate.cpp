@@ -23,6 +23,12 @@ using simulation::NoiseOptions;
 using simulation::SimulationOptions;
 using simulation::Simulator;
 
+void declareScene(CommandLine& line) {
+  line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
+  line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
+  line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
+}
+
 CommandLine declare() {
   CommandLine line("pcl_als_simulate",
                    "simulates an airborne laser scanning block with known system biases.",
@@ -63,9 +69,7 @@ CommandLine declare() {
                         "CRS written to the strips, whose coordinates are in its unit; trajectory, "
                         "control and sites are in metres",
                         "EPSG:32611");
-  line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
-  line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
-  line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
+  declareScene(line);
   line.add<std::string>("time",
                         "of the points: week (seconds) or adjusted (standard GPS time); the "
                         "trajectory has seconds of the week",

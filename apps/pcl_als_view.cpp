@@ -27,17 +27,18 @@ CommandLine commandLine() {
                         "elevation, intensity, strip, class, return, scan_angle, time, difference, "
                         "or an extra-bytes field",
                         "elevation");
-  line.addOptional("reference", "with -color difference: the strip that heights are above");
-  line.add("cell", "with -color difference: cells of the reference's planes, m; 0: by density",
-           0.0);
+  line.addOptional("reference", "with -color difference: the strip to which heights refer");
+  line.add(
+      "cell",
+      "with -color difference: cell size of the planes of the reference strip, m; 0: by density",
+      0.0);
   line.addOptional("map", "colour map: viridis, cividis, diverging, gray (default: by attribute)");
   line.addOptional("range",
-                   "LOW:HIGH of the colours (default: 1st to 99th percentile of what is "
-                   "shown)");
+                   "LOW:HIGH of the colours (default: 1st to 99th percentile of the points drawn)");
   app::addStripOptions(line);
   line.add("azimuth", "viewing direction of the camera, degrees clockwise from north", 0.0);
   line.add("elevation", "height of the camera above the horizon, degrees; 90: top view", 90.0);
-  line.add("zoom", "enlarges about the middle", 1.0);
+  line.add("zoom", "magnification about the centre", 1.0);
   line.addOptional("extent", "XMIN,YMIN,XMAX,YMAX: draw this part only, m");
   line.add<std::string>("shade", "none, edl (eye-dome lighting) or hill", "none");
   line.add("point_size", "pixels; 0: as large as the gaps between points", 0.0);

@@ -13,17 +13,19 @@ namespace pcl_als::app {
 
 void addErrorOptions(CommandLine& line) {
   const CalibrationSettings defaults;
-  line.add("range_noise", "standard deviation of a range, m", defaults.noise.range);
+  line.add("range_noise", "standard deviation of ranges, m", defaults.noise.range);
   line.add("angle_noise", "standard deviation of pointing, arcsec",
            defaults.noise.angle / kRadiansPerArcsec);
-  line.add("beam_divergence", "full angle at 1/e^2, mrad", 1e3 * defaults.noise.beam_divergence);
-  line.add("position_sigma", "trajectory errors that a strip shares: position, m",
+  line.add("beam_divergence", "full divergence of the beam at 1/e^2, mrad",
+           1e3 * defaults.noise.beam_divergence);
+  line.add("position_sigma", "prior standard deviation of trajectory errors: position, m",
            defaults.shared_errors.position);
-  line.add("roll_pitch_sigma", "the same: roll and pitch, arcsec",
+  line.add("roll_pitch_sigma",
+           "prior standard deviation of trajectory errors: roll and pitch, arcsec",
            defaults.shared_errors.roll_pitch / kRadiansPerArcsec);
-  line.add("heading_sigma", "the same: heading, arcsec",
+  line.add("heading_sigma", "prior standard deviation of trajectory errors: heading, arcsec",
            defaults.shared_errors.heading / kRadiansPerArcsec);
-  line.add("control_sigma", "heights of control points that come without a sigma, m",
+  line.add("control_sigma", "standard deviation of control points whose file gives none, m",
            defaults.control_sigma);
 }
 

@@ -22,19 +22,22 @@ bool isSecond(const CommandLine& line, const char* name, const char* first, cons
 }
 
 void addOutputs(CommandLine& line) {
-  line.addOptional("output", "the map of classes, GeoTIFF (needed, unless only -grids is wanted)");
+  line.addOptional("output",
+                   "the map of classes, GeoTIFF (needed, unless -grids alone is written)");
   line.addOptional("grids", "also keep the rasters of the strips, GeoTIFF of nine bands");
-  line.addOptional("posterior", "also the probability of each cell's class, GeoTIFF");
+  line.addOptional("posterior", "the posterior probability of the class of each cell, GeoTIFF");
   line.addOptional("accuracy", "accuracy at the check points, JSON");
   line.addOptional("checked", "the check points with their classes, CSV for pcl_als_accuracy");
   line.addOptional("save_model", "statistics of the classes, JSON for -model");
   line.addOptional("map", "picture of the map with its legend, PNG");
-  line.addOptional("beside", "another map of classes (GeoTIFF) to draw at the left of -map");
-  line.addOptional("captions", "of -beside and the map, comma-separated (default: before,after)");
+  line.addOptional("beside",
+                   "another map of classes (GeoTIFF) that is drawn to the left of the map");
   line.addOptional(
-      "points",
-      "folder for copies of the point files with ASPRS classes; noise (7, 18), points without a "
-      "class and points of strips that are left out keep theirs");
+      "captions",
+      "captions of -beside and of the map, separated by a comma (default: before,after)");
+  line.addOptional("points",
+                   "folder for copies of the point files with ASPRS classes; noise (7, 18), points "
+                   "without a class and points of strips that are left out keep their code");
 }
 
 }  // namespace
@@ -54,22 +57,23 @@ CommandLine declareClassify() {
   addStripOptions(line);
   addOutputs(line);
   line.add<double>("cell", "side of the cells, m", 1.0);
-  line.addOptional("extent", "WEST,SOUTH,EAST,NORTH: of the rasters, m (default: all points)");
+  line.addOptional("extent", "WEST,SOUTH,EAST,NORTH of the rasters, m (default: all points)");
   line.addOptional("crs",
                    "CRS of the rasters, which are georeferenced in its unit (default: that of the "
                    "point files); heights are in metres");
   line.add<std::string>("bands",
-                        "that separate classes: of surface, terrain, height, intensity, slope, "
-                        "roughness, multiple_returns, height_range, density",
+                        "bands by which classes are separated, from surface, terrain, height, "
+                        "intensity, slope, roughness, multiple_returns, height_range, density",
                         "height,intensity,roughness,multiple_returns");
   line.addOptional(
       "priors", "CLASS=P,…: probabilities of classes; the others share the rest (default: equal)");
-  line.add<double>("reject",
-                   "a cell is of no class when a member of its class is that far from the mean "
-                   "with less than this probability, 0 to 0.5",
-                   0.0);
-  line.add<double>("training_radius", "cells within that of a training point count, too, m", 0.0);
-  line.add<std::string>("interpolation", "of cells without points: tin or idw", "tin");
+  line.add<double>(
+      "reject",
+      "probability of the chi-squared distribution below which a cell has no class, 0 to 0.5", 0.0);
+  line.add<double>("training_radius",
+                   "radius around a training point within which cells are training cells, m", 0.0);
+  line.add<std::string>("interpolation", "interpolation of cells without points: tin or idw",
+                        "tin");
   line.add<double>("surface_gap", "radius of the largest gap of the surface that is filled, m",
                    6.0);
   line.add<double>("terrain_gap", "the same for the terrain (houses, woods), m", 30.0);
@@ -80,7 +84,7 @@ CommandLine declareClassify() {
   line.add<std::string>("ground_classes", "ASPRS classes that are ground", "2,9,11");
   line.add<double>("largest_object", "width of the widest building, for -ground filter, m", 40.0);
   line.add<double>("texture_window", "side of the square of slope, roughness and returns, m", 2.5);
-  line.add<double>("tile", "side of the tiles that are worked on, cells, 64 to 8192", 768.0);
+  line.add<double>("tile", "side of the tiles that are processed, cells, 64 to 8192", 768.0);
   return line;
 }
 

@@ -24,7 +24,9 @@ void addFlightOptions(CommandLine& line, const char* use) {
   line.addOptional("crs",
                    "CRS of the points for an SBET, e.g. EPSG:32611 (default: the point file's)");
   addUnitsOption(line, "trajectory", "a trajectory CSV");
-  line.addOptional("gps_week", "GPS week of times that are seconds of the week (default: found)");
+  line.addOptional(
+      "gps_week",
+      "GPS week of times that are seconds of the week (default: determined from the data)");
   line.addOptional(
       "line_fit",
       "half width of the trajectory window, seconds (default: the calibration's, else 0.5)");
@@ -47,7 +49,7 @@ std::optional<int> gpsWeek(const CommandLine& line) {
 }
 
 void addForceOption(CommandLine& line, const std::string& reason) {
-  const std::string help = "go on, with a warning, where " + reason + "; results may be wrong";
+  const std::string help = "continue with a warning where " + reason + "; results may be wrong";
   line.addFlag("force", help.c_str());
 }
 

@@ -19,7 +19,7 @@ void addFlightOptions(CommandLine& line, const char* use = "needed");
 /// -gps_week; empty when it is to be found from the data.
 std::optional<int> gpsWeek(const CommandLine& line);
 
-/// -force: go on, with a warning, where the tool refuses because of \a reason.
+/// -force: continue with a warning where the tool refuses because of \a reason.
 void addForceOption(CommandLine& line, const std::string& reason = "inputs do not belong together");
 
 /// -model auto, quasi_rigorous, rigorous or nominal.

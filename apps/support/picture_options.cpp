@@ -16,7 +16,7 @@
 namespace pcl_als::app {
 namespace {
 
-/// The numbers of a text, parted by one character each; empty where it is anything else.
+/// The numbers of a text, separated by one character each; empty where it has another form.
 std::vector<double> parsed(const std::string& text, char separator) {
   std::vector<double> numbers;
   std::istringstream stream(text);
@@ -31,7 +31,7 @@ std::vector<double> parsed(const std::string& text, char separator) {
 }  // namespace
 
 void addSizeOption(CommandLine& line) {
-  line.add<std::string>("size", "of the picture, pixels", "1600x1000");
+  line.add<std::string>("size", "size of the picture, pixels", "1600x1000");
 }
 
 PictureSize sizeOf(const CommandLine& line) {

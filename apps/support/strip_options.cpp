@@ -23,8 +23,8 @@ void addStripOptions(CommandLine& line, bool split) {
   line.addOptional("without", "leave these strips out, e.g. 3,4");
   if (!split) return;
   line.addFlag("split",
-               "cut the points into flight lines at gaps in time, changes of course and turns: for "
-               "files without source ids (lines are named line1, line2, ... in order of time)");
+               "divide the points into flight lines at gaps in time, changes of course and turns: "
+               "for files without source ids (lines are named line1, line2, ... in order of time)");
 }
 
 bool choosesStrips(const CommandLine& line) {

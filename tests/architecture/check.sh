@@ -2,17 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# check.sh SOURCE_DIR: the rules that keep the modules apart. Prints every breach as FILE: what, and
-# ends with status 1 if there is one.
+# check.sh SOURCE_DIR: checks the dependencies of modules, the length of files and functions, and the
+# form of the documentation. Prints every breach with its file, and ends with status 1 if there is one.
 set -euo pipefail
 export LC_ALL=C
 shopt -s extglob
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 cd -- "$1"
 breaches=0
 breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 
-# What a module may declare: arrows go down only. An estimator that used simulation would share its
-# errors, so that only the writer of simulated surveys does.
+# What a module may declare: modules of the same or a lower level; only processing and report may
+# use visualization. An estimator that used simulation would share its errors: only the writer of
+# simulated surveys does.
 declare -A may=(
   [common]="" [adjustment]="common" [las]="common" [io]="common las" [trajectory]="common"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
@@ -37,7 +39,7 @@ declare -A reach
 closure() {  # X and all that it declares, directly or through others
   [[ -n ${reach[$1]:-} ]] && return
   local all=" $1 ${1%_@(raster|picture|page|coverage|simulation)} " next
-  reach[$1]=$all  # a circle of declarations is a breach, not an endless loop
+  reach[$1]=$all  # a cycle of declarations ends here and is reported as a breach
   for next in $(declared "$1"); do
     closure "$next"
     all+="${reach[$next]} "
@@ -58,7 +60,7 @@ for folder in modules/*/; do
   done
   grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&
     [[ $module != visualization ]] &&
-    breach "modules/$module/CMakeLists.txt" "links a module, a tool or VTK past MODULES"
+    breach "modules/$module/CMakeLists.txt" "links a module, a tool or VTK without MODULES"
   closure "$module"
   while IFS= read -r file; do
     while IFS= read -r target; do
@@ -88,12 +90,12 @@ for folder in modules/*/; do
   [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
 done
 
-# A user of the calibration needs settings, result and one class: what is internal is in src/.
+# A user of the calibration needs settings, result and one class; internal headers are in src/.
 installed=(modules/calibration/include/pcl_als/calibration/*.h)
 ((${#installed[@]} <= 8)) ||
   breach modules/calibration "installs ${#installed[@]} headers, more than 8"
 
-# Every source file: who may use it, and short enough to be read.
+# Every source file has a licence and at most 400 lines.
 while IFS= read -r file; do
   head -n 6 -- "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' ||
     breach "$file" "has no SPDX line"
@@ -101,7 +103,29 @@ while IFS= read -r file; do
   ((lines <= 400)) || breach "$file" "has $lines lines, more than 400"
 done < <(find modules apps tests share \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' \) | sort)
 
-# A file that is nowhere listed is not built: dead, or forgotten.
+# Functions are short enough to be read at once, and so is the source of a tool.
+while IFS=$'\t' read -r lines file line signature; do
+  ((lines <= 57)) || breach "$file:$line" "a function of $lines lines, more than 57: $signature"
+done < <(find modules apps \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -exec \
+  awk -f "$here/function_lengths.awk" {} +)
+while IFS= read -r file; do
+  lines=$(wc -l <"$file")
+  ((lines <= 250)) || breach "$file" "has $lines lines, more than 250 for a tool"
+done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
+
+# Every module page has the same sections, and lines of text in Markdown have less than 100
+# characters (tables may be wider).
+for page in modules/*/README.md; do
+  for section in Purpose Usage Method Limits Constants; do
+    grep -qx "## $section" "$page" || breach "$page" "has no section $section"
+  done
+done
+while IFS= read -r place; do
+  breach "$place" "has 100 characters or more"
+done < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' -exec \
+  awk '{ gsub(/[\200-\277]/, "") } length($0) > 99 && !/^\|/ { print FILENAME ":" FNR }' {} +)
+
+# A file that no CMakeLists.txt lists is not built.
 while IFS= read -r file; do
   list=$(dirname -- "$file")
   until [[ -e $list/CMakeLists.txt ]]; do list=$(dirname -- "$list"); done

@@ -15,7 +15,7 @@ make_tree() {
   mkdir -p modules/{common,tin,simulation}/{src,include/pcl_als/x} apps tests share
   local module
   for module in common tin simulation; do
-    touch "modules/$module/README.md"
+    printf '## %s\n' Purpose Usage Method Limits Constants >"modules/$module/README.md"
     echo '// SPDX-License-Identifier: BSD-3-Clause' >"modules/$module/src/a.cpp"
   done
   echo 'als_add_module(NAME common SOURCES src/a.cpp)' >modules/common/CMakeLists.txt
@@ -37,7 +37,7 @@ make_tree; expect 0 "keep to the architecture"
 make_tree; echo '#include <pcl_als/tin/tin.h>' >>modules/simulation/src/a.cpp; expect 1 "does not declare module tin"
 make_tree; sed -i 's/MODULES common/MODULES common tin/' modules/simulation/CMakeLists.txt; expect 1 "must not use module tin"
 make_tree; sed -i 's/)/ MODULES simulation)/' modules/common/CMakeLists.txt; expect 1 "must not use module simulation"
-make_tree; sed -i 's/)/ PRIVATE pcl_als::io)/' modules/tin/CMakeLists.txt; expect 1 "past MODULES"
+make_tree; sed -i 's/)/ PRIVATE pcl_als::io)/' modules/tin/CMakeLists.txt; expect 1 "without MODULES"
 make_tree; echo '#include "../../apps/x.h"' >>modules/tin/src/a.cpp; expect 1 "across folders"
 make_tree; echo '#include "command_line.h"' >>modules/tin/src/a.cpp; expect 1 "not beside it"
 make_tree; echo '# include <vtkActor.h>' >>modules/tin/src/a.cpp; expect 1 "only visualization draws"
@@ -46,7 +46,15 @@ make_tree; echo 'void f() { char b[9]; std::snprintf(b, 9, ""); }' >>modules/tin
 make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"
+make_tree; { echo '// SPDX-License-Identifier: BSD-3-Clause'; printf '//\n%.0s' {1..250}; } >apps/tool.cpp
+echo 'tool' >apps/CMakeLists.txt; expect 1 "more than 250 for a tool"
 make_tree; mkdir modules/extra; expect 1 "unknown module"
 make_tree; rm modules/tin/README.md; expect 1 "has no README.md"
+make_tree; sed -i '/Limits/d' modules/tin/README.md; expect 1 "has no section Limits"
+make_tree; printf 'x%.0s' {1..100} >share/a.md; expect 1 "100 characters or more"
+make_tree; { printf '|'; printf 'x%.0s' {1..120}; } >share/a.md; expect 0 "keep to"
+make_tree; { echo 'X::X() : a_{1}, b_(2) {'; printf '  f("}");\n%.0s' {1..56}; echo '}'; } >>modules/tin/src/a.cpp
+expect 1 "a function of 58 lines"
+sed -i '$d;4d' modules/tin/src/a.cpp; echo '}' >>modules/tin/src/a.cpp; expect 0 "keep to"
 ((failures == 0)) || exit 1
 echo "All breaches were found."

@@ -107,7 +107,7 @@ Block chosenOf(const Block& block, const PairSelection& selection, bool offsets)
   for (std::size_t area = 0; area < kept.size(); ++area) {
     for (const ChosenPair& pair : selection.chosen()[area]) {
       PairObservation o = block.areas[area][pair.index];
-      o.variance /= pair.stands_for;
+      o.variance /= pair.represented;
       if (offsets) o.misclosure += pair.offset;
       kept[area].push_back(o);
     }
@@ -136,7 +136,7 @@ TEST(PairSelection, KeepsEverythingWithinTheBudget) {
   const Block block(mostlyFlat());
   const PairSelection selection = block.choose({20000, 0.25});
   EXPECT_EQ(selection.chosenCount(), 10600U);
-  EXPECT_EQ(selection.chosen()[0][0].stands_for, 1.0);
+  EXPECT_EQ(selection.chosen()[0][0].represented, 1.0);
 }
 
 TEST(PairSelection, TellsWhatAllPairsTell) {
@@ -186,7 +186,7 @@ TEST(PairSelection, WeighsWhatItKeepsAsMuchAsAll) {
   const PairSelection selection = block.choose({800, 0.25});
   double stood_for = 0.0;
   for (const auto& pairs : selection.chosen()) {
-    for (const ChosenPair& pair : pairs) stood_for += pair.stands_for;
+    for (const ChosenPair& pair : pairs) stood_for += pair.represented;
   }
   EXPECT_NEAR(stood_for, 10600.0, 0.03 * 10600.0);  // groups of which no pair was taken are missing
 }
@@ -211,7 +211,7 @@ TEST(PairSelection, NeverTakesOutliersAndAlwaysControl) {
   const PairSelection selection = block.choose({800, 0.25});
   for (const ChosenPair& pair : selection.chosen()[3]) EXPECT_EQ(pair.index % 2, 1U);
   ASSERT_EQ(selection.chosen().back().size(), 1U);
-  EXPECT_EQ(selection.chosen().back()[0].stands_for, 1.0);
+  EXPECT_EQ(selection.chosen().back()[0].represented, 1.0);
 }
 
 TEST(PairWeights, FindsHowWellASystemPoints) {

@@ -16,7 +16,7 @@ namespace pcl_als {
 namespace {
 
 constexpr double kSingular = 1e-10;  // smallest eigenvalue of the scaled normal matrix
-constexpr int kPasses = 10;  // of the reweighting; it settles to a hundredth of its std in five
+constexpr int kPasses = 10;  // reweightings; five reach a hundredth of the standard deviation
 
 /// Inverse of a symmetric matrix, scaled to a unit diagonal first; empty when it is singular.
 Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& normal) {
@@ -30,7 +30,7 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& normal) {
          scale.asDiagonal();
 }
 
-/// Raises variances to these at least, correlations kept.
+/// Increases variances to at least these values, without a change of correlations.
 void raiseTo(const Eigen::VectorXd& variances, Eigen::MatrixXd& covariance) {
   for (Eigen::Index i = 0; i < variances.size(); ++i) {
     const double found = covariance(i, i);
@@ -107,7 +107,8 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
   for (int pass = 0; pass < (robust ? kPasses : 1); ++pass) {
     if (pass > 0) {
       const double sigma =
-          std::max(robustSigma({left.data(), left.data() + n}), 1e-9);  // all equal: no outliers
+          // all residuals equal: no outliers
+          std::max(robustSigma({left.data(), left.data() + n}), 1e-9);
       weights = left.unaryExpr([sigma](double rest) { return huberWeight(rest, sigma); });
     }
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns_, unknowns_);

@@ -11,15 +11,15 @@
 namespace pcl_als {
 namespace {
 
-// Metres: the ground of one terrain. Half of it where that leaves too few, doubled while too many.
+// Size of cells in metres; halved where there are too few cells, doubled while there are too many.
 constexpr double kCell = 25.0, kSmallestCell = 12.5;
 constexpr std::size_t kEnoughCells = 16;
 constexpr std::size_t kMostCells = 100;  // of one component: a decomposition takes milliseconds
 constexpr std::size_t kMostCellsOfThree = 40;
 constexpr std::size_t kFewestCells = 4;
-constexpr double kIndependent = 0.8;              // prior probability that cells err independently
-constexpr int kRanges = 6;                        // of the grid, besides independent cells
-constexpr double kLongestRange = 0.6;             // of the extent
+constexpr double kIndependent = 0.8;   // prior probability that errors of cells are independent
+constexpr int kRanges = 6;             // of the grid, besides independent cells
+constexpr double kLongestRange = 0.6;  // of the extent
 constexpr double kInPlan[] = {1.0, 10.0, 100.0};  // variances in plan over the vertical one
 /// Variances of the shared error over those of the noise, in a cell.
 constexpr double kShares[] = {0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0};
@@ -59,8 +59,8 @@ class Average {
     logarithms_ += weight * covariance.diagonal().array().max(1e-300).log().matrix();
     weight_ += weight;
   }
-  /// With the geometric means of the variances: the arithmetic ones would be those of the few
-  /// least likely, longest ranges.
+  /// Geometric means of the variances: arithmetic means would be dominated by the few longest and
+  /// least likely ranges.
   Eigen::MatrixXd mean() const {
     const Eigen::VectorXd geometric = (logarithms_ / weight_).array().exp();
     const Eigen::MatrixXd mean = sum_ / weight_;
@@ -111,7 +111,7 @@ void addKernel(const Scaled& scaled, const Eigen::MatrixXd& rest, const Eigen::M
   }
 }
 
-/// Root of the mean square distance of cells from their centre, times that of a line's ends.
+/// RMS distance of cells from their centre, times the factor for the ends of a line.
 double extentOf(const std::vector<Eigen::Vector2d>& places) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& place : places) mean += place / static_cast<double>(places.size());

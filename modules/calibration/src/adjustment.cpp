@@ -44,7 +44,7 @@ bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log
   if ((matrix.diagonal().array() <= 0.0).any()) return false;
   const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const LdltFactor ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
-  constexpr double kSingular = 1e-11;  // of a matrix with a unit diagonal
+  constexpr double kSingular = 1e-11;  // of a matrix with unit diagonal
   if (!ldlt.succeeded() || ldlt.diagonal().minCoeff() < kSingular) return false;
   log_determinant = ldlt.diagonal().array().log().sum() - 2.0 * scale.array().log().sum();
   inverse = scale.asDiagonal() * ldlt.inverse() * scale.asDiagonal();
@@ -66,7 +66,7 @@ SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double
 
 }  // namespace
 
-/// The sum over areas, their shifts eliminated.
+/// Sum over the areas, with the shifts of areas eliminated.
 struct Adjustment::Normal {
   SystemMatrix gg = SystemMatrix::Zero();
   SystemVector right_g = SystemVector::Zero();
@@ -98,7 +98,7 @@ struct Adjustment::Normal {
   }
 };
 
-/// The system with all shared errors eliminated.
+/// Normal equations with all shared errors eliminated.
 struct Adjustment::Reduced {
   SystemMatrix normal, prior_share;
   SystemVector right;
@@ -134,7 +134,7 @@ std::unique_ptr<const Adjustment::Normal> Adjustment::assemble(double shift_vari
   });
   auto normal = std::make_unique<Normal>(errors_.unknowns());
   for (std::size_t area = 0; area < reduced.size();
-       ++area) {  // in this order, whatever the number of threads
+       ++area) {  // in this order for any number of threads
     normal->add(reduced[area], area_normals_[area].knots());
   }
   return normal;
@@ -170,7 +170,8 @@ double Adjustment::deviance(const SharedErrorLevels& levels,
       same_local ? nullptr : assemble(errors_.localVariance(levels));
   const Normal& normal = same_local ? *normal_ : *other;
   const ErrorFactor factor(normal.tt, errors_.priorInformation(levels), errors_.observedUnknowns());
-  Eigen::MatrixXd couplings(errors_.unknowns(), kGlobal + 1);  // with parameters, right hand side
+  // with parameters and right-hand side
+  Eigen::MatrixXd couplings(errors_.unknowns(), kGlobal + 1);
   couplings << normal.tg, normal.right_t;
   const Eigen::MatrixXd eliminated = factor.quadraticForm(couplings);
   const SystemMatrix reduced = normal.gg - eliminated.topLeftCorner<kGlobal, kGlobal>();
@@ -215,8 +216,8 @@ double Adjustment::residual(const PairObservation& observation,
 }
 
 Adjustment::Share Adjustment::shareOf(std::size_t area, const AdjustmentSolution& solution) const {
-  // Of the area's own normal equations: h - N (parameters, knots), reduced by what the knots take
-  // over.
+  // From the normal equations of the area: h - N (parameters, knots), reduced by the elimination of
+  // the knots.
   const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
   const std::vector<int>& knots = area_normals_[area].knots();
   Eigen::VectorXd unknowns(own.right.size());
@@ -257,7 +258,7 @@ SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
     for (std::size_t i = 0; i < estimate.size(); ++i) score[i] = share.score[indexOf(estimate[i])];
     Eigen::MatrixXd inverse;
     double ignored = 0.0;
-    // Without an area that determines something alone, the whole is as good as it gets.
+    // Without an area that determines something alone, the jackknife adds nothing to the model.
     if (!invert(normal - sub(share.normal, estimate), inverse, ignored)) {
       invert(normal, inverse, ignored);
     }
@@ -321,14 +322,14 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
     inflation[i] =
         slopes[static_cast<Eigen::Index>(k)] * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
   }
-  const SystemMatrix with_doubt = model + doubtRanging(model, solution);
-  solution.covariance = inflation.asDiagonal() * with_doubt * inflation.asDiagonal();
+  const SystemMatrix averaged = model + averageRangingModels(model, solution);
+  solution.covariance = inflation.asDiagonal() * averaged * inflation.asDiagonal();
   solution.solved = true;
   return solution;
 }
 
-SystemMatrix Adjustment::doubtRanging(const SystemMatrix& model,
-                                      AdjustmentSolution& solution) const {
+SystemMatrix Adjustment::averageRangingModels(const SystemMatrix& model,
+                                              AdjustmentSolution& solution) const {
   const int at = errors_.rangingUnknown();
   const SystemVector coupling = reduced_->elimination.row(at).transpose();
   const SystemVector with_biases = -model * coupling;

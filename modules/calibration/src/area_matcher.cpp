@@ -14,8 +14,9 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kTooFew =
-    30;  // points of a strip in an area with margin for which no TIN is built
+/// A strip with fewer points in an area and its margin has no TIN there.
+constexpr std::size_t kTooFew = 30;
+
 }  // namespace
 
 void AreaMatcher::add(int strip, const CalibrationPoint& point) {
@@ -67,15 +68,15 @@ AreaMatcher::Direction AreaMatcher::measuringDirection(const PatchQuality& quali
 }
 
 void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
-  // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
-  // is there. Neither holds the point itself: among points that were looked for because their own
-  // noise made them slope to the west, it would not have a mean of zero.
-  constexpr std::size_t kLooks = 4;
+  // The normals of single triangles are noisy and only select triangles that are examined; slope
+  // and aspect are those of the neighbourhood's plane. Neither depends on the point itself:
+  // otherwise the noise of points selected by their aspect would not have a mean of zero.
+  constexpr std::size_t kExaminedPerCandidate = 4;
   const auto rough = trianglesByOrientation(part.surface, 1, [&](std::int32_t point) {
     return part.single[point] && area_.contains(part.biased[point]);
   });
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
-  for (const std::int32_t triangle : chosenEvenly(rough, kLooks * count)) {
+  for (const std::int32_t triangle : chosenEvenly(rough, kExaminedPerCandidate * count)) {
     const PatchQuality quality = part.surface.quality(triangle);
     if (!criterion_.isSatisfiedBy(quality, part.median_edge)) continue;
     classes[OrientationClasses::of(quality.plane_normal)].push_back(
@@ -98,7 +99,7 @@ void AreaMatcher::keep(const AreaObservations& observations,
   for (const ChosenPair& pair : chosen) {
     const PairObservation& o = observations[pair.index];
     if (o.a != PairObservation::kControl)
-      kept_[{o.a, o.b}].push_back({o.point, o.sharing / pair.stands_for, pair.offset});
+      kept_[{o.a, o.b}].push_back({o.point, o.sharing / pair.represented, pair.offset});
   }
 }
 
@@ -181,9 +182,9 @@ class AreaMatcher::PointGeometry {
   }
 
  private:
-  /// Where the pulse meets the plane around the patch. A measured range in the design matrix would
-  /// be correlated with the noise of the distance (errors in variables): over a million pairs, a
-  /// range scale of 6 ppm.
+  /// Intersection of the pulse with the plane of the patch's neighbourhood (smoothed geometry). A
+  /// measured range in the design matrix would be correlated with the noise of the distance: with a
+  /// million pairs, errors in variables biased the range scale by 6 ppm.
   Eigen::Vector3d alongBeam(const Eigen::Vector3d& measured, const PatchQuality& surface) const {
     constexpr double kGrazing = 0.2;
     const Eigen::Vector3d towards = (measured - pose_.position).normalized();
@@ -199,14 +200,36 @@ class AreaMatcher::PointGeometry {
   std::size_t cursor_ = 0;
 };
 
+void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
+                          const PatchQuality& quality, PairObservation& observation) const {
+  observation.time_a = point.time;
+  observation.time_b = foot.time;
+  observation.lateral = foot.lateral;
+  observation.height = foot.height;
+  const Direction direction = measuringDirection(quality);
+  const Eigen::Vector3d& normal = direction.normal;
+  observation.normal = normal;
+  observation.tilt_variance = direction.variance;
+  observation.design = (point.design - foot.design).cast<float>();
+  observation.row_a = normal.transpose() * point.design;
+  observation.row_b = normal.transpose() * foot.design;
+  observation.misclosure =
+      normal.dot(point.position - foot.position) + observation.row() * corrected_for_;
+  observation.variance = normalVariance(point.covariance + foot.covariance, normal);
+  observation.pointing = normalVariance(point.pointing + foot.pointing, normal);
+  observation.stretch = point.stretch(normal) - foot.stretch(normal);
+  observation.ranges = point.range * normal.dot(point.beam) - foot.range * normal.dot(foot.beam);
+}
+
 AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
                                     const Trajectory& trajectory, const NoiseModel& noise,
-                                    Seekers seekers) const {
+                                    Points chosen) const {
   AreaObservations found;
   std::vector<std::size_t> points;
   for (const StripPart& part : strips_) points.push_back(part.biased.size());
   NoiseShares shares(points);
   PointGeometry point(trajectory, noise), foot(trajectory, noise), vertex(trajectory, noise);
+  const bool all = chosen == Points::candidates;
   for (std::size_t k = 0; k < 2 * pairs.size(); ++k) {
     const StripPair& pair = pairs[k / 2];
     PairObservation observation;
@@ -216,8 +239,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     const StripPart& b = strips_[observation.b];
     if (b.biased.empty()) continue;
     const auto kept = kept_.find({observation.a, observation.b});
-    if (seekers == Seekers::kept && kept == kept_.end()) continue;
-    const bool all = seekers == Seekers::candidates;
+    if (!all && kept == kept_.end()) continue;
     const std::size_t count = all ? a.candidates.size() : kept->second.size();
     for (std::size_t c = 0; c < count; ++c) {
       const std::int32_t i = all ? a.candidates[c] : kept->second[c].point;
@@ -228,23 +250,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
           !foot.atFoot(b, *match, quality, vertex))
         continue;
       observation.point = i;
-      observation.time_a = point.time;
-      observation.time_b = foot.time;
-      observation.lateral = foot.lateral;
-      observation.height = foot.height;
-      const Direction direction = measuringDirection(quality);
-      observation.normal = direction.normal;
-      observation.tilt_variance = direction.variance;
-      observation.design = (point.design - foot.design).cast<float>();
-      observation.row_a = observation.normal.transpose() * point.design;
-      observation.row_b = observation.normal.transpose() * foot.design;
-      observation.misclosure = observation.normal.dot(point.position - foot.position) +
-                               observation.row() * corrected_for_;
-      observation.variance = normalVariance(point.covariance + foot.covariance, observation.normal);
-      observation.pointing = normalVariance(point.pointing + foot.pointing, observation.normal);
-      observation.stretch = point.stretch(observation.normal) - foot.stretch(observation.normal);
-      observation.ranges = point.range * observation.normal.dot(point.beam) -
-                           foot.range * observation.normal.dot(foot.beam);
+      measure(point, foot, quality, observation);
       shares.add(observation, b.surface.tin().triangles()[match->triangle], match->weights,
                  normalVariance(point.covariance, observation.normal),
                  normalVariance(vertex.covariance, observation.normal));
@@ -256,14 +262,14 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
       found.push_back(observation);
     }
   }
-  if (seekers == Seekers::candidates) shares.setSharing(found);
+  if (all) shares.setSharing(found);
   return found;
 }
 
 namespace {
 
-/// What pairs of one control point share with each other: the point's own error, in every strip
-/// that passes over it. \a first: the first of them; the rest are the last of \a found.
+/// Sets the factor by which the pairs of one control point share the error of the point, in all
+/// strips that cover it. The pairs are those of \a found from the index \a first on.
 void shareControlError(double sigma, std::size_t first, AreaObservations& found) {
   double up = 0.0;
   for (std::size_t i = first; i < found.size(); ++i) up += found[i].normal.z();

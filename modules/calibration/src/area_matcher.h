@@ -53,12 +53,12 @@ class AreaMatcher {
   }
 
   /// Which points are paired with patches: all candidates, or those of the observations last kept.
-  enum class Seekers { candidates, kept };
-  /// Keeps the points of these observations (of match()) as seekers of the same patches; their
-  /// pairs have the weight of those that they represent.
+  enum class Points { candidates, kept };
+  /// Keeps the points of these observations (of match()) for further pairs with the same strips;
+  /// these pairs have the weight of those that they represent.
   void keep(const AreaObservations& observations, const std::vector<ChosenPair>& chosen);
 
-  /// The TIN of a strip, as corrected last; empty where the strip has hardly a point here.
+  /// The TIN of a strip, as corrected last; empty where the strip has too few points in the area.
   const PatchSurface& surfaceOf(int strip) const {
     return strips_[static_cast<std::size_t>(strip)].surface;
   }
@@ -70,7 +70,7 @@ class AreaMatcher {
   /// threshold.
   AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
                          const Trajectory& trajectory, const NoiseModel& noise,
-                         Seekers seekers = Seekers::candidates) const;
+                         Points chosen = Points::candidates) const;
   /// The pairs of control points inside the area with the patches above or below them.
   AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
                                 const Trajectory& trajectory, const NoiseModel& noise,
@@ -88,23 +88,28 @@ class AreaMatcher {
   };
   class PointGeometry;
 
-  /// The direction in which a pair measures: that of the neighbourhood's plane, less noisy than the
-  /// triangle's own, or the vertical where its tilt is not significant. Noise in place of a slope
-  /// would act like information about plan positions, and on flat ground be the only one.
+  /// The direction in which the distance of a pair is measured: the normal of the neighbourhood's
+  /// plane, which is less noisy than that of the triangle, or the vertical where the tilt of the
+  /// plane is not significant. Noise of the normal would otherwise act as information about plan
+  /// positions.
   struct Direction {
     Eigen::Vector3d normal;
     double variance = 0.0;  ///< rad^2
   };
   Direction measuringDirection(const PatchQuality& quality) const;
+  /// Fills the equation of the pair of a point and its foot in a patch.
+  void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
+               PairObservation& observation) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
   SurveyArea area_;
   std::vector<StripPart> strips_;
-  struct Seeker {
+  struct KeptPoint {
     std::int32_t point = 0;
     double sharing = 1.0, offset = 0.0;  ///< of its pair, see ChosenPair
   };
-  std::map<std::pair<int, int>, std::vector<Seeker>> kept_;  ///< points of the first strip
+  /// Points of the first strip that form pairs with the second.
+  std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;
   SurfaceCriterion criterion_;
   SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
 };

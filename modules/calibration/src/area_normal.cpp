@@ -42,7 +42,7 @@ namespace {
 using LocalMatrix = Eigen::Matrix<double, TouchedRow::kSize, TouchedRow::kSize>;
 using LocalVector = Eigen::Matrix<double, TouchedRow::kSize, 1>;
 
-/// Sums over observations that touch the same knots and strips: most neighbours do.
+/// Sums over observations of the same knots and strips; successive observations mostly share them.
 struct Partial {
   LocalMatrix matrix = LocalMatrix::Zero();
   LocalVector right = LocalVector::Zero();

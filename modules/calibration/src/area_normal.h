@@ -12,8 +12,8 @@
 
 namespace pcl_als {
 
-/// One observation's row over what it touches: the eight parameters; four knots and the instrument,
-/// six each; the shifts of its two strips, three each.
+/// Row of one observation: the eight parameters; four knots and the instrument, six each; the
+/// shifts of its two strips, three each.
 struct TouchedRow {
   static constexpr int kKnot = SharedErrors::kPerKnot;
   static constexpr int kSlots = 5;
@@ -35,22 +35,23 @@ struct TouchedRow {
              const SystemRow& design, double sign);
 };
 
-/// Normal equations of one area: parameters, the knots it touches, the shifts of its strips.
+/// Normal equations of one area: parameters, the knots of its observations, the shifts of its
+/// strips.
 class AreaNormal {
  public:
   AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
              const SharedErrors& errors);
 
-  /// The shifts eliminated, given their variance (m^2).
+  /// Equations with the shifts eliminated, for a variance of the shifts (m^2).
   struct Reduced {
     Eigen::MatrixXd matrix;  ///< parameters, then knots() six each
     Eigen::VectorXd right;
     double log_determinant = 0.0;  ///< of the shifts' normal matrix times their variance
-    double explained = 0.0;        ///< what the shifts explain of the weighted sum of squares
+    double explained = 0.0;        ///< reduction of the weighted sum of squares by the shifts
   };
   Reduced reduced(double shift_variance) const;
   const std::vector<int>& knots() const { return knots_; }
-  /// The parameters' part, nothing eliminated: only the noise of points counts.
+  /// The equations of the parameters without elimination: noise of points only.
   SystemMatrix parameters() const {
     return matrix_.topLeftCorner<kSystemParameterCount, kSystemParameterCount>();
   }

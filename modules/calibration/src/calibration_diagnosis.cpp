@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// What SystemCalibrationEngine finds wrong with the strips of a block after the adjustment.
+// Diagnosis of the strips of a block after the adjustment (SystemCalibrationEngine).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
 
+#include "calibration_state.h"
 #include "control_consistency.h"
 #include "strip_consistency.h"
-
-#include "calibration_state.h"
 
 namespace pcl_als {
 
@@ -22,7 +21,7 @@ bool SystemCalibrationEngine::hasPairs(int strip, const CalibrationResult& resul
   });
 }
 
-std::string SystemCalibrationEngine::lostStrip(int strip) const {
+std::string SystemCalibrationEngine::reasonWithoutPairs(int strip) const {
   SurveyMap::HeightOffset best;
   int partner = -1;
   for (const StripPair& pair : pairs_) {
@@ -52,7 +51,7 @@ void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& er
   const ControlConsistency control(result.control_points);
   SystemVector spread = SystemVector::Zero();
   if (control.two_groups) {
-    weigh(state);  // the pairs are newer than their weights
+    weigh(state);  // the last pairs have no weights yet
     ControlledAdjustment adjustment{
         errors, state.adjustment.levels(), state.observations, state.weights.weights(), pair_areas_,
         {},     state.choice.estimate,     settings_.threads};
@@ -68,7 +67,7 @@ void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {
     if (!used_[i]) continue;
     const int strip = static_cast<int>(i);
     if (!hasPairs(strip, result)) {
-      const std::string lost = lostStrip(strip);
+      const std::string lost = reasonWithoutPairs(strip);
       if (!lost.empty()) result.warnings.push_back(lost);
     }
     strips.push_back(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// The iteration of SystemCalibrationEngine: its stages and when it has converged.
+// The iteration of SystemCalibrationEngine: its phases and its convergence.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -14,13 +14,13 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kNegligible = 0.05;  // of a standard deviation: an update that is none
-constexpr double kSmall = 0.1;        // of a standard deviation: the next phase may begin
+constexpr double kNegligible = 0.05;  // standard deviations: a smaller update is negligible
+constexpr double kSmall = 0.1;        // standard deviations: a smaller update ends a phase
 constexpr int kMostReductions = 3;    // parameters left out because the iteration does not converge
 constexpr int kAfterReduction = 10;   // iterations
 
-/// Upper bound of the movement of a ground point by a change of the biases, metres: as if the
-/// effects of all parameters added up.
+/// Upper bound of the movement of a ground point by a change of the biases, metres: the sum of the
+/// effects of all parameters.
 double largestEffect(const std::vector<AreaObservations>& observations,
                      const SystemVector& change) {
   double x = 0.0, z = 0.0;
@@ -38,8 +38,8 @@ double largestEffect(const std::vector<AreaObservations>& observations,
 }
 
 /// Movement of a ground point by a change of the biases, metres: the largest of the points that
-/// were observed, on either side of the line of flight. Changes that compensate each other move
-/// nothing.
+/// were observed, on either side of the flight line. Changes that compensate each other move no
+/// point.
 double largestMovement(const std::vector<AreaObservations>& observations,
                        const SystemVector& change) {
   constexpr std::size_t kEnough = 20'000;
@@ -72,11 +72,11 @@ void SystemCalibrationEngine::selectPairs(State& state) {
   parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
     matchers_[i].keep(state.observations[i], selection.chosen()[i]);
   });
-  state.seekers = AreaMatcher::Seekers::kept;
+  state.chosen_points = AreaMatcher::Points::kept;
 }
 
-bool SystemCalibrationEngine::restsWithin(const State& state, const SystemVector& before,
-                                          double deviations) {
+bool SystemCalibrationEngine::isUpdateWithin(const State& state, const SystemVector& before,
+                                             double deviations) {
   const AdjustmentSolution& solution = state.choice.solution;
   return std::all_of(state.choice.estimate.begin(), state.choice.estimate.end(),
                      [&](SystemParameter p) {
@@ -90,19 +90,20 @@ void SystemCalibrationEngine::recordUpdate(State& state, const SystemVector& bef
   constexpr double kMemory = 0.7;
   const AdjustmentSolution& solution = state.choice.solution;
   state.update.movement = largestMovement(state.observations, solution.biases - before);
-  state.update.small = restsWithin(state, before, kSmall);
+  state.update.small = isUpdateWithin(state, before, kSmall);
   for (const SystemParameter p : state.choice.estimate) {
     const int i = indexOf(p);
     const double std = std::sqrt(solution.covariance(i, i));
     const double update = std > 0.0 ? std::abs(solution.biases[i] - before[i]) / std : 0.0;
-    state.unrest[i] = std::max(kMemory * state.unrest[i], update);
+    state.recent_updates[i] = std::max(kMemory * state.recent_updates[i], update);
   }
 }
 
-SystemParameter SystemCalibrationEngine::mostRestless(const State& state) {
+SystemParameter SystemCalibrationEngine::mostChangingParameter(const State& state) {
   return *std::max_element(state.choice.estimate.begin(), state.choice.estimate.end(),
                            [&](SystemParameter a, SystemParameter b) {
-                             return state.unrest[indexOf(a)] < state.unrest[indexOf(b)];
+                             return state.recent_updates[indexOf(a)] <
+                                    state.recent_updates[indexOf(b)];
                            });
 }
 
@@ -116,19 +117,19 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
       state.choice.estimate.size() < 2) {
     return false;
   }
-  const SystemParameter p = mostRestless(state);
+  const SystemParameter p = mostChangingParameter(state);
   const double std = std::sqrt(state.choice.solution.covariance(indexOf(p), indexOf(p)));
   state.excluded[p] = "the adjustment does not converge with it: it still changed by " +
-                      inUnit(p, state.unrest[indexOf(p)] * std) + " after " +
+                      inUnit(p, state.recent_updates[indexOf(p)] * std) + " after " +
                       std::to_string(result.iterations.size()) + " iterations";
-  state.unrest.setZero();
+  state.recent_updates.setZero();
   return true;
 }
 
 void SystemCalibrationEngine::pairAllCandidates(State& state) const {
   if (state.all()) return;
-  state.seekers = AreaMatcher::Seekers::candidates;
-  pairUp(state);
+  state.chosen_points = AreaMatcher::Points::candidates;
+  formPairs(state);
 }
 
 void SystemCalibrationEngine::leaveCoarse(State& state) const {
@@ -137,9 +138,9 @@ void SystemCalibrationEngine::leaveCoarse(State& state) const {
 }
 
 void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) const {
-  // A selection represents all pairs at the biases where it was made: pairs are selected anew where
-  // the geometry has converged for the first time, and at the end. The noise of a selection is no
-  // measure of the variance components.
+  // A selection represents all pairs at the biases for which it was made. Pairs are therefore
+  // selected when the geometry has converged for the first time, and again at the end. Variance
+  // components are estimated with all pairs only.
   if (state.components.estimates == 0) pairAllCandidates(state);
   if (!state.all()) return;
   if (state.phase == State::Phase::refinement) state.phase = State::Phase::variance_components;
@@ -150,8 +151,8 @@ void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t d
 void SystemCalibrationEngine::openIteration(State& state, std::size_t done) const {
   constexpr double kSmallMovement = 0.005;  // metres
   constexpr std::size_t kCoarseAtMost = 12, kFewest = 4;
-  // Combinations that the data hardly determine change with every new set of pairs, at no effect on
-  // the points or by a small part of their standard deviations: neither holds up the next phase.
+  // Combinations that the data hardly determine change with every new set of pairs, without effect
+  // on the points or by a small part of their standard deviations. Neither delays the next phase.
   const bool small = done > 0 && (state.phase == State::Phase::selection ||
                                   state.update.movement < kSmallMovement ||
                                   (state.update.small && done >= kFewest));
@@ -192,7 +193,7 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
   if (done > 2 && !components_open && state.components.estimates > 0 &&
-      (effect < settings_.convergence || restsWithin(state, before, kNegligible))) {
+      (effect < settings_.convergence || isUpdateWithin(state, before, kNegligible))) {
     closeConverged(state);
   }
   result.converged = state.phase == State::Phase::converged;
@@ -202,15 +203,15 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   shrinkThreshold(state);
 }
 
-std::string SystemCalibrationEngine::whyOpen(const State& state,
-                                             const CalibrationResult& result) const {
+std::string SystemCalibrationEngine::reasonNotConverged(const State& state,
+                                                        const CalibrationResult& result) const {
   if (result.iterations.empty()) return "no point has a patch in another strip or at control";
   std::ostringstream text;
   text << "the adjustment did not converge in " << result.iterations.size() << " iterations";
   if (!state.choice.estimate.empty()) {
-    const SystemParameter p = mostRestless(state);
+    const SystemParameter p = mostChangingParameter(state);
     text.precision(2);
-    text << ": " << infoOf(p).name << " still changes by " << state.unrest[indexOf(p)]
+    text << ": " << infoOf(p).name << " still changes by " << state.recent_updates[indexOf(p)]
          << " standard deviations; estimate fewer parameters (-estimate)";
   }
   if (settings_.pair_budget > 0) text << " or keep more pairs (-select)";

@@ -12,7 +12,8 @@ namespace pcl_als {
 namespace {
 
 constexpr double kSignificant = 2.0;  // standard deviations of the change of the misfit
-constexpr double kRelevant = 0.01;    // of the misfit as delivered: less is no change
+// share of the misfit as delivered: a smaller change is no change
+constexpr double kRelevant = 0.01;
 
 std::string centimetres(double metres) {
   char text[32];
@@ -35,7 +36,8 @@ std::string describe(const MisfitChange& misfit) {
 }
 
 bool improvedSignificantly(const MisfitChange& misfit) {
-  return misfit.change() < -kSignificant * misfit.change_std;  // false where that is unknown
+  // false where the standard deviation is unknown
+  return misfit.change() < -kSignificant * misfit.change_std;
 }
 
 /// 99 % quantile of the chi-squared distribution (Wilson and Hilferty 1931; to 1 % for 1 and more).

@@ -13,11 +13,10 @@ namespace pcl_als {
  *
  * Objections that other checks have added to result.verdict are kept. A usable result gets the
  * change of the misfit as its reason.
- *
  * No improvement: the misfit is larger afterwards by more than twice the standard deviation of the
  * change and by more than a hundredth; or it is no smaller although the biases differ from zero
- * significantly (chi-squared of all estimated biases, 1 %). A system that was calibrated already
- * gives biases that do not differ from zero and an unchanged misfit: that is usable.
+ * significantly (chi-squared of all estimated biases, 1 %). A system that was calibrated before has
+ * biases that do not differ from zero and an unchanged misfit, which is usable.
  *
  * \param requested the parameters requested by name; empty: chosen automatically
  * \param not_converged why the iteration did not converge, in words; empty when it did

@@ -43,8 +43,8 @@ namespace {
 
 using FitStatistics = std::map<std::pair<int, int>, RunningStatistics>;
 
-/// By pair of strips, of what \a residual leaves of every observation. Means are of the first strip
-/// above the second; for control, of the strip above the point, vertically.
+/// Fits by pair of strips, from the residuals of all observations. Means are heights of the first
+/// strip above the second; for control, of the strip above the point.
 template <typename Residual>
 FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Residual& residual) {
   FitStatistics statistics;
@@ -63,7 +63,7 @@ FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Res
 
 constexpr int kHistogramBins = 200;
 
-/// Symmetric edges from the fits before.
+/// Symmetric bins that contain the distances before.
 std::vector<double> histogramEdges(const std::vector<PairFit>& pairs) {
   double squares = 0.0, count = 0.0;
   for (const PairFit& pair : pairs) {

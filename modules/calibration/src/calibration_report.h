@@ -12,14 +12,13 @@
 
 namespace pcl_als {
 
-/// Puts what the calibration found into a CalibrationResult, with a warning for all that a user
-/// must know.
+/// Fills a CalibrationResult and adds the warnings.
 class CalibrationReport {
  public:
   CalibrationReport(const std::vector<std::string>& strip_ids, bool without_control);
 
-  /// Fit of pairs and control under \a biases; \a after selects which half of PairFit and
-  /// ControlFit is filled.
+  /// Fit of pairs and control for \a biases; \a after selects which values of PairFit and
+  /// ControlFit are set.
   void addFit(const std::vector<AreaObservations>& observations, const SystemVector& biases,
               bool after, CalibrationResult& result) const;
 
@@ -28,17 +27,18 @@ class CalibrationReport {
   void addParameters(const ParameterChoice& choice, const std::vector<SystemParameter>& requested,
                      CalibrationResult& result) const;
 
-  /// Every control point that a strip sees, from all pairs of the control areas found anew with the
-  /// widest threshold. \a used: by area, whether the adjustment gave a pair of it a weight.
+  /// Residuals of every control point that a strip covers, from all pairs of the control areas
+  /// formed anew with the widest threshold. \a used: by area, whether the adjustment gave a pair of
+  /// it a weight.
   void addControlPoints(const std::vector<ControlPoint>& control,
                         const std::vector<AreaObservations>& observations,
                         const std::vector<bool>& used, double trajectory_std,
                         CalibrationResult& result) const;
 
-  /// The trajectory errors of each strip by the solution.
+  /// The estimated trajectory errors of each strip.
   void addStrips(const SharedErrors& errors, const std::vector<bool>& used,
                  const AdjustmentSolution& solution, CalibrationResult& result) const;
-  /// Fit of pairs with these errors taken out, too.
+  /// Fit of the pairs after removal of these errors.
   void addStripFit(const std::vector<AreaObservations>& observations, const Adjustment& adjustment,
                    const AdjustmentSolution& solution, CalibrationResult& result) const;
 

@@ -15,7 +15,7 @@
 
 namespace pcl_als {
 
-/// What changes from iteration to iteration.
+/// Variables of the iteration.
 struct SystemCalibrationEngine::State {
   explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
 
@@ -61,18 +61,19 @@ struct SystemCalibrationEngine::State {
     converged
   };
 
-  /// Before, residuals are full of what is sought, and none may be called an outlier for it.
+  /// Without a first solution residuals contain the effect of the biases, and no outlier is
+  /// rejected.
   bool solved() const { return phase != Phase::initial; }
-  /// Nothing is left out for being uncertain, for mismatched pairs make all uncertain.
+  /// In the coarse stage no parameter is left out, because mismatched pairs make all uncertain.
   bool isCoarse() const { return phase == Phase::initial || phase == Phase::coarse; }
-  /// Whether all pairs are adjusted, not a selection of them.
-  bool all() const { return seekers == AreaMatcher::Seekers::candidates; }
+  /// Whether all pairs are adjusted and not a selection.
+  bool all() const { return chosen_points == AreaMatcher::Points::candidates; }
 
-  /// What was estimated of the variance components so far.
+  /// The variance components estimated so far.
   struct VarianceComponents {
     int estimates = 0;
     std::size_t last = 0;    ///< iteration of the last estimate, from 1; 0: none
-    bool unchanged = false;  ///< whether the last estimate left them as they were
+    bool unchanged = false;  ///< whether the last estimation did not change them
 
     bool complete() const {
       constexpr int kMostEstimates = 8;
@@ -88,13 +89,13 @@ struct SystemCalibrationEngine::State {
   /// Last update of the biases.
   struct Update {
     double movement = 0.0;  ///< largest movement of a ground point, metres
-    bool small = false;     ///< a small part of every standard deviation
+    bool small = false;  ///< whether no parameter changed by more than kSmall standard deviations
   } update;
-  /// Last update of every parameter over its standard deviation; the largest of the last few.
-  SystemVector unrest = SystemVector::Zero();
-  /// Left out because the iteration does not converge with them, and why.
+  /// Largest recent update of every parameter over its standard deviation.
+  SystemVector recent_updates = SystemVector::Zero();
+  /// Parameters left out because the iteration does not converge with them, with the reason.
   std::map<SystemParameter, std::string> excluded;
-  AreaMatcher::Seekers seekers = AreaMatcher::Seekers::candidates;
+  AreaMatcher::Points chosen_points = AreaMatcher::Points::candidates;
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

@@ -14,14 +14,14 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kControlAreaSize = 4.0;  // metres: a control point needs the patch around it only
-// Radians (half a degree): what a tilted or crabbing sensor does to a vertical model's biases of a
-// hundred arc-seconds is then an arc-second.
+constexpr double kControlAreaSize = 4.0;  // metres: contains the patch at a control point
+// Radians (half a degree): the effect of such an attitude on biases of 100 arc-seconds that are
+// estimated with the vertical model is one arc-second.
 constexpr double kVertical = 0.0087;
 
-constexpr std::size_t kEveryChecked = 32;  // of the points are compared with the trajectory
+constexpr std::size_t kEveryChecked = 32;  // every so many points are compared with the trajectory
 
-/// The attitude shows at the edges of the swath: enough points of each tenth of a second see them.
+/// Attitude is visible at the edges of the swath: points in each tenth of a second are needed.
 std::size_t everyForAttitude(const CalibrationPoint* points, std::size_t count) {
   constexpr double kPointsPerSecond = 1e4;
   if (count < 2) return 1;
@@ -61,7 +61,7 @@ void SystemCalibrationEngine::survey(int strip, const CalibrationPoint* points, 
     plausibility_.add(strip, points[i].time, points[i].position, points[i].scan_angle);
   }
   if (recoveries_.empty()) return;
-  constexpr std::size_t kEvery = 16;  // of the points show the attitude
+  constexpr std::size_t kEvery = 16;  // every so many points are used for the attitude
   AttitudeRecovery& recovery = recoveries_[static_cast<std::size_t>(strip)];
   for (std::size_t i = 0; i < count; i += kEvery) recovery.add(points[i].time, points[i].position);
 }
@@ -76,8 +76,9 @@ void SystemCalibrationEngine::describeAttitudes() {
   }
 }
 
-/// The models for linear scanners would take points ahead and behind for pitch and crab.
-void SystemCalibrationEngine::takeNonLinear(const std::string& remark) {
+/// Without this, models of linear scanners would interpret points ahead and behind as pitch and
+/// crab.
+void SystemCalibrationEngine::useNonLinearModel(const std::string& remark) {
   const std::string text =
       remark + ": the attitude of a scanner that is not linear has to come with the trajectory";
   if (!settings_.force) {
@@ -104,7 +105,7 @@ void SystemCalibrationEngine::recoverAttitude() {
   const AttitudeRecovery::Outcome outcome = all.recover();
   recoveries_.clear();
   if (!outcome.linear) {
-    takeNonLinear(outcome.remark);
+    useNonLinearModel(outcome.remark);
     return;
   }
   if (!settings_.recover_attitude) {
@@ -153,7 +154,7 @@ void SystemCalibrationEngine::leaveOutRoundedTimes() {
     if (!trajectory_->poseAt(start, from, cursor) || !trajectory_->poseAt(end, to, cursor))
       continue;
     const double speed = end > start ? (to.position - from.position).norm() / (end - start) : 0.0;
-    // Uniformly distributed within a step.
+    // Rounding errors are uniformly distributed within a step.
     const double along = speed * std::min(step, std::max(1.0, end - start)) / std::sqrt(12.0);
     if (end > start && along < settings_.shared_errors.position) continue;
     std::ostringstream text;
@@ -202,7 +203,7 @@ int SystemCalibrationEngine::stripNamed(const std::string& id) const {
   throw UsageError("pairs name strip '" + id + "', but the strips are " + known);
 }
 
-/// With pairs given by name, other strips are of use for control only.
+/// With pairs given by name, other strips are used for control only.
 void SystemCalibrationEngine::leaveOutUnpaired() {
   if (wanted_pairs_.empty() || !control_.empty()) return;
   std::vector<bool> paired(ids_.size(), false);

@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kEnough = 6;  // points whose scatter can be judged
+constexpr std::size_t kEnough = 6;  // points for an estimate of the scatter
 // Expected standard deviations; six points exceed 2.43 once in a thousand normal samples.
 constexpr double kScatter = 2.5;
 constexpr double kSeparate = 4.5;          // standard deviations of the groups
@@ -39,7 +39,7 @@ struct Split {
   double separation = 0.0, within = 0.0;
 };
 
-/// The split of sorted values that separates two means best.
+/// The split of sorted values with the largest separation of two means.
 Split bestSplit(const std::vector<double>& values) {
   const std::size_t n = values.size();
   const auto smallest = std::max<std::size_t>(
@@ -115,9 +115,9 @@ SystemVector controlSpread(const ControlConsistency& control,
 
 namespace {
 
-constexpr double kNoChange = 0.2;  // of a standard deviation: 2 % more of it
+constexpr double kNoChange = 0.2;  // standard deviations: adds 2 % to a standard deviation
 
-/// The parameters whose standard deviation allows for either group now.
+/// The parameters whose standard deviation includes both groups.
 std::string enlarge(const SystemVector& spread, CalibrationResult& result) {
   std::string names;
   for (const SystemParameterInfo& info : systemParameters()) {

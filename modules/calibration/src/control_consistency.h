@@ -11,15 +11,16 @@
 
 namespace pcl_als {
 
-/** \brief Whether control points agree with each other within their standard deviations.
+/** \brief Whether control points agree within their standard deviations.
  *
  * Scatter: the median absolute deviation of the residuals over their expected standard deviations;
- * 1 where control is as good as stated.
+ * 1 where control is as accurate as stated.
  *
- * Two groups: the split of the residuals that separates two means best. A normal distribution split
- * at its median has means 2.7 of the groups' own standard deviations apart, a uniform one 3.5; two
- * groups are reported from 4.5 on, where the smaller one holds a fifth of the points and the
- * distance is five expected standard deviations. Which of them is right cannot be determined.
+ * Two groups: the split of the residuals with the largest separation of two means. A normal
+ * distribution split at its median has means 2.7 standard deviations of the groups apart, a uniform
+ * one 3.5; two groups are reported from 4.5 on, where the smaller group contains a fifth of the
+ * points and the distance is five expected standard deviations. The data do not show which of the
+ * groups is correct.
  */
 struct ControlConsistency {
   double scatter = 1.0;
@@ -31,7 +32,7 @@ struct ControlConsistency {
   explicit ControlConsistency(const std::vector<ControlPointFit>& points);
 };
 
-/// The adjustment that control takes part in.
+/// An adjustment with control.
 struct ControlledAdjustment {
   const SharedErrors& errors;
   SharedErrorLevels levels;
@@ -43,18 +44,18 @@ struct ControlledAdjustment {
   int threads = 0;
 };
 
-/** \brief How far each parameter moves if one or the other of two groups of control is right.
+/** \brief Change of each parameter if one or the other of two groups of control is correct.
  *
- * The adjustment is solved again with the heights of the one group, then of the other, moved by the
- * separation of the groups, with the same observations and weights; the larger change of the two
- * counts (internal units; zero without two groups).
+ * The adjustment is solved with the heights of the one group, then of the other, moved by the
+ * separation of the groups, with the same observations and weights. The larger of the two changes
+ * is returned (internal units; zero without two groups).
  */
 SystemVector controlSpread(const ControlConsistency& control,
                            const ControlledAdjustment& adjustment);
 
-/// Adds to a result what its control points show: warnings that name rejected points and say where
-/// control is worse than stated; for two groups an objection to the verdict, and standard
-/// deviations that allow for either group, by what controlSpread() found.
+/// Adds the assessment of control to a result: warnings that name rejected points and state where
+/// control is less accurate than given; for two groups an objection in the verdict, and standard
+/// deviations that include both groups, from controlSpread().
 void judgeControl(const ControlConsistency& control, const SystemVector& spread,
                   CalibrationResult& result);
 

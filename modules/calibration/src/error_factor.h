@@ -12,16 +12,15 @@
 
 namespace pcl_als {
 
-/// The shared errors' own normal matrix by pairs of knots, both orders of a pair.
+/// Normal matrix of the shared errors by pairs of knots, both orders of a pair.
 using KnotBlocks = std::map<std::pair<int, int>,
                             Eigen::Matrix<double, SharedErrors::kPerKnot, SharedErrors::kPerKnot>>;
 
-/** \brief Cholesky factor of blocks + prior, for eliminating the shared errors.
+/** \brief Cholesky factor of blocks + prior, for the elimination of the shared errors.
  *
- * Knots of overlapping strips fill the factor of a small block almost entirely, which a dense
- * factorisation does several times faster; a large block stays sparse. Unknowns from \a observed on
- * occur in the prior only and are eliminated first in a small block, where they hardly add to the
- * cost.
+ * In small blocks, knots of overlapping strips fill the factor almost entirely, and a dense
+ * factorisation is several times faster; large blocks are factorised sparsely. Unknowns from \a
+ * observed on occur in the prior only and are eliminated first in a small block.
  */
 class ErrorFactor {
  public:
@@ -36,9 +35,9 @@ class ErrorFactor {
  private:
   bool dense_;
   Eigen::Index observed_;
-  CholeskyFactor cholesky_;                                  ///< the rest eliminated
-  Eigen::SparseMatrix<double> coupling_;                     ///< of the rest with the observed
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;  ///< of the rest, or of everything
+  CholeskyFactor cholesky_;               ///< of the observed unknowns
+  Eigen::SparseMatrix<double> coupling_;  ///< of the other unknowns with the observed ones
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;  ///< of the other unknowns, or of all
 };
 
 }  // namespace pcl_als

@@ -40,7 +40,8 @@ AreaSum sumOf(const Distances& distances, double limit) {
   return sum;
 }
 
-/// Standard deviation of the mean change of the squares, areas as clusters; unknown for one area.
+/// Standard deviation of the mean change of the squares, with areas as clusters; unknown for one
+/// area.
 double changeStd(const std::vector<AreaSum>& areas, const AreaSum& all) {
   const double mean = (all.after - all.before) / all.count;
   double squares = 0.0, clusters = 0.0;

@@ -13,21 +13,21 @@ namespace pcl_als {
 /** \brief Compares the distances of the same points from the other strip's surface before and after
  * a calibration (MisfitChange).
  *
- * Both sets of pairs are found anew, each in its own geometry, among all candidates and with the
+ * Both sets of pairs are formed anew, each in its own geometry, from all candidates and with the
  * same threshold: a point counts where it has an acceptable patch of the same strip in both. Pairs
- * that were found in one geometry only would favour that geometry.
+ * that exist in one geometry only would favour that geometry.
  *
  * With t = min(d, limit)^2 of every point, areas g as clusters and N points, the mean change of t
- * is c = sum_g D_g / N with D_g the sum of changes in an area, and its variance G / (G - 1) sum_g
- * (D_g - n_g c)^2 / N^2. The limit is 4.5 times the larger of the two robust standard deviations
- * (about zero), so that vegetation and moved objects do not decide.
+ * is c = sum_g D_g / N with D_g the sum of changes in an area, and its variance is G / (G - 1)
+ * sum_g (D_g - n_g c)^2 / N^2. The limit is 4.5 times the larger of the two robust standard
+ * deviations (about zero), which limits the influence of vegetation and moved objects.
  */
 class MisfitComparison {
  public:
   /// \param delivered all pairs found in the data as delivered, by area
   explicit MisfitComparison(const std::vector<AreaObservations>& delivered);
 
-  /// \param calibrated all pairs found after the calibration, \a biases what it took out
+  /// \param calibrated all pairs formed after the calibration with \a biases
   MisfitChange change(const std::vector<AreaObservations>& calibrated,
                       const SystemVector& biases) const;
 

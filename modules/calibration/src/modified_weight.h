@@ -9,9 +9,8 @@ namespace pcl_als {
 /** \brief The modified weight matrix of a point-patch pair, P' = M' diag(0, 0, P_w) M = P_w n n'
  * (Eqs. (31)-(33)).
  *
- * M is a rotation whose third row is the patch's unit normal n. P' D = 0 for every D in the patch's
- * plane (Eq. (34)), which is how the unknown offset between pseudo-conjugate points leaves the
- * adjustment.
+ * M is a rotation whose third row is the unit normal n of the patch. P' D = 0 for every D in the
+ * plane of the patch (Eq. (34)): the unknown offset between pseudo-conjugate points has no weight.
  *
  * \param weight P (3 x 3, symmetric), \param normal unit. \return P' (3 x 3, rank one).
  */

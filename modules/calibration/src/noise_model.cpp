@@ -28,8 +28,8 @@ void NoiseModel::validate() const {
 Eigen::Matrix3d NoiseModel::pointingCovariance(const ScanGeometry& g) const {
   const Eigen::Vector3d beam = g.beam();
   const double distance = g.range();
-  // A quarter of the 1/e^2 diameter is the standard deviation of where in the footprint the return
-  // comes from.
+  // The position of the return in the footprint has a standard deviation of a quarter of the 1/e^2
+  // diameter.
   const double footprint = 0.25 * beam_divergence;
   const double across_sq = (angle * angle + footprint * footprint) * distance * distance;
   return across_sq * (Eigen::Matrix3d::Identity() - beam * beam.transpose());

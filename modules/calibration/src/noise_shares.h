@@ -14,18 +14,18 @@
 
 namespace pcl_als {
 
-/** \brief How much noise the pairs of an area share: PairObservation::sharing.
+/** \brief Noise that the pairs of an area share: PairObservation::sharing.
  *
- * A pair is sum_p c_p e_p over its points: the point itself with c = 1, the patch's vertices with
- * minus their weights of the interpolation. With V the covariance of all pairs of the area, sharing
- * is the sum of |V_ij| along a row over V_ii: with u_p the sum of |c_p| over all pairs,
- * sum_p |c_p| u_p var(e_p) / variance. A diagonal matrix with these sums is not smaller than V
- * (Gershgorin), so that weights of 1 / (variance * sharing) never indicate a higher precision than
- * the points hold, however many pairs are made of them.
+ * The error of a pair is sum_p c_p e_p over its points: c = 1 for the point itself, minus the
+ * weights of the interpolation for the vertices of the patch. With V the covariance of all pairs of
+ * the area, sharing is the sum of |V_ij| along a row over V_ii: with u_p the sum of |c_p| over all
+ * pairs, sum_p |c_p| u_p var(e_p) / variance. The diagonal matrix of these sums bounds V from above
+ * (Gershgorin), so that with weights of 1 / (variance * sharing) standard deviations are never too
+ * small because points occur in several pairs.
  */
 class NoiseShares {
  public:
-  /// \param points of every strip
+  /// \param points number of points of every strip
   explicit NoiseShares(const std::vector<std::size_t>& points);
 
   /// \param triangle and \param weights of the patch; \param point_variance and
@@ -33,7 +33,7 @@ class NoiseShares {
   void add(const PairObservation& o, const Tin::Triangle& triangle, const Eigen::Vector3d& weights,
            double point_variance, double vertex_variance);
 
-  /// Of the observations that were added, in that order.
+  /// Sets the sharing of the observations that were added, in that order.
   void setSharing(AreaObservations& observations) const;
 
  private:

@@ -13,52 +13,52 @@
 
 namespace pcl_als {
 
-/// Pairs that are much alike.
+/// Pairs with nearly equal rows.
 struct PairSelection::Group {
   struct Member {
     std::size_t index;
     Eigen::Vector3d normal;
-    double stretch, weight, residual;  ///< of the first strip above the second, as below
-    Eigen::Array2d times;              ///< of the first strip and the second
+    double stretch, weight, residual;  ///< of the first strip minus the second
+    Eigen::Array2d times;              ///< of the first and the second strip
     double sign;
   };
   std::size_t area = 0;
   std::array<int, 2> strips{};
   std::vector<Member> members, taken;
-  double influence = 0.0;            ///< root mean square of what the noise of one moves
-  double least = 0.0, number = 0.0;  ///< pairs for the spread alone; pairs in all
+  double influence = 0.0;            ///< RMS effect of the noise of a pair on the parameters
+  double least = 0.0, number = 0.0;  ///< pairs of the even distribution; all pairs
 };
 
 namespace {
 
-/// C W C: r of it with itself is how far one unit of a pair of row r moves the parameters, each in
-/// its own deviation, squared.
-SystemMatrix worthOf(const SystemMatrix& covariance) {
+/// C W C: r' (C W C) r is the sum of the squared changes of the parameters, each over its standard
+/// deviation, by one unit of a pair of row r.
+SystemMatrix effectOfRows(const SystemMatrix& covariance) {
   SystemVector importance = SystemVector::Zero();
   for (int i = 0; i < kSystemParameterCount; ++i)
     if (covariance(i, i) > 0.0) importance[i] = 1.0 / covariance(i, i);
   return covariance * importance.asDiagonal() * covariance;
 }
 
-/// Coefficients of what moves the first of two strips against the second: a displacement (3), its
-/// changes with either strip's time (3 each), and the ranging share.
-using Movement = Eigen::Matrix<double, 10, 1>;
+/// Coefficients of the displacement of the first of two strips against the second: a constant (3),
+/// changes with the time of either strip (3 each), and the ranging share.
+using Displacement = Eigen::Matrix<double, 10, 1>;
 
-/// What pairs show of a movement: N d = h.
-struct MovementEquations {
+/// Normal equations of the displacement from pairs: N d = h.
+struct DisplacementEquations {
   Eigen::Matrix<double, 10, 10> normal = Eigen::Matrix<double, 10, 10>::Zero();
-  Movement right = Movement::Zero();
+  Displacement right = Displacement::Zero();
 
-  void add(const Movement& row, double weight, double residual) {
+  void add(const Displacement& row, double weight, double residual) {
     normal += weight * row * row.transpose();
     right += weight * residual * row;
   }
 };
 
-/// The movement by which \a part shows what \a all show.
-Movement missing(const MovementEquations& all, MovementEquations part) {
-  // Level ground shows no horizontal displacement, and needs none; a few pairs show their noise as
-  // changes with time, which should not be spread over the area.
+/// The displacement that makes the residual sums of \a part equal to those of \a all.
+Displacement displacementFor(const DisplacementEquations& all, DisplacementEquations part) {
+  // Level ground does not determine horizontal displacements, which have no effect there. Changes
+  // with time from few pairs are mostly noise and are damped.
   constexpr double kNothing = 1e-9, kLittle = 1e-3;
   const double trace = part.normal.topLeftCorner<3, 3>().trace();
   part.normal.diagonal().array() += kNothing * trace;
@@ -88,7 +88,7 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
                                                           const std::vector<double>& weights,
                                                           const Adjustment& adjustment,
                                                           const AdjustmentSolution& solution) {
-  const SystemMatrix worth = worthOf(solution.covariance);
+  const SystemMatrix worth = effectOfRows(solution.covariance);
   std::map<std::array<int, 3>, Group> here;
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const PairObservation& o = observations[i];
@@ -144,7 +144,7 @@ void PairSelection::spendOnInfluence(std::vector<Group>& groups) const {
     const auto size = static_cast<double>(group.members.size());
     return std::clamp(factor * size * group.influence, group.least, size);
   };
-  double low = -80.0, high = 80.0;  // ln factor
+  double low = -80.0, high = 80.0;  // logarithm of the factor
   constexpr int kHalvings = 60;
   for (int halving = 0; halving < kHalvings; ++halving) {
     const double middle = 0.5 * (low + high);
@@ -156,18 +156,18 @@ void PairSelection::spendOnInfluence(std::vector<Group>& groups) const {
 }
 
 void PairSelection::takeMembers(std::vector<Group>& groups) {
-  double owed = 0.0;  // fractions of pairs carried from group to group, so that the sum holds
+  double carried = 0.0;  // fractions of pairs, carried from group to group to keep the sum
   for (Group& group : groups) {
     const std::size_t size = group.members.size();
-    const double wanted = std::max(1.0, group.number + owed);
+    const double wanted = std::max(1.0, group.number + carried);
     const auto taken = std::min(size, static_cast<std::size_t>(wanted));
-    owed = std::clamp(group.number + owed - static_cast<double>(taken), -1.0, 1.0);
+    carried = std::clamp(group.number + carried - static_cast<double>(taken), -1.0, 1.0);
     for (std::size_t k = 0; k < taken; ++k) group.taken.push_back(group.members[k * size / taken]);
   }
   for (const auto& [where, members] : meetingsOf(groups)) {
-    std::vector<const Group*> meeting;
-    for (const std::size_t g : members) meeting.push_back(&groups[g]);
-    moveToAll(meeting);
+    std::vector<const Group*> groups_of_strips;
+    for (const std::size_t g : members) groups_of_strips.push_back(&groups[g]);
+    setOffsets(groups_of_strips);
   }
   for (auto& pairs : chosen_) {
     std::sort(pairs.begin(), pairs.end(),
@@ -175,17 +175,17 @@ void PairSelection::takeMembers(std::vector<Group>& groups) {
   }
 }
 
-void PairSelection::moveToAll(const std::vector<const Group*>& meeting) {
-  const Eigen::Array2d start = meeting.front()->members.front().times;
+void PairSelection::setOffsets(const std::vector<const Group*>& groups_of_strips) {
+  const Eigen::Array2d start = groups_of_strips.front()->members.front().times;
   const auto rowOf = [&start](const Group::Member& member) {
     const Eigen::Array2d time = member.times - start;
-    Movement row;
+    Displacement row;
     row << member.normal, time[0] * member.normal, time[1] * member.normal, member.stretch;
     return row;
   };
-  MovementEquations all, part;
+  DisplacementEquations all, part;
   std::vector<double> factors;
-  for (const Group* group : meeting) {
+  for (const Group* group : groups_of_strips) {
     double whole = 0.0, taken = 0.0;
     for (const Group::Member& member : group->members) {
       all.add(rowOf(member), member.weight, member.residual);
@@ -196,10 +196,10 @@ void PairSelection::moveToAll(const std::vector<const Group*>& meeting) {
     for (const Group::Member& member : group->taken)
       part.add(rowOf(member), factors.back() * member.weight, member.residual);
   }
-  const Movement move = missing(all, part);
-  for (std::size_t g = 0; g < meeting.size(); ++g) {
-    for (const Group::Member& member : meeting[g]->taken)
-      chosen_[meeting[g]->area].push_back(
+  const Displacement move = displacementFor(all, part);
+  for (std::size_t g = 0; g < groups_of_strips.size(); ++g) {
+    for (const Group::Member& member : groups_of_strips[g]->taken)
+      chosen_[groups_of_strips[g]->area].push_back(
           {member.index, factors[g], member.sign * rowOf(member).dot(move)});
   }
 }

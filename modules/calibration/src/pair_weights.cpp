@@ -19,7 +19,8 @@ struct PairWeights::Values {
 namespace {
 
 constexpr std::size_t kEnoughForScale = 30;
-// A TIN between points is never better than some millimetres: pairs that fit better are no better.
+// The chords of a TIN deviate from the surface by some millimetres: smaller scatters are
+// accidental.
 constexpr double kLeastScale = 0.25;
 
 double robustWeight(double standardised, bool reject) {
@@ -31,8 +32,8 @@ double varianceWith(double pointing_factor, double variance, double pointing) {
   return variance + (pointing_factor - 1.0) * pointing;
 }
 
-/// Robust standard deviation, against the noise model, of residuals that should have zero mean: a
-/// shift counts as scatter.
+/// Robust standard deviation of residuals with an expected mean of zero, over that of the noise
+/// model; a mean different from zero counts as scatter.
 template <typename Values>
 double scatterOf(const Values& values, double pointing_factor) {
   if (values.residual.size() < kEnoughForScale) return 1.0;

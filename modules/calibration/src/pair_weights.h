@@ -11,36 +11,37 @@
 
 namespace pcl_als {
 
-/** \brief Weights of pairs from what a solution leaves of them.
+/** \brief Weights of pairs from the residuals of a solution.
  *
  * The noise model gives the ratios of the variances of pairs; their scale is estimated from the
- * data: one factor for the part of the variance that comes from pointing, common to all (the most
- * likely of a few: smaller pointing noise than stated is visible on slopes), and one for the
- * scatter of each pair of strips (robust). Huber to 1.5 standard deviations, none beyond 4.5.
+ * data: one factor common to all pairs for the part of the variance due to pointing (the most
+ * likely of a few values; pointing noise smaller than stated is visible on slopes), and one factor
+ * for the robust scatter of each pair of strips. Huber weights up to 4.5 standard deviations, then
+ * zero.
  */
 class PairWeights {
  public:
-  /// Strips of an observation, smaller first; all control together, for a strip alone sees few
-  /// points.
+  /// Strips of an observation, smaller first; all control together, because a single strip covers
+  /// few control points.
   using Group = std::pair<int, int>;
   static Group groupOf(const PairObservation& observation);
 
-  /// Finds how noisy pairs are. \param residuals by area and observation, metres
+  /// Estimates the scales. \param residuals by area and observation, metres
   void findScales(const std::vector<AreaObservations>& observations,
                   const std::vector<std::vector<double>>& residuals, int threads = 0);
 
-  /// Weighs by the scales found last.
-  /// \param reject whether residuals may be called outliers: not while they are full of what is
-  /// sought
+  /// Computes weights with the scales estimated last.
+  /// \param reject whether outliers are rejected: not while residuals contain the effect of the
+  /// biases
   void update(const std::vector<AreaObservations>& observations,
               const std::vector<std::vector<double>>& residuals, bool reject);
 
-  /// Robust weight times the model's variance over the scatter found, over what the pair shares
-  /// with others, for Adjustment::accumulate.
+  /// Robust weight times the variance of the model over the estimated one, over the noise that the
+  /// pair shares with others, for Adjustment::accumulate.
   const std::vector<std::vector<double>>& weights() const { return weights_; }
-  double pointingFactor() const { return pointing_; }  ///< of the pointing's variance
-  double sigma0() const { return sigma0_; }            ///< against the noise model as given
-  std::size_t kept() const { return kept_; }           ///< with a weight
+  double pointingFactor() const { return pointing_; }  ///< of the variance due to pointing
+  double sigma0() const { return sigma0_; }   ///< over the standard deviations of the noise model
+  std::size_t kept() const { return kept_; }  ///< with a weight
 
  private:
   struct Values;  // residual, variance and pointing's part, by group

@@ -17,7 +17,7 @@ constexpr std::array<P, kSystemParameterCount> kDropOrder{
     P::lever_arm_z, P::lever_arm_y,       P::lever_arm_x,     P::scan_angle_scale,
     P::range_bias,  P::boresight_heading, P::boresight_pitch, P::boresight_roll};
 
-constexpr double kConfused = 0.9;  // correlation from which on two parameters are called confused
+constexpr double kConfused = 0.9;  // correlation above which two parameters cannot be separated
 constexpr double kTakesPart =
     0.3;  // component of a unit vector: the parameter takes part in a weak direction
 
@@ -39,8 +39,7 @@ std::string listed(const std::vector<P>& parameters, P except) {
   return text;
 }
 
-/// The parameters that take part in the direction in which a unit-diagonal normal matrix is
-/// weakest.
+/// The parameters with components in the weakest direction of a normal matrix with unit diagonal.
 std::vector<P> weakestDirection(const SystemMatrix& normal, const std::vector<P>& estimate) {
   std::vector<P> dead;
   for (const P p : estimate) {
@@ -67,8 +66,8 @@ double correlation(const SystemMatrix& covariance, P a, P b) {
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
-/// What to drop of a solution whose standard deviations are too large; candidates empty when
-/// nothing is.
+/// The parameters of a solution whose standard deviations are too large, of which one is left out;
+/// no candidates where there are none.
 std::vector<P> tooUncertain(const AdjustmentSolution& solution, const std::vector<P>& estimate,
                             const DeterminationLimits& limits, double factor) {
   std::vector<P> candidates;
@@ -106,8 +105,8 @@ std::string uncertainReason(const AdjustmentSolution& solution, const std::vecto
   return text.str();
 }
 
-/// Adds to the covariance what the others' uncertainty owes to a parameter that is held but known
-/// to sigma only.
+/// Adds to the covariance of the others the effect of a parameter that is held and known with the
+/// standard deviation sigma only.
 void consider(const Adjustment& adjustment, const std::vector<P>& estimate, P held, double sigma,
               AdjustmentSolution& solution) {
   const SystemMatrix& normal = adjustment.reducedNormal();

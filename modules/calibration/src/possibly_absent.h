@@ -6,13 +6,13 @@
 
 namespace pcl_als {
 
-/** \brief An unknown that may not exist: with a given probability it is exactly zero, else it is as
- * its prior N(0, prior) says (spike and slab; Mitchell and Beauchamp 1988).
+/** \brief An unknown that may not exist: with a given probability it is exactly zero, otherwise it
+ * has the prior N(0, prior) (spike and slab; Mitchell and Beauchamp 1988).
  *
- * Observations together with the prior made it N(value, variance). The odds that it is zero are
- * those before times the posterior over the prior density at zero (Savage-Dickey ratio; Dickey
- * 1971). Given that it is zero, an unknown x with covariance c to it moves by -c value / variance
- * and its variance falls by c^2 / variance. What follows is the mean and the covariance of both.
+ * With the observations its posterior under the prior is N(value, variance). The odds that it is
+ * zero are the prior odds times the posterior over the prior density at zero (Savage-Dickey ratio;
+ * Dickey 1971). If it is zero, an unknown x with covariance c to it changes by -c value / variance
+ * and its variance decreases by c^2 / variance. The mean and the covariance of the mixture follow.
  */
 class PossiblyAbsent {
  public:
@@ -20,9 +20,9 @@ class PossiblyAbsent {
   PossiblyAbsent(double absent, double prior, double value, double variance);
 
   double probability() const { return probability_; }  ///< of absence, after the observations
-  /// By which unknowns with these covariances to it move.
+  /// Change of unknowns with these covariances to it.
   Eigen::VectorXd move(const Eigen::VectorXd& covariances) const;
-  /// What is added to the covariance of such unknowns; mostly negative.
+  /// Change of the covariance of such unknowns; mostly negative.
   Eigen::MatrixXd change(const Eigen::VectorXd& covariances) const;
 
  private:

@@ -9,7 +9,7 @@
 namespace pcl_als {
 namespace {
 
-// Of the standard deviation: the estimate changes by more than it states.
+// Standard deviations: a change by more than the stated uncertainty of the estimate.
 constexpr double kChange = 1.0;
 constexpr double kHalfInformation = 1.4142135623730951;  // ratio of standard deviations
 

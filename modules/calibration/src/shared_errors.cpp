@@ -256,7 +256,7 @@ void SharedErrors::setVarianceFactor(int strip, int component, double factor) {
 
 Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
   const PriorVariances prior = priorVariances(levels);
-  // By unknown: information of its own, and that of a Gauss-Markov component of its strip.
+  // Per unknown: its own information, and that of a Gauss-Markov component of its strip.
   Eigen::VectorXd own = Eigen::VectorXd::Zero(unknowns());
   Eigen::VectorXd gauss_markov = Eigen::VectorXd::Zero(unknowns());
   const auto add = [](Eigen::VectorXd& information, int block, const Variances& variances,

@@ -12,12 +12,12 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kLevel = 0.05;            // of all comparisons together
-constexpr double kPriorFreedom = 4.0;      // degrees of freedom that the prior is worth
+constexpr double kLevel = 0.05;            // significance level of all comparisons together
+constexpr double kPriorFreedom = 4.0;      // degrees of freedom that the prior contributes
 constexpr double kSession = 3.0 * 3600.0;  // seconds without a strip between two sessions
 constexpr double kOtherHeight = 1.1;       // ratio of flying heights
-constexpr double kFewPairs = 200.0;        // with so many pairs a mean has half its weight
-constexpr double kLeast = 0.01;            // metres: less is no concern, however significant
+constexpr double kFewPairs = 200.0;        // number of pairs with which a mean has half its weight
+constexpr double kLeast = 0.01;  // metres: smaller offsets are not reported, however significant
 constexpr const char* kAdvice =
     ": calibrate without it (-without) or separately (-strips), or correct its trajectory";
 
@@ -72,7 +72,7 @@ void StripConsistency::findOffsets(const std::vector<StripFacts>& strips,
            strips_.begin();
   };
   const auto size = static_cast<Eigen::Index>(strips_.size());
-  // The mean of all offsets is zero; a weak prior of zero for parts that no pair connects.
+  // The mean of all offsets is zero; a weak prior of zero regularises groups that no pair connects.
   Eigen::MatrixXd normal = Eigen::MatrixXd::Constant(size, size, 1.0);
   normal.diagonal().array() += 1e-6;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);

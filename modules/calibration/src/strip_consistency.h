@@ -9,11 +9,11 @@
 
 namespace pcl_als {
 
-/// What is known of a strip besides its fit to others.
+/// Properties of a strip besides its fit to others.
 struct StripFacts {
   std::string id;
   double start = 0.0, end = 0.0;  ///< seconds
-  double height = 0.0;            ///< metres above ground; 0: not known
+  double height = 0.0;            ///< metres above ground; 0: unknown
 };
 
 /// A priori errors of a strip's trajectory, as SharedErrorModel.

@@ -51,7 +51,7 @@ std::string describe(const StripErrorSize& error) {
          "; check the " + component.causes + ", or state what it is worth with " + component.option;
 }
 
-/// Root mean square over all pairs of strips.
+/// RMS over all pairs of strips.
 double overall(const CalibrationResult& result, double PairFit::*rms) {
   double squares = 0.0, count = 0.0;
   for (const PairFit& pair : result.pairs) {
@@ -70,7 +70,7 @@ std::string valueText(SystemParameter parameter, double value) {
   return info.unit == "1" ? text : std::string(text) + " " + std::string(info.unit);
 }
 
-/// Names the affected parameters, largest change first; their reason says by how much. Empty: none.
+/// Names the affected parameters, largest change first, and sets their reasons; empty without any.
 std::string affectedText(std::vector<PriorEffect> effects, CalibrationResult& result) {
   std::sort(effects.begin(), effects.end(), [](const PriorEffect& a, const PriorEffect& b) {
     return std::abs(a.change) * b.std > std::abs(b.change) * a.std;
@@ -98,7 +98,7 @@ std::string affectedText(std::vector<PriorEffect> effects, CalibrationResult& re
          names;
 }
 
-/// Small trajectory errors may be all that is left of a calibrated system: alone, this is no
+/// Small trajectory errors may be all that remains of a calibrated system; alone they are no
 /// objection.
 void assessNeed(bool corrections_are_large, CalibrationResult& result) {
   constexpr double kNoBetter = 0.98, kMuchBetter = 0.7;  // of the misfit as delivered

@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/// One component of the trajectory error estimated for one strip, against what was assumed of it.
+/// One component of the estimated trajectory error of one strip, with its prior.
 struct StripErrorSize {
   std::string strip;
   int component = 0;   ///< east, north, up; pitch, roll, heading
@@ -21,32 +21,32 @@ struct StripErrorSize {
   double ratio() const { return rms / sigma; }
 };
 
-/// Ratio from which corrections are named, and beyond which the model is contradicted; see the
-/// module's README for what blocks without faults show.
+/// Ratios from which corrections are named, and beyond which the model is contradicted. The README
+/// of the module has the distribution of the ratio in blocks without faults.
 constexpr double kNoticeableCorrection = 3.0, kContradictingCorrection = 5.0;
 
 /// The components that exceed \a ratio a priori standard deviations, largest ratio first.
 std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& strips,
                                              const SharedErrorModel& model, double ratio);
 
-/// How one parameter depends on the a priori standard deviations that corrections exceed.
+/// Dependence of one parameter on the a priori standard deviations that corrections exceed.
 struct PriorEffect {
   SystemParameter parameter;
   double change = 0.0;        ///< of the estimate; metres, radians, 1
   double std = 0.0;           ///< as estimated
   double std_enlarged = 0.0;  ///< with the enlarged a priori standard deviations
 
-  /// Whether it would change by more than one standard deviation, or be determined by less than
-  /// half of the information.
+  /// Whether it changes by more than one standard deviation, or loses more than half of its
+  /// information.
   bool affected() const;
 };
 
-/** \brief The sensitivity of the parameters to corrections that exceed what was expected of them.
+/** \brief Sensitivity of the parameters to corrections that exceed their a priori standard
+ * deviations.
  *
- * The adjustment is solved again with the a priori standard deviation of each component in
- * \a large enlarged to the correction that was found (RMS over the strip): had such errors been
- * expected, how would the parameters differ? The observations and their weights stay as they are.
- * \a errors and \a adjustment are as they were afterwards.
+ * The adjustment is solved again with the a priori standard deviation of each component in \a large
+ * enlarged to the size of the correction (RMS over the strip); observations and weights are
+ * unchanged. \a errors and \a adjustment are restored.
  */
 std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
                                       const std::vector<std::string>& strips, SharedErrors& errors,

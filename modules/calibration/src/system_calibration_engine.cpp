@@ -22,11 +22,12 @@
 namespace pcl_als {
 namespace {
 
-// Weightings of the first set of pairs, which begin without weights; later sets begin with the
-// weights of the last.
+// Weightings of the first set of pairs, which has no previous weights; later sets begin with the
+// weights of the previous one.
 constexpr int kFirstWeightings = 3;
 constexpr std::size_t kEnoughForScale = 30;
-constexpr double kRoughnessFactor = 3.0;  // times the median on plain ground: more is not a plane
+// times the median of plain ground: rougher neighbourhoods are no planes
+constexpr double kRoughnessFactor = 3.0;
 
 /// Prior standard deviations of the biases of an uncalibrated system: half a degree, metres.
 SystemVector widePrior() {
@@ -77,23 +78,24 @@ void SystemCalibrationEngine::prepare() {
   for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
 }
 
-void SystemCalibrationEngine::pairUp(State& state) const {
+void SystemCalibrationEngine::formPairs(State& state) const {
   state.observations.assign(matchers_.size(), {});
   parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
     const AreaMatcher& matcher = matchers_[i];
     state.observations[i] =
         i < pair_areas_
-            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise, state.seekers)
+            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise,
+                            state.chosen_points)
             : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
                                    settings_.noise, settings_.control_sigma);
   });
 }
 
-void SystemCalibrationEngine::lookAtControl(const State& state) {
+void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
   const auto seen = [](const AreaObservations& area) { return !area.empty(); };
   const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
-  control_seen_ = std::any_of(first, state.observations.end(), seen);
-  if (control_.empty() || control_seen_) return;
+  control_covered_ = std::any_of(first, state.observations.end(), seen);
+  if (control_.empty() || control_covered_) return;
   warnings_.push_back("none of the " + std::to_string(control_.size()) +
                       " control points lies on a smooth surface of a strip: calibrated without "
                       "control");
@@ -106,7 +108,7 @@ void SystemCalibrationEngine::weigh(State& state) const {
       residuals[area].push_back(state.adjustment.residual(o, state.choice.solution) - o.offset);
     }
   });
-  // Chosen pairs are not like all: mostly slopes, far from the line of flight.
+  // A selection is not representative: it consists mostly of slopes far from the flight line.
   if (state.all()) {
     state.weights.findScales(state.observations, residuals, settings_.threads);
   }
@@ -115,17 +117,17 @@ void SystemCalibrationEngine::weigh(State& state) const {
 
 void SystemCalibrationEngine::choose(State& state) const {
   std::vector<SystemParameter> wanted =
-      settings_.estimate.empty() ? automaticParameters(control_seen_) : settings_.estimate;
+      settings_.estimate.empty() ? automaticParameters(control_covered_) : settings_.estimate;
   const auto left_out = [&](SystemParameter p) { return state.excluded.count(p) > 0; };
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
   if (state.isCoarse()) {
     state.choice.estimate = wanted;
     state.choice.solution = state.adjustment.solveNearZero(wanted, widePrior());
   } else {
-    // What was asked for by name is dropped only when it is hopeless.
+    // Parameters requested by name are left out at three times their limit only.
     const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
     std::vector<SystemParameter> unknown;
-    if (settings_.estimate.empty() && !control_seen_) {
+    if (settings_.estimate.empty() && !control_covered_) {
       unknown.push_back(SystemParameter::range_bias);
     }
     for (const auto& [p, reason] : state.excluded) unknown.push_back(p);
@@ -205,14 +207,14 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
   CalibrationResult result;
-  pairUp(state);
-  lookAtControl(state);
-  const CalibrationReport report(ids_, !control_seen_);
+  formPairs(state);
+  warnOfUncoveredControl(state);
+  const CalibrationReport report(ids_, !control_covered_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
   const MisfitComparison misfit(state.observations);
   while (mayContinue(state, result)) {
     iterate(state, result);
-    if (!result.converged) pairUp(state);
+    if (!result.converged) formPairs(state);
   }
   const bool open = !result.converged;
   result.sigma0 = state.weights.sigma0();
@@ -232,8 +234,8 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   const std::vector<bool> used = state.usedAreas();
   keepAdjusted(state, spans);
   state.threshold = settings_.max_normal_distance;
-  state.seekers = AreaMatcher::Seekers::candidates;
-  pairUp(state);
+  state.chosen_points = AreaMatcher::Points::candidates;
+  formPairs(state);
   report.addControlPoints(control_, state.observations, used,
                           std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
   report.addFit(state.observations, result.biases(), true, result);
@@ -244,7 +246,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   assessStripErrors(settings_.shared_errors, effects, result);
   if (!height_error_.empty())
     result.verdict.object(CalibrationStatus::parameters_affected, height_error_);
-  judgeCalibration(settings_.estimate, open ? whyOpen(state, result) : "", result);
+  judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
   return result;
 }
 

@@ -16,11 +16,12 @@ namespace {
 
 using P = SystemParameter;
 
-constexpr std::size_t kObservations = 20'000;  // of a block that is adjusted again and again
-constexpr double kHelps = 0.1;                 // benefit from which on advice is worth a line
-constexpr double kWorthSaying = 0.85;   // after / before from which on a change is not reported
-constexpr std::size_t kAdviceTold = 6;  // in the text; all of it is in the report
-constexpr double kWellKnown = 0.01;     // metres on the ground
+// observations of a block that is adjusted repeatedly
+constexpr std::size_t kObservations = 20'000;
+constexpr double kHelps = 0.1;          // least benefit of advice
+constexpr double kWorthSaying = 0.85;   // after / before above which a change is not reported
+constexpr std::size_t kAdviceTold = 6;  // entries in the text; the report contains all
+constexpr double kWellKnown = 0.01;     // metres on the ground: needs no improvement
 
 std::string valueOf(P p, double value) {
   const std::string text = inUnit(p, value);
@@ -62,7 +63,7 @@ double benefitOf(const SystemVector& before, const SystemVector& after) {
   return benefit;
 }
 
-/// A copy of the block with what a piece of advice stands for.
+/// A copy of the block with a virtual line or control.
 ObservedBlock with(const Advice& advice, ObservedBlock block, const SyntheticPairs& pairs) {
   if (advice.is_line) {
     pairs.addPairs(SyntheticPairs::addStrip(advice.line, block), block);
@@ -72,13 +73,14 @@ ObservedBlock with(const Advice& advice, ObservedBlock block, const SyntheticPai
   return block;
 }
 
-/// Metres on the ground at the block's mean height and the edge of what its pairs reach to.
+/// Metres on the ground at the mean height of the block and the largest angle of its pairs.
 SystemVector groundEffect(const ObservedBlock& block, const BlockFacts& facts) {
   if (facts.heights.empty()) {
     const StripGeometry& any = block.strips.front();
     return Observability::groundEffect(any.height, any.half_angle);
   }
-  constexpr double kLeastAngle = 0.05;  // radians: else the scale of the scan angle does nothing
+  // radians: at smaller angles the scale of the scan angle has no effect
+  constexpr double kLeastAngle = 0.05;
   const double sum = std::accumulate(facts.heights.begin(), facts.heights.end(), 0.0);
   return Observability::groundEffect(sum / static_cast<double>(facts.heights.size()),
                                      std::max(facts.half_angle, kLeastAngle));
@@ -94,7 +96,8 @@ AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySett
   adjustment_.accumulate(block.observations, block.weights);
   const bool automatic = settings.estimate.empty();
   wanted_ = automatic ? automaticParameters(true) : settings.estimate;
-  // What was asked for by name is dropped only when it is hopeless, as in the calibration.
+  // Parameters requested by name are left out at three times their limit only, as in the
+  // calibration.
   const double factor = automatic ? 1.0 : 10.0;
   choice_ = chooseParameters(adjustment_,
                              automatic ? automaticParameters(block.control_points > 0) : wanted_,
@@ -108,7 +111,8 @@ AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySett
   deviations_ = observability.deviations(prior);
   alone_ =
       observability.deviations(SystemVector::Constant(std::numeric_limits<double>::infinity()));
-  if (automatic && block.control_points == 0) {  // strips alone hardly see it: no line helps
+  // hardly observable from strips alone: no line helps
+  if (automatic && block.control_points == 0) {
     deviations_[indexOf(P::range_bias)] = prior[indexOf(P::range_bias)];
     alone_[indexOf(P::range_bias)] = std::numeric_limits<double>::infinity();
   }
@@ -149,7 +153,8 @@ std::vector<std::string> ObservabilityReport::text() const {
 
 namespace {
 
-/// Fills before, after, benefit and text of everything that could be added; keeps what helps.
+/// Sets before, after, benefit and text of all virtual lines and control; keeps the beneficial
+/// ones.
 std::vector<Advice> adviceFor(const ObservedBlock& block, const AdjustedBlock& now,
                               const SystemVector& factor, const ObservabilitySettings& settings) {
   const SyntheticPairs pairs(settings.pairs);
@@ -196,7 +201,7 @@ ObservabilityReport describeObservability(const ObservedBlock& whole,
 
 namespace {
 
-/// What a strip's pairs reach to, from their patches: median height, largest angle.
+/// Median height and largest angle of the pairs of a strip, from their patches.
 void measure(int index, const std::vector<AreaObservations>& observations, StripGeometry& strip,
              std::vector<double>& heights) {
   double widest = 0.01;  // radians
@@ -212,7 +217,7 @@ void measure(int index, const std::vector<AreaObservations>& observations, Strip
   strip.half_angle = widest;
 }
 
-/// A flown strip as straight line; without a length where it has no pairs.
+/// A flown strip as a straight line; without a length where it has no pairs.
 StripGeometry straight(int index, const FlownStrip& flown, const Trajectory& trajectory,
                        const std::vector<AreaObservations>& observations) {
   StripGeometry strip;

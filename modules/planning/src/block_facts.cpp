@@ -13,10 +13,12 @@ namespace {
 using P = SystemParameter;
 
 constexpr double kSteep = 5.0 * kRadiansPerDegree;
-constexpr double kFewSlopes = 0.05;      // share of pairs: horizontal shifts hardly show
+// share of pairs on slopes: horizontal shifts are hardly determined
+constexpr double kFewSlopes = 0.05;
 constexpr double kLeastAside = 0.25;     // of the swath's half width
-constexpr std::size_t kEnoughLines = 4;  // of a height, for their trajectory errors to average out
-constexpr double kEdge = 0.3;            // of the largest angle: pairs beyond are at the edge only
+constexpr std::size_t kEnoughLines = 4;  // lines of a height whose trajectory errors average out
+// of the largest angle: with all pairs beyond, only the edges of the swaths overlap
+constexpr double kEdge = 0.3;
 constexpr double kNarrow = 12.0 * kRadiansPerDegree;
 
 bool has(const std::vector<P>& parameters, P p) {
@@ -36,7 +38,7 @@ void addTo(std::string& text, const std::string& more) {
   if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
 }
 
-/// Moments of the tilts of the pairs, by weight.
+/// Weighted moments of the tilts of the pairs.
 struct Tilts {
   double all = 0.0, steep = 0.0, squares = 0.0;
 

@@ -15,16 +15,17 @@ namespace {
 
 using P = SystemParameter;
 
-constexpr double kNamed = 0.3;      // component of a unit vector from which on it is named
-constexpr double kAlike = 0.85;     // correlation from which on two can hardly be separated
-constexpr double kUnknown = 1e3;    // metres on the ground: an upper bound of any parameter
-constexpr double kNothing = 100.0;  // metres: who is known no better was not observed
+constexpr double kNamed = 0.3;    // component of a unit vector above which a parameter is named
+constexpr double kAlike = 0.85;   // correlation above which two parameters can hardly be separated
+constexpr double kUnknown = 1e3;  // metres on the ground: an upper bound of any parameter
+// metres: parameters with a larger standard deviation are not observed
+constexpr double kNothing = 100.0;
 
 std::string name(P p) {
   return std::string(infoOf(p).name);
 }
 
-/// Two that move a ground point the same way at one height: the one is what the other may be.
+/// Cause of a pair of parameters with the same effect on a ground point at one height.
 P twinOf(P p) {
   switch (p) {
     case P::boresight_pitch:
@@ -99,7 +100,7 @@ Eigen::MatrixXd Observability::scaledNormal() const {
 
 std::vector<ParameterDirection> Observability::directions() const {
   std::vector<ParameterDirection> directions;
-  // A matrix that is not finite (weights beyond the range of numbers) knows no directions.
+  // A matrix that is not finite (overflow of weights) has no directions.
   if (wanted_.empty() || !scaledNormal().allFinite()) return directions;
   const auto eigen = symmetricEigen(scaledNormal());
   for (Eigen::Index k = 0; k < eigen.values.size(); ++k) {
@@ -160,8 +161,7 @@ struct Observability::Known {
 
 Observability::Known Observability::known(const SystemVector& prior) const {
   Eigen::MatrixXd normal = scaledNormal();
-  // No parameter is wrong by a kilometre: a prior that keeps the matrix regular and has no other
-  // effect.
+  // A prior of a kilometre on the ground, which keeps the matrix regular and has no other effect.
   for (Eigen::Index i = 0; i < normal.rows(); ++i) {
     const int at = indexOf(wanted_[static_cast<std::size_t>(i)]);
     normal(i, i) += 1.0 / std::pow(std::min(kUnknown, prior[at] * effect_[at]), 2);
@@ -204,7 +204,7 @@ std::vector<WeakCombination> Observability::combinations(const BlockFacts& facts
   std::vector<WeakCombination> found;
   if (wanted_.empty()) return found;
   const Known all = known(SystemVector::Constant(std::numeric_limits<double>::infinity()));
-  std::vector<std::pair<double, std::size_t>> order;  // farthest beyond its limit first
+  std::vector<std::pair<double, std::size_t>> order;  // largest ratio to the limit first
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     order.emplace_back(-all.stdOf(i) / (limits.of(wanted_[i]) * effect_[indexOf(wanted_[i])]), i);
   }

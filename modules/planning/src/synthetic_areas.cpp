@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// Where synthetic pairs lie: the areas of SyntheticPairs, and control.
+// Positions of synthetic pairs: the areas of SyntheticPairs, and control.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,7 +37,7 @@ std::set<Cell> cellsOf(const StripGeometry& strip, double step) {
   return cells;
 }
 
-/// A grid step that keeps large blocks to some hundred thousand cells, metres.
+/// A grid step that limits large blocks to some hundred thousand cells, metres.
 double stepFor(const std::vector<StripGeometry>& strips, double least) {
   constexpr double kMostCells = 200'000.0;
   double area = 0.0;
@@ -45,7 +45,7 @@ double stepFor(const std::vector<StripGeometry>& strips, double least) {
   return std::max(least, std::sqrt(area / kMostCells));
 }
 
-/// An order of cells that spreads whatever part of it is taken.
+/// An order of cells in which every leading part is spread over the block.
 std::vector<Cell> scattered(std::vector<Cell> cells) {
   const auto key = [](const Cell& cell) {
     auto hash = static_cast<std::uint64_t>(cell.first) * 0x9E3779B97F4A7C15ULL ^
@@ -89,7 +89,7 @@ SyntheticPairs::Places SyntheticPairs::chooseAreas(int first, const ObservedBloc
   }
   const auto wishes = overlapsOf(cells, static_cast<std::size_t>(first));
   const auto all = static_cast<double>(block.strips.size()), old = static_cast<double>(first);
-  // A strip that joins takes its share of the points, by the number of pairs.
+  // An added strip gets its share of the points, by the number of pairs.
   double budget = static_cast<double>(selection.point_budget) *
                   (1.0 - old * (old - 1.0) / std::max(1.0, all * (all - 1.0)));
   std::set<Cell> chosen;
@@ -123,7 +123,7 @@ std::vector<Eigen::Vector2d> SyntheticPairs::spread(std::size_t count,
     free.emplace_back(step * (static_cast<double>(cell.first) + 0.5),
                       step * (static_cast<double>(cell.second) + 0.5));
   }
-  // Each next place is the one farthest from all before.
+  // Each further place is the one with the largest distance from all previous ones.
   std::vector<double> distance(free.size(), std::numeric_limits<double>::infinity());
   for (std::size_t next = 0; places.size() < std::min(count, free.size());) {
     places.push_back(free[next]);
@@ -149,7 +149,7 @@ ObservedBlock ObservedBlock::thinned(std::size_t count) const {
   const std::size_t wanted = std::max<std::size_t>(1, (observationCount() + count - 1) / count);
   for (std::size_t area = 0; area < observations.size(); ++area) {
     const AreaObservations& all = observations[area];
-    // Control is rare and none of it may be lost.
+    // All control is kept, because there is little of it.
     const bool control = !all.empty() && all.front().a == PairObservation::kControl;
     const std::size_t step =
         control ? 1 : std::min(wanted, std::max<std::size_t>(1, all.size() / kLeast));
@@ -157,7 +157,8 @@ ObservedBlock ObservedBlock::thinned(std::size_t count) const {
     block.weights[area].clear();
     double turn = 0.0;
     for (std::size_t from = 0; from < all.size(); from += step) {
-      // One of every step, not always in the same place: neighbours come in patterns.
+      // One observation of every step at varying positions, because neighbours are arranged in
+      // patterns.
       turn = std::fmod(turn + kGolden, 1.0);
       const std::size_t length = std::min(step, all.size() - from);
       const std::size_t i = from + static_cast<std::size_t>(turn * static_cast<double>(length));

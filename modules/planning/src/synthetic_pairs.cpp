@@ -13,9 +13,10 @@ namespace pcl_als {
 namespace {
 
 constexpr int kGroundSamples = 16, kSteepSamples = 8;  // of an area
-constexpr double kGoldenAngle = 2.399963229728653;     // radians: even aspects for any number
-constexpr double kAccepted = 0.9;   // share of candidates that find a patch worth measuring to
-constexpr double kSpread = 1.8;     // of a neighbourhood of some nine points, in point spacings
+// radians: uniform aspects for any number of samples
+constexpr double kGoldenAngle = 2.399963229728653;
+constexpr double kAccepted = 0.9;  // share of candidates with a patch suitable for measurement
+constexpr double kSpread = 1.8;  // extent of a neighbourhood of some nine points, in point spacings
 constexpr double kFootShare = 0.5;  // mean sum of squares of the weights of a triangle's vertices
 
 Eigen::Vector3d normalOf(double slope, double aspect) {
@@ -34,47 +35,49 @@ double fraction(double value) {
 
 }  // namespace
 
-/// A piece of surface in an area, with its share of the usable surface there.
+/// A surface element in an area, with its share of the usable surface.
 struct SyntheticPairs::Sample {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
   double share = 0.0;
 };
 
-/// How many pairs the points of an area make, and how much of their noise those share: what
-/// NoiseShares counts, in the mean.
+/// Expected number of pairs of the points of an area, and the noise that they share: the
+/// expectation of NoiseShares.
 class SyntheticPairs::Uses {
  public:
-  /// \a seekers of a strip by sample, of \a points that it has in the area.
-  void add(std::vector<double> seekers, const std::vector<Sample>& samples, double points) {
+  /// \a candidates of a strip by sample, of \a points in the area.
+  void add(std::vector<double> candidates, const std::vector<Sample>& samples, double points) {
     auto& all = points_.emplace_back();
     for (const Sample& sample : samples) all.push_back(points * sample.share);
     if (points > 0.0) {
       ++strips_;
-      sought_.resize(samples.size(), 0.0);
-      for (std::size_t k = 0; k < samples.size(); ++k) sought_[k] += seekers[k];
+      candidate_sum_.resize(samples.size(), 0.0);
+      for (std::size_t k = 0; k < samples.size(); ++k) candidate_sum_[k] += candidates[k];
     }
-    seekers_.push_back(std::move(seekers));
+    candidates_.push_back(std::move(candidates));
   }
 
-  /// Pairs of points of strip \a a with patches of \a b in a sample, as independent ones.
+  /// Equivalent number of independent pairs of points of strip \a a with patches of \a b in a
+  /// sample.
   double worth(std::size_t a, std::size_t b, std::size_t sample) const {
     const double others = std::max(1.0, strips_ - 1.0);
-    const double seeks = points_[b][sample] > 0.0 ? seekers_[b][sample] / points_[b][sample] : 0.0;
+    const double seeks =
+        points_[b][sample] > 0.0 ? candidates_[b][sample] / points_[b][sample] : 0.0;
     const double point = others + asVertex(a, sample);
     const double patch = std::max(kFootShare, asVertex(b, sample) + others * seeks);
-    return seekers_[a][sample] * (1.0 + kFootShare) / (point + patch);
+    return candidates_[a][sample] * (1.0 + kFootShare) / (point + patch);
   }
 
  private:
-  /// How often a point of a strip is a vertex of a patch that the other strips sought.
+  /// Expected number of patches of other strips' pairs of which a point of a strip is a vertex.
   double asVertex(std::size_t strip, std::size_t sample) const {
     const double points = points_[strip][sample];
-    return points > 0.0 ? (sought_[sample] - seekers_[strip][sample]) / points : 0.0;
+    return points > 0.0 ? (candidate_sum_[sample] - candidates_[strip][sample]) / points : 0.0;
   }
 
-  std::vector<std::vector<double>> seekers_, points_;  ///< by strip and sample
-  std::vector<double> sought_;                         ///< seekers of all strips with points
+  std::vector<std::vector<double>> candidates_, points_;  ///< by strip and sample
+  std::vector<double> candidate_sum_;                     ///< candidates of all strips with points
   double strips_ = 0.0;
 };
 
@@ -230,7 +233,8 @@ bool SyntheticPairs::addControl(const Eigen::Vector2d& place, ObservedBlock& blo
 }
 
 int SyntheticPairs::addStrip(StripGeometry strip, ObservedBlock& block) {
-  constexpr double kPause = 1000.0;  // seconds between strips; their errors are independent anyway
+  // seconds between strips, whose errors are independent in any case
+  constexpr double kPause = 1000.0;
   double last = 0.0;
   for (const auto& span : block.spans) last = std::max(last, span.second);
   strip.first_time = last + kPause;

@@ -9,9 +9,9 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kMostBases = 3;  // lines that virtual ones are made from
+constexpr std::size_t kMostBases = 3;  // lines from which virtual lines are derived
 constexpr std::size_t kControlField = 9;
-constexpr double kOnTop = 0.2;     // of the half swath: as good as over the same ground
+constexpr double kOnTop = 0.2;  // of the half swath: lines closer than this cover the same ground
 constexpr double kLowest = 100.0;  // metres above ground
 
 using Strips = std::vector<StripGeometry>;

@@ -8,12 +8,12 @@
 
 namespace pcl_als {
 
-/** \brief What could be added to a block, by section 2.2 of Habib et al. 2011; what, line and
- * control are filled.
+/** \brief Possible additions to a block (section 2.2 of Habib et al. 2011); what, line and control
+ * are set.
  *
- * For the longest line of each flying height: an opposite one, one at half and at 1.75 times the
- * height, a crossing one, a parallel one in the same direction with 50 % overlap; then one control
- * point and nine. What the block has already is left out.
+ * For the longest line of each flying height: an opposite line, lines at half and at 1.75 times the
+ * height, a crossing line, a parallel line in the same direction with 50 % overlap; and one or nine
+ * control points. Additions that the block already has are left out.
  */
 std::vector<Advice> virtualAdditions(const ObservedBlock& block);
 

@@ -9,12 +9,12 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kTooFew = 12;  // points that are not worth a TIN
-constexpr std::size_t kLooks = 300;  // for the roughness of plain ground
-constexpr double kSteepest = 0.8;    // radians: a height beside a wall says nothing
-constexpr double kWall = 0.2;        // cosine: a plane so steep has no height at a position
+constexpr std::size_t kTooFew = 12;                 // points of a strip without a TIN
+constexpr std::size_t kExaminedForRoughness = 300;  // triangles for the roughness of plain ground
+constexpr double kSteepest = 0.8;  // radians: steeper patches are not compared with control
+constexpr double kWall = 0.2;  // vertical component of the normal: steeper planes have no height
 
-/// Every so manyth, so that at most \a count are left.
+/// Elements at equal intervals, at most \a count.
 template <typename T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t count) {
   if (all.size() <= count) return all;
@@ -71,7 +71,8 @@ void AreaOffsets::release() {
   }
 }
 
-std::vector<std::int32_t> AreaOffsets::looks(const StripPart& part, std::size_t count) const {
+std::vector<std::int32_t> AreaOffsets::sampledTriangles(const StripPart& part,
+                                                        std::size_t count) const {
   std::vector<bool> seen(part.points.size(), false);
   std::vector<std::int32_t> triangles;
   const auto& all = part.surface.tin().triangles();
@@ -86,9 +87,10 @@ std::vector<std::int32_t> AreaOffsets::looks(const StripPart& part, std::size_t 
 }
 
 void AreaOffsets::choosePlaces(StripPart& part) const {
-  constexpr std::size_t kLooksPerPlace = 4;
+  constexpr std::size_t kExaminedPerPlace = 4;
   std::vector<Place> level, steep;
-  for (const std::int32_t triangle : looks(part, kLooksPerPlace * limits_.candidates)) {
+  for (const std::int32_t triangle :
+       sampledTriangles(part, kExaminedPerPlace * limits_.candidates)) {
     const PatchQuality quality = part.surface.quality(triangle);
     if (!limits_.isSatisfiedBy(quality, part.median_edge) || quality.plane_normal.z() < kWall)
       continue;
@@ -108,7 +110,7 @@ std::vector<double> AreaOffsets::roughness() const {
   std::vector<double> values;
   for (const StripPart& part : strips_) {
     if (part.surface.tin().triangles().empty()) continue;
-    for (const std::int32_t triangle : looks(part, kLooks)) {
+    for (const std::int32_t triangle : sampledTriangles(part, kExaminedForRoughness)) {
       const PatchQuality quality = part.surface.quality(triangle);
       if (limits_.isSound(quality, part.median_edge) && quality.slope < kGentleSlope)
         values.push_back(quality.roughness);
@@ -144,7 +146,7 @@ bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const Str
                             double sign, OffsetSample& sample) const {
   const SwathPoint& point = from.points[place.point];
   sample.position = place.position;
-  // How far the surface of the strip lies above that of the other one around a patch.
+  // Height of the surface of the strip above that of the other one around a patch.
   const auto compare = [&](const PatchMatch& match, const PatchQuality& quality) {
     const Tin::Triangle& triangle = to.surface.tin().triangles()[match.triangle];
     const SwathPoint& other = to.points[nearestVertex(triangle, match.weights)];

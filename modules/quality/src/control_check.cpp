@@ -8,7 +8,7 @@
 namespace pcl_als {
 namespace {
 
-/// Offsets of one strip (or of all) that count; a point is a cluster of its own.
+/// Offsets of one strip (or of all) that are used; each point is a cluster.
 OffsetSummary summaryOf(const std::vector<ControlDifference>& differences,
                         const std::map<std::string, std::int64_t>& number_of,
                         const std::string* strip) {
@@ -45,7 +45,7 @@ ControlAssessment assessControl(std::vector<ControlDifference> differences,
   std::map<std::string, std::int64_t> number_of;
   for (const ControlPoint& point : control)
     number_of.emplace(point.id, static_cast<std::int64_t>(number_of.size()));
-  std::map<std::string, bool> counts;  // by point that a strip covers
+  std::map<std::string, bool> counts;  // whether a covered point is used
   for (const ControlDifference& d : result.differences)
     counts[d.point] = counts[d.point] || d.unfit.empty();
   double squares = 0.0;

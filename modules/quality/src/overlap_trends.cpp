@@ -15,7 +15,8 @@ namespace pcl_als {
 namespace {
 
 constexpr int kBins = 20;
-constexpr double kParallel = 20.0 * kRadiansPerDegree;  // from there on lines cross
+// radians: lines with a larger angle are crossing
+constexpr double kParallel = 20.0 * kRadiansPerDegree;
 
 using Samples = std::vector<const OffsetSample*>;
 
@@ -37,7 +38,7 @@ Eigen::Vector2d longerAxis(const Samples& samples) {
   return symmetricEigen2(spread).vectors.col(1);
 }
 
-/// The middle of the overlap: halfway between its edges across and along, outliers aside.
+/// The middle of the overlap: halfway between its edges across and along, without outliers.
 Eigen::Vector2d middleOf(const Samples& samples, const Eigen::Vector2d& course) {
   const Eigen::Vector2d right(course.y(), -course.x());
   const Eigen::Vector2d origin = samples.front()->position.head<2>();
@@ -60,7 +61,7 @@ Trend trendOver(const Samples& samples, Place place) {
   for (const OffsetSample* s : samples) mean += place(*s) / static_cast<double>(samples.size());
   for (const OffsetSample* s : samples) largest = std::max(largest, std::abs(place(*s) - mean));
   Trend trend;
-  if (!(largest > 1e-6)) return trend;  // no scan angles, no times: nothing changes
+  if (!(largest > 1e-6)) return trend;  // no scan angles or times: no trend
   ClusteredRegression line(2);
   for (const OffsetSample* s : samples)
     line.add(s->cluster(), Eigen::Vector2d(1.0, (place(*s) - mean) / largest), s->vertical,
@@ -96,7 +97,8 @@ std::vector<ProfileBin> profileOver(const Samples& samples, Place place) {
   return bins;
 }
 
-/// The plane of the offsets over the ground: the trends across and along, and what roll they show.
+/// Plane of the offsets over the ground: the trends across and along, and the roll that they
+/// indicate.
 void fitPlane(const Samples& samples, const std::optional<Eigen::Vector2d>& course_b,
               OverlapTrends& trends) {
   constexpr double kScale = 100.0;  // metres

@@ -15,11 +15,12 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kFewest = 50;       // level places a judgement needs
+constexpr std::size_t kFewest = 50;       // least number of level places of a pair
 constexpr std::size_t kFewestInCell = 5;  // for the mean of a cell
 constexpr double kSteep = 10.0 * kRadiansPerDegree;
-constexpr double kWeakest = 0.5;  // metres: a shift worse known than that is not known
-constexpr double kCopied = 0.5;   // share of identical points
+// metres: shifts with larger standard deviations are not determined
+constexpr double kWeakest = 0.5;
+constexpr double kCopied = 0.5;                                       // share of identical points
 constexpr double kSlopeSteps[] = {0.0, 5.0, 10.0, 20.0, 30.0, 60.0};  // degrees
 constexpr int kAspects = 8;
 
@@ -93,7 +94,7 @@ std::vector<SlopeAspectClass> slopeAspectClasses(const std::vector<OffsetSample>
       by_aspect[static_cast<std::size_t>(aspectOf(s.normal))].add(s.normal_distance);
     }
     classes.push_back({from, to, -1, all.count(), all.mean(), all.rms()});
-    if (to <= kSlopeSteps[1]) continue;  // the direction of what is level is noise
+    if (to <= kSlopeSteps[1]) continue;  // the aspect of level ground is noise
     for (int aspect = 0; aspect < kAspects; ++aspect) {
       const RunningStatistics& sum = by_aspect[static_cast<std::size_t>(aspect)];
       classes.push_back({from, to, aspect, sum.count(), sum.mean(), sum.rms()});

@@ -34,7 +34,7 @@ PointView viewOf(const Points& points, const Eigen::Vector3d& origin) {
   return view;
 }
 
-/// Where a point goes, less the point, and its covariance.
+/// Displacement of a point by a motion, and its covariance.
 struct Displacement {
   Eigen::Vector3d shift;
   Eigen::Matrix3d covariance;
@@ -92,7 +92,7 @@ std::vector<MotionClosure> closeMotions(const std::vector<PairMotion>& pairs) {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     const double signs[] = {triple.ab.sign, triple.bc.sign, -triple.ac.sign};
     for (std::size_t i = 0; i < 3; ++i) {
-      // Motions are so small that the opposite one is the negative, to 1e-5 of it.
+      // Motions are so small that the inverse is the negative, to 1e-5 of it.
       const Displacement moved = displacementAt(known[sides[i]].result, middle);
       closure.closure += signs[i] * moved.shift;
       covariance += moved.covariance;

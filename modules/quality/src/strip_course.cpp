@@ -11,8 +11,9 @@ namespace {
 
 constexpr double kLeastTimeSpread = 1e-3;  // seconds, standard deviation
 constexpr double kLeastAngleSpread = 0.1;  // degrees
-constexpr double kMostCorrelated = 0.999;  // of time and angle: then they cannot be parted
-constexpr double kLeastSpeed = 1.0;        // metres per second
+// correlation of time and angle above which they cannot be separated
+constexpr double kMostCorrelated = 0.999;
+constexpr double kLeastSpeed = 1.0;  // metres per second
 
 }  // namespace
 

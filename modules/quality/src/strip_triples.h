@@ -10,19 +10,19 @@
 
 namespace pcl_als::detail {
 
-/// A pair as the side of a triangle: -1 where it is named the other way round.
+/// A pair as the side of a triangle: -1 where its strips are in the opposite order.
 struct TripleSide {
   std::size_t pair = 0;
   double sign = 1.0;
 };
 
-/// Three strips every two of which are a pair; in order of first appearance.
+/// Triples of strips that overlap in pairs, in order of first appearance.
 struct StripTriple {
   std::string a, b, c;
   TripleSide ab, bc, ac;
 };
 
-/// \param pairs anything with names a and b; of equal pairs the last counts
+/// \param pairs elements with names a and b; of equal pairs the last is used
 template <typename Pair>
 std::vector<StripTriple> stripTriples(const std::vector<Pair>& pairs) {
   std::map<std::string, std::size_t> number;

@@ -12,8 +12,8 @@ namespace pcl_als {
 namespace {
 
 constexpr int kWater = 9;            // ASPRS class
-constexpr double kCell = 5.0;        // metres: canopies have openings of that size
-constexpr double kVegetation = 1.0;  // metres: far beyond noise, far below a canopy
+constexpr double kCell = 5.0;        // metres: canopies have openings of this size
+constexpr double kVegetation = 1.0;  // metres: much more than noise, much less than a canopy
 
 bool isVegetation(const SwathPoint& point) {
   return point.classification >= 3 && point.classification <= 5;

@@ -11,8 +11,9 @@
 namespace pcl_als {
 namespace {
 
-constexpr float kStep = 0.5F;         // metres: more in a cell is another surface
-constexpr float kUneven = 0.3F;       // metres, RMS of neighbours about their plane: no slope there
+constexpr float kStep = 0.5F;  // metres: a larger step in a cell is another surface
+// metres, RMS of neighbours about their plane: rougher cells have no slope
+constexpr float kUneven = 0.3F;
 constexpr int kFewestNeighbours = 5;  // of nine, for a slope
 constexpr float kShare = 0.5F;        // of the colour over the grey
 

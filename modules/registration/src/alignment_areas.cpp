@@ -15,9 +15,10 @@ namespace {
 constexpr double kPointsPerArea = 12'000.0;
 constexpr double kSmallestArea = 12.0, kLargestArea = 250.0;  // metres
 constexpr std::size_t kFewestPoints = 30;                     // of each cloud in an area
-constexpr double kMarginSpacings = 8.0;  // of the cloud's points: patches inside are those of all
+// point spacings; patches inside the area equal those of the whole cloud
+constexpr double kMarginSpacings = 8.0;
 constexpr double kLeastSlope = 0.12, kMostSlope = 0.9;  // tangents that count as relief
-constexpr std::size_t kRegions = 8;                     // by as many, each with its best areas
+constexpr std::size_t kRegions = 8;  // regions per side, each with areas of its own
 
 double largestShift(const Eigen::Affine3d& motion, const Eigen::AlignedBox3d& box) {
   double largest = 0.0;
@@ -90,7 +91,7 @@ std::vector<AlignmentAreas::Square> AlignmentAreas::squaresOf(const CommonCells&
   return squares;
 }
 
-/// The best square of every region first, then the second of every region, and so on.
+/// The best area of every region first, then the second of every region, and so on.
 void AlignmentAreas::choose(std::vector<Square> squares, std::size_t points) {
   const auto regionOf = [this](const Square& square) {
     const std::size_t column = square.index % grid_.columns, row = square.index / grid_.columns;
@@ -120,7 +121,7 @@ Eigen::AlignedBox2d AlignmentAreas::boxOf(std::size_t area) const {
 
 std::vector<std::vector<Eigen::Vector3d>> AlignmentAreas::pointsOf(const WorkingPoints& points,
                                                                    double margin) const {
-  // Areas that a square's points may belong to: its own and, with the margin, those around it.
+  // A point may belong to its own square and, with the margin, to the squares around it.
   const int reach = static_cast<int>(std::ceil(margin / grid_.cell));
   std::vector<std::int32_t> area_of(grid_.size(), -1);
   for (std::size_t a = 0; a < chosen_.size(); ++a)

@@ -13,7 +13,7 @@
 
 namespace pcl_als::registration {
 
-/// The lowest points of both clouds on one grid over what they may share.
+/// The lowest points of both clouds on one grid over their common extent.
 struct CommonCells {
   LowestPoints source, target;
 
@@ -21,18 +21,18 @@ struct CommonCells {
   CommonCells pooled() const { return {source.pooled(), target.pooled()}; }
 };
 
-/** \brief Squares of the overlap that are worth triangulating.
+/** \brief Squares of the overlap that are triangulated.
  *
- * A square is the same one in the coordinates of either cloud, so choice and surfaces do not depend
- * on which cloud is the source.
+ * Squares are the same in the coordinates of either cloud, so that their choice and the surfaces do
+ * not depend on which cloud is the source.
  */
 class AlignmentAreas {
  public:
-  /// Chooses areas evenly over the overlap and by relief until both clouds have about \a points in
-  /// them.
+  /// Chooses areas evenly over the overlap and by relief until they contain about \a points of both
+  /// clouds.
   AlignmentAreas(const CommonCells& cells, std::size_t points);
 
-  /// Triangulates the areas' points and those within a margin that the \a motion asks for.
+  /// Triangulates the points of the areas and those within the margin that the \a motion requires.
   std::vector<AreaSurfaces> triangulate(const WorkingPoints& source, const WorkingPoints& target,
                                         const Eigen::Affine3d& motion,
                                         const PatchAlignmentSettings& settings) const;
@@ -41,7 +41,7 @@ class AlignmentAreas {
  private:
   struct Square {
     std::size_t index;   ///< in grid_
-    std::size_t points;  ///< of the cloud that has more
+    std::size_t points;  ///< of the cloud with more points
     double relief;       ///< share of cells on slopes
   };
 

@@ -27,7 +27,8 @@ namespace registration {
 namespace {
 
 constexpr double kGentleCosine = 0.98481;  // 10 degrees
-constexpr double kGuessStd = 1.0;          // metres that a direction left alone may be wrong by
+// metres: a priori uncertainty of a direction that is left unchanged
+constexpr double kGuessStd = 1.0;
 
 DistanceSummary summary(const RunningStatistics& statistics) {
   return {statistics.mean(), statistics.rms()};

@@ -10,7 +10,7 @@
 
 namespace pcl_als::registration {
 
-/// Turns the last adjustment into what is reported: covariances, what is determined, fit.
+/// Result of the last adjustment: covariances, determined parameters, fit.
 class AlignmentReport {
  public:
   AlignmentReport(const PatchPairs& pairs, const AdjustmentFrame& frame,
@@ -22,7 +22,7 @@ class AlignmentReport {
         directions_(directions),
         settings_(settings) {}
 
-  /// result.motion is there already. \param groups of the jackknife.
+  /// result.motion has been set before. \param groups of the jackknife.
   void fill(std::size_t groups, PatchAlignmentResult& result) const;
 
  private:
@@ -30,7 +30,7 @@ class AlignmentReport {
   void fillParameters(PatchAlignmentResult& result) const;
   void fillCovariance(std::size_t groups, PatchAlignmentResult& result) const;
   void fillFit(PatchAlignmentResult& result) const;
-  /// Of XT … kappa (m, rad), from that of the unknowns.
+  /// Covariance of XT … kappa (m, rad) from that of the unknowns.
   Matrix6d ofParameters(const UnknownsMatrix& covariance, const RigidMotion& motion) const;
 
   const PatchPairs& pairs_;

@@ -13,12 +13,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSignificant = 5.0;  // standard deviations of a tilt from which on it is one
-constexpr double kLeastAngle = 0.09;  // sine between normals that is always allowed
-constexpr double kMostAngle = 0.35;   // sine between normals beyond which nothing is conjugate
+constexpr double kSignificant = 5.0;  // standard deviations: smaller tilts are not significant
+constexpr double kLeastAngle = 0.09;  // sine of the angle between normals that is always allowed
+// sine of the angle between normals beyond which patches are not conjugate
+constexpr double kMostAngle = 0.35;
 constexpr std::size_t kChunk = 4096;
 
-/// Candidates of one side against patches of the other.
+/// Search of the patches of one side for the candidates of the other.
 class DirectedSearch {
  public:
   DirectedSearch(const Eigen::Affine3d& motion, bool source_point, double threshold,
@@ -50,8 +51,9 @@ class DirectedSearch {
 
  private:
   /// Mean normal of the neighbourhoods of point and patch in the target's frame, less noisy than
-  /// the triangle's; vertical where its tilt is not significant: noise in place of a slope would
-  /// look like information about plan positions. False where the surfaces are not the same one.
+  /// that of the triangle; vertical where its tilt is not significant, because noise of the normal
+  /// would act as information about plan positions. False where the orientations of the two
+  /// surfaces differ.
   bool direction(const Candidate& candidate, const PatchPlane& patch, bool coarse,
                  PatchPair& pair) const {
     Vector3d& normal = pair.normal;
@@ -82,7 +84,7 @@ class DirectedSearch {
     pair.position = source_point_ ? moved : Vector3d(motion_ * match.foot);
     pair.distance = pair.normal.dot(pair.position - target);
     pair.start_distance = pair.normal.dot(source - target);
-    // A foot is the mean of three vertices, weighted.
+    // The foot is the weighted mean of three vertices.
     const double spread = match.weights.squaredNorm();
     pair.variance = pair.normal.dot(((source_point_ ? 1.0 : spread) * noise_.source +
                                      (source_point_ ? spread : 1.0) * noise_.target) *
@@ -101,7 +103,7 @@ class DirectedSearch {
   const PointNoise& noise_;
 };
 
-/// A part of the search that one thread does.
+/// The part of the search of one thread.
 struct Task {
   const Candidate *first, *last;
   SurfaceSide* patches;
@@ -113,7 +115,8 @@ void addTasks(SurfaceSide& points, SurfaceSide& patches, bool source_point,
               std::vector<Task>& tasks) {
   if (points.empty() || patches.empty()) return;
   const auto& candidates = points.candidates();
-  // Verdicts on patches are kept without locks, so a fine area is one task; a coarse one has none.
+  // The suitability of patches is stored without locks: a fine area is one task; a coarse one
+  // stores none.
   const std::size_t step =
       patches.isCoarse() ? kChunk : std::max<std::size_t>(1, candidates.size());
   for (std::size_t i = 0; i < candidates.size(); i += step) {

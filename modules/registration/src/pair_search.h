@@ -12,21 +12,21 @@
 
 namespace pcl_als::registration {
 
-/// Both clouds' surfaces in one area, each in its own coordinates.
+/// Surfaces of both clouds in one area, each in its own coordinates.
 struct AreaSurfaces {
   SurfaceSide source, target;
 };
 
-/// How point covariances enter the pairs' variances, in units of sigma0^2.
+/// Contribution of point covariances to the variances of pairs, in units of sigma0^2.
 struct PointNoise {
   Eigen::Matrix3d source = Eigen::Matrix3d::Identity(), target = Eigen::Matrix3d::Identity();
 };
 
-/** \brief Finds the pairs of both directions in all areas, with the source moved.
+/** \brief Forms the pairs of both directions in all areas, with the source moved.
  *
  * \param groups cells whose pairs the jackknife leaves out together.
- * \param stride only one candidate in so many is paired. The order of the pairs and
- * all their values do not depend on the number of threads.
+ * \param stride only every stride-th candidate is used. The order of the pairs and their values do
+ * not depend on the number of threads.
  */
 PatchPairs findPairs(std::vector<AreaSurfaces>& areas, const Eigen::Affine3d& motion,
                      double threshold, const PlanGrid& groups, const PointNoise& noise, int threads,

@@ -15,12 +15,13 @@ namespace pcl_als::registration {
 namespace {
 
 constexpr std::array<double, 3> kTiltSteps{0.087, 0.26, 0.5};  // sines: 5, 15, 30 degrees
-constexpr double kNoiseFactor = 3.0;  // roughness may understate the noise of normals
+constexpr double kNoiseFactor = 3.0;  // the roughness may understate the noise of normals
 constexpr std::size_t kFewestInStep = 30;
 constexpr double kLeastScatter = 1e-6;  // metres
 constexpr std::size_t kChunk = 8192;
 constexpr std::size_t kFewestGroups = 10;
-// What the normals' noise makes of the normal matrix is a mean: a sample of many pairs has it.
+// The contribution of the noise of normals to the normal matrix is a mean: a sample of pairs
+// suffices.
 constexpr std::size_t kNoiseSample = 8, kEnoughToSample = 20'000;
 
 std::size_t chunks(std::size_t count) {
@@ -96,7 +97,7 @@ ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
   const double all = std::max(robustSigma(std::move(rests)), kLeastScatter);
   for (int i = 0; i < ScatterBySlope::kSteps; ++i) {
     result.pairs[i] = steps[i].size();
-    // About zero, not about the median: a class that is off as a whole is off.
+    // About zero and not about the median, so that a class with an offset has a larger scatter.
     for (double& rest : steps[i]) rest = std::abs(rest);
     const bool enough = steps[i].size() >= kFewestInStep;
     result.sigma[i] = enough ? std::max(1.4826 * medianInPlace(steps[i]), kLeastScatter) : all;

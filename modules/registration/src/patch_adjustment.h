@@ -22,8 +22,8 @@ constexpr int kUnknowns = 7;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using UnknownsMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-/** \brief Where the unknowns are about and what they are multiplied by, so that all are metres on
- * the ground: a rotation of y / radius moves points at the radius by y. */
+/** \brief Origin and scale of the unknowns, by which all are metres on the ground: a rotation of y
+ * / radius moves points at the radius by y. */
 struct AdjustmentFrame {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< in the target's frame
   double radius = 1.0;                               ///< metres
@@ -32,35 +32,36 @@ struct AdjustmentFrame {
   int unknowns() const { return with_scale ? kUnknowns : kUnknowns - 1; }
   /// d distance / d unknowns of a pair.
   Unknowns rowOf(const PatchPair& pair) const;
-  /// Expected part of row row' that the noise of the normal makes.
+  /// Expected value of row row' due to the noise of the normal.
   UnknownsMatrix noiseOf(const PatchPair& pair) const;
-  /// The motion that unknowns stand for: follows the one the pairs were found with.
+  /// The motion of a vector of unknowns, after the motion with which the pairs were formed.
   Eigen::Affine3d motionOf(const Unknowns& unknowns) const;
 };
 
 /// Least squares sums: normal matrix, right hand side, weights.
 struct NormalEquations {
   UnknownsMatrix matrix = UnknownsMatrix::Zero();
-  UnknownsMatrix noise = UnknownsMatrix::Zero();  ///< of that, what the normals' noise alone makes
+  /// its expected value due to the noise of the normals alone
+  UnknownsMatrix noise = UnknownsMatrix::Zero();
   Unknowns right = Unknowns::Zero();
   double weights = 0.0;
 
   void merge(const NormalEquations& other);
 };
 
-/// What fixes the unknowns, and in which directions nothing does.
+/// Eigenvectors of the information, and the directions that are not determined.
 struct Directions {
   UnknownsMatrix vectors = UnknownsMatrix::Identity();  ///< columns, ascending information
   Unknowns values = Unknowns::Zero();                   ///< eigenvalues, 1 / m^2
   double weights = 0.0;
   int unknowns = kUnknowns - 1;
-  int weak = 0;  ///< the first columns, which are not determined
+  int weak = 0;  ///< number of first columns that are not determined
 };
 
 /** \brief Scatter of the pairs' distances over the roots of their variances, metres, by slope.
  *
- * On slopes points scatter more, by their errors in plan and the width of the beam; flat ground is
- * most of what there is and would decide for all that everything on slopes is an outlier.
+ * On slopes the scatter is larger because of the errors in plan and the width of the beam. With one
+ * scatter for all pairs, most of which are on flat ground, slopes would count as outliers.
  */
 struct ScatterBySlope {
   static constexpr int kSteps = 4;
@@ -73,19 +74,19 @@ struct ScatterBySlope {
   double all() const;  ///< of unit weight: the root of the mean square over all pairs, metres
 };
 
-/// How pairs that fit badly are weighed, in standard deviations: by Huber's weights from the first
-/// on, not at all beyond the second.
+/// Weights of residuals, in standard deviations: Huber's weights from the first limit on, zero
+/// beyond the second.
 struct Robustness {
   double huber = kHuberLimit, cut = kRejectionLimit;
 
-  /// Movement is still to come: outliers cannot be recognised yet.
+  /// During convergence, when outliers cannot be recognised yet.
   static Robustness whileMoving() { return {1.5, std::numeric_limits<double>::infinity()}; }
-  /// Hardly robust, for a second opinion.
+  /// Almost without down-weighting, for the second estimate.
   static Robustness trusting() { return {10.0, 20.0}; }
 };
 
-/** \brief Robust least squares over pairs; a pair that fits weighs 1 / (variance scatter^2). All
- * sums are over fixed chunks: the same whatever the number of threads.
+/** \brief Robust least squares over pairs with weights of 1 / (variance scatter^2). All sums are
+ * over fixed chunks and do not depend on the number of threads.
  */
 class PatchAdjustment {
  public:
@@ -124,7 +125,7 @@ UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& dire
 /// few groups.
 UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions);
 
-/// Why a parameter that a weak direction contains is not determined.
+/// Reason for which a parameter with a component in a weak direction is not determined.
 std::string describeWeakness(const Directions& directions, int parameter, double radius);
 
 }  // namespace pcl_als::registration

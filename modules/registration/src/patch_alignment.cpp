@@ -22,23 +22,24 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 using Status = PatchAlignmentResult::Status;
 
-constexpr double kCellSpacings = 2.5;  // of the sparser cloud in a cell
+constexpr double kCellSpacings = 2.5;  // mean spacings of the sparser cloud per cell
 constexpr std::size_t kCoarsePoints = 20'000;
 constexpr int kCoarseLevels = 3, kCoarseIterations = 15;
-constexpr double kFirstFineThreshold = 3.0;  // metres, at most
+constexpr double kFirstFineThreshold = 3.0;  // metres, upper limit
 constexpr double kLeastThreshold = 0.25;     // metres
 constexpr double kThresholdSigmas = 8.0;
 constexpr std::size_t kFewestPairs = 50;
-constexpr double kGroups = 60.0;   // of the jackknife, about
+constexpr double kGroups = 60.0;   // of the jackknife, approximately
 constexpr double kResting = 5e-3;  // metres: an update that ends a stage of the iteration
-// On the way a part of the candidates will do.
+// The first stage uses a part of the candidates.
 constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
-constexpr double kSwing = 10.0;  // updates that may swing, of the convergence
+constexpr double kSwing = 10.0;  // admissible oscillation of updates, over the limit of convergence
 constexpr std::size_t kSecondOpinionPairs = 25'000;
-// Half of the difference's variance is this estimate's share; and it comes from two values, whose
-// 95 % limit is 4.303 standard deviations (Student, two degrees of freedom) and not 1.960.
+// This estimate contributes half of the variance of the difference, which is estimated from two
+// values: Student's 95 % limit with two degrees of freedom is 4.303 standard deviations instead of
+// 1.960.
 constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
-constexpr double kFrozen = 1e-3;  // metres: below, the threshold stays
+constexpr double kFrozen = 1e-3;  // metres: below, the threshold is no longer changed
 
 struct Extent {
   Eigen::AlignedBox3d box;
@@ -98,7 +99,8 @@ class Alignment {
   ScatterBySlope scatter_;
   double threshold_ = 0.0;
   Robustness robustness_ = Robustness::whileMoving();
-  bool frozen_ = false;  ///< scatter, directions and threshold stay: the updates have stalled
+  /// scatter, directions and threshold are held: the updates no longer decrease
+  bool frozen_ = false;
   SurfaceCriterion criterion_ = surfaceCriterion();
   Directions directions_;
   PatchPairs pairs_;
@@ -144,7 +146,7 @@ bool Alignment::look(const PointView& source, const PointView& target) {
   return true;
 }
 
-/// Centroid, radius and area of the cells that both clouds have points in.
+/// Centroid, radius and area of the cells with points of both clouds.
 bool Alignment::findOverlap() {
   const PlanGrid& grid = cells_.target.grid();
   double count = 0.0;
@@ -190,7 +192,7 @@ void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
     const PatchPairs pairs =
         findPairs(level, motion_, threshold_, groups_, noise_, settings_.threads);
     if (pairs.size() < kFewestPairs) return;
-    // A prior of a few metres: on flat ground the motion in plan is not determined.
+    // A prior of a few metres, because flat ground does not determine the motion in plan.
     const Unknowns update = adjust(pairs, 1e3, threshold_);
     motion_ = frame().motionOf(update) * motion_;
     threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), cell, threshold_);
@@ -199,8 +201,7 @@ void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
   }
 }
 
-/// The update that pairs ask for, after a few passes of reweighting; sets scatter_ and
-/// directions_.
+/// The update from the pairs, after a few passes of reweighting; sets scatter_ and directions_.
 Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) {
   constexpr int kPasses = 3;
   const AdjustmentFrame about = frame();
@@ -246,7 +247,8 @@ void Alignment::chooseCandidates(std::vector<AreaSurfaces>& areas,
   });
 }
 
-/// A second opinion from all surfaces, hardly robust: what it differs by more than by chance.
+/// Second estimate from all surfaces, almost without down-weighting: the part of its difference
+/// that exceeds chance.
 void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   constexpr int kIterations = 8;
   const Affine3d motion = motion_;
@@ -279,7 +281,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
         p < 3 ? (there.shift - here.shift)[p] : (there.rotation - here.rotation)[p - 3];
     excess[p] = std::max(0.0, difference * difference - scale * scale * chance(p, p));
   }
-  // Alike in all directions of the plan: what surfaces disagree by has no axes.
+  // The same in all directions in plan, because the difference is not related to an axis.
   excess.segment<2>(0).setConstant(kTwoValues * kTwoValues * excess.segment<2>(0).mean());
   excess.segment<2>(3).setConstant(excess.segment<2>(3).mean());
   result_.surface_std = excess.cwiseSqrt();
@@ -329,12 +331,12 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
   return false;
 }
 
-/// What the pairs still ask for where the iteration was damped: the motion is not known better.
+/// The remaining update where the iteration was damped, which limits the accuracy of the motion.
 void Alignment::keepSwing(const Unknowns& update) {
   result_.convergence_std << update.head<3>().cwiseAbs(), update.segment<3>(3).cwiseAbs() / radius_;
 }
 
-/// Takes back what the coarse stage moved in directions that nothing determines.
+/// Reverts the movements of the coarse stage in directions that are not determined.
 Unknowns Alignment::returnToGuess() const {
   const Eigen::AngleAxisd turn(motion_.rotation());
   Unknowns total = Unknowns::Zero();
@@ -344,7 +346,7 @@ Unknowns Alignment::returnToGuess() const {
   return -(weak * (weak.transpose() * total));
 }
 
-/// Whether an update is far below what the estimate is known to.
+/// Whether an update is far below the uncertainty of the estimate.
 bool Alignment::isSmall(const Unknowns& update) const {
   const Unknowns parts = directions_.vectors.transpose() * update;
   return parts.cwiseAbs2().dot(directions_.values) < kSwing * kSwing;

@@ -13,7 +13,7 @@
 
 namespace pcl_als::registration {
 
-/// Points of a view in the coordinates that an alignment works in: near zero, the source after the
+/// Points of a view in the working coordinates of an alignment: near zero, the source after the
 /// initial motion.
 class WorkingPoints {
  public:
@@ -50,12 +50,12 @@ struct PlanGrid {
   }
 };
 
-/// How many points each cell has, and its lowest: ground and roofs, seldom leaves.
+/// Number of points of each cell, and its lowest point, which is mostly ground or roof.
 class LowestPoints {
  public:
   LowestPoints() = default;
   LowestPoints(const WorkingPoints& points, const PlanGrid& grid);
-  /// Two by two cells as one.
+  /// Combines two by two cells.
   LowestPoints pooled() const;
 
   const PlanGrid& grid() const { return grid_; }

@@ -44,16 +44,16 @@ void SurfaceSide::chooseCandidates(std::size_t count, const SurfaceCriterion& cr
   criterion_ = criterion;
   verdicts_.assign(verdicts_.size(), kUnknown);
   planes_.clear();
-  // A single triangle's normal is noisy: it decides where to look, the neighbourhood's plane what
-  // is there.
-  constexpr std::size_t kLooks = 2, kEnough = 16;
+  // The normals of single triangles are noisy and only select triangles that are examined; the
+  // orientation is that of the neighbourhood's plane.
+  constexpr std::size_t kExaminedPerCandidate = 2, kEnough = 16;
   const Tin& tin = surface_.tin();
   const std::size_t step = std::max<std::size_t>(1, tin.triangles().size() / (kEnough * count));
   const auto rough = trianglesByOrientation(surface_, step, [&](std::int32_t point) {
     return box_.contains(tin.points()[point].head<2>());
   });
   std::vector<std::vector<Candidate>> classes(OrientationClasses::kCount);
-  for (const std::int32_t triangle : chosenEvenly(rough, kLooks * count)) {
+  for (const std::int32_t triangle : chosenEvenly(rough, kExaminedPerCandidate * count)) {
     PatchPlane plane;
     if (!planeOf(triangle, plane)) continue;
     const std::int32_t point = tin.triangles()[triangle].vertex[0];

@@ -12,14 +12,14 @@
 
 namespace pcl_als::registration {
 
-/// Strips that are yet to be moved together, and unclassified ones, look rougher than ground is.
+/// Strips before their registration, and unclassified ones, appear rougher than the ground.
 inline SurfaceCriterion surfaceCriterion() {
   SurfaceCriterion criterion;
   criterion.roughness = 0.3;
   return criterion;
 }
 
-/// Direction of a patch's neighbourhood and how well it is known.
+/// Direction of a patch's neighbourhood and its uncertainty.
 struct PatchPlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, upward
   double tilt_sigma = 0.0;                            ///< radians
@@ -31,15 +31,16 @@ struct Candidate {
   PatchPlane plane;
 };
 
-/** \brief One cloud's surface in one area: TIN, candidate points, and which patches may
- * be found.
+/** \brief The surface of one cloud in one area: TIN, candidate points, and the suitability of
+ * patches.
  *
- * A coarse one takes every triangle that is neither long, steep nor at the border, and every point.
+ * On a coarse side every point and every triangle that is neither long, steep nor at the border is
+ * used.
  */
 class SurfaceSide {
  public:
   SurfaceSide() = default;
-  /// \param points with a margin around \a box, which holds the candidates.
+  /// \param points with a margin around \a box, which contains the candidates.
   SurfaceSide(std::vector<Eigen::Vector3d> points, const Eigen::AlignedBox2d& box,
               double resolution);
 
@@ -50,14 +51,14 @@ class SurfaceSide {
 
   /// Roughness on gentle slopes at about \a count places in the box.
   void sampleRoughness(std::size_t count, std::vector<double>& values) const;
-  /// At most \a count candidates on surfaces within the limits, evenly over slopes and aspects; in
-  /// place of those chosen before.
+  /// At most \a count candidates on surfaces within the limits, evenly over slopes and aspects;
+  /// replaces those chosen before.
   void chooseCandidates(std::size_t count, const SurfaceCriterion& criterion);
-  /// Every n-th point of all, \a count at most; from now on this side is coarse.
+  /// Uses every n-th point, \a count at most, as candidate; the side is coarse from then on.
   void makeCoarse(std::size_t count);
 
-  /// The plane of a patch; false where it is not worth measuring to. Verdicts are kept: not to be
-  /// called by two threads at once, unless the side is coarse.
+  /// The plane of a patch; false where it is not suitable for measurement. Results are stored, so
+  /// that two threads must not call it at the same time, except on a coarse side.
   bool planeOf(std::int32_t triangle, PatchPlane& plane);
 
  private:

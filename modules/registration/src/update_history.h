@@ -6,11 +6,11 @@
 
 namespace pcl_als::registration {
 
-/// Notices when updates no longer become smaller. Pairs that flip between two patches, and weights
-/// that follow the scatter, can send the motion round in a cycle of any size and length.
+/// Detects that updates no longer decrease: pairs that alternate between two patches, and weights
+/// that follow the scatter, can lead to cycles of the motion of any size and length.
 class UpdateHistory {
  public:
-  /// True from the third update in a row that is no progress: not below 0.7 of the smallest so far.
+  /// True from the third update in a row that is not below 0.7 of the smallest so far.
   bool stalled(double update) {
     if (update < kProgress * best_) {
       best_ = update;

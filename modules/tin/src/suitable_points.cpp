@@ -15,12 +15,12 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kFewest = 30;  // points of a square with margin that are worth a TIN
+constexpr std::size_t kFewest = 30;  // least points of a square with margin for a TIN
 
 constexpr float kUnsuitable = std::numeric_limits<float>::infinity();
 
-/// What was found of a point: roughness (metres; infinite where it is not suitable) and whether it
-/// counts as plain ground.
+/// Roughness at a point (metres; infinite where it is not suitable), and whether it counts as plain
+/// ground.
 struct Judgement {
   float roughness = kUnsuitable;
   bool gentle = false;
@@ -81,7 +81,7 @@ void judge(const Square& square, const std::vector<std::size_t>& members,
   }
 }
 
-/// The limit of roughness that the data themselves show, metres.
+/// The limit of roughness from these data, metres.
 double roughnessLimit(const std::vector<Judgement>& judgements, double factor) {
   std::vector<double> plain;
   for (const Judgement& judgement : judgements) {

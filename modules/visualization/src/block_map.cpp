@@ -16,8 +16,8 @@ namespace {
 using detail::kPlotMargin;
 
 constexpr double kMostCells = 16e6, kMostSide = 1000.0;
-constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0, kTitleRoom = 64.0;  // pixels
-constexpr double kRim = 3.0;  // cells around all, so that outlines are not cut
+constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0, kTitleHeight = 64.0;  // pixels
+constexpr double kRim = 3.0;  // cells around the block, so that outlines are complete
 const Color kAreaColor = Color::rgb(0xd55e00);
 
 Color overlapColor(int strips) {
@@ -86,7 +86,7 @@ void drawOutline(Canvas& canvas, const StripCoverage& coverage, std::size_t stri
   }
 }
 
-/// Fills holes of a few cells, which an outline would be full of.
+/// Fills holes of one or two cells, so that outlines follow the border of a strip.
 StripCoverage closed(const StripCoverage& coverage) {
   StripCoverage result = coverage;
   for (std::size_t s = 0; s < coverage.strips(); ++s) {
@@ -106,6 +106,38 @@ StripCoverage closed(const StripCoverage& coverage) {
     }
   }
   return result;
+}
+
+void drawAreas(Canvas& canvas, const std::vector<BlockMap::Area>& areas, const MapFrame& frame) {
+  for (const BlockMap::Area& area : areas) {
+    const Eigen::Vector2d low = frame.pixel({area.minimum.x(), area.maximum.y()});
+    const Eigen::Vector2d high = frame.pixel({area.maximum.x(), area.minimum.y()});
+    const PixelBox box{low.x(), low.y(), std::max(2.0, high.x() - low.x()),
+                       std::max(2.0, high.y() - low.y())};
+    canvas.fill(box, kAreaColor.withAlpha(45));
+    canvas.frame(box, 1.0, kAreaColor.withAlpha(190));
+  }
+}
+
+/// Legends of strips and of the number of strips, from \a corner downwards; returns the height
+/// below them.
+double drawStripLegends(Canvas& canvas, const std::vector<std::string>& names,
+                        const Eigen::Vector2d& corner) {
+  std::vector<LegendEntry> strips, counts;
+  for (std::size_t s = 0; s < std::min<std::size_t>(names.size(), 16); ++s) {
+    strips.push_back({detail::shortened(names[s], 150.0, {}), categoryColor(s), true});
+  }
+  if (names.size() > strips.size()) {
+    strips.push_back({"and " + std::to_string(names.size() - strips.size()) + " more", ink::white});
+  }
+  for (int n = 1; n <= 4; ++n) {
+    counts.push_back({std::to_string(n) + (n == 4 ? " or more" : ""), overlapColor(n)});
+  }
+  double y = corner.y();
+  drawLegend(canvas, strips, "outlines of strips", {corner.x(), y});
+  y += legendSize(strips, "x").y() + 16.0;
+  drawLegend(canvas, counts, "strips at a place", {corner.x(), y});
+  return y + legendSize(counts, "x").y() + 16.0;
 }
 
 }  // namespace
@@ -140,10 +172,10 @@ bool StripCoverage::covers(std::size_t strip, int column, int row) const {
 int BlockMap::heightFor(const StripCoverage& coverage, int width, int lowest, int highest) {
   const Eigen::Vector2d extent = shownExtent(coverage);
   const double across = width - kLeft - kPanel - kPlotMargin;
-  const double height = across * extent.y() / extent.x() + kFoot + kTitleRoom;
-  // Beside it stand the legends of strips and counts, two marks, arrow and scale.
+  const double height = across * extent.y() / extent.x() + kFoot + kTitleHeight;
+  // The panel beside the map has the legends, the north arrow and the scale bar.
   const auto rows = static_cast<double>(std::min<std::size_t>(coverage.strips(), 17) + 8);
-  const double panel = kTitleRoom + 23.0 * rows + 200.0;
+  const double panel = kTitleHeight + 23.0 * rows + 200.0;
   return static_cast<int>(
       std::clamp(std::ceil(std::max(height, panel)), 1.0 * lowest, 1.0 * highest));
 }
@@ -156,25 +188,19 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   const double top = detail::drawTitle(canvas, title_);
   const double rim = kRim * coverage.cell();
   const Eigen::Vector2d extent = shownExtent(coverage);
-  const double room_x = size.width - kLeft - kPanel - kPlotMargin,
-               room_y = size.height - top - kFoot;
-  if (room_x < 100.0 || room_y < 100.0) throw UsageError("a picture too small for a block map");
+  const double available_width = size.width - kLeft - kPanel - kPlotMargin,
+               available_height = size.height - top - kFoot;
+  if (available_width < 100.0 || available_height < 100.0)
+    throw UsageError("a picture too small for a block map");
   MapFrame frame;
-  frame.metres_per_pixel = std::max(extent.x() / room_x, extent.y() / room_y);
+  frame.metres_per_pixel = std::max(extent.x() / available_width, extent.y() / available_height);
   frame.box = {kLeft, std::round(top), std::floor(extent.x() / frame.metres_per_pixel),
                std::floor(extent.y() / frame.metres_per_pixel)};
   frame.north_west = coverage.minimum() + Eigen::Vector2d(-rim, extent.y() - rim);
   const StripCoverage whole = closed(coverage);
   drawOverlaps(canvas, whole, frame);
   canvas.setClip(frame.box);
-  for (const Area& area : areas_) {
-    const Eigen::Vector2d low = frame.pixel({area.minimum.x(), area.maximum.y()});
-    const Eigen::Vector2d high = frame.pixel({area.maximum.x(), area.minimum.y()});
-    const PixelBox box{low.x(), low.y(), std::max(2.0, high.x() - low.x()),
-                       std::max(2.0, high.y() - low.y())};
-    canvas.fill(box, kAreaColor.withAlpha(45));
-    canvas.frame(box, 1.0, kAreaColor.withAlpha(190));
-  }
+  drawAreas(canvas, areas_, frame);
   for (std::size_t s = 0; s < coverage.strips(); ++s) {
     drawOutline(canvas, whole, s, frame, categoryColor(s));
   }
@@ -187,21 +213,7 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
   drawCoordinates(canvas, frame.north_west, frame.metres_per_pixel, frame.box);
 
   const double left = frame.box.right() + kPlotMargin;
-  std::vector<LegendEntry> strips, counts;
-  for (std::size_t s = 0; s < std::min<std::size_t>(names.size(), 16); ++s) {
-    strips.push_back({detail::shortened(names[s], 150.0, {}), categoryColor(s), true});
-  }
-  if (names.size() > strips.size()) {
-    strips.push_back({"and " + std::to_string(names.size() - strips.size()) + " more", ink::white});
-  }
-  for (int n = 1; n <= 4; ++n) {
-    counts.push_back({std::to_string(n) + (n == 4 ? " or more" : ""), overlapColor(n)});
-  }
-  double y = frame.box.y;
-  drawLegend(canvas, strips, "outlines of strips", {left, y});
-  y += legendSize(strips, "x").y() + 16.0;
-  drawLegend(canvas, counts, "strips at a place", {left, y});
-  y += legendSize(counts, "x").y() + 16.0;
+  double y = drawStripLegends(canvas, names, {left, frame.box.y});
   std::vector<LegendEntry> marks;
   if (!areas_.empty()) marks.push_back({"areas used", mix(ink::white, kAreaColor, 0.6)});
   if (!marks.empty()) drawLegend(canvas, marks, "", {left, y});

@@ -12,17 +12,18 @@ namespace pcl_als {
 
 /** \brief Linear least squares with a covariance that allows for correlated errors of neighbours.
  *
- * value = row . x + error. Errors of observations of one cluster (a patch of ground: one terrain,
- * one stretch of both trajectories) may be correlated in any way, those of different clusters are
- * independent. With N = sum a'a and the score s_g = sum over cluster g of a' v,
+ * value = row . x + error. Errors of observations of one cluster (a patch of ground with common
+ * terrain and common trajectory errors) may be correlated in any way, those of different clusters
+ * are independent. With N = sum a'a and the score s_g = sum over cluster g of a' v,
  *   Cov = G/(G-m) N^-1 (sum_g s_g s_g') N^-1
- * (Liang and Zeger 1986) for G clusters and m unknowns; no variance less than that of independent
- * errors, sigma^2 N^-1, because few clusters may agree by chance. Where places are given, clusters
- * near each other may have common errors: the strips deform along time. What all clusters share (a
- * constant error of a whole strip) is not in it, because it is not observable.
+ * (Liang and Zeger 1986) for G clusters and m unknowns; no variance is smaller than that of
+ * independent errors, sigma^2 N^-1, because few clusters may agree by chance. Where places are
+ * given, neighbouring clusters may have common errors (strips that deform along time). An error
+ * common to all clusters (a constant error of a whole strip) is not included, because it is not
+ * observable.
  *
- * Centre the columns: rows of size about 1 keep N well-conditioned. Deterministic: sums in the
- * order of add().
+ * Columns should be centred and scaled to about 1, so that N is well-conditioned. Deterministic:
+ * sums are accumulated in the order of add().
  */
 class ClusteredRegression {
  public:
@@ -32,7 +33,7 @@ class ClusteredRegression {
   void add(std::int64_t cluster, const Eigen::VectorXd& row, double value);
   /// At a plan position (metres): errors of clusters may then be correlated as well
   /// (CorrelatedErrors). \a effect: of the shared error, 1 for heights, the normal for distances
-  /// along it. All observations have a place, or none.
+  /// along it. Either all observations have a place or none.
   void add(std::int64_t cluster, const Eigen::VectorXd& row, double value,
            const Eigen::Vector2d& place, const Eigen::VectorXd& effect = Eigen::VectorXd::Ones(1));
   std::size_t count() const { return values_.size(); }
@@ -40,18 +41,18 @@ class ClusteredRegression {
   struct Result {
     bool determined = false;   ///< false: too few observations or clusters, or singular
     Eigen::VectorXd estimate;  ///< unknowns
-    /// Of the estimate: covariance_formal, with each variance raised to that of errors which vary
-    /// slowly over the ground (CorrelatedErrors) where places are known.
+    /// covariance_formal with each variance increased to that of errors which vary slowly over the
+    /// ground (CorrelatedErrors), where places are known.
     Eigen::MatrixXd covariance;
-    Eigen::MatrixXd covariance_formal;  ///< clusters are independent
+    Eigen::MatrixXd covariance_formal;  ///< with independent clusters
     std::size_t count = 0, clusters = 0;
     double rms = 0.0;  ///< of the residuals
 
     double std(int unknown) const;
     double formalStd(int unknown) const;
   };
-  /// \param robust down-weights residuals beyond 1.5 robust sigma (Huber 1964), for surfaces where
-  /// outliers are usual
+  /// \param robust gives residuals beyond 1.5 robust standard deviations less weight (Huber 1964),
+  /// for surfaces with frequent outliers
   Result solve(bool robust = false) const;
 
   /// With fewer clusters the scatter between clusters is not determined.

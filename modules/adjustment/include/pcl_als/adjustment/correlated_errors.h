@@ -10,8 +10,8 @@
 
 namespace pcl_als {
 
-/** \brief Covariance of a least squares estimate whose observations share errors that vary slowly
- * over the ground, as those of two flight paths do.
+/** \brief Covariance of a least-squares estimate whose observations share errors that vary slowly
+ * over the ground, as those of two trajectories do.
  *
  * Model of an observation at the plan position p, with the row a of the unknowns x:
  *   y = a'x + z'u(p) + e,   Cov(u(p), u(q)) = s^2 lambda D exp(-|p - q| / L),   Var(e) = s^2 / w.
@@ -47,12 +47,13 @@ class CorrelatedErrors {
            double residual);
 
   struct Result {
-    bool determined = false;  ///< false: too few cells to see how errors vary
+    bool determined = false;  ///< false: too few cells to estimate the correlation
     Matrix covariance;        ///< of the unknowns
     std::size_t cells = 0;
     double range =
         0.0;  ///< metres: L of the highest likelihood; 0: errors of cells are independent
-    double share = 0.0;  ///< of the variance of a cell that the shared error has, there
+    /// share of the shared error in the variance of a cell, at that likelihood
+    double share = 0.0;
   };
   Result solve() const;
 

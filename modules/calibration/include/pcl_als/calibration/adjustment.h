@@ -16,7 +16,7 @@ namespace pcl_als {
 struct AdjustmentSolution {
   bool solved = false;  ///< false: the normal matrix is singular for the chosen parameters
   SystemVector biases = SystemVector::Zero();
-  SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): only the noise of points
+  SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): noise of points only
   SystemMatrix covariance = SystemMatrix::Zero();  ///< includes shared errors, see Adjustment
   Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
 };
@@ -24,22 +24,23 @@ struct AdjustmentSolution {
 class AreaNormal;  // normal equations of one area
 
 /** \brief Modified least squares adjustment (Habib et al. 2011, Eqs. (25), (26)) with shared errors
- * as nuisance.
+ * as nuisance parameters.
  *
- * Every pair is one equation n'(y - A delta) = n'(t_A - t_B) + e of weight w / variance, where t
- * are the errors that the points of a strip share. They are eliminated from the normal equations
- * (sparse: overlapping strips, neighbouring knots), which leaves N delta = h for the eight
- * parameters.
+ * Every pair gives one equation n'(y - A delta) = n'(t_A - t_B) + e of weight w / variance, where t
+ * are the errors that the points of a strip share. They are eliminated from the sparse normal
+ * equations (couplings exist between neighbouring knots and between overlapping strips only), which
+ * leaves N delta = h for the eight parameters.
  *
- * Covariance: N^-1 where the model's noise explains the scatter. Pairs of one area may share more
- * than that (a surface that changed, vegetation, an effect the model lacks), so the data's part of
- * N is replaced by how far the solution moves when areas are left out, one after the other (the
- * jackknife, from each area's own normal equations), and the larger standard deviation of the two
- * is kept.
+ * Covariance: N^-1 where the model's noise explains the scatter. Pairs of one area may share
+ * further errors (a surface that changed, vegetation, effects that the model lacks). The
+ * contribution of the data to N is therefore also replaced by the jackknife over areas (the change
+ * of the solution when one area is left out, from the normal equations of each area), and the
+ * larger of the two standard deviations is used.
  *
- * Noise of the measured slopes acts like information, sum w tilt_variance (A'A - r'r) of pairs
- * with rows r = n'A. Where half of what a direction seems to be determined by may be that, nothing
- * is: standard deviations grow accordingly, without limit in effect.
+ * Noise of the measured slopes acts like information, sum w tilt_variance (A'A - r'r) over pairs
+ * with rows r = n'A. Where half of the information in a direction may stem from this noise, the
+ * direction counts as not determined: its standard deviation becomes so large that the parameter is
+ * left out.
  */
 class Adjustment {
  public:
@@ -47,64 +48,62 @@ class Adjustment {
   ~Adjustment();
 
   /// \param weights one for every observation of every area: robust weight / noise scale^2. Both
-  /// must outlive solve().
+  /// vectors must exist until solve() returns.
   void accumulate(const std::vector<AreaObservations>& areas,
                   const std::vector<std::vector<double>>& weights);
   void setLevels(const SharedErrorLevels& levels);
   const SharedErrorLevels& levels() const { return levels_; }
 
-  /// -2 ln of the likelihood that the observations have these levels of shared errors (restricted:
-  /// whatever the values of the parameters in \a estimate); a constant is left out. Infinite where
-  /// the parameters cannot be solved for.
+  /// -2 ln of the restricted likelihood of these variance components (the parameters in \a estimate
+  /// are integrated out), without a constant. Infinite where the parameters cannot be solved for.
   double deviance(const SharedErrorLevels& levels,
                   const std::vector<SystemParameter>& estimate) const;
 
-  /// Solves for the parameters in \a estimate; the others are held at their value in \a held.
+  /// Solves for the parameters in \a estimate; the others are held at their values in \a held.
   AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
                            const SystemVector& held) const;
 
-  /// Solves for all of \a estimate with a prior of zero and the standard deviations \a prior
-  /// (standard deviations): undetermined parameters stay near zero. For the way to a
-  /// solution; its covariances are the model's.
+  /// Solves for all of \a estimate with a prior of mean zero and standard deviations \a prior, so
+  /// that parameters that are not determined stay near zero. Used during the iteration; its
+  /// covariances are those of the model.
   AdjustmentSolution solveNearZero(const std::vector<SystemParameter>& estimate,
                                    const SystemVector& prior) const;
 
-  /// A solution that estimates nothing: all parameters held, no shared errors.
+  /// A solution without estimates: all parameters are held, and there are no shared errors.
   AdjustmentSolution unsolved(const SystemVector& held) const;
 
-  /// N of all eight parameters with the shared errors eliminated (internal units): what the data
-  /// determine.
+  /// Normal matrix N of all eight parameters with the shared errors eliminated (internal units).
   const SystemMatrix& reducedNormal() const;
 
-  /// An observation's row of the reduced equations: what it shows of the parameters where the
-  /// shared errors take over what they can (local shifts excepted).
+  /// Row of an observation in the reduced equations: its sensitivity to the parameters after
+  /// elimination of the shared errors (shifts of areas excepted).
   SystemRow reducedRow(const PairObservation& observation) const;
 
-  /// What each area contributes to the determination of these parameters: its part of the trace of
+  /// Contribution of each area to the determination of these parameters: its part of the trace of
   /// N^-1 N, in [0, 1].
   std::vector<double> informationShares(const std::vector<SystemParameter>& estimate) const;
 
-  /// What a solution leaves of an observation's misclosure, local shifts included, metres.
+  /// Residual of an observation after a solution, shifts of areas included, metres.
   double residual(const PairObservation& observation, const AdjustmentSolution& solution) const;
 
  private:
-  struct Normal;   // the whole system
-  struct Reduced;  // the shared errors eliminated
+  struct Normal;   // all unknowns
+  struct Reduced;  // with the shared errors eliminated
 
   std::unique_ptr<const Normal> assemble(double shift_variance) const;
   Reduced reduce(const Normal& normal, const SharedErrorLevels& levels) const;
-  /// What one area contributes to the reduced equations at a solution.
+  /// Contribution of one area to the reduced equations at a solution.
   struct Share {
     SystemVector score;
     SystemMatrix normal;
   };
   Share shareOf(std::size_t area, const AdjustmentSolution& solution) const;
-  /// By how much the noise of the slopes may have made standard deviations too small.
+  /// Factors by which noise of the slopes may have made standard deviations too small.
   Eigen::VectorXd slopeNoise(const Eigen::MatrixXd& independent,
                              const std::vector<SystemParameter>& estimate) const;
-  /// Counts with an instrument that ranges without error on slopes: moves the solution, returns the
-  /// change of its covariance.
-  SystemMatrix doubtRanging(const SystemMatrix& model, AdjustmentSolution& solution) const;
+  /// Averages over the models with and without a ranging error on slopes: changes the solution,
+  /// returns the change of its covariance.
+  SystemMatrix averageRangingModels(const SystemMatrix& model, AdjustmentSolution& solution) const;
   SystemMatrix jackknife(const AdjustmentSolution& solution,
                          const std::vector<SystemParameter>& estimate) const;
 

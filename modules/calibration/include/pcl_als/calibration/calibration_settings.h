@@ -16,25 +16,27 @@ namespace pcl_als {
 /// All settings of a calibration. The defaults suit post-processed survey flights of
 /// 500-3000 m height.
 struct CalibrationSettings {
-  std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
+  std::vector<SystemParameter> estimate;  ///< empty: all that the data determine
   NoiseModel noise;
   SharedErrorModel shared_errors;
   DeterminationLimits limits;
   SurfaceCriterion patches;
   SurveyMap::Selection selection;
-  std::size_t candidates = 100'000;   ///< candidate points, all areas
+  std::size_t candidates = 100'000;   ///< candidate points of all areas together
   std::size_t pair_budget = 0;        ///< pairs that are adjusted (PairSelection); 0: all
   double max_normal_distance = 2.0;   ///< metres, at the start; shrinks with the misfit
   double control_sigma = 0.02;        ///< metres, for control points whose file gives none
-  double minimum_overlap = 2000.0;    ///< m^2 two strips must have in common to be a pair
+  double minimum_overlap = 2000.0;    ///< m^2, least overlap of a pair of strips
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
-  /// Without attitude in the trajectory: take pitch and crab from the points (AttitudeRecovery);
+  /// Without attitude in the trajectory: recover pitch and crab from the points (AttitudeRecovery);
   /// false: a vertical system aligned with the flight line, as in the paper.
   bool recover_attitude = true;
-  double resolution = 0.001;  ///< metres, coordinate step of the files
-  /// With a pair_budget twice as many (most are of few pairs); at most 12 of the coarse stage more.
+  double resolution = 0.001;  ///< metres, step of the coordinates in the files
+  /// Iterations after the coarse stage, which has at most 12; twice as many with a pair_budget,
+  /// because most of these are of few pairs.
   int max_iterations = 20;
-  /// Metres: an update moves no point by more, or no parameter by 1/20 of its deviation.
+  /// Metres: the iteration has converged when no point moves by more, or no parameter changes by
+  /// more than 1/20 of its standard deviation.
   double convergence = 2e-4;
   /// Continue, with warnings, where the trajectory or its attitude cannot belong to the points.
   bool force = false;

@@ -8,12 +8,12 @@
 
 namespace pcl_als {
 
-/** \brief Random errors of one return: what is left when every systematic effect is removed.
+/** \brief Random errors of one return, without systematic effects.
  *
  * The covariance of a ground point is built in the frame of its pulse: range noise along the beam,
- * pointing noise times range across it, the footprint's share of it where the surface is not
- * perpendicular to the beam, and the short-term noise of the trajectory in all directions. What a
- * strip's points share (slow trajectory errors) is not noise: see SharedErrorModel.
+ * pointing noise times range across it, the contribution of the footprint where the surface is not
+ * perpendicular to the beam, and the short-term noise of the trajectory in all directions. Errors
+ * that the points of a strip share (slow trajectory errors) belong to SharedErrorModel.
  */
 struct NoiseModel {
   double range = 0.02;  ///< metres, standard deviation along the beam
@@ -28,18 +28,18 @@ struct NoiseModel {
 
   /// Covariance of a point (m^2, ground frame: east, north, up).
   Eigen::Matrix3d pointCovariance(const ScanGeometry& geometry) const;
-  /// The part of it that is across the beam: pointing and footprint.
+  /// The part of it across the beam: pointing and footprint.
   Eigen::Matrix3d pointingCovariance(const ScanGeometry& geometry) const;
 };
 
-/** \brief Variance of the one number a pair contributes, n'e (m^2): its weight is P_w = sigma_0^2 /
- * (n' Sigma n).
+/** \brief Variance of n'e, the error of the normal distance of a pair (m^2): its weight is P_w =
+ * sigma_0^2 / (n' Sigma n).
  *
- * The paper keeps the (w,w) entry of P = sigma_0^2 Sigma^-1. That is the precision of e along n
- * *given* its in-plane part; D makes the in-plane part unknown, and eliminating it leaves the
- * marginal precision 1 / (n' Sigma n). Both agree when n is a principal axis of Sigma. Where it is
- * not (pointing noise far larger than range noise, seen at 20 degrees of incidence) the (w,w) entry
- * trusts a pair several times too much.
+ * The paper keeps the (w,w) entry of P = sigma_0^2 Sigma^-1, which is the precision of e along n
+ * *given* its in-plane part. The matrix D, however, makes the in-plane part unknown, and
+ * eliminating it leaves the marginal precision 1 / (n' Sigma n). Both agree when n is a principal
+ * axis of Sigma. Otherwise (pointing noise far larger than range noise, 20 degrees of incidence)
+ * the (w,w) entry gives a pair several times too much weight.
  */
 double normalVariance(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& normal);
 

@@ -14,7 +14,7 @@
 namespace pcl_als {
 
 using SystemRow = Eigen::Matrix<double, 1, kSystemParameterCount>;
-/// Effect of the parameters on a point, ground frame; as small and unaligned as can be.
+/// Effect of the parameters on a point, ground frame; single precision, to limit memory.
 using PairDesign = Eigen::Matrix<float, 3, kSystemParameterCount, Eigen::DontAlign>;
 
 /** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs.
@@ -27,23 +27,25 @@ struct PairObservation {
   static constexpr int kControl = -1;
 
   int a = kControl, b = 0;
-  std::int32_t point = -1;              ///< of strip a, in the area's TIN; -1 for control
-  double time_a = 0.0, time_b = 0.0;    ///< firing times of the point and of the patch, seconds
+  std::int32_t point = -1;            ///< of strip a, in the area's TIN; -1 for control
+  double time_a = 0.0, time_b = 0.0;  ///< times of emission of the point and of the patch, seconds
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
   Eigen::Vector3d normal;               ///< unit, upward, ground frame
   PairDesign design = PairDesign::Zero();  ///< A: row() = n' A
-  /// Variance of the normal's direction, rad^2; zero where it was not measured.
+  /// Variance of the direction of the normal, rad^2; zero where the distance is vertical.
   double tilt_variance = 0.0;
-  /// n'(X_A - X_B) of the corrected coordinates, brought back to zero biases along the rows,
-  /// metres. The rows are those of the corrected geometry, so that the solution is of the model
-  /// itself and not of its linearisation at the biased points.
+  /// n'(X_A - X_B) of the corrected coordinates plus the effect of the biases they were corrected
+  /// for, metres. The rows are those of the corrected geometry, so that the solution is that of the
+  /// model itself and not of its linearisation at the biased points.
   double misclosure = 0.0;
-  double offset = 0.0;    ///< part of the misclosure that is of other pairs, see ChosenPair, metres
+  /// part of the misclosure that represents other pairs, see ChosenPair, metres
+  double offset = 0.0;
   double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
-  double pointing = 0.0;  ///< part of it that comes from pointing and footprint, m^2
-  /// Variance and the covariances with all other pairs of the area, over the variance: a point
-  /// seeks patches in several strips and is a vertex of patches that many seek.
+  double pointing = 0.0;  ///< part of it due to pointing and footprint, m^2
+  /// Sum of the absolute covariances with all pairs of the area (itself included) over the
+  /// variance: a point may form pairs in several strips and be a vertex of several patches, see
+  /// NoiseShares.
   double sharing = 1.0;
   double stretch = 0.0;  ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
   double ranges = 0.0;   ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
@@ -55,14 +57,13 @@ struct PairObservation {
   double distance(const SystemVector& biases) const { return misclosure - row() * biases; }
 };
 
-/// The pairs found in one area: the unit that is computed at a time and, for the uncertainty, a
-/// group that may share an error the model does not know.
+/// The pairs of one area. Areas are the units of computation, and the clusters of the jackknife.
 using AreaObservations = std::vector<PairObservation>;
 
 /// First and last of some times, seconds.
 using TimeSpan = std::pair<double, double>;
 
-/// When each of \a strips strips is observed, one span for every area it is seen in.
+/// Times at which each of \a strips strips is observed, one span for every area.
 std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
                                                  std::size_t strips);
 

@@ -9,22 +9,22 @@
 
 namespace pcl_als {
 
-/// \file What AreaMatcher does with points that were flown and SyntheticPairs with those that were
-/// not.
+/// \file Rules that measured pairs (AreaMatcher) and synthetic pairs of planned lines
+/// (SyntheticPairs of module planning) have in common.
 
-/// Standard deviations of a tilt from which on it is one: on less, pairs measure vertically.
+/// Tilt over its standard deviation above which it is significant; below, distances are vertical.
 constexpr double kSignificantTilt = 5.0;
 
-/// Candidates of a strip in an area, of \a all in a block with \a meetings combinations of strip
-/// and area.
+/// Candidates of a strip in an area, for \a all candidates of a block with \a meetings combinations
+/// of strip and area.
 template <typename Amount>
 Amount candidatesPerStrip(Amount all, Amount meetings) {
   constexpr Amount kFewest = 150;
   return std::max(all / meetings, kFewest);
 }
 
-/// Effect on the normal distance of the pulse's stretch over the footprint, n'u range divergence
-/// tan(incidence), with \a beam = u the unit vector of the pulse.
+/// Effect of the stretch of the pulse over the footprint on the normal distance, n'u range
+/// divergence tan(incidence), with \a beam = u the unit vector of the pulse.
 inline double stretchEffect(double range, const Eigen::Vector3d& beam,
                             const Eigen::Vector3d& normal, double divergence) {
   const double cosine = normal.dot(beam);

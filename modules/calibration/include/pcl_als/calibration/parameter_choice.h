@@ -11,11 +11,12 @@
 
 namespace pcl_als {
 
-/** \brief Standard deviation from which on a parameter counts as not determined by the data.
+/** \brief Standard deviation above which a parameter counts as not determined by the data.
  *
- * Estimates this uncertain are no improvement on a freshly mounted system. Short of that they are
- * better made than held: what is confused with them (pitch with lever_arm_y) is only right together
- * with them, and a parameter that is wrongly held resembles errors of the trajectory.
+ * Estimates with a larger standard deviation are no improvement on a newly mounted system. Below
+ * the limits, estimating a parameter is better than holding it: parameters correlated with it
+ * (pitch with lever_arm_y) are correct only together with it, and a parameter held at a wrong value
+ * resembles trajectory errors.
  */
 struct DeterminationLimits {
   double lever_arm = 0.08;                       ///< metres
@@ -25,13 +26,12 @@ struct DeterminationLimits {
   double scan_angle_scale = 3e-4;                ///< unitless
 
   double of(SystemParameter p) const;
-  /// What a parameter that is dropped may be wrong by (standard deviation), which the uncertainty
-  /// of the others includes: 5 cm for lever arms, which can be surveyed; twice the limit for the
-  /// rest.
+  /// Standard deviation of a parameter that is not estimated, which the uncertainty of the others
+  /// includes: 5 cm for lever arms, which can be surveyed; twice the limit for the others.
   double whenHeld(SystemParameter p) const;
 };
 
-/// Which parameters are solved for, and why the others are not.
+/// The parameters that are estimated, and the reasons for the others.
 struct ParameterChoice {
   std::vector<SystemParameter> estimate;
   std::array<ParameterStatus, kSystemParameterCount> status{};
@@ -39,24 +39,23 @@ struct ParameterChoice {
   AdjustmentSolution solution;                            ///< with exactly these
 };
 
-/** \brief Drops from \a wanted what the observations cannot determine, one by one, each with the
- * reason.
+/** \brief Leaves out of \a wanted the parameters that the observations cannot determine, one at a
+ * time, each with the reason.
  *
- * A parameter is not determined when the normal matrix is singular in a direction it takes part in,
- * or when its standard deviation exceeds \a limit_factor times its limit. Of the parameters that
- * one weak direction confuses, the one that can best be measured otherwise goes first: lever arm,
- * then scale, range, heading, pitch, roll.
+ * A parameter is not determined when the normal matrix is singular in a direction in which it has a
+ * component, or when its standard deviation exceeds \a limit_factor times its limit. Of the
+ * parameters that cannot be separated in one direction, the one that is most easily measured
+ * otherwise is left out first: lever arm, then scale, range, heading, pitch, roll.
  */
-/// \param unknown not estimated and not known either (range_bias without control): the uncertainty
-/// of the others includes that they may be wrong, as for those that are dropped.
+/// \param unknown parameters that are neither estimated nor known (range_bias without control): the
+/// uncertainty of the others includes their possible size, as for those that are left out.
 ParameterChoice chooseParameters(const Adjustment& adjustment,
                                  const std::vector<SystemParameter>& wanted,
                                  const SystemVector& held, const DeterminationLimits& limits,
                                  double limit_factor,
                                  const std::vector<SystemParameter>& unknown = {});
 
-/// The parameters that are tried where none is asked for: all but lever_arm_z, range_bias only with
-/// control.
+/// The parameters of an automatic choice: all but lever_arm_z; range_bias with control only.
 std::vector<SystemParameter> automaticParameters(bool with_control);
 
 /// Puts estimates, standard deviations, correlations and statuses into a result, with a warning for

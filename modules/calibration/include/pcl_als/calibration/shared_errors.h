@@ -28,11 +28,11 @@ namespace pcl_als {
  * Local: the remaining errors of a strip between the knots, and those of the surface, are one shift
  * of the strip (east, north, up) in every area, independent from area to area.
  *
- * Ranging: a pulse that meets a surface at incidence theta comes back stretched over d = range *
- * divergence * tan(theta), and the time that the instrument records shifts with it, by an unknown
- * share of d common to all points. In addition, all ranges have a common scale error: the
- * refractive index changes by 1 ppm with a degree or 3 hPa, and is the mean of a column of air
- * measured at its ends.
+ * Ranging: a pulse that hits a surface at incidence theta returns stretched over d = range *
+ * divergence * tan(theta), and the recorded time shifts with it, by an unknown share of d common to
+ * all points. In addition, all ranges have a common scale error, because the refractive index,
+ * which changes by 1 ppm with a degree or 3 hPa, is the mean over a column of air that is measured
+ * at its ends only.
  */
 struct SharedErrorModel {
   double position = 0.02;                       ///< metres, each axis
@@ -51,21 +51,23 @@ struct SharedErrorModel {
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
 
-/// Estimated variance over the variance of the model, by component and kind of error.
+/// Variance components: estimated variance over the variance of the model, by component and kind of
+/// error.
 struct SharedErrorLevels {
-  /// Of one component of the trajectory errors.
+  /// Of one component of the trajectory errors, by kind.
   struct Trajectory {
     double position = 1.0, roll_pitch = 1.0, heading = 1.0;
   };
   Trajectory gauss_markov, smooth, constant;
   double local = 1.0;
 
-  /// All of them, trajectory components one after the other.
+  /// All of them, those of the trajectory components first.
   static constexpr int kCount = 10;
   std::array<double, kCount> values() const;
   static SharedErrorLevels of(const std::array<double, kCount>& values);
 
-  /// Whether none differs by more than a factor of 1.5, less than their standard deviation.
+  /// Whether none differs by more than a factor of 1.5, which is less than their standard
+  /// deviation.
   bool near(const SharedErrorLevels& other) const;
 };
 
@@ -74,8 +76,8 @@ struct SharedErrorLevels {
  * unused), then six for each coefficient of the strips' smooth and constant components.
  *
  * An error at a knot is the sum of all components, so that observations depend on knots and the
- * instrument alone. Knots are a knot_spacing apart, and only where something was observed: what
- * lies between is bridged by the process itself, exactly, so that the cost depends on the
+ * instrument only. Knots are a knot_spacing apart, and exist only where something was observed; the
+ * covariance of the process between them is exact for any distance, so that the cost depends on the
  * observations and not on the length of the flight lines.
  */
 class SharedErrors {
@@ -91,20 +93,20 @@ class SharedErrors {
   int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
   int rangingUnknown() const { return instrumentBlock() * kPerKnot; }
   const SharedErrorModel& model() const { return model_; }
-  /// Knots and instrument: what observations depend on.
+  /// Unknowns of knots and instrument, on which observations depend.
   int observedUnknowns() const { return (knot_count_ + 1) * kPerKnot; }
   int unknowns() const { return observedUnknowns() + coefficient_count_ * kPerKnot; }
 
-  /// Where a time lies between two knots of its strip.
+  /// Position of a time between two knots of its strip.
   struct Place {
     int knot = 0;       ///< the knot at or before the time, counted over all strips
     int next_knot = 0;  ///< the one after; the same for a strip with a single knot
     double next = 0.0;  ///< share of next_knot, 0 … 1
   };
   Place placeOf(int strip, double time) const;
-  /// The errors of a strip by a solution (AdjustmentSolution::shared), a knot_spacing apart from
-  /// its start to its end; where nothing was observed, what the process expects between its
-  /// neighbours.
+  /// The errors of a strip according to a solution (AdjustmentSolution::shared), a knot_spacing
+  /// apart from its start to its end; where nothing was observed, the expectation of the process
+  /// between its neighbours.
   std::vector<TrajectoryErrorKnot> errorsOf(int strip, const Eigen::VectorXd& solution) const;
 
   /// Variance of a strip's shift in an area, each axis, m^2.
@@ -124,7 +126,7 @@ class SharedErrors {
   /// heading).
   Eigen::SparseMatrix<double> priorInformation(
       const SharedErrorLevels& levels = SharedErrorLevels()) const;
-  /// Its ln determinant.
+  /// Logarithm of its determinant.
   double priorLogDeterminant(const SharedErrorLevels& levels = SharedErrorLevels()) const;
 
  private:
@@ -159,7 +161,8 @@ class SharedErrors {
 
   std::vector<StripKnots> strips_;
   int knot_count_ = 0, coefficient_count_ = 0;
-  /// Information of the Gauss-Markov components with a variance of one, and its ln determinant.
+  /// Information of the Gauss-Markov components with a variance of one, and the logarithm of its
+  /// determinant.
   Eigen::SparseMatrix<double> gauss_markov_;
   double gauss_markov_log_ = 0.0;
   SharedErrorModel model_;

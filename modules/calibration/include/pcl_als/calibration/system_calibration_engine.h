@@ -24,14 +24,15 @@ namespace pcl_als {
 
 class AreaMatcher;
 
-/// A strip as it was measured.
+/// A strip as measured.
 struct FlownStrip {
   std::string id;
   std::pair<double, double> span;  ///< first and last firing time, seconds
   std::size_t points = 0;
 };
 
-/// What was adjusted last: all that another adjustment of the same block needs (module planning).
+/// The last adjustment of a calibration, for further adjustments of the same block (module
+/// planning).
 struct AdjustedSurvey {
   std::vector<FlownStrip> strips;              ///< by the index that observations use
   std::vector<AreaObservations> observations;  ///< by area
@@ -43,10 +44,11 @@ struct AdjustedSurvey {
  *
  * Estimates biases (assumed - true) of the system parameters from point-to-patch pairs in
  * overlapping strips (Eq. (11), both directions) and vertical control (Eq. (12)) by modified least
- * squares, reconstructing the points with Eq. (13) and pairing anew until the corrections vanish.
+ * squares. In every iteration the points are reconstructed with Eq. (13) and pairs are formed anew,
+ * until convergence.
  *
- * The points are passed twice, in any order, so that memory depends on the areas chosen and not
- * on the survey:
+ * The points are read twice, in any order, so that memory depends on the chosen areas and not on
+ * the size of the survey:
  * \code
  * SystemCalibrationEngine calibration(trajectory, settings, anchor);
  * const int strip = calibration.addStrip("1");   // for every strip
@@ -65,8 +67,8 @@ struct AdjustedSurvey {
  */
 class SystemCalibrationEngine {
  public:
-  /// \param anchor south-west corner of the block (metres, ground frame), from which areas are
-  /// counted
+  /// \param anchor south-west corner of the block (metres, ground frame), the origin of the grid of
+  /// areas
   SystemCalibrationEngine(std::shared_ptr<const Trajectory> trajectory,
                           const CalibrationSettings& settings, const Eigen::Vector2d& anchor);
   ~SystemCalibrationEngine();
@@ -75,15 +77,16 @@ class SystemCalibrationEngine {
 
   int addStrip(const std::string& id);
   void setControl(std::vector<ControlPoint> control) { control_ = std::move(control); }
-  /// Limits the pairs to these, by strip id; strips in none of them are used for control only.
-  /// UsageError from chooseAreas() for an unknown id.
+  /// Limits the pairs to these, by strip id; other strips are used for control only. UsageError
+  /// from chooseAreas() for an unknown id.
   void setPairs(std::vector<std::pair<std::string, std::string>> pairs) {
     wanted_pairs_ = std::move(pairs);
   }
 
   void survey(int strip, const CalibrationPoint* points, std::size_t count);
   /// InputError when no strips overlap, or when a strip begins before the trajectory or ends after
-  /// it: points that it does not cover are to be left out before. Points in its gaps are not used.
+  /// it: such points are to be left out by the caller. Points in gaps of the trajectory are not
+  /// used.
   void chooseAreas();
   void load(int strip, const CalibrationPoint* points, std::size_t count);
   /// Called after every iteration.
@@ -98,11 +101,11 @@ class SystemCalibrationEngine {
   const CalibrationSettings& settings() const { return settings_; }
 
   const std::vector<SurveyArea>& areas() const { return areas_; }
-  /// What each area contributed to the determination, together 1; after calibrate().
+  /// Share of each area in the information about the parameters, sum 1; after calibrate().
   const std::vector<double>& informationShares() const { return information_; }
   std::size_t loadedPoints() const;
   std::vector<StripPair> const& pairs() const { return pairs_; }
-  /// What was recovered of the attitude, a line for each strip; after chooseAreas().
+  /// Results of the recovery of attitude, a line for each strip; after chooseAreas().
   const std::vector<std::string>& attitudeRemarks() const { return attitude_remarks_; }
   /// The trajectory that is used: after chooseAreas() with recovered attitude.
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
@@ -112,33 +115,34 @@ class SystemCalibrationEngine {
 
   void leaveOutUnpaired();
   void leaveOutSmallStrips();
-  /// Those whose times are rounded to steps in which the sensor moves by more than a trajectory's
-  /// error.
+  /// Strips with times rounded to steps in which the sensor moves by more than the error of its
+  /// trajectory.
   void leaveOutRoundedTimes();
   void checkTrajectory();
   void checkTimes() const;
   void recoverAttitude();
   void describeAttitudes();
-  void takeNonLinear(const std::string& remark);
+  void useNonLinearModel(const std::string& remark);
   void choosePairs();
   int stripNamed(const std::string& id) const;
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
-  void pairUp(State& state) const;
+  void formPairs(State& state) const;
   /// Finds whether any control point is covered by a strip, and warns where none is.
-  void lookAtControl(const State& state);
-  /// Keeps the pairs that determine the parameters, of all that are in the state.
+  void warnOfUncoveredControl(const State& state);
+  /// Selects a reduced set of the pairs in the state that gives nearly the estimates of all.
   void selectPairs(State& state);
   void weigh(State& state) const;
   void choose(State& state) const;
   void adjust(State& state, bool estimate_components) const;
   void shrinkThreshold(State& state) const;
   /// Whether no parameter changed by more than a number of its standard deviations.
-  static bool restsWithin(const State& state, const SystemVector& before, double deviations);
-  /// Records what the last update changed.
+  static bool isUpdateWithin(const State& state, const SystemVector& before, double deviations);
+  /// Records the last update.
   static void recordUpdate(State& state, const SystemVector& before);
-  /// The parameter that changed most in the last iterations, by its standard deviation.
-  static SystemParameter mostRestless(const State& state);
+  /// The parameter with the largest change relative to its standard deviation in the last
+  /// iterations.
+  static SystemParameter mostChangingParameter(const State& state);
   /// Whether another iteration follows. Where the limit is reached and the parameters are chosen
   /// automatically, the one that changes most is left out and the iteration continues.
   bool mayContinue(State& state, const CalibrationResult& result) const;
@@ -151,15 +155,15 @@ class SystemCalibrationEngine {
   void closeSelection(State& state) const;
   void closeConverged(State& state) const;
   /// Why the iteration did not converge, for the verdict.
-  std::string whyOpen(const State& state, const CalibrationResult& result) const;
+  std::string reasonNotConverged(const State& state, const CalibrationResult& result) const;
   bool hasPairs(int strip, const CalibrationResult& result) const;
-  /// Why a strip that overlaps others has no pairs, for a warning; empty where it overlaps none.
-  std::string lostStrip(int strip) const;
-  /// Adds what is wrong with strips: those without pairs, those that do not fit the others.
+  /// Reason why a strip that overlaps others has no pairs, for a warning; empty without overlap.
+  std::string reasonWithoutPairs(int strip) const;
+  /// Adds warnings of strips without pairs and of strips that do not fit the others.
   void diagnose(CalibrationResult& result) const;
-  /// Moves what was adjusted out of the state.
+  /// Moves the observations, weights and variance components out of the state.
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
-  /// Adds what control shows, with the parameters that depend on contradictory control.
+  /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
@@ -169,11 +173,11 @@ class SystemCalibrationEngine {
   SurveyMap map_;
   TrajectoryPlausibility plausibility_;
   std::deque<TimeResolution> times_;         ///< by strip
-  std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is wanted
+  std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is needed
   std::vector<std::string> ids_;
   std::vector<bool> used_;
   std::vector<ControlPoint> control_;
-  bool control_seen_ = false;  ///< whether a strip has a patch under any of it
+  bool control_covered_ = false;  ///< whether any strip has a patch at a control point
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;
   std::vector<StripPair> pairs_;
   std::vector<SurveyArea> areas_;
@@ -183,7 +187,7 @@ class SystemCalibrationEngine {
   std::vector<double> information_;  ///< by area
   AdjustedSurvey adjusted_;
   std::vector<std::string> warnings_, attitude_remarks_;
-  std::string height_error_;  ///< of the trajectory, as recorded scan angles show it
+  std::string height_error_;  ///< of the trajectory, from recorded scan angles
   std::function<void(const CalibrationIteration&)> progress_;
 };
 

@@ -13,65 +13,68 @@
 
 namespace pcl_als {
 
-/// What is needed to adjust a block as the calibration does.
+/// Settings of an adjustment of a block as by the calibration.
 struct ObservabilitySettings {
   std::vector<SystemParameter> estimate;  ///< empty: automatic, all that the data determine
   DeterminationLimits limits;
   SharedErrorModel shared_errors;
-  SharedErrorLevels levels;  ///< of the shared errors, as found from the data
-  /// For the pairs of lines that are not flown: noise and points per area. The surface is that of
-  /// the block's own pairs unless \a planned is set.
+  /// variance components of the shared errors, as estimated from the data
+  SharedErrorLevels levels;
+  /// For the pairs of virtual lines: noise and points per area. The surface is that of the block's
+  /// own pairs unless \a planned is set.
   SyntheticPairs::Settings pairs;
   bool planned = false;
-  /// Standard deviations as reported, internal units; where they exceed those of the block as it
-  /// is given, all are enlarged by their ratio. Zero: none reported.
+  /// Standard deviations of the calibration, internal units; where they exceed those of the
+  /// adjusted block, all are enlarged by their ratio. Zero: not given.
   SystemVector reported = SystemVector::Zero();
   bool advise = true;
   int threads = 0;
 };
 
-/// A line or control that is not there, and what it would do.
+/// A virtual line or control, and its effect.
 struct Advice {
   std::string what;  ///< "an opposite line at 540 m over line 3"
   bool is_line = true;
   StripGeometry line;                          ///< of a line
-  std::vector<Eigen::Vector2d> control;        ///< places, of control
+  std::vector<Eigen::Vector2d> control;        ///< positions of virtual control
   SystemVector before = SystemVector::Zero();  ///< see AdjustedBlock::expected()
   SystemVector after = SystemVector::Zero();
   double benefit = 0.0;  ///< sum of ln(before / after) of AdjustedBlock::deviations()
-  std::string text;      ///< what and what for, one line
+  std::string text;      ///< the line or control and its benefit, in one line
 
   double duration() const { return is_line ? line.duration() : 0.0; }  ///< seconds
 };
 
-/// What a block determines, why not more, and what would help.
+/// What a block determines, the causes of weak determination, and advice.
 struct ObservabilityReport {
   std::string facts;
   std::vector<ParameterDirection> directions;  ///< weakest first
   std::vector<WeakCombination> weak;           ///< weakest first
-  std::vector<Advice> advice;                  ///< best first; only what helps
+  std::vector<Advice> advice;                  ///< best first; beneficial advice only
 
-  /// The line with the most benefit for its flying time; null when no line helps.
+  /// The line with the largest benefit relative to its flying time; null without beneficial lines.
   const Advice* cheapestLine() const;
-  /// The report line by line: directions known worse than a centimetre, the best six of the advice.
+  /// The report line by line: directions with a standard deviation above a centimetre, and the best
+  /// six pieces of advice.
   std::vector<std::string> text() const;
 };
 
 /// A block adjusted with the shared errors of its strips eliminated.
 class AdjustedBlock {
  public:
-  /// \a block must outlive it.
+  /// \a block must exist as long as this object.
   AdjustedBlock(const ObservedBlock& block, const ObservabilitySettings& settings);
 
   const Adjustment& adjustment() const { return adjustment_; }
   const ParameterChoice& choice() const { return choice_; }
-  /// Standard deviations of what was tried, internal units, if each was known beforehand to twice
-  /// its limit: never larger with more observations, whatever is left out as not determined.
+  /// Standard deviations of the considered parameters, internal units, each with a prior of twice
+  /// its limit: they never increase with more observations, whatever is left out as not determined.
   const SystemVector& deviations() const { return deviations_; }
-  /// The same of what is determined; for others the value by the observations alone,
-  /// infinite where they show nothing.
+  /// The same of parameters that are determined; for others the value from the observations alone,
+  /// which is infinite where there is none.
   SystemVector expected() const;
-  /// What was tried; includes range_bias where no parameter was requested, with control or without.
+  /// The considered parameters; includes range_bias where no parameter was requested, with or
+  /// without control.
   const std::vector<SystemParameter>& wanted() const { return wanted_; }
   bool determines(SystemParameter p) const;
 
@@ -85,8 +88,9 @@ class AdjustedBlock {
 
 /** \brief Directions, weak combinations and advice for a block.
  *
- * Every piece of advice is a whole adjustment: the virtual strip with pairs to all strips it
- * overlaps, its own trajectory errors, and those of the flown strips as unknowns of both.
+ * Each piece of advice is the result of a complete adjustment: the virtual strip has pairs with all
+ * strips that it overlaps and its own trajectory errors; those of the flown strips are common
+ * unknowns.
  */
 ObservabilityReport describeObservability(const ObservedBlock& block,
                                           const ObservabilitySettings& settings);
@@ -94,13 +98,13 @@ ObservabilityReport describeObservability(const ObservedBlock& block,
 /** \brief A calibrated block for describeObservability().
  *
  * Strips become straight lines from their first to their last pose; their height is the median of
- * their pairs' (sensor above patch), their swath what the pairs reach to. A strip left out has an
- * empty span and no pairs.
+ * their pairs (sensor above patch), their swath the largest angle of these. A strip that was left
+ * out has an empty span and no pairs.
  */
 ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory);
 
-/** \brief What a calibrated block determines, why not more, and what an added line or control would
- * change: the lines of CalibrationResult::observability.
+/** \brief What a calibrated block determines, the causes of weak determination, and the effect of
+ * additional lines or control: the lines of CalibrationResult::observability.
  *
  * \param calibration after calibrate(), which returned \a result
  */

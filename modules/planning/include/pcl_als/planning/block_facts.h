@@ -12,25 +12,26 @@
 namespace pcl_als {
 
 /// Properties of a block on which the parameters depend by section 2.2 of Habib et al. 2011.
-/// Only strips that take part in an observation count.
+/// Strips without observations are not considered.
 struct BlockFacts {
   std::vector<double> heights;  ///< metres above ground, those that differ by a tenth, ascending
   std::vector<std::size_t> lines_at;  ///< number of strips at each height
-  bool opposite_lines = false;        ///< two that overlap fly against each other
-  bool crossing_lines = false;        ///< two that overlap fly along different axes
-  bool parallel_lines = false;        ///< two that overlap fly the same way, aside of each other
-  double separation = 0.0;            ///< the largest of those, share of the swath's half width
-  bool heights_meet = false;          ///< two that overlap fly at different heights
-  std::size_t control = 0;            ///< control points that a strip sees
-  double slope = 0.0;                 ///< RMS tilt of the measuring normals, radians
-  double sloped = 0.0;                ///< share of pairs on surfaces steeper than 5 degrees
-  double half_angle = 0.0;            ///< largest angle off the vertical of a pair, radians
-  double least_angle = 0.5 * kPi;     ///< and the smallest
+  bool opposite_lines = false;        ///< two overlapping strips of opposite directions
+  bool crossing_lines = false;        ///< two overlapping strips of different axes
+  /// two overlapping strips of the same direction, displaced laterally
+  bool parallel_lines = false;
+  double separation = 0.0;  ///< the largest displacement of these, share of the swath's half width
+  bool heights_meet = false;       ///< two overlapping strips of different heights
+  std::size_t control = 0;         ///< control points covered by a strip
+  double slope = 0.0;              ///< RMS tilt of the measuring normals, radians
+  double sloped = 0.0;             ///< share of pairs on surfaces steeper than 5 degrees
+  double half_angle = 0.0;         ///< largest angle off the vertical of a pair, radians
+  double least_angle = 0.5 * kPi;  ///< and the smallest
 
   explicit BlockFacts(const ObservedBlock& block);
 
-  /// Why the block cannot separate these, or does not determine the one; empty when
-  /// none of the known reasons is there.
+  /// The cause for which the block cannot separate these parameters, or does not determine the one;
+  /// empty when none of the known causes applies.
   std::string causeOf(const std::vector<SystemParameter>& parameters) const;
   /// "heights 540 and 1150 m, opposite lines, …": the facts in one line.
   std::string text() const;
@@ -40,7 +41,7 @@ struct BlockFacts {
   std::string fewLines() const;
 };
 
-/// Ground that pairs of a block show: their slopes, as shares of pairs.
+/// Distribution of the slopes of the pairs of a block.
 SurfaceModel surfaceOf(const BlockFacts& facts);
 
 }  // namespace pcl_als

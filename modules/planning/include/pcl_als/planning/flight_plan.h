@@ -11,32 +11,32 @@
 
 namespace pcl_als {
 
-/// What is to be expected of a planned flight.
+/// Expected result of a planned flight.
 struct FlightPlanResult {
   std::vector<StripGeometry> lines;
   struct Overlap {
     std::string a, b;
-    std::size_t areas = 0;  ///< places in which the two are compared
-    double pairs = 0.0;     ///< point-patch pairs to expect there
+    std::size_t areas = 0;  ///< areas in which the two are compared
+    double pairs = 0.0;     ///< expected point-to-patch pairs
   };
   std::vector<Overlap> overlaps;
-  std::size_t control_points = 0;  ///< those that a line sees
-  /// Standard deviations, correlations, statuses and reasons as a calibration would report them;
+  std::size_t control_points = 0;  ///< control points covered by a line
+  /// Standard deviations, correlations, statuses and reasons in the form of a calibration result;
   /// biases are zero, converged states whether all requested parameters are determined.
   CalibrationResult expected;
   ObservabilityReport observability;
 };
 
-/** \brief What a calibration flight will determine, before anyone flies it.
+/** \brief Predicts the standard deviations that a calibration flight will give.
  *
- * Pairs are synthesised in the overlaps of the planned lines and go through the same adjustment,
- * shared errors and choice of parameters as measured ones.
+ * Pairs are synthesised in the overlaps of the planned lines and are processed by the same
+ * adjustment, shared errors and choice of parameters as measured ones.
  */
 class FlightPlan {
  public:
   struct Settings {
     ObservabilitySettings adjustment;  ///< with noise, surface and control sigma in pairs
-    std::size_t control_points = 0;    ///< spread over the block
+    std::size_t control_points = 0;    ///< distributed over the block
   };
   /// UsageError for a line that cannot be flown, an id that appears twice or an impossible setting.
   FlightPlan(std::vector<StripGeometry> lines, const Settings& settings);

@@ -10,12 +10,12 @@
 
 namespace pcl_als {
 
-/// One direction in the space of parameters and how well the observations know it.
+/// One direction in the space of parameters and its standard deviation.
 struct ParameterDirection {
-  /// A unit vector; each parameter is measured by what it does to a ground point, so that equal
-  /// components move it equally far.
+  /// A unit vector; each parameter is expressed by its effect on a ground point, so that equal
+  /// components have equal effects.
   SystemVector components = SystemVector::Zero();
-  double std = 0.0;  ///< along the direction, metres on the ground; infinite where nothing is known
+  double std = 0.0;  ///< along the direction, metres on the ground; infinite without information
   std::string text;  ///< "boresight_pitch 1.00 with lever_arm_y -0.97: 35.2 mm on the ground"
 };
 
@@ -23,33 +23,35 @@ struct ParameterDirection {
 struct WeakCombination {
   std::vector<SystemParameter> parameters;  ///< one or two, the less certain one first
   double correlation = 0.0;                 ///< of two
-  std::string cause;  ///< in words, from the block's own data; empty where it shows none
+  std::string cause;  ///< from the facts of the block; empty where none applies
   std::string text;  ///< "boresight_pitch with lever_arm_y, correlation 0.97: single flying height"
 };
 
-/** \brief What a normal matrix knows of the parameters together (Habib et al. 2011, section 2.2).
+/** \brief Information of a normal matrix about the parameters together (Habib et al. 2011, section
+ * 2.2).
  *
- * Units are taken out by the effect of each parameter on a ground point, see groundEffect().
+ * Units are eliminated by the effect of each parameter on a ground point, see groundEffect().
  */
 class Observability {
  public:
   /// \param normal N of all eight, shared errors eliminated, internal units
   /// (Adjustment::reducedNormal())
-  /// \param wanted the parameters considered; the others are taken as known
+  /// \param wanted the parameters considered; the others are assumed to be known
   /// \param effect metres on the ground per internal unit of each parameter
   Observability(const SystemMatrix& normal, const std::vector<SystemParameter>& wanted,
                 const SystemVector& effect);
 
-  /// Enlarges every standard deviation by its factor, where the scatter of a block is larger than
-  /// its model says.
+  /// Enlarges every standard deviation by its factor, for a block whose scatter exceeds its model.
   void weaken(const SystemVector& factor);
 
   /// Largest first: the singular values of N, as standard deviations on the ground.
   std::vector<ParameterDirection> directions() const;
-  /// Standard deviations with all wanted ones estimated and known beforehand to \a prior (internal
-  /// units; infinite: not at all); infinite where it is not determined, zero for the others.
+  /// Standard deviations with all considered parameters estimated and a prior standard deviation \a
+  /// prior (internal units; infinite: no prior); infinite where a parameter is not determined, zero
+  /// for the others.
   SystemVector deviations(const SystemVector& prior) const;
-  /// Weakest first: what correlates by 0.85 and more, and what is beyond its limit alone.
+  /// Weakest first: parameters with correlations of 0.85 and more, and parameters beyond their
+  /// limit.
   std::vector<WeakCombination> combinations(const BlockFacts& facts,
                                             const DeterminationLimits& limits) const;
 
@@ -62,7 +64,7 @@ class Observability {
 
   Eigen::MatrixXd scaledNormal() const;
   Known known(const SystemVector& prior) const;
-  /// The parameter that can hardly be separated from \a i; itself when there is none.
+  /// The parameter that can hardly be separated from \a i; \a i itself when there is none.
   std::size_t partnerOf(std::size_t i, const Known& known) const;
   WeakCombination single(std::size_t index, double std, const BlockFacts& facts) const;
   WeakCombination pair(std::size_t first, std::size_t second, double correlation,

@@ -12,8 +12,8 @@
 
 namespace pcl_als {
 
-/** \brief A flight line as far as the geometry of a calibration goes: straight, level, at constant
- * speed, by a vertical scanner.
+/** \brief A flight line as used for the geometry of a calibration: straight, level, at constant
+ * speed, with a vertical scanner.
  *
  * Plan coordinates are metres in any local ground frame (east, north).
  */
@@ -40,7 +40,7 @@ struct StripGeometry {
   bool covers(const Eigen::Vector2d& place) const;
   /// Pose of the sensor abeam of a place; height 0 is the mean ground.
   SensorPose poseAbeam(const Eigen::Vector2d& place) const;
-  /// Firing time of what lies abeam, seconds.
+  /// Time of emission for points abeam, seconds.
   double timeAbeam(const Eigen::Vector2d& place) const { return first_time + along(place) / speed; }
   /// UsageError naming the line when it cannot be flown: length, height, angle, speed, density.
   void validate() const;
@@ -49,7 +49,7 @@ struct StripGeometry {
 /// Angle between two courses, radians, [0, pi].
 double courseDifference(const StripGeometry& a, const StripGeometry& b);
 
-/// Whether two lines fly along one axis (within 20 degrees), the same way or against each other.
+/// Whether two lines have the same axis (within 20 degrees), in the same or the opposite direction.
 bool sameWay(const StripGeometry& a, const StripGeometry& b);
 bool opposite(const StripGeometry& a, const StripGeometry& b);
 

@@ -23,22 +23,22 @@ struct SurfacePoint {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
 };
 
-/// The surfaces that pairs are found on, by their slopes; aspects are even.
+/// Distribution of the slopes of surfaces on which pairs are formed; aspects are uniform.
 struct SurfaceModel {
   double ground_slope = 5.0 * kRadiansPerDegree;  ///< RMS slope of open ground; 0: a plane
   double steep_slope = 25.0 * kRadiansPerDegree;  ///< slope of roofs, banks
-  double steep_share = 0.0625;                    ///< their share of the usable surface
+  double steep_share = 0.0625;                    ///< share of these in the usable surface
   double usable = 0.5;                            ///< share of the points on solid, smooth surfaces
-  /// Pairs are taken evenly over slopes and aspects, as AreaMatcher does, so that steep surfaces
-  /// count for more than their share; false: the shares are those of the pairs.
+  /// Pairs are chosen evenly over slopes and aspects, as by AreaMatcher, so that steep surfaces
+  /// have more pairs than their share; false: the shares are those of the pairs.
   bool balanced = true;
-  /// The ground, in place of ground_slope; empty outside what is known.
+  /// Terrain that replaces ground_slope; empty where it is not known.
   std::function<std::optional<SurfacePoint>(const Eigen::Vector2d&)> terrain;
 
-  void validate() const;  ///< UsageError naming a value that is impossible
+  void validate() const;  ///< UsageError that names an impossible value
 };
 
-/// The strips of a block and the pairs between them: what another adjustment of it needs.
+/// The strips of a block and the pairs between them, for a further adjustment.
 struct ObservedBlock {
   std::vector<StripGeometry> strips;           ///< by the index that observations use
   std::vector<TimeSpan> spans;                 ///< firing times
@@ -47,13 +47,13 @@ struct ObservedBlock {
   std::size_t control_points = 0;
 
   std::size_t observationCount() const;
-  /// Every k-th observation of an area with k times its weight, misclosures zero, so that at most
-  /// about \a count remain: the same information, to be adjusted again and again.
+  /// Every k-th observation of an area with k times its weight and zero misclosure, so that about
+  /// \a count remain: nearly the same information at less cost.
   ObservedBlock thinned(std::size_t count) const;
 };
 
-/** \brief Pairs as a calibration would find them between planned lines: rows from the true
- * geometry, noise of the model, misclosure zero.
+/** \brief Pairs expected between planned lines: rows from the true geometry, noise of the model,
+ * misclosure zero.
  *
  * An observation represents many: its weight is the number of pairs of its kind in its area.
  */
@@ -63,18 +63,18 @@ class SyntheticPairs {
     NoiseModel noise;
     SurfaceModel surface;
     SurveyMap::Selection selection;    ///< areas, and points used at most
-    std::size_t candidates = 100'000;  ///< candidate points, all areas
+    std::size_t candidates = 100'000;  ///< candidate points of all areas together
     double control_sigma = 0.02;       ///< metres
   };
   explicit SyntheticPairs(const Settings& settings) : settings_(settings) {}
 
-  /// A strip that joins a block, its clock after all others'; returns its index.
+  /// Adds a strip whose times follow all others; returns its index.
   static int addStrip(StripGeometry strip, ObservedBlock& block);
-  /// Pairs of the strips from \a first on with all strips, in areas of their own.
+  /// Adds pairs of the strips from \a first on with all strips, in areas of their own.
   void addPairs(int first, ObservedBlock& block) const;
-  /// Vertical control at a place, seen by every strip that covers it; false when none does.
+  /// Adds vertical control at a place, for every strip that covers it; false when none does.
   bool addControl(const Eigen::Vector2d& place, ObservedBlock& block) const;
-  /// \a count places, spread over what the strips cover.
+  /// \a count places, distributed over the ground that the strips cover.
   static std::vector<Eigen::Vector2d> spread(std::size_t count,
                                              const std::vector<StripGeometry>& strips);
 

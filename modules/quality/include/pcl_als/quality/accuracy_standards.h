@@ -8,7 +8,7 @@
 
 namespace pcl_als {
 
-/** \brief What the USGS 3DEP Lidar Base Specification asks of a quality level.
+/** \brief Requirements of the USGS 3DEP Lidar Base Specification for a quality level.
  *
  * Table 2 (relative vertical accuracy of swath data) and Table 4 (absolute vertical accuracy); the
  * figures have been the same from version 1.2 (2014) to 2025 rev. A. The largest difference is that
@@ -39,10 +39,10 @@ inline constexpr const char* kSwathGuidelines =
     "ASPRS Guidelines on Geometric Inter-Swath Accuracy and Quality of Lidar Data, Version 1.0 "
     "(2018)";
 
-/// The best level whose limit a difference between swaths (RMSDz, metres) keeps; empty: none.
+/// The best level whose limit of differences between swaths (RMSDz, metres) is satisfied, if any.
 std::optional<int> swathQualityLevel(double rmsdz);
 
-/// The best level whose absolute limit an RMSEz (metres) keeps; empty: none.
+/// The best level whose absolute limit is satisfied by an RMSEz (metres), if any.
 std::optional<int> absoluteQualityLevel(double rmsez);
 
 /// ASPRS figures of a test against check points, metres.
@@ -50,8 +50,8 @@ struct VerticalAccuracy {
   /// Edition 2: sqrt(fit^2 + survey^2), fit: RMSE against the points, survey: RMSE of their heights
   double rmse_v = 0.0;
   double fit = 0.0, survey = 0.0;
-  double class_cm = 0.0;  ///< the accuracy class that rmse_v falls into: the next whole centimetre
-  double nva_95 = 0.0;    ///< Edition 1: 1.96 fit, at 95 % if errors are normal
+  double class_cm = 0.0;       ///< the accuracy class of rmse_v: the next whole centimetre
+  double nva_95 = 0.0;         ///< Edition 1: 1.96 fit, at 95 % if errors are normal
   bool enough_points = false;  ///< Edition 2 requires kFewestCheckPoints
 };
 inline constexpr std::size_t kFewestCheckPoints = 30;

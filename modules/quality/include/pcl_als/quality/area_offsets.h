@@ -17,11 +17,13 @@
 
 namespace pcl_als {
 
-/// What counts as a surface to measure on.
+/// Criterion of surfaces that are compared.
 struct SurfaceLimits : SurfaceCriterion {
-  double level_slope = 0.17453292519943295;  ///< radians (10 degrees): steeper is not for RMSDz
-  double maximum_distance = 1.0;             ///< metres: more is another object, not an offset
-  std::size_t candidates = 400;  ///< places of a strip and area: this number level, and steep
+  /// radians (10 degrees): limit of level ground for RMSDz
+  double level_slope = 0.17453292519943295;
+  double maximum_distance = 1.0;  ///< metres: larger differences are different objects
+  /// places of a strip and area on level ground, and as many on slopes
+  std::size_t candidates = 400;
 };
 
 /** \brief The points of one area by strip, and the offsets between the strips there.
@@ -40,38 +42,38 @@ class AreaOffsets {
   const std::vector<SwathPoint>& points(int strip) const { return part(strip).points; }
   std::size_t pointCount() const;
 
-  /// Drops points high in the vegetation (dropHighVegetation()) and builds the TIN of every strip
-  /// with enough points. \a resolution: metres, coordinate step.
+  /// Removes points high in the vegetation (dropHighVegetation()) and builds the TIN of every strip
+  /// with enough points. \a resolution: metres, step of the coordinates.
   void build(const SurfaceLimits& limits, double resolution);
-  void release();  ///< forgets the TINs, keeps the points
+  void release();  ///< deletes the TINs and keeps the points
 
-  /// Roughness of the surface of all strips where it slopes gently, metres, at up to some hundred
-  /// places; for finding what smooth means in these data.
+  /// Roughness of the surfaces of all strips on gentle slopes, metres, at up to some hundred
+  /// places; determines the limit of smooth surfaces for these data.
   std::vector<double> roughness() const;
-  /// Share of a strip's points that lie on another of its own, to the last digit.
+  /// Share of a strip's points with exactly the coordinates of another point of the strip.
   double repeatedShare(int strip) const;
 
   /** \brief Offsets a - b at places of a and of b.
    *
    * A place is the plan position of a single return of one strip. The surface of each strip there
    * is the plane of the vertices around the triangle at that position, without the triangle's own:
-   * neither the point that gave the place nor its noise is in what is measured, and both strips are
-   * treated alike. Classes do not choose points: a class that depends on height (ground found in
-   * all strips together) would keep the low points of each strip.
+   * neither the point that defines the place nor its noise contributes, and both strips are treated
+   * alike. Points are not selected by class: a class that depends on height (ground of all strips
+   * together) would contain the low points of each strip.
    */
   std::vector<OffsetSample> offsets(int a, int b) const;
 
-  /// A strip against a point of known height.
+  /// Height of a strip above a point of known height.
   struct Height {
     double above = 0.0;                    ///< strip - point, metres, vertical
     float slope = 0.0F, roughness = 0.0F;  ///< of the surface around, radians, metres
-    std::string unfit;                     ///< why this is not to be used; empty: it is
+    std::string unfit;                     ///< reason for which it is not used; empty: it is
   };
   /// Empty where the strip has no surface above or below the point.
   std::optional<Height> heightAt(int strip, const Eigen::Vector3d& point) const;
 
  private:
-  /// Where to measure: the plan position of a point, on the surface around it.
+  /// A place of comparison: the plan position of a point, on the surface around it.
   struct Place {
     std::int32_t point = 0;
     Eigen::Vector3d position;  ///< metres; the height is that of the surface
@@ -84,8 +86,9 @@ class AreaOffsets {
     std::vector<Place> places;
   };
   const StripPart& part(int strip) const { return strips_[static_cast<std::size_t>(strip)]; }
-  /// One triangle for each single-return vertex inside the area, every so manyth.
-  std::vector<std::int32_t> looks(const StripPart& part, std::size_t count) const;
+  /// Triangles of the single-return vertices inside the area, one for each vertex, thinned to a
+  /// count.
+  std::vector<std::int32_t> sampledTriangles(const StripPart& part, std::size_t count) const;
   void choosePlaces(StripPart& part) const;
   void measure(const StripPart& from, const StripPart& to, double sign,
                std::vector<OffsetSample>& found) const;

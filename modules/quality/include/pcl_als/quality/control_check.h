@@ -21,10 +21,10 @@ struct ControlDifference {
   double above = 0.0;                                  ///< strip - control, metres
   double slope = 0.0;                                  ///< of the surface, radians
   double roughness = 0.0;                              ///< metres
-  std::string unfit;  ///< why it is left out of the statistics; empty: it counts
+  std::string unfit;  ///< reason for which it is left out of the statistics; empty: it is used
 };
 
-/// The strips against control.
+/// Comparison of the strips with control.
 struct ControlAssessment {
   struct OfStrip {
     std::string strip;
@@ -32,16 +32,16 @@ struct ControlAssessment {
   };
 
   std::vector<ControlDifference> differences;  ///< by point, then by strip
-  std::vector<OfStrip> strips;                 ///< those that see a point, in order
-  OffsetSummary all;                           ///< every strip at every point it sees
-  std::size_t points = 0;                      ///< that count, of at least one strip
+  std::vector<OfStrip> strips;                 ///< those with a point, in order
+  OffsetSummary all;                           ///< all strips at all points that they cover
+  std::size_t points = 0;                      ///< points that are used, of at least one strip
   std::vector<std::string> unseen;             ///< points that no strip covers
   VerticalAccuracy accuracy;                   ///< of all
   bool survey_known = false;         ///< the file gives the standard deviations of the heights
   std::optional<int> quality_level;  ///< by the fit alone; empty: none
 };
 
-/// The strips at a point, measured in an area that holds it (after AreaOffsets::build()).
+/// The strips at a point, from an area that contains it (after AreaOffsets::build()).
 std::vector<ControlDifference> controlDifferences(const AreaOffsets& area,
                                                   const ControlPoint& point,
                                                   const std::vector<std::string>& strips);

@@ -11,8 +11,8 @@
 
 namespace pcl_als {
 
-/// How far two strips lie apart in height, however far that is: for offsets beyond the distance in
-/// which places are compared.
+/// Height difference of two strips of any size, for offsets beyond the largest distance at which
+/// places are compared.
 struct HeightGap {
   double median = 0.0;    ///< a - b, metres, of the lowest points of cells
   std::size_t cells = 0;  ///< of kCell metres that both strips have points in
@@ -20,12 +20,12 @@ struct HeightGap {
   static constexpr double kCell = 2.0;
 };
 
-/// Of the cells in the areas; empty where fewer than 20 are shared. At most some hundred thousand
+/// From the cells of the areas; empty where fewer than 20 are shared. At most some hundred thousand
 /// points are used.
 std::optional<HeightGap> heightGap(const std::vector<AreaOffsets>& areas, int a, int b);
 
-/// Why places of \a a and \a b cannot be compared, in one line; empty where the gap is less than
-/// \a maximum_distance (metres).
+/// The reason for which places of \a a and \a b cannot be compared, in one line; empty where the
+/// difference is less than \a maximum_distance (metres).
 std::string describeGap(const HeightGap& gap, const std::string& a, const std::string& b,
                         double maximum_distance);
 

@@ -10,24 +10,24 @@
 
 namespace pcl_als {
 
-/** \brief How far one strip lies above another at a place, measured at one point.
+/** \brief Offset of two strips at a place.
  *
- * A point of either strip against a TIN patch of the other; all signs are those of a - b, whichever
- * of the two the point belongs to.
+ * A point of either strip is compared with a TIN patch of the other; all signs are those of a - b,
+ * whichever strip the point belongs to.
  */
 struct OffsetSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the point, metres, ground frame
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< of the surface around, unit, upward
-  double vertical = 0.0;                               ///< height of a over b, metres; where level
+  double vertical = 0.0;                               ///< height of a above b, metres; where level
   double normal_distance = 0.0;       ///< the same along the normal, metres; where conjugate
   double time_a = 0.0, time_b = 0.0;  ///< seconds
   float scan_angle_a = 0.0F, scan_angle_b = 0.0F;  ///< degrees
   float slope = 0.0F;                              ///< radians from horizontal
-  bool level = false;      ///< smooth single-return ground under 10 degrees: counts for RMSDz
-  bool conjugate = false;  ///< has a conjugate patch: counts for normal distances and shifts
-  bool identical = false;  ///< the other strip has this very point: a copy
+  bool level = false;      ///< smooth ground of single returns below 10 degrees, used for RMSDz
+  bool conjugate = false;  ///< has a conjugate patch, used for normal distances and shifts
+  bool identical = false;  ///< the other strip has a point with the same coordinates: a copy
 
-  /// Ground cells of kCluster metres, within which errors are taken as one.
+  /// Ground cells of kCluster metres, within which errors count as correlated.
   static constexpr double kCluster = 25.0;
   std::int64_t cluster() const;
   static Eigen::Vector2d centreOf(std::int64_t cluster);

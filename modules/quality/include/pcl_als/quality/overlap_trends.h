@@ -12,42 +12,42 @@
 
 namespace pcl_als {
 
-/// A straight line through offsets: their change per unit of something.
+/// A straight line through offsets: their change with distance, time or scan angle.
 struct Trend {
   bool determined = false;
   double slope = 0.0, std = 0.0;  ///< metres per unit
 };
 
-/// Mean offset over a stretch of something.
+/// Mean offset of an interval of distance, time or scan angle.
 struct ProfileBin {
-  double from = 0.0, to = 0.0;  ///< the stretch
+  double from = 0.0, to = 0.0;  ///< the interval
   std::size_t count = 0;
   double mean = 0.0, std = 0.0;  ///< metres
 };
 
-/// How two strips were flown against each other.
+/// Relative direction of two flight lines.
 enum class FlightRelation { unknown, parallel, opposite, crossing };
 
-/** \brief How the height of strip a over strip b changes across and along their overlap, with time
+/** \brief Change of the height of strip a above strip b across and along their overlap, with time
  * and with scan angle.
  *
  * The height error of a strip with a roll error dphi (assumed - true, radians) is -x dphi at the
- * lateral distance x, right of flight (Habib et al. 2011, Eq. (8)), so the offset a - b changes
- * across the overlap (to the right of a's flight) by -(dphi_a + dphi_b) for opposite lines and by
- * -(dphi_a - dphi_b) for parallel ones; of two crossing lines each shows its own roll error across
- * its own flight. Standard deviations are those of ClusteredRegression.
+ * lateral distance x, right of flight (Habib et al. 2011, Eq. (8)). The offset a - b therefore
+ * changes across the overlap (to the right of a's flight) by -(dphi_a + dphi_b) for opposite lines
+ * and by -(dphi_a - dphi_b) for parallel ones; each of two crossing lines shows its own roll error
+ * across its flight. Standard deviations are those of ClusteredRegression.
  */
 struct OverlapTrends {
   FlightRelation relation = FlightRelation::unknown;
   Eigen::Vector2d course = Eigen::Vector2d::UnitY();  ///< of a, plan unit vector; where known
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();   ///< the centre line goes through it, metres
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();   ///< a point of the centre line, metres
   Trend across;                                       ///< per metre to the right of a's flight
   Trend along;                                        ///< per metre along it
   Trend time;                                         ///< per second of a
   Trend scan_angle;                                   ///< per degree of a
 
-  /// Roll errors in radians, as far as the offsets determine them: opposite: mean of both, a common
-  /// error such as the boresight's; parallel: a - b; crossing: first a's, then b's.
+  /// Roll errors in radians, where the offsets determine them: opposite: mean of both, a common
+  /// error such as that of the boresight; parallel: a - b; crossing: first a, then b.
   struct Roll {
     bool determined = false;
     double value = 0.0, std = 0.0;
@@ -66,8 +66,8 @@ struct OverlapTrends {
   }
 };
 
-/// Of the level samples; courses are those of StripCourse. Without a's course the longer axis of
-/// the overlap stands for it, and no roll is given.
+/// From the level samples; courses are those of StripCourse. Without a course of a, the longer axis
+/// of the overlap is used instead, and no roll is computed.
 OverlapTrends overlapTrends(const std::vector<OffsetSample>& samples,
                             const std::optional<Eigen::Vector2d>& course_a,
                             const std::optional<Eigen::Vector2d>& course_b);

@@ -11,11 +11,11 @@
 
 namespace pcl_als {
 
-/** \brief The direction a strip was flown in, from its points alone.
+/** \brief The course of a strip, from its points alone.
  *
- * Least squares of plan position = p0 + velocity time + across scan_angle: the second term keeps a
- * strip that is cut obliquely from appearing rotated. Where the file has no scan angles only time
- * counts. A strip that turns gives the mean direction. Constant memory.
+ * Least squares of plan position = p0 + velocity time + across scan_angle: with the second term a
+ * strip that is cut obliquely does not appear rotated. Where the file has no scan angles, time
+ * alone is used. For a strip that turns, the result is the mean direction. Constant memory.
  */
 class StripCourse {
  public:

@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/// What a check reads of a point. Position in the ground frame, double. 48 bytes.
+/// A point as a check uses it; position in the ground frame, in double. 48 bytes.
 struct SwathPoint {
   Eigen::Vector3d position;  ///< metres
   double time = 0.0;         ///< seconds; 0 when the file has none
@@ -30,15 +30,16 @@ struct SwathPoint {
 bool isCheckable(const SwathPoint& point);
 
 /// True for a checkable point that may be part of a solid surface: a last return, not on water (9).
-/// Vegetation is a matter of dropHighVegetation().
+/// Vegetation is removed by dropHighVegetation().
 bool isSolid(const SwathPoint& point);
 
-/** \brief Drops the points of one strip that are classified as vegetation (3-5) and lie more than
- * one metre above the lowest point of their cell of 5 m.
+/** \brief Removes the points of one strip that are classified as vegetation (3-5) and more than one
+ * metre above the lowest point of their cell of 5 m.
  *
- * Vegetation nearer to the ground stays: many classifications assign to vegetation everything that
- * lies some centimetres or decimetres above a ground that was found in all strips together. Leaving
- * that out would keep the low points of every strip and move the higher strip down.
+ * Vegetation nearer to the ground is kept: many classifications assign to vegetation all points
+ * some centimetres or decimetres above a ground that was determined from all strips together.
+ * Without these, the low points of every strip would remain, and the higher strip would appear
+ * lower.
  */
 void dropHighVegetation(std::vector<SwathPoint>& points);
 

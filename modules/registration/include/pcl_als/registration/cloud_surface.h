@@ -12,7 +12,7 @@
 
 namespace pcl_als {
 
-/** \brief The patches of a cloud, and which of its points their vertices are.
+/** \brief The patches of a cloud, with the point of the cloud at each vertex.
  *
  * Points with a coordinate that is not finite are left out. Fewer than three points, or points in
  * one line in plan, give a surface without patches. Memory: that of Tin, and 4 bytes per point

@@ -12,12 +12,12 @@
 
 namespace pcl_als {
 
-/** \brief Finds for each source point the TIN patch of the target that is conjugate to it (Habib et
- * al. 2011, section 2.3.1), for any pcl::Registration.
+/** \brief For each source point, the conjugate TIN patch of the target (Habib et al. 2011, section
+ * 2.3.1), for any pcl::Registration.
  *
  * A patch is conjugate to a point if it is the closest triangle of the target's 2.5D Delaunay TIN,
- * the normal distance is at most a limit and the point's projection falls inside it. Each
- * pcl::Correspondence then holds
+ * the normal distance is at most a limit and the projection of the point lies inside the triangle.
+ * Each pcl::Correspondence contains
  *   index_query  the source point,
  *   index_match  the vertex of the patch nearest to the projection: the pseudo-conjugate point of
  *                Eq. (20), for which any vertex would do as only the normal direction counts,
@@ -25,11 +25,11 @@ namespace pcl_als {
  *                patch, not from that vertex.
  * getMatches() gives patch, normal, foot and signed normal distance beside them.
  *
- * Frames: both clouds in one local frame, z up, metres. Assumes a surface that has one height at a
- * plan position: under overhangs and in trees the TIN is no surface, which
- * CorrespondenceRejectorPatch recognises. The target's TIN is built when the target was set anew;
- * pcl::Registration does that once for each align(). Points that are not finite are left out of
- * both clouds. A target of fewer than three points, or in one line, has no patches: no
+ * Frames: both clouds in one local frame, z up, metres. The surface must have one height at a plan
+ * position; under overhangs and in trees the TIN is not a surface, and CorrespondenceRejectorPatch
+ * rejects its patches. The TIN of the target is built when a new target was set; pcl::Registration
+ * does that once for each align(). Points that are not finite are left out of both clouds. A target
+ * of fewer than three points, or of points in one line, has no patches and gives no
  * correspondences. Memory: 73 bytes per target point, 4 per source point and 100 per
  * correspondence.
  *

@@ -16,19 +16,19 @@
 
 namespace pcl_als {
 
-/** \brief Rejects correspondences whose patch is not worth measuring to: across eaves, in trees, on
- * ridges, at the border of the swath.
+/** \brief Rejects correspondences whose patch is not suitable for measurement: across eaves, in
+ * trees, on ridges, at the border of the swath.
  *
- * A plain point-to-triangle adjustment that takes every triangle is biased by these, by far more
- * than its reported standard deviation. A correspondence stays if its source point has a conjugate
- * patch (the closest one, projection inside it), within the normal distance, and the patch is
- * short, not too steep, its neighbourhood smooth and level with it, and inside the TIN (see
- * PatchQuality).
+ * An adjustment with all triangles is biased by such patches, by far more than its reported
+ * standard deviation. A correspondence is kept if its source point has a conjugate patch (the
+ * closest one, with the projection inside it) within the limit of the normal distance, and if the
+ * patch has short edges, is not too steep, has a smooth neighbourhood of the same orientation, and
+ * is inside the TIN (see PatchQuality).
  *
- * Patches come from a CorrespondenceEstimationPointToPatch given to setMatchProvider(), without a
- * second search; or, for correspondences of any other estimation, are found here in the TIN of the
- * target points, which pcl::Registration hands over (or setInputSource() and setInputTarget() do).
- * index_match of the correspondences is not used. Verdicts about triangles are kept until the
+ * Patches are those of a CorrespondenceEstimationPointToPatch given to setMatchProvider(), without
+ * a second search. For correspondences of any other estimation they are searched in the TIN of the
+ * target points, which are set by pcl::Registration (or by setInputSource() and setInputTarget()).
+ * index_match of the correspondences is not used. The suitability of triangles is stored until the
  * target or a limit changes: one byte per triangle.
  */
 class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceRejector {
@@ -36,7 +36,7 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   using Ptr = pcl::shared_ptr<CorrespondenceRejectorPatch>;
   using ConstPtr = pcl::shared_ptr<const CorrespondenceRejectorPatch>;
 
-  /// Why correspondences went in the latest call; the first reason counts.
+  /// Numbers of rejected correspondences in the latest call, by the first reason that applies.
   struct Result {
     std::size_t kept = 0;
     std::size_t without_patch = 0;  ///< projection outside the closest patch, or none close
@@ -61,7 +61,7 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   bool getRejectBorder() const { return criterion_.reject_border; }
   double getResolution() const { return resolution_; }
 
-  /// Takes patches from an estimation; null: finds them here.
+  /// Uses the patches of an estimation; null: searches them in the target cloud.
   void setMatchProvider(const std::shared_ptr<const PatchMatchProvider>& provider);
 
   template <typename PointT>
@@ -74,8 +74,8 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   void setSourcePoints(pcl::PCLPointCloud2::ConstPtr cloud) override;
   void setTargetPoints(pcl::PCLPointCloud2::ConstPtr cloud) override;
 
-  /// UsageError if the patches cannot be known: neither provider nor clouds, or an index beyond the
-  /// source.
+  /// UsageError if patches cannot be determined: neither provider nor clouds, or an index beyond
+  /// the source.
   void getRemainingCorrespondences(const pcl::Correspondences& original_correspondences,
                                    pcl::Correspondences& remaining_correspondences) override;
   const Result& getResult() const { return result_; }
@@ -93,7 +93,7 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   bool isFit(const PatchSurface& surface, std::int32_t triangle);
   void setLimit(double& limit, double value, double most, const char* name, const char* unit);
 
-  /// Limits of a user's own, whatever the spacing of the points.
+  /// Limits set by the user, independent of the spacing of the points.
   static SurfaceCriterion defaultCriterion() {
     SurfaceCriterion criterion;
     criterion.edge_factor = std::numeric_limits<double>::infinity();
@@ -109,7 +109,7 @@ class CorrespondenceRejectorPatch : public pcl::registration::CorrespondenceReje
   std::shared_ptr<const PatchMatchProvider> provider_;
   std::vector<Eigen::Vector3f> source_;
   CloudSurface::ConstPtr target_;
-  CloudSurface::ConstPtr judged_;  ///< whose triangles the verdicts are about
+  CloudSurface::ConstPtr judged_;  ///< the surface of the stored suitability of triangles
   std::vector<Verdict> verdicts_;
   std::int32_t hint_ = Tin::kNone;
   Result result_;

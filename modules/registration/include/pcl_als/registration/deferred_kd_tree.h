@@ -10,8 +10,8 @@ namespace pcl_als {
 
 /** \brief A kd-tree that is built at the first search.
  *
- * pcl::Registration builds one of the target at every align(). A registration that does not search
- * it gives the base class this one: nothing is built unless getFitnessScore() is called.
+ * pcl::Registration builds one for the target at every align(). Registrations that do not search it
+ * pass this tree to the base class: it is built only if getFitnessScore() is called.
  */
 template <typename PointT>
 class DeferredKdTree : public pcl::search::KdTree<PointT> {

@@ -13,21 +13,21 @@ namespace pcl_als {
 
 /** \brief Registers one airborne strip to another: ICPatch (Habib et al. 2011, section 2.3).
  *
- * Points of the source against TIN patches of the target and the reverse, modified weights, a rigid
- * body and optionally a scale, robust, from coarse to fine; see alignPatches(). For surfaces with
- * one height at a plan position, z up, metres.
+ * Points of the source are compared with TIN patches of the target and vice versa, with modified
+ * weights, for a rigid motion and optionally a scale, robustly and from coarse to fine; see
+ * alignPatches(). For surfaces with one height at a plan position, z up, metres.
  *
- * Of pcl::Registration's settings these hold:
- *   setMaxCorrespondenceDistance  largest distance of the surfaces at the initial motion, metres;
- * default 15 setMaximumIterations          of the fine stage; default 50 setTransformationEpsilon
- * squared metres that a point moves in the last iteration; default 4e-10 setIndices points of the
- * source to use Correspondence estimation, rejectors, RANSAC settings and search trees are not
- * used. hasConverged() is false where the clouds hardly overlap, have no smooth surface in common
- * or the iteration does not converge. getResult() gives the reason, and the determined parameters
- * of the motion with their covariance.
+ * Settings of pcl::Registration that apply: setMaxCorrespondenceDistance (largest distance of the
+ * surfaces at the initial motion, metres; default 15), setMaximumIterations (of the fine stage;
+ * default 50), setTransformationEpsilon (square of the largest movement of a point in the last
+ * iteration, m^2; default 4e-10), setIndices (points of the source). Correspondence estimation,
+ * rejectors, RANSAC settings and search trees are not used. hasConverged() is false where the
+ * overlap is too small, there are too few smooth surfaces in both clouds, or the iteration does not
+ * converge. getResult() gives the reason, and the determined parameters of the motion with their
+ * covariance.
  *
- * getFinalTransformation() maps local source to local target coordinates. For strips whose
- * LocalFrames differ give both frames: the result's motion is then in ground coordinates.
+ * getFinalTransformation() maps local source to local target coordinates. For strips with different
+ * LocalFrames set both frames: the motion in the result is then in ground coordinates.
  *
  * \code
  * pcl_als::IterativeClosestPatch<pcl_als::PointLidar, pcl_als::PointLidar> icpatch;
@@ -55,10 +55,10 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
   /// Estimates a scale about the centroid, too. Default false.
   void setEstimateScale(bool estimate) { settings_.estimate_scale = estimate; }
   bool getEstimateScale() const { return settings_.estimate_scale; }
-  /// Points of each cloud that are triangulated, about; >= 100. Default 700 000.
+  /// Approximate number of triangulated points of each cloud; >= 100. Default 700 000.
   void setMaximumPoints(std::size_t points) { settings_.points = points; }
   std::size_t getMaximumPoints() const { return settings_.points; }
-  /// Candidate points in each direction, about; >= 100. Default 180 000.
+  /// Approximate number of candidate points in each direction; >= 100. Default 180 000.
   void setMaximumPairs(std::size_t pairs) { settings_.pairs = pairs; }
   std::size_t getMaximumPairs() const { return settings_.pairs; }
   /// Metres at the radius of the overlap: parameters with a larger standard deviation are reported
@@ -71,13 +71,13 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
   /// Covariance of one point's coordinates in each cloud up to a common factor (3 x 3). Default
   /// identity.
   void setPointNoise(const Eigen::Matrix3d& source, const Eigen::Matrix3d& target);
-  /// 0: all; the result does not depend on it. Default 0.
+  /// 0: all cores; the result does not depend on it. Default 0.
   void setNumberOfThreads(int threads) { settings_.threads = threads; }
   int getNumberOfThreads() const { return settings_.threads; }
 
-  /// Of the last align().
+  /// Result of the last align().
   const PatchAlignmentResult& getResult() const { return result_; }
-  /// Local source to local target coordinates, unrounded.
+  /// From local source to local target coordinates, in double precision.
   Eigen::Affine3d getTransformation() const;
 
  protected:
@@ -96,7 +96,7 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
 
 namespace pcl_als {
 
-// In the library; any other registered point type with x, y, z is instantiated where it is used.
+// Instantiated in the library; other registered point types with x, y, z where they are used.
 extern template class IterativeClosestPatch<PointLidar, PointLidar, float>;
 extern template class IterativeClosestPatch<PointLidar, PointLidar, double>;
 extern template class IterativeClosestPatch<pcl::PointXYZ, pcl::PointXYZ, float>;

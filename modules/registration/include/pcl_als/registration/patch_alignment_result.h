@@ -19,8 +19,8 @@ struct DistanceSummary {
   double rms = 0.0;
 };
 
-/** \brief What an alignment of two strips found: the motion of the source onto the target, how well
- * it is known, and how well they fit.
+/** \brief Result of an alignment of two strips: the motion of the source onto the target, its
+ * uncertainty, and the fit of the strips.
  *
  * Order of parameters everywhere: XT, YT, ZT (metres), omega, phi, kappa (radians). Use estimates
  * only where status is converged, and only those that are determined.
@@ -29,7 +29,7 @@ struct PatchAlignmentResult {
   enum class Status {
     converged,
     not_converged,  ///< no convergence in the last iteration, or the initial motion is too far away
-    too_few_pairs,  ///< hardly any patches in common
+    too_few_pairs,  ///< too few patches in common
     no_overlap      ///< the clouds do not overlap, or have no surface
   };
   static constexpr int kParameters = 6;
@@ -37,7 +37,7 @@ struct PatchAlignmentResult {
 
   struct Parameter {
     bool determined = false;
-    std::string reason;  ///< why it is not determined; else empty
+    std::string reason;  ///< why it is not determined; otherwise empty
   };
 
   Status status = Status::no_overlap;
@@ -54,27 +54,29 @@ struct PatchAlignmentResult {
   Matrix6d covariance_jackknife = Matrix6d::Zero();  ///< zero with fewer than ten groups of pairs
   std::size_t jackknife_groups = 0;
   Matrix6d covariance_correlated = Matrix6d::Zero();  ///< CorrelatedErrors; zero with too few cells
-  /// Metres, radians: by how much more than by chance an estimate from all surfaces, rough ones and
-  /// edges too, differs from that of the smooth ones. Part of covariance. Where ranging depends on
-  /// the surface, no rigid motion is the whole truth, and no scatter inside the smooth ones shows
-  /// it.
+  /// Metres, radians: the part of the difference between this estimate and one from all surfaces,
+  /// including rough ones and edges, that exceeds chance; included in covariance. Where ranging
+  /// depends on the surface, no rigid motion fits all surfaces, and the scatter within the smooth
+  /// ones does not show it.
   Eigen::Matrix<double, kParameters, 1> surface_std = Eigen::Matrix<double, kParameters, 1>::Zero();
-  /// Metres, radians: what the pairs still ask for where the iteration went round in a cycle and
-  /// was damped; zero where it converged without damping. Part of covariance.
+  /// Metres, radians: the remaining update where the iteration entered a cycle and was damped; zero
+  /// where it converged without damping. Included in covariance.
   Eigen::Matrix<double, kParameters, 1> convergence_std =
       Eigen::Matrix<double, kParameters, 1>::Zero();
   double scale_std = 0.0;  ///< of motion.scale; 0 where the scale is not estimated
 
-  double sigma0 = 0.0;  ///< metres: of one point's coordinate along a normal, as the pairs scatter
-  std::size_t redundancy = 0;     ///< pairs - estimated unknowns
-  std::size_t pairs = 0;          ///< of the last iteration, both directions
-  std::size_t source_points = 0;  ///< of these, points of the source in target patches
-  int iterations = 0;             ///< of the fine stage
+  /// metres: standard deviation of a coordinate along a normal, from the scatter of the pairs
+  double sigma0 = 0.0;
+  std::size_t redundancy = 0;  ///< pairs - estimated unknowns
+  std::size_t pairs = 0;       ///< of the last iteration, both directions
+  /// number of these with a point of the source and a patch of the target
+  std::size_t source_points = 0;
+  int iterations = 0;  ///< of the fine stage
   int coarse_iterations = 0;
   double overlap_area = 0.0;  ///< m^2 that both clouds cover
   double radius = 0.0;        ///< metres: RMS plan distance of the pairs from the centroid
 
-  /// Along the normals, of the final pairs: as the clouds were given (after the guess), and moved.
+  /// Along the normals, of the final pairs: with the initial motion, and with the estimated one.
   DistanceSummary normal_before, normal_after;
   /// Vertically, of those on patches under 10 degrees.
   DistanceSummary vertical_before, vertical_after;

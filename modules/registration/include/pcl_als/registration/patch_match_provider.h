@@ -10,8 +10,7 @@
 
 namespace pcl_als {
 
-/// A source of the patches of source points, so that a rejector need not search
-/// again.
+/// Provides the patches of source points, so that a rejector does not search them again.
 class PatchMatchProvider {
  public:
   virtual ~PatchMatchProvider() = default;

@@ -9,16 +9,16 @@
 
 namespace pcl_als {
 
-/// A point and the patch it is to be brought to.
+/// A point and a patch that are to coincide.
 struct PointOnPatch {
   Eigen::Vector3d point;
   Eigen::Vector3d normal;               ///< of the patch, unit
   double signed_normal_distance = 0.0;  ///< normal . (point - patch), metres
 };
 
-/** \brief The rigid motion, one step, that brings points closest to their patches' planes: robust
- * least squares of the normal distances. Directions that no patch fixes to 10 m are left alone;
- * identity for fewer than six points.
+/** \brief One step of the rigid motion that minimises the distances of points from the planes of
+ * their patches: robust least squares of the normal distances. Directions in which no patch
+ * determines the motion to 10 m are left unchanged; identity for fewer than six points.
  */
 Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points);
 

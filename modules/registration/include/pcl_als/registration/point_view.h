@@ -13,7 +13,7 @@ namespace pcl_als {
 /** \brief The positions of a cloud of any point type, without a copy.
  *
  * position(i) = origin + the floats x, y, z of the i-th point, or of the i-th of the indices. Valid
- * as long as cloud and indices are.
+ * as long as cloud and indices exist.
  */
 struct PointView {
   const std::byte* first = nullptr;  ///< the x of the first point
@@ -29,8 +29,8 @@ struct PointView {
   }
 };
 
-/// The points of a cloud, or those of \a indices (null: all); x, y, z must be neighbours, as in all
-/// of PCL's types. \a indices must be valid.
+/// The points of a cloud, or those of \a indices (null: all); x, y, z must be contiguous, as in all
+/// point types of PCL. \a indices must be valid.
 template <typename PointT>
 PointView viewOf(const pcl::PointCloud<PointT>& cloud, const pcl::Indices* indices = nullptr,
                  const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) {

@@ -11,17 +11,17 @@
 
 namespace pcl_als {
 
-/** \brief The rigid motion that brings points closest to their patches' planes, for any
- * pcl::Registration: least squares of the normal distances (Habib et al. 2011, Eqs. (25), (34)).
+/** \brief The rigid motion that minimises the normal distances of points from their patches (least
+ * squares; Habib et al. 2011, Eqs. (25), (34)), for any pcl::Registration.
  *
  * One equation for each correspondence, n'(t + theta x (p - c)) = -d with n the normal of the patch
- * and d the signed normal distance of the source point; where the other point of the
- * correspondence lies in the patch does not count. Huber weights to 1.5 robust standard deviations.
- * Directions that no patch fixes (those in the plane of flat ground) are left alone. Linearised in
- * the rotation; iterate, as pcl::IterativeClosestPoint does.
+ * and d the signed normal distance of the source point; the position of the other point of the
+ * correspondence within the patch has no influence. Huber weights from 1.5 robust standard
+ * deviations on. Directions that no patch determines (those in the plane of flat ground) are left
+ * unchanged. Linearised in the rotation and therefore iterated, as by pcl::IterativeClosestPoint.
  *
- * Patches come from a CorrespondenceEstimationPointToPatch given to setMatchProvider(); without one
- * they are found in the TIN of the target cloud, which is then built at each call.
+ * Patches are those of a CorrespondenceEstimationPointToPatch given to setMatchProvider(); without
+ * one they are searched in the TIN of the target cloud, which is then built at each call.
  *
  * \code
  * icp.setCorrespondenceEstimation(estimation);          // point to patch
@@ -41,7 +41,7 @@ class TransformationEstimationPatch
   using Ptr = pcl::shared_ptr<TransformationEstimationPatch>;
   using ConstPtr = pcl::shared_ptr<const TransformationEstimationPatch>;
 
-  /// Takes patches from an estimation; null: finds them here.
+  /// Uses the patches of an estimation; null: searches them in the target cloud.
   void setMatchProvider(const std::shared_ptr<const PatchMatchProvider>& provider) {
     provider_ = provider;
   }
@@ -59,7 +59,7 @@ class TransformationEstimationPatch
                                    const pcl::PointCloud<PointTarget>& target,
                                    const pcl::Indices& target_indices,
                                    Matrix4& transformation) const override;
-  /// \param correspondences index_query counts; index_match is not used.
+  /// \param correspondences of which index_query is used; index_match is not
   void estimateRigidTransformation(const pcl::PointCloud<PointSource>& source,
                                    const pcl::PointCloud<PointTarget>& target,
                                    const pcl::Correspondences& correspondences,
@@ -78,7 +78,7 @@ class TransformationEstimationPatch
 
 namespace pcl_als {
 
-// In the library; any other registered point type with x, y, z is instantiated where it is used.
+// Instantiated in the library; other registered point types with x, y, z where they are used.
 extern template class TransformationEstimationPatch<PointLidar, PointLidar, float>;
 extern template class TransformationEstimationPatch<PointLidar, PointLidar, double>;
 extern template class TransformationEstimationPatch<pcl::PointXYZ, pcl::PointXYZ, float>;

@@ -16,7 +16,7 @@ namespace pcl_als {
 class AreaIndex {
  public:
   explicit AreaIndex(const std::vector<SurveyArea>& areas);
-  /// Indices of the areas whose square with margin may hold the position.
+  /// Indices of the areas whose square with margin may contain the position.
   const std::vector<int>& candidates(const Eigen::Vector3d& position) const;
 
  private:

@@ -15,14 +15,14 @@
 
 namespace pcl_als {
 
-/** \brief Point files, read once, and the arrangement of their points into strips: for jobs that
- * use points by strip but need no trajectory.
+/** \brief Point files, read once, and the arrangement of their points into strips, for jobs that
+ * use points by strip without a trajectory.
  *
  * Reading a file again gives each of its points a label through StripArrangement::Sorter.
  */
 class ArrangedFiles {
  public:
-  /// InputError for a file that cannot be read and where no strip is left, UsageError for a strip
+  /// InputError for a file that cannot be read, or where no strip remains; UsageError for a strip
   /// that \a choice names and no file has.
   ArrangedFiles(const std::vector<std::filesystem::path>& paths, const StripChoice& choice);
   ArrangedFiles(const ArrangedFiles&) = delete;
@@ -32,9 +32,9 @@ class ArrangedFiles {
   const StripArrangement& arrangement() const { return arrangement_; }
 
   /// The strips for takeCensus() of the same files in the same order; adds the points of each label
-  /// to \a counts, which must outlive it, as must this.
+  /// to \a counts. Both \a counts and this object must exist as long as the result.
   CensusStrips censusStrips(std::vector<std::uint64_t>& counts) const;
-  /// What is used of all files, and what is not.
+  /// Used points of all files, and points that are left out.
   struct Use {
     std::vector<std::uint64_t> points;       ///< by strip
     std::vector<Eigen::AlignedBox3d> boxes;  ///< of these, metres

@@ -11,10 +11,10 @@
 
 namespace pcl_als {
 
-/// What the calibration reads of a point. Position in the ground frame, double.
+/// A point as the calibration uses it; position in the ground frame, in double.
 struct CalibrationPoint {
   Eigen::Vector3d position;  ///< metres
-  double time = 0.0;         ///< seconds, on the trajectory's clock
+  double time = 0.0;         ///< seconds, in the time system of the trajectory
   /// As recorded, degrees; NaN: none
   float scan_angle = std::numeric_limits<float>::quiet_NaN();
   std::uint8_t return_number = 1;

@@ -16,13 +16,14 @@
 namespace pcl_als {
 
 /// InputError where the floats of a cloud have steps of more than 2 mm (16 km from its frame's
-/// origin): a tenth of the noise of points, and more is a cloud that has lost its frame.
+/// origin), a tenth of the noise of points: such a cloud is probably without its frame.
 void requireFineFloats(const PointFileInfo& cloud);
 
 /** \brief Reads a cloud as if it were a point file. Points that are not finite are left out.
  *
- * The points of a cloud and those of the PCD file that savePcd() makes of it are equal to the last
- * bit. Fields that the type lacks are as PointFields says. Memory: one chunk. requireFineFloats().
+ * The points of a cloud and those of the PCD file that savePcd() writes of it are equal to the last
+ * bit. Fields that the type lacks are those of PointFields. Memory: one chunk. requireFineFloats()
+ * is called.
  */
 template <typename PointT>
 class CloudReader : public LocalPointReader {
@@ -72,7 +73,7 @@ class CloudReader : public LocalPointReader {
   std::size_t next_ = 0;
 };
 
-/// A cloud as a source of points of one strip. \a time: to the trajectory's clock
+/// A cloud as a source of points of one strip. \a time: to the time system of the trajectory
 template <typename PointT>
 SurveyInput makeCloudInput(const std::shared_ptr<const pcl::PointCloud<PointT>>& cloud,
                            const LocalFrame& frame, const std::string& strip,

@@ -6,8 +6,8 @@
 
 namespace pcl_als {
 
-/// Whether points of a file that no trajectory covers may stay unchanged by default:
-/// a few at the ends of a flight line are usual, more are the trajectory of another flight.
+/// Whether points of a file that no trajectory covers may stay unchanged by default: a few at the
+/// ends of a flight line are usual, while many indicate the trajectory of another flight.
 inline bool fewUncovered(std::uint64_t uncovered, std::uint64_t points) {
   constexpr double kFew = 0.01;
   return static_cast<double>(uncovered) <= kFew * static_cast<double>(points);

@@ -17,9 +17,9 @@
 
 namespace pcl_als {
 
-/// Which points are to be used, and as what strips.
+/// Choice of the strips to be used.
 struct StripChoice {
-  std::vector<std::string> only;     ///< names of the strips to use; empty: all
+  std::vector<std::string> only;     ///< names of the strips that are used; empty: all
   std::vector<std::string> without;  ///< names of strips to leave out
   bool split = false;                ///< cut into flight lines by splitTrack()
   /// Without split: keep points of GPS time 0 in files that have times.
@@ -33,11 +33,11 @@ std::size_t stripNamed(const std::vector<std::string>& strips, const std::string
 /// Which of all strips a choice names; UsageError for a name that no strip has.
 std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std::string>& strips);
 
-/// What the points are tied to, if anything.
+/// The trajectory and times to which points refer, if any.
 struct FlownTimes {
   const Trajectory* trajectory = nullptr;
-  /// By file; empty: the points' times as they are. A file whose times do not meet the trajectory's
-  /// has an alignment that leaves them outside it.
+  /// By file; empty: the times of the points as stored. A file whose times cannot be reconciled
+  /// with the trajectory has an alignment that leaves them outside it.
   std::vector<TimeAlignment> alignments;
   /// Leave out points that the trajectory does not cover, and points without a time.
   bool needed = true;
@@ -46,10 +46,9 @@ struct FlownTimes {
 /** \brief Assigns each point of a set of files to a strip, or gives the reason why it is left out.
  *
  * Without StripChoice::split, strips are those that the inputs name, else those of StripNaming.
- * With it, points of one point source
- * id in all files are cut into stretches by splitTrack(): of id 0 called line1, line2, … in order
- * of time, of another id by the number where they are one stretch, else 7.1, 7.2, …; files whose
- * points have no times stay as they are.
+ * With it, points of one point source id in all files are divided into stretches by splitTrack():
+ * those of id 0 are named line1, line2, … in order of time, those of another id by the number where
+ * there is one stretch, else 7.1, 7.2, …; files whose points have no times are not divided.
  *
  * Left out are strips that were not chosen, points in turns (with split), points of GPS time 0 in a
  * file that has times, and, where a trajectory is needed, points that it does not cover; a strip of
@@ -58,7 +57,8 @@ struct FlownTimes {
 class StripArrangement {
  private:
   using Key = std::pair<std::size_t, std::uint16_t>;  ///< file, point source id
-  /// Labels by time: each from its time to the next one's, the first from the beginning.
+  /// Labels by time: each is valid from its time to that of the next one, the first from the
+  /// beginning.
   struct Table {
     std::vector<std::pair<double, std::size_t>> from;
     std::optional<std::size_t> zero_time;
@@ -67,16 +67,18 @@ class StripArrangement {
  public:
   static constexpr double kLeastCovered = 0.05;  ///< share of a strip's points
 
-  /// \param files must outlive this. UsageError for names in \a choice that no strip has.
+  /// \param files must exist as long as this object. UsageError for names in \a choice that no
+  /// strip has.
   StripArrangement(const std::vector<SurveyedFile>& files, const StripChoice& choice,
                    const FlownTimes& flown);
 
   /// The strips in use, in order of first appearance (with split: of id and time).
   const std::vector<std::string>& names() const { return names_; }
-  /// By strip in use: points, about (those of bins on the border of the trajectory count whole).
+  /// Approximate number of points of each strip in use (bins on the border of the trajectory count
+  /// as a whole).
   const std::vector<std::uint64_t>& expectedPoints() const { return expected_; }
 
-  /// What a point is: of a strip in use, or left out.
+  /// Label of a point: a strip in use, or the reason for which it is left out.
   struct Label {
     std::string strip;
     int index = -1;  ///< among names(); -1: left out
@@ -104,7 +106,7 @@ class StripArrangement {
     const TimeAlignment& alignment_;
     const Table* table_ = nullptr;
     std::uint16_t id_ = 0;
-    double from_ = 0.0, until_ = 0.0;  ///< aligned times of which label_ holds
+    double from_ = 0.0, until_ = 0.0;  ///< aligned times for which label_ is valid
     std::size_t label_ = 0;
   };
 

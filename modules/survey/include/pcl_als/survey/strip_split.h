@@ -15,21 +15,22 @@ struct TimeStretch {
   bool turn = false;
 };
 
-/** \brief Where points that carry no strip number are cut into flight lines.
+/** \brief Divides points without strip numbers into flight lines.
  *
  * Cuts are made
  * - where no point was measured for more than StripNaming::kLargestGap;
- * - in shorter gaps of more than a second, where the course or the position behind the gap is not
- *   that of the line before it;
+ * - in shorter gaps of more than a second, where the course changes, or where the position after
+ * the gap is not ahead;
  * - on both sides of a turn: a change of course of more than 30 degrees at 1.5 degrees per second
  * or more. Points in turns are a stretch of their own.
  *
- * The course is that of \a flight where one is given, on the clock of \a track, else that of the
- * swath's centre over four seconds; this is less certain, and a turn must then be of 60 degrees.
- * The result depends on the track alone: not on threads, the order of points, or files.
+ * The course is that of \a flight where one is given, in the time system of \a track, else that of
+ * the swath's centre over four seconds; the latter is less certain, and a turn must then be of 60
+ * degrees. The result depends on the track alone, not on threads, the order of points, or the
+ * division into files.
  *
- * Does not find a turn in which no course is determined (less than a second of points on a side of
- * a gap, a sensor that stands still): such lines stay together.
+ * Turns without a course are not found (less than a second of points on a side of a gap, a sensor
+ * at rest): such lines stay together.
  */
 std::vector<TimeStretch> splitTrack(const SwathTrack& track, const Trajectory* flight);
 

@@ -15,14 +15,15 @@ namespace pcl_als {
 
 /** \brief A source of points of a survey: a point file, or a cloud (makeCloudInput()).
  *
- * What a job reads its points from. The same points in the same order give the same result,
- * whatever the source is.
+ * Jobs read points from sources. The same points in the same order give the same result, whatever
+ * the source is.
  */
 struct SurveyInput {
-  /// A reader that stands at the first point; may be called by several threads.
+  /// A reader positioned at the first point; may be called by several threads.
   std::function<std::unique_ptr<PointReader>()> open;
-  std::string strip;  ///< that all points are of; empty: strips are told apart by StripNaming
-  std::optional<TimeAlignment> time;  ///< to the trajectory's clock; default: reconcileTimes()
+  std::string strip;  ///< strip of all points; empty: strips are named by StripNaming
+  /// to the time system of the trajectory; default: reconcileTimes()
+  std::optional<TimeAlignment> time;
 
   static SurveyInput ofFile(const std::filesystem::path& path);
 };

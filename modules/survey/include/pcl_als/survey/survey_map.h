@@ -23,16 +23,16 @@ using StripPair = std::pair<int, int>;
  * calibration.
  *
  * Points are added in any order, strip by strip (different strips may be added from different
- * threads); kept is a few sums for every 10 m cell a strip touches (48 bytes), never the points.
+ * threads). Sums for every 10 m cell of a strip are stored (48 bytes), not the points.
  */
 class SurveyMap {
  public:
   static constexpr double kCell = 10.0;  ///< metres
 
-  /// \param anchor south-west corner the cells count from (metres, ground frame)
+  /// \param anchor south-west corner of the block, origin of the cells (metres, ground frame)
   explicit SurveyMap(const Eigen::Vector2d& anchor);
 
-  int addStrip();  ///< its index; not while another thread adds points
+  int addStrip();  ///< returns its index; not while another thread adds points
 
   /// Adds points to a strip. Points that are not finite are not added and counted.
   void add(int strip, const CalibrationPoint* points, std::size_t count);
@@ -41,20 +41,20 @@ class SurveyMap {
   std::size_t invalidCount(int strip) const { return strips_[strip].invalid; }
   double startTime(int strip) const { return strips_[strip].start; }
   double endTime(int strip) const { return strips_[strip].end; }
-  /// m^2 of the cells that a strip touches.
+  /// Area of the cells with points of a strip, m^2.
   double coveredArea(int strip) const {
     return static_cast<double>(strips_[strip].cells.size()) * kCell * kCell;
   }
 
   struct Overlap {
     StripPair strips;
-    double area = 0.0;  ///< m^2 of cells both strips see
+    double area = 0.0;  ///< m^2 of cells with points of both strips
   };
   /// Every pair of strips with at least \a minimum_area in common, in order.
   std::vector<Overlap> overlaps(double minimum_area) const;
 
-  /// Height of the first strip above the second: the median over the cells that both see of the
-  /// difference of the mean heights of their surface points. Vegetation and slopes make it good to
+  /// Height of the first strip above the second: the median over common cells of the difference of
+  /// the mean heights of surface points. Because of vegetation and slopes it is accurate to
   /// decimetres only.
   struct HeightOffset {
     double offset = 0.0;  ///< metres
@@ -68,12 +68,12 @@ class SurveyMap {
     std::size_t point_budget =
         4'000'000;  ///< points in the chosen areas and their margins, all strips
   };
-  /** \brief Areas seen by one of the pairs, best first within each part of the block, until the
-   * budget is used.
+  /** \brief Areas covered by one of the pairs, best first within each part of the block, up to the
+   * number of points.
    *
-   * The score of an area is its solid relief: height variation inside cells, without cells full of
-   * multiple returns. Each pair chooses in turn, one area from every 4 x 4 group of areas before a
-   * second from any, so that the choice spreads along and across the strips.
+   * The score of an area is its relief of solid surfaces: height variation inside cells, without
+   * cells with many multiple returns. The pairs choose in turn, one area from every 4 x 4 group of
+   * areas before a second from any, so that the choice is spread along and across the strips.
    */
   std::vector<SurveyArea> selectAreas(const std::vector<StripPair>& pairs,
                                       const Selection& selection) const;

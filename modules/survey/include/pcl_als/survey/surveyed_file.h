@@ -17,8 +17,9 @@ namespace pcl_als {
 /// positions.
 struct SurveyedFile {
   PointFileSources sources;
-  std::map<std::uint16_t, SwathTrack> tracks;  ///< by point source id, on the file's clock
-  std::string strip;  ///< that all its points are of; empty: strips are told apart by StripNaming
+  /// by point source id, in the time system of the file
+  std::map<std::uint16_t, SwathTrack> tracks;
+  std::string strip;  ///< strip of all its points; empty: strips are named by StripNaming
 };
 
 /// Reads a file once; memory: see SwathTrack. InputError for a file that cannot be read.

@@ -13,12 +13,12 @@
 
 namespace pcl_als {
 
-/** \brief When points were measured and where their swath was: counts and mean positions for every
+/** \brief Times of the points and positions of their swath: counts and mean positions for every
  * tenth of a second.
  *
- * The sums are of whole centimetres, so that a track depends neither on the order of the points nor
- * on how they are cut into files. Memory: about 90 bytes for every tenth of a second flown; where
- * times are spread over more than kMostBins bins, the bins double their width.
+ * Sums are in whole centimetres, so that a track depends neither on the order of the points nor on
+ * their division into files. Memory: about 90 bytes for every tenth of a second flown; where times
+ * extend over more than kMostBins bins, the width of the bins is doubled.
  */
 class SwathTrack {
  public:
@@ -36,7 +36,7 @@ class SwathTrack {
 
   /// Adds points [from, to) of a chunk; times that are zero or not finite are not added.
   void add(const PointChunk& chunk, std::size_t from, std::size_t to);
-  /// Adds another track, its times as \a alignment turns them.
+  /// Adds another track with its times converted by \a alignment.
   void merge(const SwathTrack& other, const TimeAlignment& alignment = TimeAlignment());
 
   bool empty() const { return bins_.empty(); }

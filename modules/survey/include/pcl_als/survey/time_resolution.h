@@ -9,17 +9,18 @@ namespace pcl_als {
 
 /** \brief The step to which the GPS times of a strip are rounded, from its points in any order.
  *
- * Every pulse has a time of its own, so that many points per distinct time mean rounded times
+ * Every pulse has a time of its own, so that many points per distinct time indicate rounded times
  * (whole seconds, or seconds of the week in 32 bits: 1/32 s). The first ten thousand distinct times
- * are kept (at most 0.5 MB); later points are not counted. Points of one place in a block that is
- * sorted by place come from few seconds; a step is only given for a thousand points and more.
+ * are stored (at most 0.5 MB); later points are not counted. In a block sorted by place,
+ * neighbouring points come from few seconds; a step is therefore determined from a thousand points
+ * and more only.
  */
 class TimeResolution {
  public:
   void add(double time);
 
   /// Mean distance of the distinct times, seconds; zero where times are not rounded or where there
-  /// are too few points to say.
+  /// are too few points.
   double step() const;
   std::size_t distinct() const { return times_.size(); }
   std::size_t points() const { return points_; }

@@ -26,8 +26,8 @@ struct OrientationClasses {
   static std::size_t of(const Eigen::Vector3d& normal);
 };
 
-/// How much to take of each class, given how much there is (numbers of points, or areas): as even
-/// as they allow, \a total at most.
+/// Number to take of each class, given the size of each (points, or areas): as even as possible, \a
+/// total at most.
 template <typename Amount>
 std::vector<Amount> evenShares(const std::vector<Amount>& available, Amount total) {
   std::vector<std::size_t> order(available.size());

@@ -22,15 +22,15 @@ struct PatchMatch {
       0.0;  ///< normal . (point - foot), metres; positive above the patch
 };
 
-/// What the surface around a triangle is like: decides whether it is a patch worth measuring to.
+/// Properties of the surface around a triangle, from which its suitability for measurement follows.
 struct PatchQuality {
   /// Of the plane of the vertices around the triangle, without its own: less noisy than the
   /// triangle's, and independent of its noise. Unit, upward.
   Eigen::Vector3d plane_normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d plane_centre = Eigen::Vector3d::Zero();  ///< a point of that plane
-  /// Root of the summed squares of the vertices' distances from their centre along the narrower
-  /// direction in the plane, metres: heights with noise sigma tilt the plane by sigma / spread
-  /// radians.
+  /// Root of the summed squares of the distances of the vertices from their centre along the
+  /// narrower direction in the plane, metres: heights with noise sigma tilt the plane by sigma /
+  /// spread radians.
   float spread = 0.0F;
   float longest_edge = 0.0F;  ///< metres, 3D
   float slope = 0.0F;         ///< radians from horizontal
@@ -45,8 +45,8 @@ struct PatchQuality {
 
 /** \brief The triangles of a TIN as patches: unit normals, quality, and closest-patch search.
  *
- * Everything const is thread-safe and computed from the points as they are at the call; nothing is
- * stored beside the TIN.
+ * Const member functions are thread-safe and use the current positions of the points; nothing is
+ * stored besides the TIN.
  *
  * \code
  * const PatchSurface surface(Tin(points, 0.001));
@@ -65,9 +65,10 @@ class PatchSurface {
   PatchQuality quality(std::int32_t triangle) const;    ///< computed on request; constant time
 
   /** \brief The patch conjugate to a point (Habib et al. 2011, section 2.3.1): the closest triangle
-   * in 3D, if the point's projection along its normal falls inside it and the normal distance is at
-   * most \a max_normal_distance. Empty when the closest triangle fails either condition or none is
-   * that close. Exact: equal to trying every triangle; of equally close ones the lowest index.
+   * in 3D, if the projection of the point along its normal lies inside it and the normal distance
+   * is at most \a max_normal_distance. Empty when the closest triangle fails either condition, or
+   * when there is none within the distance. Equal to an exhaustive search; of equally close
+   * triangles the one with the lowest index.
    *
    * Projections that miss an edge by less than 1e-12 of the triangle count as on it. A point that
    * is not finite has no patch. \a max_normal_distance: metres, > 0 (else UsageError); may be
@@ -75,8 +76,8 @@ class PatchSurface {
    */
   std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance) const;
 
-  /// The same, faster for points that come in spatial order: \a hint is the triangle under the
-  /// previous point (kNone at first) and becomes the one under this.
+  /// The same, faster for points in spatial order: \a hint is the triangle under the previous point
+  /// (kNone at first) and becomes that under this one.
   std::optional<PatchMatch> closest(const Eigen::Vector3d& point, double max_normal_distance,
                                     std::int32_t& hint) const;
 

@@ -10,13 +10,13 @@
 
 namespace pcl_als {
 
-/// How suitablePoints() divides the work: TINs of squares with margins, as the calibration does.
+/// Division of the work of suitablePoints(): TINs of squares with margins, as in the calibration.
 struct SuitablePointsSettings {
   double area_size = 50.0;    ///< metres, > 0
   double margin = 8.0;        ///< metres around a square, >= 0: more than three neighbourhoods
   double resolution = 0.001;  ///< metres, coordinate step
-  /// The roughness is limited to so many medians of suitable patches of up to 15 degrees, too, for
-  /// that is what noise alone makes of plain ground; 0: SurfaceCriterion::roughness alone.
+  /// Limit of the roughness as a multiple of the median of suitable patches with slopes up to 15
+  /// degrees, in addition to SurfaceCriterion::roughness; 0: no such limit.
   double plain_roughness_factor = 3.0;
   int threads = 1;  ///< 0: all cores; the result does not depend on it
 
@@ -26,8 +26,8 @@ struct SuitablePointsSettings {
 /** \brief Which points of one strip lie on a surface that is suitable for measurement.
  *
  * A point is judged by the neighbourhood of one of the triangles around it, without the triangle's
- * own vertices, so that its own noise does not decide. Points that coincide with another in plan
- * are judged with it where it is a vertex, else they are not suitable.
+ * own vertices, so that its own noise has no influence. Points that coincide in plan with another
+ * point are judged with it where it is a vertex of the TIN, and are otherwise not suitable.
  *
  * \param points those that may be part of a surface (last returns, no vegetation, no noise),
  * finite, metres, any frame; squares are counted from its origin \return by point

@@ -21,15 +21,15 @@ namespace pcl_als {
 struct SurfaceCriterion {
   /// Longest edge against the median edge of the TIN, both in plan: longer ones span gaps.
   double edge_factor = 3.0;
-  double slope = 1.05;        ///< radians: steeper is a wall or a triangle across an eave
+  double slope = 1.05;        ///< radians: steeper are walls or triangles across an eave
   double roughness = 0.08;    ///< metres, RMS of the neighbourhood's vertices about their plane
   int minimum_vertices = 7;   ///< in the neighbourhood
   bool reject_border = true;  ///< triangles that touch the border of the TIN
   double edge_length = std::numeric_limits<double>::infinity();  ///< metres, longest edge in space
   /// Radians, between the triangle and the plane of its neighbourhood.
   double bend = std::numeric_limits<double>::infinity();
-  /// Metres, roughness that the noise alone gives plain ground (found from the data): no plane is
-  /// determined better than that.
+  /// Metres, roughness of plain ground due to noise (estimated from the data), which bounds the
+  /// uncertainty of a plane from below.
   double plain_roughness = 0.0;
 
   /// Without slope and roughness. \a median_edge: metres in plan, medianPlanEdge().
@@ -39,7 +39,7 @@ struct SurfaceCriterion {
   double tiltStd(const PatchQuality& quality) const;
 };
 
-/// Radians (15 degrees): slopes up to it show the roughness that the noise gives plain ground.
+/// Radians (15 degrees): slope limit of plain ground, whose roughness is that of the noise.
 inline constexpr double kGentleSlope = 0.26;
 
 /// Median length in plan of the edges of a TIN, metres, from a limited number of its triangles; 0
@@ -50,14 +50,14 @@ double medianPlanEdge(const Tin& tin,
 /** \brief One triangle for each vertex that \a wanted accepts, by orientation class (every step-th
  * triangle).
  *
- * The class is that of the triangle beyond the edge opposite to the vertex: the noise of points
- * that are chosen because it tilts their own triangle would not have zero mean.
+ * The class is that of the triangle beyond the edge opposite to the vertex. If it were that of the
+ * vertex's own triangle, the noise of points chosen by class would not have zero mean.
  */
 std::vector<std::vector<std::int32_t>> trianglesByOrientation(
     const PatchSurface& surface, std::size_t step,
     const std::function<bool(std::int32_t vertex)>& wanted);
 
-/// \a total members at most, as evenly over the classes as they allow, evenly within each.
+/// At most \a total members, as evenly over the classes as possible, evenly within each class.
 template <typename T>
 std::vector<T> chosenEvenly(const std::vector<std::vector<T>>& classes, std::size_t total) {
   std::vector<std::size_t> sizes;

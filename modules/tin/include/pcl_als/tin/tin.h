@@ -12,13 +12,13 @@
 
 namespace pcl_als {
 
-/** \brief 2.5D Delaunay triangulation of points in plan (x, y); z rides along.
+/** \brief 2.5D Delaunay triangulation of points in plan (x, y), with heights z at the vertices.
  *
- * Topology is exact: plan coordinates are rounded to \a resolution (choose the LAS scale) and all
- * predicates are evaluated on the resulting integers without error. Points that fall on the same
- * plan position are one vertex: the first in input order represents it, the others are not in the
- * TIN. Collinear input has no triangles. Deterministic: the same points in the same order give the
- * same triangles in the same order.
+ * The topology is exact: plan coordinates are rounded to \a resolution (choose the LAS scale), and
+ * all predicates are evaluated on the resulting integers without error. Points with the same
+ * rounded plan position are one vertex: the first in input order represents it, the others are not
+ * in the TIN. Collinear input has no triangles. Deterministic: the same points in the same order
+ * give the same triangles in the same order.
  *
  * Four or more points on one circle (every square of a grid) are triangulated by a rule that
  * depends on these points alone, so the triangulation is unique: input order only decides how
@@ -44,10 +44,11 @@ class Tin {
         neighbour;  ///< triangle across the edge opposite vertex[i]; kNone on the hull
   };
 
-  /// Where a walk through the triangles ended.
+  /// End of a walk through the triangles.
   struct Location {
     std::int32_t triangle = kNone;  ///< kNone only when the TIN has no triangles
-    bool inside = false;  ///< the triangle holds the position; else it sees it across a hull edge
+    /// the position is inside the triangle; otherwise a hull edge separates them
+    bool inside = false;
   };
 
   Tin() = default;

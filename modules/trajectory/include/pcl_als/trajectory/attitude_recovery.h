@@ -28,8 +28,8 @@ struct PulseSums {
   /// Extent across: x / -z of the outermost pulses.
   double leftmost = std::numeric_limits<double>::infinity();
   double rightmost = -std::numeric_limits<double>::infinity();
-  /// Of pulses with a recorded scan angle: their number, sums of the angle to the right as seen
-  /// from the flight line and of the recorded one (radians), and of their products.
+  /// Sums for pulses with a recorded scan angle: their number, sums of the angle to the right as
+  /// seen from the flight line and of the recorded one (radians), and of their products.
   double angles = 0.0, seen = 0.0, recorded = 0.0;
   double seen_sq = 0.0, seen_recorded = 0.0, recorded_sq = 0.0;
 
@@ -39,14 +39,14 @@ struct PulseSums {
 
 }  // namespace detail
 
-/** \brief Pitch and crab of the laser unit from the points it measured and the flight's positions.
+/** \brief Pitch and crab of the laser unit from measured points and the positions of the flight.
  *
- * A linear scanner's pulses lie in one plane of its body, x-z. In the frame of the local flight
- * line (x right, y forward, z up; of a pulse d from the firing point to the ground point) a body
- * turned by crab c and pitch p has that plane where y = tan(c) x - tan(p) / cos(c) z. Both are
- * estimated for every tenth of a second as a random walk of 2.5 mrad per step, so that times at
- * which few pulses were recorded take the angles of their neighbours; roll turns the plane into
- * itself and cannot be seen.
+ * The pulses of a linear scanner lie in one plane of its body, x-z. In the frame of the local
+ * flight line (x right, y forward, z up; for a pulse d from the firing point to the ground point) a
+ * body with crab c and pitch p has this plane at y = tan(c) x - tan(p) / cos(c) z. Both are
+ * estimated for every tenth of a second as a random walk of 2.5 mrad per step, so that times with
+ * few pulses are bridged from their neighbours; roll maps the plane onto itself and is not
+ * observable.
  *
  * A short arc of a conical scanner is plane as well, and so is each plane of a scanner with
  * several. Whether the scanner is linear is therefore decided over whole passes (uninterrupted
@@ -54,11 +54,11 @@ struct PulseSums {
  * the range of the angles and by their rates, none of which depends on the length of a bin. The
  * limits are those of survey flights, helicopters and drones that fly forward.
  *
- * The plane found is that of the laser unit as it was mounted: a scanner that is tilted or turned
- * in its mount has its offset in pitch or crab, which is where it matters. The effect of biases on
- * a point needs the angles to some arc-minutes.
+ * The estimated plane is that of the laser unit as mounted: a scanner that is tilted or rotated in
+ * its mount has its offset in pitch or crab, as the effect of biases requires. This effect depends
+ * on the angles to some arc-minutes only.
  *
- * Add some points of all flight lines (one in ten will do), in any order; parts made in different
+ * Some points of all flight lines are sufficient (one in ten), in any order; parts from different
  * threads can be merged. Memory: 190 bytes for every tenth of a second with points.
  */
 class AttitudeRecovery {
@@ -95,13 +95,13 @@ class AttitudeRecovery {
     double off_cone = 0.0;      ///< radians, RMS from one cone over the whole pass
     double cone_angle = 0.0;    ///< radians, half the angle of that cone
   };
-  /// What the pulses of a well-covered tenth of a second show.
+  /// Attitude from the pulses of a well-covered tenth of a second.
   struct Instant {
     double time = 0.0;
     double pitch = 0.0, crab = 0.0;  ///< radians, smoothed
     std::size_t pass = 0;
   };
-  /// Where a tenth of a second's pulses lie across the flight line, which roll changes.
+  /// Position of the pulses of a tenth of a second across the flight line, which roll changes.
   struct Swath {
     double time = 0.0;
     double left = 0.0, right = 0.0;  ///< radians from the vertical to the right, outermost pulses
@@ -113,16 +113,17 @@ class AttitudeRecovery {
   };
 
   struct Outcome {
-    /// The flight with the attitude found; without it, where nothing was.
+    /// The flight with the recovered attitude; without attitude where none was recovered.
     std::shared_ptr<const Trajectory> flight;
-    RecoveredAttitude attitude;  ///< that flight's; only of recover(), and where it was found
+    /// that of the flight; from recover() only, where it was recovered
+    RecoveredAttitude attitude;
     bool found = false;
     bool linear = true;  ///< false: the scanner is not a linear one (or the flight is another)
     /// Radians, RMS angle of a bin's pulses with their plane, median over time: mostly motion
     /// within the tenth of a second.
     double off_plane = 0.0;
     double size = 0.0;   ///< radians, RMS over time of pitch and crab together
-    std::string remark;  ///< what was found, or why nothing was
+    std::string remark;  ///< the result, or the reason for which there is none
     std::vector<Pass> passes;
     std::vector<Instant> instants;  ///< of the passes that are linear
     std::vector<Swath> swath;       ///< of all passes

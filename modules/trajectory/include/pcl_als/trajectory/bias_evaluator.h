@@ -27,7 +27,7 @@ struct CoverageCount {
   std::size_t before_start = 0, after_end = 0, in_gap = 0;
   std::size_t without_time = 0;      ///< time not finite
   std::size_t without_attitude = 0;  ///< no pitch and crab are known for their time
-  std::size_t unsolved = 0;          ///< inverse only: not found to 1e-6 m
+  std::size_t unsolved = 0;          ///< inverse only: no convergence to 1e-6 m
   /// Earliest and latest time among those of before_start, after_end, in_gap and without_attitude,
   /// seconds.
   double first_missed = std::numeric_limits<double>::infinity();
@@ -46,17 +46,17 @@ struct CoverageCount {
  * with no trigonometry per point.
  *
  * Equal to point - corrected(pose, point, biases) for every point, in which Eq. (8) is not
- * linearised; beta, needed only for a scan angle scale, comes from a polynomial with an error under
- * 1e-10 rad. Points in order of time share the look-up of the trajectory and are computed by vector
- * instructions; any other order gives the same results, slower.
+ * linearised; beta, needed for a scan angle scale only, is computed by a polynomial with an error
+ * under 1e-10 rad. Points in order of time share the interpolation of the trajectory and are
+ * computed by vector instructions; other orders give the same results more slowly.
  *
  * Const member functions may be called from several threads.
  */
 class BiasEvaluator {
  public:
-  /// \a biases: assumed - true, m, rad, 1. UsageError for values that are not finite or that no
-  /// mounted scanner has: angles of 0.1 rad, a scale of 0.1, lengths of 100 m and more.
-  /// \a errors: of the trajectory itself, taken out with the biases (strip corrections); null:
+  /// \a biases: assumed - true, m, rad, 1. UsageError for values that are not finite or implausible
+  /// for a mounted scanner: angles of 0.1 rad, a scale of 0.1, lengths of 100 m and more. \a
+  /// errors: of the trajectory itself, removed together with the biases (strip corrections); null:
   /// none.
   BiasEvaluator(std::shared_ptr<const Trajectory> trajectory, const SystemVector& biases,
                 std::shared_ptr<const TrajectoryErrors> errors = nullptr);
@@ -69,7 +69,7 @@ class BiasEvaluator {
   void effect(const PointColumns& points, std::size_t count, const EffectColumns& effect,
               CoverageCount& coverage) const;
 
-  /// For corrected points: the effect for which point + effect is what effect() leads back from. By
+  /// For corrected points: the effect for which effect() at point + effect is the same. By
   /// fixed-point iteration until it changes by less than 1e-7 m.
   void inverseEffect(const PointColumns& points, std::size_t count, const EffectColumns& effect,
                      CoverageCount& coverage) const;

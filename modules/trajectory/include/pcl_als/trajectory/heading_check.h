@@ -12,10 +12,9 @@
 
 namespace pcl_als {
 
-/// What a column that should be a heading (clockwise from grid north, radians after reading) may
-/// hold instead.
+/// Possible content of a column of headings (clockwise from grid north, radians after reading).
 enum class HeadingReading {
-  heading,                      ///< as it should be
+  heading,                      ///< the heading
   from_east_counter_clockwise,  ///< 90 degrees - heading: a mathematical angle
   opposite,                     ///< heading + 180 degrees: the body's backward axis
   from_north_counter_clockwise,
@@ -26,17 +25,17 @@ enum class HeadingReading {
 };
 constexpr std::size_t kHeadingReadings = 8;
 
-/// The heading (radians) of a value that is read so.
+/// The heading (radians) that a value means under this interpretation.
 double headingFrom(HeadingReading reading, double value);
 /// "an angle counter-clockwise from east (90 degrees - heading)"
 std::string_view describe(HeadingReading reading);
 
-/** \brief Compares headings with the course over ground, and finds what a heading that does not
- * follow the course is instead.
+/** \brief Compares headings with the course over ground, and finds the most likely interpretation
+ * of values that do not follow the course.
  *
- * An aircraft's heading differs from its course by the crab angle, seldom more than 20 degrees, so
- * three quarters of all differences stay below kLargestCrab; an angle with another origin, sense or
- * unit does so only along single courses. Memory: 12 kB.
+ * The heading of an aircraft differs from its course by the crab angle, seldom more than 20
+ * degrees, so that three quarters of all differences are below kLargestCrab. For an angle with
+ * another origin, sense or unit this holds along single courses only. Memory: 12 kB.
  */
 class HeadingCheck {
  public:
@@ -50,9 +49,9 @@ class HeadingCheck {
   /// Upper quartile of the absolute difference to the course, degrees.
   double deviation(HeadingReading reading) const;
   bool followsCourse() const { return deviation(HeadingReading::heading) <= kLargestCrab; }
-  /// The reading that follows the course best.
+  /// The interpretation that agrees best with the course.
   HeadingReading best() const;
-  /// Whether the value never changed.
+  /// Whether the value is constant.
   bool constant() const { return count_ > 0 && lowest_ == highest_; }
   double lowest() const { return lowest_; }  ///< radians
 
@@ -62,7 +61,8 @@ class HeadingCheck {
   double lowest_ = 0.0, highest_ = 0.0;
 };
 
-/// The check over the samples of a trajectory that move; samples without a heading are left out.
+/// The check of the samples of a trajectory at which the sensor moves; samples without a heading
+/// are left out.
 HeadingCheck headingCheck(const std::vector<TrajectorySample>& samples);
 
 }  // namespace pcl_als

@@ -10,16 +10,16 @@ namespace pcl_als {
 
 /** \brief The height of a strip's trajectory above its points, from recorded scan angles.
  *
- * A point at the lateral distance x was measured at the angle atan(x / h) from the vertical. With
- * the trajectory too high by e, the angle seen from it has the tangent x / (h + e), so the tangents
- * of recorded angles over those seen have the slope (h + e) / h (least squares with a constant, for
- * the roll of the mount). Nothing else about the points shows a constant error of height: the
- * calibration absorbs it in lever_arm_x, lever_arm_y and range_bias.
+ * A point at the lateral distance x was measured at the angle atan(x / h) from the vertical. With a
+ * trajectory too high by e, the angle from the trajectory has the tangent x / (h + e). The tangents
+ * of recorded angles over those from the trajectory therefore have the slope (h + e) / h (least
+ * squares with a constant, for the roll of the mount). No other property of the points shows a
+ * constant error of height: the calibration absorbs it in lever_arm_x, lever_arm_y and range_bias.
  *
- * Recorded angles count to either side, in the plane of the pulses or across the flight line (which
- * differ for scanners that look ahead): the one that fits better counts. Strips whose angles do not
- * follow the points to 0.6 degrees (angles of the mirror with the roll of the flight, narrow pieces
- * of a swath) are not judged.
+ * Recorded angles may be positive to either side, in the plane of the pulses or across the flight
+ * line (which differ for scanners that look ahead); the interpretation with the better fit is used.
+ * Strips whose angles deviate from those of the points by more than 0.6 degrees (mirror angles
+ * without the roll of the flight, narrow parts of a swath) are not assessed.
  */
 class HeightCheck {
  public:
@@ -28,14 +28,14 @@ class HeightCheck {
   void add(double lateral, double along, double height, double scan_angle);
 
   bool judged() const;
-  /// Recorded over seen tangents; 1 where the height is right.
+  /// Ratio of tangents, recorded over those from the trajectory; 1 where the height is correct.
   double slope() const { return better().slope(); }
   double height() const { return across_.n > 0.0 ? height_sum_ / across_.n : 0.0; }  ///< m, mean
-  /// Metres, by which the trajectory is too high.
+  /// Metres by which the trajectory is too high.
   double error() const { return height() * (1.0 - 1.0 / slope()); }
 
  private:
-  /// Recorded tangents (y) over those seen (x).
+  /// Recorded tangents (y) over those from the trajectory (x).
   struct Line {
     double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
 
@@ -50,15 +50,15 @@ class HeightCheck {
   double height_sum_ = 0.0;
 };
 
-/// What is wrong with the heights of a trajectory by all strips together.
+/// Assessment of the heights of a trajectory from all strips together.
 struct HeightError {
   enum class Kind {
     none,
-    scale,   ///< recorded angles or heights by the same factor: which one is open
-    offset,  ///< the same number of metres at several flying heights
+    scale,   ///< recorded angles or heights wrong by one factor: not separable
+    offset,  ///< heights wrong by the same number of metres at several flying heights
     gross,   ///< by more than a quarter: no convention of angles explains it
   } kind = Kind::none;
-  double metres = 0.0;  ///< the trajectory is too high by
+  double metres = 0.0;  ///< metres by which the trajectory is too high
   double slope = 1.0;
   std::string text;  ///< the finding; empty for none
 };

@@ -4,7 +4,7 @@
 
 namespace pcl_als {
 
-/// Points as columns: time in the trajectory's count of seconds, metres in the ground frame.
+/// Points as columns: time in the time system of the trajectory, metres in the ground frame.
 struct PointColumns {
   const double* time = nullptr;
   const double* x = nullptr;

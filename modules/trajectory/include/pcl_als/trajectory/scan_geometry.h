@@ -9,12 +9,12 @@
 
 namespace pcl_als {
 
-/** \brief Where a ground point lies in the laser unit's frame at its firing (right-forward-up).
+/** \brief Position of a ground point in the frame of the laser unit at emission (right-forward-up).
  *
- * Without attitude the system counts as vertical, as in Habib et al. 2011: x is the signed lateral
- * distance from the local flight line in plan, z the elevation of the point minus that of the
- * firing point, y is left out. With attitude all three are those of the body frame. In both,
- * beta = -atan2(x, -z), so x > 0 has beta < 0 as Eq. (2) demands.
+ * Without attitude the system is assumed to be vertical, as in Habib et al. 2011: x is the signed
+ * lateral distance from the local flight line in plan, z the elevation of the point minus that of
+ * the firing point, y is neglected. With attitude all three are those of the body frame. In both
+ * cases beta = -atan2(x, -z), so that x > 0 has beta < 0, as Eq. (2) requires.
  */
 struct ScanGeometry {
   double x = 0.0, y = 0.0, z = 0.0;                        ///< metres; right, forward, up
@@ -23,7 +23,7 @@ struct ScanGeometry {
 
   Eigen::Vector3d inBody() const { return {x, y, z}; }
   double range() const { return inBody().norm(); }
-  /// Unit vector of the pulse, ground frame; straight down at the sensor itself.
+  /// Unit vector of the pulse, ground frame; straight down for a point at the sensor.
   Eigen::Vector3d beam() const;
 };
 
@@ -39,11 +39,11 @@ ScanGeometry scanGeometry(const SensorPose& pose, const Eigen::Vector3d& ground_
  */
 DesignBlock designBlock(const ScanGeometry& geometry);
 
-/** \brief Takes biases out of a point: Eq. (13), not linearised, X - R (p - u).
+/** \brief Removes biases from a point: Eq. (13), not linearised, X - R (p - u).
  *
  * p is the point in the body frame, p = dP + B w, B = Rz(dkappa) Rx(domega) Ry(dphi); u is w with
- * dr taken off its length and beta divided by 1 + dS. To first order in the biases that is
- * X - A delta; of 0.5 degrees at 1000 m, the second order is 8 cm.
+ * its length reduced by dr and beta divided by 1 + dS. To first order in the biases that is X - A
+ * delta; the second order of 0.5 degrees at 1000 m is 8 cm.
  */
 Eigen::Vector3d corrected(const SensorPose& pose, const Eigen::Vector3d& ground_point,
                           const SystemVector& biases);

@@ -12,13 +12,14 @@
 
 namespace pcl_als {
 
-/** \brief What a calibration changes in points: its model, attitude, biases, strip corrections and
- * the alignment of times, for every consumer.
+/** \brief Corrects points by a calibration: the one class that applies model, attitude, biases,
+ * strip corrections and alignment of times, for every consumer.
  *
  * corrected = biased - A(biased) delta (Habib et al. 2011, Eq. (13), not linearised), with the
- * attitude by which the calibration was estimated: the trajectory's, nominal, none, or the pitch
- * and crab that the calibration recovered from its points (CalibrationResult::recovered_attitude).
- * The result for a point depends on nothing but the point, the calibration and the flight.
+ * attitude by which the calibration was estimated: that of the trajectory, nominal, none, or the
+ * pitch and crab that the calibration recovered from its points
+ * (CalibrationResult::recovered_attitude). The correction of a point depends on the point, the
+ * calibration and the flight only.
  *
  * Const member functions may be called from several threads. A copy shares the flight.
  */
@@ -34,14 +35,14 @@ class SystemCorrection {
   };
 
   /// \a flight: as delivered, made with trajectoryOptions(calibration). UsageError for a
-  /// calibration that should not be applied or has values no scanner has; InputError for one that
-  /// lacks what is needed: strip corrections, recovered attitude, or the attitude of the
-  /// trajectory.
+  /// calibration that should not be applied or has implausible values; InputError for one without
+  /// the strip corrections, the recovered attitude, or the attitude of the trajectory that the
+  /// correction needs.
   SystemCorrection(const CalibrationResult& calibration, std::shared_ptr<const Trajectory> flight,
                    const Options& options);
   SystemCorrection(const CalibrationResult& calibration, std::shared_ptr<const Trajectory> flight)
       : SystemCorrection(calibration, std::move(flight), Options()) {}
-  /// Biases (assumed - true; m, rad, 1) by themselves, with the attitude of \a flight as it is.
+  /// Corrects biases (assumed - true; m, rad, 1) alone, with the attitude of \a flight.
   SystemCorrection(const SystemVector& biases, std::shared_ptr<const Trajectory> flight,
                    bool invert = false);
 
@@ -52,17 +53,17 @@ class SystemCorrection {
   const std::shared_ptr<const Trajectory>& flight() const { return flight_; }
   bool inverted() const { return invert_; }
 
-  /// How times of points become the flight's; default: they are the same.
+  /// Conversion of the times of points to those of the flight; default: they are the same.
   void setTimeAlignment(TimeAlignment alignment) { alignment_ = std::move(alignment); }
   const TimeAlignment& timeAlignment() const { return alignment_; }
   double flightTime(double point_time) const { return alignment_(point_time); }
 
-  /// Whether the attitude at a time of the flight is known; true for models that need none.
+  /// Whether the attitude at a time of the flight is known; true for models without attitude.
   bool knowsAttitude(double flight_time) const;
 
-  /// What is to be added to each point, metres. Times are the flight's (flightTime()). Points that
-  /// without trajectory or attitude are counted, their change is zero. Columns of an axis may be
-  /// the same.
+  /// The displacements that correct the points, metres. Times are those of the flight
+  /// (flightTime()). Points without trajectory or attitude are counted, and their displacement is
+  /// zero. Input and output columns of an axis may be the same.
   void change(const PointColumns& points, std::size_t count, const EffectColumns& change,
               CoverageCount& coverage) const;
 

@@ -18,17 +18,17 @@
 
 namespace pcl_als {
 
-/// Where the sensor is when a point is measured, and how it is turned.
+/// Position and rotation of the sensor when a point is measured.
 struct SensorPose {
   Eigen::Vector3d position;  ///< firing point: the interpolated trajectory, metres, ground frame
-  /// Body (right-forward-up) to ground. Without attitude: a turn by kappa about the vertical, the
-  /// direction of the local flight line.
+  /// Body (right-forward-up) to ground. Without attitude: a rotation by kappa about the vertical,
+  /// the direction of the local flight line.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   bool has_attitude = false;
 };
 
-/// The trajectory around a time: position is linear in time, the body turns about a fixed axis by
-/// so little (kLargestTurn) that the rotation is quadratic in time to 2e-7.
+/// The trajectory around a time: the position is linear in time, and the rotation about a fixed
+/// axis is so small (kLargestTurn) that it is quadratic in time to 2e-7.
 struct FlightSpan {
   static constexpr double kLargestTurn = 0.01;  ///< radians
 
@@ -42,7 +42,7 @@ struct FlightSpan {
   SensorPose at(double time) const;
 };
 
-/// The path alone of a piece of flight between two samples: a straight line at constant speed.
+/// The path between two samples without attitude: a straight line at constant speed.
 struct PathSpan {
   double from = 0.0, to = 0.0;  ///< seconds; from == to: no piece
   Eigen::Vector3d position;     ///< at \a from, metres, ground frame
@@ -59,15 +59,14 @@ Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading);
  * 2011, section 2.1.
  *
  * At every sample a straight line is fitted (least squares in time) through the samples in [t - w,
- * t + w] on its side of any gap; its plan direction gives kappa. That is all the quasi-rigorous
- * model knows of the attitude; the rigorous one takes roll, pitch and heading from the samples, and
- * withAttitude() takes what the points themselves show. Between samples, position is interpolated
- * linearly and the rotation at a constant rate. A look-up costs an index and one interpolation.
- * Memory: about 130 bytes per sample while it is made, 68 afterwards.
+ * t + w] on its side of any gap; its direction in plan gives kappa. The quasi-rigorous model uses
+ * no further attitude; the rigorous one uses roll, pitch and heading of the samples, and
+ * withAttitude() those recovered from the points. Between samples, the position is interpolated
+ * linearly and the rotation at a constant rate. An interpolation costs an index and a few
+ * operations. Memory: about 130 bytes per sample during construction, 68 afterwards.
  *
- * Fails (InputError) for what no line can be fitted to; what can be repaired is, and repairs()
- * lists so. Where the sensor stands still (before take-off) the direction is that of the last
- * movement.
+ * InputError where no line can be fitted; repairs() lists the repairs of defective samples. Where
+ * the sensor stands still (before take-off) the direction is that of the last movement.
  */
 class Trajectory {
  public:
@@ -76,10 +75,11 @@ class Trajectory {
         0.5;  ///< w, seconds, > 0; widened where it holds fewer than two samples
     double gap_threshold =
         0.0;  ///< seconds without a sample that are a gap; 0: max(1 s, 5 median steps)
-    /// Take the samples' roll, pitch and heading (rigorous); InputError where one has none.
+    /// Use roll, pitch and heading of the samples (rigorous); InputError where a sample has none.
     bool use_attitude = false;
-    /// Take the body as level, its heading along the local flight line (rigorous, for scanners
-    /// that see ahead and back): unlike none, y of a point counts. Not with use_attitude.
+    /// Assume a level body with its heading along the local flight line (rigorous, for scanners
+    /// that measure ahead and behind): unlike without attitude, y of a point is used. Not with
+    /// use_attitude.
     bool nominal_attitude = false;
   };
   enum class Coverage { covered, before_start, after_end, in_gap };
@@ -103,7 +103,7 @@ class Trajectory {
   bool samplesHaveAttitude() const { return samples_have_attitude_; }  ///< all, whether used or not
   bool hasAttitude() const {
     return has_attitude_;
-  }  ///< poses have more than a direction of flight
+  }  ///< poses have more than the direction of flight
 
   bool attitudeIsNominal() const { return nominal_; }  ///< level along the flight line
 
@@ -112,22 +112,23 @@ class Trajectory {
   /// The same flight with nominal attitude.
   Trajectory withNominalAttitude() const;
 
-  /// The same flight with the body turned against the local flight line; roll stays zero.
+  /// The same flight with a body rotated against the local flight line; roll stays zero.
   Trajectory withAttitude(const std::function<PitchAndCrab(double time)>& attitude) const;
 
-  /// One line for each kind of repair that was made (unsorted, duplicated, alone between gaps,
-  /// standing still); empty when the samples were clean.
+  /// One line for each kind of repair (unsorted, duplicated, isolated between gaps, at rest); empty
+  /// without repairs.
   const std::vector<std::string>& repairs() const { return repairs_; }
 
   /// A time that is not finite counts as before the start (NaN, -inf) or after the end.
   Coverage coverage(double time) const;
 
-  /// The pose at a time; false (and \a pose untouched) unless coverage(time) is covered. \a cursor
-  /// is a hint that makes a look-up constant-time for times that come nearly in order: start with 0
-  /// and pass the same variable on.
+  /// The pose at a time; false (and \a pose unchanged) unless coverage(time) is covered. With \a
+  /// cursor the interpolation takes constant time for times that are nearly in order: start with 0
+  /// and pass the same variable for successive times.
   bool poseAt(double time, SensorPose& pose, std::size_t& cursor) const;
 
-  /// As poseAt, but the whole span that holds the time, for callers with many points in it.
+  /// As poseAt, but returns the whole span that contains the time, for callers with many points in
+  /// it.
   bool spanAt(double time, FlightSpan& span, std::size_t& cursor) const;
   /// As spanAt, for callers who need no attitude.
   bool pathAt(double time, PathSpan& span, std::size_t& cursor) const;
@@ -163,9 +164,9 @@ class Trajectory {
   bool samples_have_attitude_ = false, has_attitude_ = false, nominal_ = false;
 };
 
-/// How to make the trajectory that a calibration's biases are applied with: its window, and
-/// attitude where its model is the rigorous one. SystemCorrection adds the attitude that was
-/// recovered from the points (AttitudeSource::points).
+/// Options of the trajectory for applying the biases of a calibration: its window, and attitude
+/// where its model is the rigorous one. SystemCorrection adds the attitude that was recovered from
+/// the points (AttitudeSource::points).
 Trajectory::Options trajectoryOptions(const CalibrationResult& calibration);
 
 }  // namespace pcl_als

@@ -8,12 +8,13 @@
 
 namespace pcl_als {
 
-/** \brief What a calibration found to be wrong with the trajectory of each strip, by time.
+/** \brief Errors of the trajectory of each strip as estimated by a calibration, as functions of
+ * time.
  *
- * X(as measured) = X(true) + position + the effect of the angles, which act as boresight biases do
+ * X(as measured) = X(true) + position + the effect of the angles, which is that of boresight biases
  * (Eq. (8)): assumed - true, metres in the ground frame (east, north, up) and radians (pitch, roll,
- * heading). Linear in time between knots, constant for two seconds beyond a strip's ends, zero at
- * all other times.
+ * heading). Linear in time between knots, constant for two seconds beyond the ends of a strip, zero
+ * at all other times.
  */
 class TrajectoryErrors {
  public:

@@ -21,18 +21,18 @@ namespace pcl_als {
 
 /** \brief Whether the points of strips can have been measured from a trajectory.
  *
- * A trajectory of another flight, on another clock, in other units or coordinates may cover the
- * same times. Points then lie above the sensor, beyond any scan angle, or far ahead of or behind
- * the place they were measured from; each is a share of the points, and more than half of them
- * decides. A trajectory that is displaced by less shows where strips of several courses see it from
- * different sides. The heading is compared with the course, pitch with the planes of the pulses,
- * and roll with the edges of the swath and with recorded scan angles, where these are the mirror's;
- * without changes of pitch and roll these are not judged. The height is compared with the one that
- * recorded scan angles imply. Times of coarse steps leave the firing
- * point open by the distance flown in a step.
+ * A trajectory of another flight, in another time system, in other units or coordinates may cover
+ * the same times. Points then lie above the sensor, beyond any scan angle, or far ahead of or
+ * behind the sensor; a trajectory is rejected where this holds for more than half of the points.
+ * Smaller displacements become visible where strips of several courses are displaced in different
+ * directions. The heading is compared with the course, pitch with the planes of the pulses, and
+ * roll with the edges of the swath and with recorded scan angles, where these are mirror angles;
+ * without changes of pitch and roll these are not assessed. The height is compared with the one
+ * that recorded scan angles imply. With times of coarse steps the firing point is uncertain by the
+ * distance flown in a step.
  *
- * Give some points of every strip; one in a hundred will do. Points at times outside the trajectory
- * are ignored. add() may run in several threads for different strips.
+ * Some points of every strip are sufficient (one in a hundred). Points at times outside the
+ * trajectory are ignored. add() may be called by several threads for different strips.
  * \code
  * TrajectoryPlausibility check(flight);
  * const int strip = check.addStrip("1");
@@ -43,8 +43,8 @@ namespace pcl_als {
 class TrajectoryPlausibility {
  public:
   enum class Attitude {
-    used,      ///< results depend on it: a wrong one is refused
-    not_used,  ///< a wrong one gives a warning, as it may be another flight's
+    used,      ///< results depend on it: a wrong attitude is refused
+    not_used,  ///< a wrong attitude gives a warning, because it may be that of another flight
   };
   explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight,
                                   Attitude attitude = Attitude::used);
@@ -53,7 +53,7 @@ class TrajectoryPlausibility {
   /// \a scan_angle as recorded, degrees; NaN: none
   void add(int strip, double time, const Eigen::Vector3d& point,
            double scan_angle = std::numeric_limits<double>::quiet_NaN());
-  /// Leaves a strip out of findings(), as one that is not used.
+  /// Excludes a strip that is not used from findings().
   void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
 
   /// Mean height of the trajectory above a strip's points, metres; 0 where no point lies below it.
@@ -66,13 +66,14 @@ class TrajectoryPlausibility {
   struct Finding {
     bool refuse = false;  ///< results would be wrong; otherwise only suspicious
     std::string text;     ///< what is wrong, the likely cause and the remedy
-    bool height = false;  ///< the trajectory's height is wrong: parameters that depend on it are
+    /// the height of the trajectory is wrong, and parameters that depend on it
+    bool height = false;
   };
   std::vector<Finding> findings() const;
-  /// Findings that refuse are thrown as an InputError, the first one; with \a force all are
-  /// returned, as are those that only warn.
+  /// The first finding that refuses the trajectory is thrown as an InputError; with \a force all
+  /// findings are returned, as are those that only warn.
   std::vector<std::string> check(bool force) const;
-  /// The finding on the height of the trajectory that results are wrong by; empty: none.
+  /// The finding of a wrong height of the trajectory that affects the results; empty without one.
   std::string heightError() const;
 
  private:
@@ -93,7 +94,7 @@ class TrajectoryPlausibility {
     HeightCheck angles;
     std::optional<AttitudeRecovery> recovery;  ///< where the trajectory's attitude is used
   };
-  /// What a strip's points lie like on average, seen from where they were measured.
+  /// Mean position of the points of a strip relative to the sensor.
   struct View {
     Eigen::Vector2d direction;  ///< of flight, unit
     double ahead = 0.0;         ///< metres

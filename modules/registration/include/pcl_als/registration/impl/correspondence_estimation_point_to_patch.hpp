@@ -47,7 +47,7 @@ bool CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::pre
     throw UsageError(this->corr_name_ + ": no target; call setInputTarget with a cloud of points");
   if (!this->input_)
     throw UsageError(this->corr_name_ + ": no source; call setInputSource with a cloud of points");
-  // Not the base's own initCompute: it would build a kd-tree of the target, which is not used here.
+  // The base's initCompute is not used: it would build a kd-tree of the target.
   pcl::PCLBase<PointSource>::initCompute();
   if (this->target_cloud_updated_ || !surface_) {
     surface_ = makeCloudSurface(*this->target_, this->target_indices_.get(), resolution_);
@@ -87,7 +87,7 @@ CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::pseudoCo
 template <typename PointSource, typename PointTarget, typename Scalar>
 void CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::search(
     pcl::Correspondences& correspondences, double limit) {
-  // Fixed chunks, put together in order: the same whatever the number of threads.
+  // Chunks of fixed size, combined in order: the result does not depend on the number of threads.
   constexpr std::size_t kChunk = 4096;
   struct Found {
     pcl::Correspondences correspondences;

@@ -45,7 +45,8 @@ void IterativeClosestPatch<PointSource, PointTarget, Scalar>::computeTransformat
   settings.search_distance = this->corr_dist_threshold_;
   Eigen::Affine3d local_guess;
   local_guess.matrix() = guess.template cast<double>();
-  // A guess moves local coordinates; with different frames identity is that of ground coordinates.
+  // The initial guess refers to local coordinates; for different frames, identity means ground
+  // coordinates.
   if (guess.isIdentity()) local_guess.translation() = source_origin_ - target_origin_;
   const Eigen::Affine3d ground_guess =
       Eigen::Translation3d(target_origin_) * local_guess * Eigen::Translation3d(-source_origin_);

@@ -10,12 +10,13 @@ namespace pcl_als {
 namespace {
 
 constexpr int kKinds = SharedErrorLevels::kCount;
-constexpr int kSteps = 4;  // of the search to a factor of two
+constexpr int kSteps = 4;  // steps of the search per factor of two
 constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
-using Powers = std::array<int, kKinds>;  // of 2^(1/kSteps); local last: it costs most to change
+// of 2^(1/kSteps); local last, because a change of it costs most
+using Powers = std::array<int, kKinds>;
 
-// -2 ln of the prior: Cauchy in ln(level), of scale 1. A system may also be far better than its
-// data sheet, or have no such error at all.
+// -2 ln of the prior: Cauchy in the logarithm of a component, of scale 1, so that components may
+// vanish for systems that are far more accurate than their data sheet.
 double priorDeviance(double level) {
   const double factor = std::log(level);
   return 2.0 * std::log1p(factor * factor);
@@ -46,14 +47,14 @@ class Search {
     lowest_ = cost(best_);
   }
 
-  /// Until no component is better by this step.
+  /// Until no component improves by this step.
   void descend(int step) {
     int settled = 0;
     for (int kind = kKinds - 1; settled < kKinds; kind = (kind + kKinds - 1) % kKinds) {
       const int first = direction_[kind];
       const bool changed = follow(kind, first * step) || follow(kind, -first * step);
       settled = changed ? 1 : settled + 1;
-      // The next evaluations are of this local level, which is expensive to change.
+      // Further evaluations use this local component, which is expensive to change.
       if (changed && kind == kKinds - 1) adjustment_.setLevels(levelsOf(best_));
     }
   }
