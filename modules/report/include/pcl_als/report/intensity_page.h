@@ -9,21 +9,20 @@
 
 namespace pcl_als {
 
-/** \brief The report of a radiometric correction for people: report.html with pictures, and
- * report.md.
+/** \brief The report of a radiometric correction: report.html with pictures, and report.md.
  *
  * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is no page; writeIntensityReport()
- * writes report.md and tables all the same.
+ * writes report.md and the tables.
  */
 class IntensityPage {
  public:
   virtual ~IntensityPage() = default;
-  /// Writes into the folder of \a origin.
+  /// Writes the page into the folder of \a origin.
   virtual void write(const ReportOrigin& origin, const IntensityReport& report,
                      bool reliable) const = 0;
 };
 
-/// A page that sees where the points are that go into \a outcome; null without VTK.
+/// A page that receives the positions of the points that are written; null without VTK.
 std::unique_ptr<IntensityPage> makeIntensityPage(const IntensityRun& run,
                                                  IntensityOutcome& outcome);
 
