@@ -12,13 +12,13 @@
 
 namespace pcl_als {
 
-/// A map and what stands above it.
+/// A map with its title.
 struct TitledMap {
   std::string caption;
   std::filesystem::path raster;
 };
 
-/// Maps that share one legend: the same code means the same class in all of them.
+/// Maps with a common legend: the same code means the same class in all of them.
 struct ClassMaps {
   std::vector<CodeMeaning> legend;
   std::vector<CodeRaster> maps;

@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/// Strips in memory, as the classes that work on them collect them.
+/// Strips in memory, as collected by the classes for clouds.
 template <typename PointT>
 class CloudStrips {
  public:
@@ -27,7 +27,7 @@ class CloudStrips {
   void clear() { parts_.clear(); }
   std::size_t size() const { return parts_.size(); }
 
-  /// For a SurveyReader, in the order in which they were added.
+  /// Sources for a SurveyReader, in the order in which they were added.
   std::vector<SurveyInput> inputs(const TimeAlignment& time) const {
     std::vector<SurveyInput> inputs;
     for (const Part& part : parts_)

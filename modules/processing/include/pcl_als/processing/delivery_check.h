@@ -24,16 +24,17 @@
 
 namespace pcl_als {
 
-/// What to check and how.
+/// Settings of a check.
 struct CheckSettings {
   SurfaceLimits limits;
   SurveyMap::Selection selection;
   std::vector<ControlPoint> control;
   double control_sigma = 0.02;        ///< metres, where the file gives none
   std::size_t minimum_points = 1000;  ///< strips with fewer are left out
-  double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed, not measured
-  std::size_t candidates = 100'000;   ///< places of measurement, all areas, level and steep each
-  bool force = false;                 ///< go on with a trajectory that cannot be the points'
+  double minimum_overlap = 500.0;     ///< m^2: pairs with less are listed but not compared
+  /// places of comparison in all areas, on level ground and on slopes each
+  std::size_t candidates = 100'000;
+  bool force = false;  ///< continue with a trajectory that cannot belong to the points
   int threads = 0;
 };
 
@@ -41,10 +42,10 @@ struct CheckSettings {
 struct CheckedPair {
   std::string a, b;
   double overlap_area = 0.0;  ///< m^2
-  std::size_t areas = 0;      ///< that were measured
+  std::size_t areas = 0;      ///< areas of comparison
   PairAssessment assessment;
-  std::optional<PatchAlignmentResult> alignment;  ///< where it was tried
-  std::vector<OffsetSample> samples;              ///< at most kScatter, evenly, for scatter plots
+  std::optional<PatchAlignmentResult> alignment;  ///< where it was attempted
+  std::vector<OffsetSample> samples;  ///< at most kScatter at even intervals, for scatter plots
   std::size_t points_a = 0, points_b = 0;
   double milliseconds = 0.0;  ///< spent on this pair, all threads
   double memory_mb = 0.0;     ///< of its points and surfaces
@@ -56,10 +57,10 @@ struct CheckedStrip {
   std::string id;
   std::uint64_t points = 0;
   std::optional<Eigen::Vector2d> course;
-  double repeated = 0.0;  ///< share of points that lie on another of the strip
+  double repeated = 0.0;  ///< share of points with the coordinates of another point of the strip
 };
 
-/// Everything that a check of one set of strips found.
+/// Result of a check of one set of strips.
 struct CheckedBlock {
   std::vector<std::string> files;
   std::vector<CheckedStrip> strips;
@@ -68,30 +69,30 @@ struct CheckedBlock {
   std::vector<MotionClosure> motions;      ///< of alignments
   std::optional<ControlAssessment> control;
   std::optional<SeparationSummary> separation;  ///< of the images that were written
-  double roughness_limit = 0.0;                 ///< metres: smooth
+  double roughness_limit = 0.0;                 ///< metres: limit of smooth surfaces
   std::vector<std::string> warnings;
-  std::vector<LeftOutPoints> left_out;  ///< points that took no part
+  std::vector<LeftOutPoints> left_out;  ///< points that were left out
 };
 
 /** \brief Checks one set of strips: three passes over the files, memory for the chosen areas only.
- */
-class BlockCheck {
+ * */
+* / class BlockCheck {
  public:
   BlockCheck(SurveyReader& survey, const CheckSettings& settings,
              std::shared_ptr<const Trajectory> trajectory);
 
-  /// First look: which strips see which ground. InputError when there is nothing to compare.
+  /// First pass: the ground that each strip covers. InputError when no strips overlap.
   void surveyBlock();
   const std::vector<SurveyMap::Overlap>& overlaps() const { return overlaps_; }
-  /// m^2 that each strip covers, summed.
+  /// Sum of the areas that the strips cover, m^2.
   double coveredArea() const;
 
-  /// Chooses areas, or takes those of another set of the same block.
+  /// Chooses areas, or uses those of another set of the same block.
   void chooseAreas();
   void setAreas(std::vector<SurveyArea> areas);
   const std::vector<SurveyArea>& areas() const { return areas_; }
 
-  /// Second look, point by point; \a also gets every point, too, strip by strip.
+  /// Second pass, point by point; \a also receives every point, strip by strip.
   using PointSink = std::function<void(int strip, const SwathPoint& point)>;
   void load(const PointSink& also);
   std::size_t loadedPoints() const;
@@ -121,7 +122,7 @@ class BlockCheck {
   std::vector<std::vector<double>> milliseconds_;                ///< the same
   std::vector<double> repeated_;                                 ///< by strip
   std::vector<std::string> warnings_;
-  mutable std::atomic<std::uint64_t> uncovered_{0};  ///< points without a place of the trajectory
+  mutable std::atomic<std::uint64_t> uncovered_{0};  ///< points that the trajectory does not cover
 };
 
 }  // namespace pcl_als

@@ -19,31 +19,32 @@ namespace pcl_als {
 struct FileCorrectionOptions {
   bool strip_corrections = false;  ///< correct the estimated errors of the trajectory as well
   bool invert = false;             ///< apply the biases instead of removing them
-  bool keep_uncovered = false;     ///< points without trajectory stay; else at most 1 %
-  /// Refuse a trajectory that the points cannot have been measured from.
+  bool keep_uncovered = false;  ///< points without trajectory stay unchanged; otherwise at most 1 %
+  /// Refuse a trajectory that cannot belong to the points.
   bool check_trajectory = true;
-  /// Continue, with warnings, where that check refuses, where the verdict of the calibration is not
-  /// "usable", and, level, where the scanner is not linear and has no attitude.
+  /// Continue with warnings where this check fails or the verdict of the calibration is not
+  /// "usable", and with a level sensor where the scanner is not linear and has no attitude.
   bool force = false;
-  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: found
+  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
   int threads = 0;              ///< 0: all cores; the result does not depend on it
 };
 
 struct FileCorrectionResult {
   std::uint64_t points = 0;
   CoverageCount coverage;
-  std::string time_remark;  ///< how point times were matched to the flight's; may be empty
-  std::vector<std::string> warnings;  ///< of the trajectory's check
-  /// What was recovered of the attitude from this file, where the calibration holds none for its
-  /// times; else empty.
+  /// how point times were reconciled with those of the flight; may be empty
+  std::string time_remark;
+  std::vector<std::string> warnings;  ///< from the check of the trajectory
+  /// Result of the recovery of attitude from this file, where the calibration has none for its
+  /// times; otherwise empty.
   std::string attitude_remark;
 };
 
 /** \brief Applies a calibration to a point file: .las and .laz in constant memory on the raw
  * integers, with every other byte kept, .pcd through SystemBiasCorrection.
  *
- * Where the calibration's attitude is that of the points, the one it holds is used, so that a strip
- * and its tiles are corrected alike. For times of which it holds none (another flight, a
+ * Where the calibration recovered the attitude from the points, the attitude it contains is used,
+ * so that a strip and its tiles are corrected alike. For times without it (another flight, a
  * calibration of an earlier version) pitch and crab are recovered from the points of this file.
  *
  * \param flight as delivered, made with trajectoryOptions(calibration)

@@ -9,11 +9,11 @@
 
 namespace pcl_als {
 
-/** \brief Moves the points of a file into another of the same kind: .las and .laz on the raw
- * integers, everything else byte for byte, in constant memory; .pcd with all fields.
+/** \brief Writes a copy of a point file with moved points: .las and .laz on the raw integers,
+ * everything else byte for byte, in constant memory; .pcd with all fields.
  *
- * UsageError for files of different kinds, InputError for a point that leaves the range of the
- * file's coordinates. \return the number of points.
+ * UsageError for files of different kinds, InputError for a point beyond the range of the
+ * coordinates of the file. \return the number of points.
  */
 std::uint64_t movePointFile(const std::filesystem::path& input, const std::filesystem::path& output,
                             const RigidMotion& motion, int threads);

@@ -13,7 +13,7 @@
 
 namespace pcl_als {
 
-/// What to do with roll, pitch and heading of a trajectory file.
+/// Use of roll, pitch and heading of a trajectory file.
 enum class AttitudeUse {
   where_given,  ///< use them where every sample has them
   needed,       ///< refuse a file without them
@@ -22,22 +22,22 @@ enum class AttitudeUse {
 };
 
 struct FlightFileOptions {
-  std::string crs;                   ///< of the points; for an SBET, which is in degrees
-  LengthUnit unit;                   ///< of the coordinates of a CSV; default metre
+  std::string crs;  ///< of the points; for an SBET, which has geographic coordinates
+  LengthUnit unit;  ///< of the coordinates of a CSV; default metre
   double line_fit_half_width = 0.0;  ///< seconds; 0: Trajectory's default
   AttitudeUse attitude = AttitudeUse::where_given;
 };
 
-/// How to read the flight that a calibration is applied with (and SystemCorrection is given).
+/// Options for reading the flight for a calibration that is applied (by SystemCorrection).
 FlightFileOptions flightFileOptions(const CalibrationResult& calibration);
 
 struct FlightFile {
   std::shared_ptr<const Trajectory> trajectory;
-  std::vector<std::string> remarks;  ///< columns, angles and repairs that a user should know of
+  std::vector<std::string> remarks;  ///< remarks for the user on columns, angles and repairs
 };
 
-/// Reads a trajectory (.csv, SBET .out/.sbet). A column named yaw is clockwise from north or
-/// counter-clockwise from east: the course decides. InputError naming the file.
+/// Reads a trajectory (.csv, SBET .out/.sbet). Whether a column named yaw is clockwise from north
+/// or counter-clockwise from east is determined from the course. InputError naming the file.
 FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options = {});
 
 }  // namespace pcl_als

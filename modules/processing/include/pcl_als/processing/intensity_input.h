@@ -20,7 +20,7 @@ namespace pcl_als {
 
 /// A point as the radiometric correction needs it; positions relative to IntensityWindow::origin.
 struct IntensityPoint {
-  double time = 0.0;  ///< as the file has it
+  double time = 0.0;  ///< as stored in the file
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
   float intensity = 0.0F;
   std::uint16_t source = 0;
@@ -28,7 +28,7 @@ struct IntensityPoint {
   std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
 };
 
-/// Some points of a file, and those around them that surfaces are found with.
+/// Points of a file, and the points around them that are needed for their surfaces.
 struct IntensityWindow {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, ground frame
   std::vector<IntensityPoint> points;
@@ -46,31 +46,31 @@ struct IntensitySurvey {
   double first_time = 0.0, last_time = 0.0;
 };
 
-/// What of a window is wanted.
+/// Specification of a window.
 struct WindowRequest {
   const StripArrangement* arrangement = nullptr;  ///< needed: the strips of the points
   std::size_t file = 0;                           ///< place of the input in it
-  /// Whether surfaces will be sought: points of other windows within these metres of the points of
-  /// each source come along; sources without a margin get none.
+  /// Whether surfaces will be computed: points of other windows within this distance (metres) of
+  /// the points of each source are included; sources without a margin have none.
   bool surfaces = true;
   std::map<std::uint16_t, double> margins;
-  /// The window's records, where the caller has them already (LAS): the file is not read again.
+  /// The records of the window, where the caller has them (LAS): the file is not read again.
   const std::byte* records = nullptr;
   std::size_t record_length = 0;
 };
 
 /** \brief A point file, read window by window.
  *
- * LAS: windows are runs of records. The first pass keeps a box for every 4096 records and strip (32
- * bytes each); a window is read with the records of those blocks that lie within a margin of its
- * own. So a file in order of time or of place needs the memory of a window; one whose windows have
- * more than kMostNeighbours points around them is in no order and refused (InputError). PCD: one
- * window, the whole file.
+ * LAS: windows are runs of records. The first pass stores a box for every 4096 records and strip
+ * (32 bytes each); a window is read with the records of blocks within the margin. A file in order
+ * of time or of place therefore needs the memory of a window; a file whose windows have more than
+ * kMostNeighbours points around them is unordered and refused (InputError). PCD: one window, the
+ * whole file.
  */
 class IntensityInput {
  public:
   static constexpr std::size_t kWindow = std::size_t{1} << 17;
-  /// Without surfaces nothing is gained by more than a processor's cache holds.
+  /// Without surfaces, windows larger than the cache of a processor have no advantage.
   static constexpr std::size_t kSmallWindow = std::size_t{1} << 13;
   static constexpr std::size_t kMostNeighbours = std::size_t{1} << 22;
 
@@ -80,7 +80,7 @@ class IntensityInput {
     std::size_t window = kWindow;
     int threads = 1;
   };
-  /// By extension.
+  /// Opens a file according to its extension.
   static std::unique_ptr<IntensityInput> open(const std::string& path, const Options& options);
 
   const std::string& path() const { return path_; }
@@ -89,7 +89,7 @@ class IntensityInput {
   std::size_t windowSize() const { return window_; }  ///< points
   virtual void load(std::size_t window, const WindowRequest& request,
                     IntensityWindow& out) const = 0;
-  /// The file behind it; null for a PCD.
+  /// The file; null for a PCD.
   virtual const LasFile* las() const { return nullptr; }
   /// The whole cloud; null for a LAS.
   virtual const Strip<PointLidar>* strip() const { return nullptr; }

@@ -15,28 +15,28 @@ namespace pcl_als {
 inline constexpr std::size_t kIntensityAt = 12;       ///< byte of a LAS record
 inline constexpr double kLargestIntensity = 65535.0;  ///< that a LAS record can hold
 
-/// What to write besides corrected intensities.
+/// Content of the output besides corrected intensities.
 struct IntensityOutput {
   double scale = 1.0;         ///< on corrected intensities in the 16-bit field
   bool keep_original = true;  ///< as extra field original_intensity
   bool extra_fields = true;   ///< range, incidence_angle, and reflectance where it is known
 };
 
-/// What was written, for the report.
+/// Statistics of the output, for the report.
 struct IntensityOutcome {
   explicit IntensityOutcome(std::size_t strips) : statistics(strips), histograms(strips) {}
   std::vector<IntensityCounts> counts;  ///< by file
   IntensityStatistics statistics;
   std::vector<IntensityHistogram> histograms;
-  /// Called with every point where statistics are wanted, one at a time; may be empty.
+  /// Called with every point, one at a time; may be empty.
   std::function<void(int strip, const Eigen::Vector3d& place)> seen;
 };
 
-/** \brief Writes a file of the run with corrected intensities.
+/** \brief Writes a file of the job with corrected intensities.
  *
- * LAS: all else is kept; extra bytes are appended. PCD: the same as fields. InputError where points
- * have no trajectory (unless they may stay as they are) or most lie above the sensor; the output
- * appears only when complete.
+ * LAS: all other fields are kept; extra bytes are appended. PCD: the same as fields. InputError
+ * where points have no trajectory (unless they may stay unchanged) or most are above the sensor;
+ * the output appears only when it is complete.
  */
 void writeCorrected(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
                     const IntensityOutput& output, const std::function<void(double)>& progress,

@@ -25,29 +25,29 @@ namespace pcl_als {
 struct IntensitySettings {
   RadiometricModel model;
   LocalSurfaceSettings surfaces;
-  double footprint_mrad = 0.3;  ///< beam divergence: surfaces are at least this large
+  double footprint_mrad = 0.3;  ///< beam divergence, which bounds the size of surfaces from below
   OverlapSettings overlaps;
-  double cell = 0.0;                          ///< metres; 0: found
-  std::size_t most_cells = 200000;            ///< of the plan, kept for the overlaps
-  std::map<std::string, double> gains;        ///< by strip: known factors on what it received
+  double cell = 0.0;                    ///< metres; 0: from the density of points
+  std::size_t most_cells = 200000;      ///< largest number of cells for the comparison of overlaps
+  std::map<std::string, double> gains;  ///< by strip: known factors of the recorded intensity
   std::map<std::string, double> pulse_rates;  ///< by strip, Hz: energy is in inverse proportion
   std::string gain_control;                   ///< name of the extra field
   std::vector<GainStep> gain_steps;
   double saturation = 0.0;  ///< digital number; 0: 255 for 8-bit data, else 65535
   bool keep_uncovered = false;
   bool statistics = false;
-  bool force = false;         ///< go on with a trajectory that cannot be the points'
-  bool find_surfaces = true;  ///< false: no incidence angles are wanted by anyone
-  StripChoice strips;         ///< points of other strips stay as they are
+  bool force = false;         ///< continue with a trajectory that cannot belong to the points
+  bool find_surfaces = true;  ///< false: incidence angles are not needed
+  StripChoice strips;         ///< points of other strips stay unchanged
   std::optional<int> gps_week;
   int threads = 0;
 };
 
-/// Counts over a file that a user has to know.
+/// Counts over a file for the user.
 struct IntensityCounts {
   std::array<std::uint64_t, kRadiometryStatusCount> status{};
   std::uint64_t points = 0, zeros = 0, saturated = 0;
-  std::uint64_t excluded = 0;         ///< of no strip in use: in no status
+  std::uint64_t excluded = 0;         ///< of no strip in use; not counted in any status
   std::uint64_t clipped = 0;          ///< beyond 65535 after correction: written as 65535
   std::uint64_t rounded_to_zero = 0;  ///< not 0 before, under 0.5 after
   std::vector<std::uint64_t> labels;  ///< points of each label of the strips' arrangement
@@ -56,27 +56,27 @@ struct IntensityCounts {
   void merge(const IntensityCounts& other);
 };
 
-/// A window with what was found out about its points.
+/// A window with the results for its points.
 struct EvaluatedWindow {
   std::size_t file = 0;
   IntensityWindow window;
   std::vector<PointRadiometry> radiometry;
-  std::vector<LocalSurface> surfaces;  ///< empty where none are sought
-  std::vector<int> strip;              ///< of each point; -1: of none in use
+  std::vector<LocalSurface> surfaces;  ///< empty where none are computed
+  std::vector<int> strip;              ///< of each point; -1: of no strip in use
   std::vector<double> divisor;  ///< of each point's intensity: gains, pulse energy, gain control
 };
 
-/// What of a window to evaluate, and from what.
+/// Specification of the evaluation of a window.
 struct WindowChoice {
-  std::function<bool(double x, double y)> wanted;  ///< whether a point needs it; empty: all do
+  std::function<bool(double x, double y)> wanted;  ///< whether a point is evaluated; empty: all are
   const std::byte* records = nullptr;              ///< as WindowRequest
   std::size_t record_length = 0;
 };
 
-/** \brief Point files and their flight, ready for estimating and correcting.
+/** \brief Point files and their flight, prepared for estimation and correction.
  *
- * Memory: what IntensityInput keeps, a window for each thread, and sums for at most
- * IntensitySettings::most_cells cells of the plan.
+ * Memory: that of IntensityInput, a window for each thread, and sums for at most
+ * IntensitySettings::most_cells cells.
  */
 class IntensityRun {
  public:
@@ -86,13 +86,13 @@ class IntensityRun {
   IntensityRun(const IntensityRun&) = delete;
   IntensityRun& operator=(const IntensityRun&) = delete;
 
-  /// Those in use.
+  /// Names of the strips in use.
   const std::vector<std::string>& strips() const { return arrangement_->names(); }
   const IntensityInput& input(std::size_t file) const { return *inputs_[file]; }
   std::size_t files() const { return inputs_.size(); }
   const IntensitySettings& settings() const { return settings_; }
   const std::vector<std::string>& remarks() const { return remarks_; }
-  /// Of the check of the trajectory.
+  /// Warnings of the check of the trajectory.
   const std::vector<std::string>& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
@@ -100,17 +100,17 @@ class IntensityRun {
   const PointFileSources& sources(std::size_t file) const { return surveyed_[file].sources; }
   /// Whether each point source id of a file is one strip in use.
   bool allChosen(std::size_t file) const;
-  /// Why a point of a file with that time has no trajectory.
+  /// The reason for which a point of a file with this time has no trajectory.
   LeftOutReason whyUncovered(std::size_t file, double time) const;
-  /// The points that stay as they are, from the counts of all files.
+  /// The points that stay unchanged, from the counts of all files.
   std::vector<LeftOutPoints> leftOut(const IntensityCounts& counts) const;
   double saturation() const { return saturation_; }
   double cellSize() const { return cell_size_; }
   double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }
 
-  /// Estimates what the settings ask for and uses it from now on.
+  /// Estimates the parameters that the settings request; they are used in what follows.
   const OverlapResult& adjust(const std::function<void(double)>& progress);
-  /// Finds the factor to reflectance and uses it from now on.
+  /// Estimates the factor to reflectance, which is used in what follows.
   const ReferenceResult& refer(std::vector<ReferenceTarget> targets, double radius);
 
   void useModel(const RadiometricModel& model) { model_ = model; }

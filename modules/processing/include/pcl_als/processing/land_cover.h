@@ -17,12 +17,12 @@ namespace pcl_als {
 /// Some bands of a raster file, by name.
 class BandReader {
  public:
-  /// InputError naming the file and a band that it lacks.
+  /// InputError naming the file and a missing band.
   BandReader(const std::filesystem::path& path, const std::vector<std::string>& bands);
   const RasterGrid& grid() const { return reader_.layout().grid; }
   /// Values [band][cell] of a window.
   std::vector<std::vector<float>> read(const RasterWindow& window);
-  /// The same as a raster of its own.
+  /// The same as a raster.
   Raster readRaster(const RasterWindow& window);
 
  private:
@@ -31,8 +31,8 @@ class BandReader {
   std::vector<std::size_t> indices_;
 };
 
-/// Band values of the cells of a site: the cell of a point, or those with their centre within
-/// \a radius metres of it (then its own, too); of an area those with their centre inside.
+/// Band values of the cells of a site: for a point its cell, or the cells with centres within \a
+/// radius metres of it (including its own); for an area the cells with their centre inside.
 struct SiteCells {
   std::vector<Eigen::VectorXd> values;  ///< some may not be finite
   std::vector<Eigen::Vector2d> places;  ///< of the point, or the centres of the area's cells
@@ -46,7 +46,7 @@ struct TrainingReport {
 TrainingReport collectTraining(const std::vector<ClassSite>& sites, double radius,
                                BandReader& bands);
 
-/// What check sites are and what their cells are classified as.
+/// Classes of check sites and of their cells.
 struct CheckReport {
   std::vector<CheckedSite> sites;
   std::vector<std::string> remarks;
@@ -62,8 +62,8 @@ struct CoverCounts {
   std::uint64_t rejected = 0, without_values = 0;
 };
 
-/// Classifies every cell, window by window. Codes into \a map, posteriors into \a posterior where
-/// there is one. The result does not depend on the threads.
+/// Classifies every cell, window by window. Codes are written to \a map, posteriors to \a posterior
+/// where there is one. The result does not depend on the number of threads.
 CoverCounts classifyCells(const MaximumLikelihood& classifier, BandReader& bands, int threads,
                           RasterWriter& map, RasterWriter* posterior,
                           const std::function<void(double)>& progress);

@@ -19,23 +19,24 @@ namespace pcl_als {
 
 struct LandCoverOptions {
   SurfaceOptions surface;  ///< how the rasters are made
-  /// That classes are told by, of SurfaceAccumulator::bandNames().
+  /// Bands by which classes are separated, of SurfaceAccumulator::bandNames().
   std::vector<std::string> bands{"height", "intensity", "roughness", "multiple_returns"};
   double cell = 1.0;                ///< metres
-  std::optional<RasterGrid> grid;   ///< default: cells of that size over all points
+  std::optional<RasterGrid> grid;   ///< default: cells of this size over all points
   std::vector<ClassSite> training;  ///< or a model
   std::optional<GaussianModel> model;
-  std::vector<ClassSite> checks;                       ///< to assess the accuracy at; may be empty
+  std::vector<ClassSite> checks;  ///< for the assessment of the accuracy; may be empty
   std::vector<std::pair<std::string, double>> priors;  ///< by class; the others share the rest
-  double reject = 0.0;           ///< probability below which a cell is of no class, 0 … 0.5
-  double training_radius = 0.0;  ///< metres: cells within that of a training point count, too
-  int tile = 768;                ///< cells, side of the tiles that are worked on
+  double reject = 0.0;  ///< probability below which a cell has no class, 0 … 0.5
+  /// metres around training points within which cells are training cells
+  double training_radius = 0.0;
+  int tile = 768;  ///< cells, side of the tiles that are processed
   int threads = 0;
   std::filesystem::path map;        ///< GeoTIFF of classes; empty: only rasters are made
   std::filesystem::path grids;      ///< GeoTIFF of nine bands; empty: not kept
   std::filesystem::path posterior;  ///< GeoTIFF of probabilities; empty: none
   std::filesystem::path points;     ///< folder of point files with classes; empty: none
-  /// How the sites are called in messages: the names of their files.
+  /// Names of the sites in messages: those of their files.
   std::string training_name = "training sites", checks_name = "check sites";
 };
 
@@ -44,8 +45,8 @@ struct LandCoverResult {
   RasterCounts rasters;
   std::optional<GaussianModel> model;  ///< given, or trained
   CoverCounts cover;                   ///< of the map
-  CheckReport checks;                  ///< what the check sites are classified as
-  /// Classes whose training samples determine no covariance; their cells are not reliable.
+  CheckReport checks;                  ///< classes of the cells at check sites
+  /// Classes whose covariance the training samples do not determine; their cells are not reliable.
   std::vector<std::string> undetermined;
   std::vector<std::string> remarks;
 };
@@ -53,8 +54,8 @@ struct LandCoverResult {
 /** \brief Rasters of strips, classified by Gaussian maximum likelihood, from point files.
  *
  * Reads the files tile by tile; memory is that of a tile per thread. Outputs appear only when they
- * are complete. UsageError for impossible options, InputError for what cannot be used (no points
- * in the rasters, no ground, sites outside), Cancelled.
+ * are complete. UsageError for impossible options, InputError for unusable input (no points in the
+ * rasters, no ground, sites outside), Cancelled.
  */
 LandCoverResult classifyLandCover(const RasterInput& files, const LandCoverOptions& options,
                                   const ProgressCallback& progress = {});

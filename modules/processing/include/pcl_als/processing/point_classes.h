@@ -18,7 +18,7 @@ struct PointClassCounts {
   std::uint64_t points = 0, unclassified = 0;
 };
 
-/// Classes of points by a raster file of which only the parts under them are in memory.
+/// Classes of points from a raster file, of which only the parts under the points are in memory.
 class PointClasses {
  public:
   struct Point {
@@ -42,9 +42,9 @@ class PointClasses {
 
 /** \brief A copy of a point file with the ASPRS codes of land cover in its classification.
  *
- * .las and .laz record by record in constant memory, all else byte for byte. A point without a
- * class keeps its code, and so do those of noise (7, 18) and those that \a arranged, where it is
- * given, leaves out; \a place: of the file among those arranged.
+ * .las and .laz record by record in constant memory, with all other bytes unchanged. Points without
+ * a class, points of noise (7, 18), and points that \a arranged, where it is given, leaves out keep
+ * their code; \a place: index of the file in the arrangement.
  */
 PointClassCounts classifyPointFile(const std::filesystem::path& input,
                                    const std::filesystem::path& output, PointClasses& classes,

@@ -13,8 +13,8 @@
 
 namespace pcl_als {
 
-/// A swath separation image made small: of every place, what most of the cells are that two strips
-/// see.
+/// A reduced swath separation image: at every place the most frequent colour of the cells that two
+/// strips cover.
 struct SeparationOverview {
   enum Code : std::uint8_t { nothing, one_strip, within_limit, within_twice, beyond };
   int columns = 0, rows = 0;
@@ -23,7 +23,7 @@ struct SeparationOverview {
   std::vector<std::uint8_t> codes;                       ///< row by row from the north-west
 };
 
-/// Cells of a swath separation image by colour, and where it is.
+/// Numbers of cells of a swath separation image by colour, and its georeference.
 struct SeparationSummary {
   double cell = 0.0;   ///< metres
   double limit = 0.0;  ///< metres: green up to it, yellow up to twice as much
@@ -32,15 +32,14 @@ struct SeparationSummary {
   SeparationOverview overview;
 };
 
-/// The grid of an image: \a cell metres, doubled until its memory suffices. \a covered_area: m^2 of
+/// The grid of an image: \a cell metres, doubled until it fits into memory. \a covered_area: m^2 of
 /// all strips, summed.
 RasterGrid separationGrid(const Eigen::AlignedBox2d& extent, double covered_area, double cell,
                           const std::string& crs);
 
 /** \brief Writes STEM.tif (red, green, blue), STEM_metres.tif (the separation) and STEM.png.
  *
- * A PNG of more than 64 million pixels would be of little use: it shows every second, third, …
- * cell.
+ * A PNG is limited to 64 million pixels: larger images show every second, third, … cell.
  */
 SeparationSummary writeSeparation(const std::filesystem::path& folder, const std::string& stem,
                                   const SwathSeparation& separation, int quality_level,

@@ -15,16 +15,17 @@
 
 namespace pcl_als {
 
-/** \brief Measures how well strips that are clouds in memory fit each other and control.
+/** \brief Measures the agreement of strips that are clouds in memory with each other and with
+ * control.
  *
  * The same computation as checkSurvey() and pcl_als_check; points in the same order give the same
- * result, from PCD files to the last bit. Each cloud is relative to its own LocalFrame; floats do
- * to it what the page of SystemCalibration says.
+ * result, from PCD files to the last bit. Each cloud is relative to its own LocalFrame; the effect
+ * of the rounding of floats is described with SystemCalibration.
  *
  * The point type needs x, y and z (float). gps_time, return_number and number_of_returns,
  * classification, flags (bits of PointFlag) and scan_angle are used where the type has them;
- * without scan angles and a trajectory, trends across the swath are not told. For a type of one's
- * own include impl/strip_check.hpp.
+ * without scan angles and a trajectory, trends with scan angle are not computed. For other types
+ * than PointLidar include impl/strip_check.hpp.
  *
  * UsageError for wrong arguments, InputError for data that cannot be used, Cancelled.
  * \code
@@ -44,15 +45,15 @@ class StripCheck {
   using PointCloud = pcl::PointCloud<PointT>;
   using PointCloudConstPtr = typename PointCloud::ConstPtr;
 
-  /// Adds a strip, or a further part of the strip of that id. Points that are not finite take no
-  /// part. UsageError for a null cloud or an empty id.
+  /// Adds a strip, or a further part of the strip of that id. Points that are not finite are left
+  /// out. UsageError for a null cloud or an empty id.
   void addInputStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame,
                      const std::string& id) {
     strips_.add(cloud, frame, id);
   }
   void clearInputStrips() { strips_.clear(); }
 
-  /// For scan angles finer than the points' own; default none.
+  /// For scan angles that are finer than those of the points; default none.
   void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
     trajectory_ = std::move(trajectory);
   }
@@ -64,26 +65,26 @@ class StripCheck {
   }
   const std::vector<ControlPoint>& getControl() const { return options_.settings.control; }
 
-  /// Everything else, and the control.
+  /// All other settings, and the control.
   void setSettings(const CheckSettings& settings) { options_.settings = settings; }
   const CheckSettings& getSettings() const { return options_.settings; }
 
-  /// Areas to compare at, such as those of an earlier check of the same block; empty (default):
-  /// chosen.
+  /// Areas of comparison, such as those of an earlier check of the same block; empty (default):
+  /// they are chosen.
   void setAreas(std::vector<SurveyArea> areas) { options_.areas = std::move(areas); }
-  /// Those that the last check() compared at.
+  /// Areas of the last check().
   const std::vector<SurveyArea>& getAreas() const { return requireCheck().areas; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
-  /// Told of phases; false cancels.
+  /// Called in every phase; returning false cancels.
   void setProgressCallback(ProgressCallback callback) { progress_ = std::move(callback); }
 
-  /// Measures; getResult() then is the result. Where it throws, there is none.
+  /// Computes the result; if an exception is thrown, there is none.
   void check();
-  /// Of the last check(); UsageError where there is none.
+  /// Result of the last check(); UsageError where there is none.
   const CheckedBlock& getResult() const { return requireCheck().block; }
 
  private:

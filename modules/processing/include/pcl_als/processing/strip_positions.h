@@ -16,15 +16,15 @@
 
 namespace pcl_als {
 
-/// Where the points of a strip are: files, and which of their points it takes.
+/// Source of the points of a strip: files, and the points of these that belong to it.
 struct StripFiles {
   std::vector<std::filesystem::path> files;
-  std::string strip;  ///< name, where the files hold several
-  /// Of files that include these; null: all points are taken.
+  std::string strip;  ///< name, where the files contain several
+  /// Arrangement of files that include these; null: all points belong to the strip.
   const StripArrangement* arrangement = nullptr;
-  std::vector<std::size_t> places;  ///< of each file among those of the arrangement
-  int index = -1;                   ///< of the strip in the arrangement; -1: all that are in use
-  /// Of the strip's points, metres, where it is known; empty: that of the files' headers.
+  std::vector<std::size_t> places;  ///< index of each file in the arrangement
+  int index = -1;                   ///< of the strip in the arrangement; -1: all strips in use
+  /// Box of the points of the strip, metres; empty: that of the headers of the files.
   Eigen::AlignedBox3d box;
 
   std::string name() const;  ///< "strip1.las", "strip 3"

@@ -15,32 +15,32 @@
 
 namespace pcl_als {
 
-/// What files hold, from their headers.
+/// Contents of point files according to their headers.
 struct RasterInput {
   std::vector<std::filesystem::path> paths;
   std::uint64_t points = 0;
   double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< metres
   std::string crs;                                            ///< of the first file that has one
   std::vector<std::string> remarks;  ///< units that are converted or assumed
-  /// Of the same files: only points of strips that are in use are taken; null: all.
+  /// Arrangement of the same files: only points of strips in use are read; null: all.
   std::shared_ptr<const ArrangedFiles> arranged;
   std::vector<LeftOutPoints> left_out;
 };
 
 /// Opens every file once. InputError for files without points or that commonReference() refuses.
 RasterInput rasterInput(const std::vector<std::string>& paths);
-/// Restricts it to the strips that are chosen: reads every file twice.
+/// Restricts the contents to the chosen strips: reads every file twice.
 void chooseStrips(const StripChoice& choice, RasterInput& files);
 
 struct RasterCounts {
-  std::uint64_t points = 0;  ///< that lie in the raster and are no noise
+  std::uint64_t points = 0;  ///< inside the raster, without noise
   CellCounts surface, terrain;
 };
 
 /** \brief Makes the rasters of SurfaceAccumulator from point files, tile by tile.
  *
- * Each tile reads the files whose box meets it, so the memory is that of a tile per thread, however
- * many points there are. \a progress is called by one thread at a time.
+ * Each tile reads the files whose box intersects it, so that the memory is that of a tile per
+ * thread for any number of points. \a progress is called by one thread at a time.
  */
 RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& options, int tile_side,
                              int threads, RasterWriter& writer,

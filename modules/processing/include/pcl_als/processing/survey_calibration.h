@@ -20,17 +20,18 @@ namespace pcl_als {
 
 struct SurveyCalibrationOptions {
   CalibrationSettings settings;
-  StripChoice strips;                                      ///< those that take part; default all
+  StripChoice strips;                                      ///< strips that are used; default all
   std::vector<std::pair<std::string, std::string>> pairs;  ///< of strips; empty: all that overlap
   std::vector<ControlPoint> control;
-  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: found
-  SurveyObserver observer;      ///< of the first reading
+  std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
+  SurveyObserver observer;      ///< called during the first reading
 };
 
 struct SurveyCalibration {
-  CalibrationResult result;  ///< result.verdict states whether to apply it
+  CalibrationResult result;  ///< result.verdict states whether it may be applied
   std::vector<SurveyArea> areas;
-  std::vector<double> information;           ///< by area: share of the determination, together 1
+  /// by area: share of the information about the parameters, sum 1
+  std::vector<double> information;
   std::shared_ptr<const Trajectory> flight;  ///< with the attitude that was used
 };
 
@@ -40,8 +41,8 @@ struct SurveyCalibration {
  *
  * \param flight as delivered; the model is the rigorous one where it has attitude
  *
- * UsageError for unknown strips or impossible settings, InputError for what cannot be used,
- * Cancelled. A calibration that does not converge or improve nothing is a result with a verdict.
+ * UsageError for unknown strips or impossible settings, InputError for unusable input, Cancelled. A
+ * calibration that does not converge or gives no improvement returns a result with a verdict.
  */
 SurveyCalibration calibrateSurvey(SurveyReader& survey,
                                   const std::shared_ptr<const Trajectory>& flight,

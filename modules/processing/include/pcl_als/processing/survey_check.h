@@ -25,27 +25,27 @@ struct SeparationImageOptions {
 
 struct SurveyCheckOptions {
   CheckSettings settings;
-  StripChoice strips;             ///< those that take part; default all
-  std::optional<int> gps_week;    ///< of times that are seconds of the week; default: found
+  StripChoice strips;             ///< strips that are used; default all
+  std::optional<int> gps_week;    ///< of times that are seconds of the week; default: from the data
   std::vector<SurveyArea> areas;  ///< to compare at; empty: chosen. Those of an earlier check of
                                   ///< the same block make both comparable.
   std::optional<SeparationImageOptions> separation;  ///< images to write; default none
-  SurveyObserver observer;                           ///< of the second reading
+  SurveyObserver observer;                           ///< called during the second reading
 };
 
 struct SurveyCheck {
   CheckedBlock block;
-  std::vector<SurveyArea> areas;  ///< that were compared at
+  std::vector<SurveyArea> areas;  ///< areas of comparison
 };
 
-/** \brief Measures how well the overlapping strips of a survey fit each other and control.
+/** \brief Measures the agreement of the overlapping strips of a survey with each other and with
+ * control.
  *
  * Reads the files three times; memory depends on the areas chosen and not on the survey.
  *
- * \param trajectory for scan angles finer than the files' own; may be null
+ * \param trajectory for scan angles that are finer than those of the files; may be null
  *
- * UsageError for unknown strips or impossible settings, InputError for what cannot be used,
- * Cancelled.
+ * UsageError for unknown strips or impossible settings, InputError for unusable input, Cancelled.
  */
 SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajectory>& trajectory,
                         const SurveyCheckOptions& options = {},

@@ -8,9 +8,9 @@
 
 namespace pcl_als {
 
-/// Sees the points that a job reads, for maps and statistics of one's own; both may be empty.
+/// Receives the points that a job reads, for further maps and statistics; both may be empty.
 struct SurveyObserver {
-  /// Once it is decided which strips are read.
+  /// Called when the strips have been chosen.
   std::function<void(const SurveyReader& survey)> begin;
   /// All points of one reading; from several threads for different strips.
   SurveyReader::Sink points;

@@ -20,13 +20,13 @@
 
 namespace pcl_als {
 
-/** \brief The points of a survey as strips, from files or clouds: read again and again, chunk by
- * chunk.
+/** \brief The points of a survey as strips, from files or clouds, which can be read repeatedly,
+ * chunk by chunk.
  *
- * Strips are those of StripArrangement; points that it leaves out are counted and not handed on.
- * Files that share a strip are read one after the other in the given order, others at the same
- * time: what a strip sees does not depend on the number of threads. "File" stands for any
- * SurveyInput; makeCloudInput() makes one of a cloud.
+ * Strips are those of StripArrangement; points that it leaves out are counted and not passed on.
+ * Files that share a strip are read one after the other in the given order, others in parallel: the
+ * order of the points of a strip does not depend on the number of threads. A "file" is any
+ * SurveyInput, such as a cloud from makeCloudInput().
  */
 class SurveyReader {
  public:
@@ -35,17 +35,17 @@ class SurveyReader {
   struct Run {
     const PointChunk& chunk;
     std::size_t from, to;
-    const TimeAlignment& time;  ///< to the trajectory's clock
+    const TimeAlignment& time;  ///< to the time system of the trajectory
 
     CalibrationPoint point(std::size_t row) const;
   };
   using RunSink = std::function<void(int strip, const Run& run)>;
 
-  /// What is known of the flight, for choose().
+  /// Information about the flight, for choose().
   struct Flight {
     const Trajectory* trajectory = nullptr;
     std::optional<int> gps_week;
-    /// Whether points without trajectory are left out; else they are read with the others.
+    /// Whether points without trajectory are left out; otherwise they are read.
     bool needed = true;
   };
 
@@ -56,18 +56,18 @@ class SurveyReader {
   /// The same from other sources than files.
   static SurveyReader ofInputs(std::vector<SurveyInput> inputs, int threads = 0);
 
-  /// Decides which points are read, and as what strips; before this, all are, as StripNaming names
-  /// them. Returns how times were matched to the trajectory's, one line each. UsageError for an
-  /// unknown strip, InputError where no point is left.
+  /// Chooses the points that are read, and their strips; without it all points are read, with
+  /// strips named by StripNaming. Returns how times were reconciled with the trajectory, one line
+  /// each. UsageError for an unknown strip, InputError where no point remains.
   std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
 
   const std::vector<std::string>& strips() const { return arrangement_->names(); }
   std::uint64_t pointCount() const;
-  /// By strip: points that are read, about.
+  /// Approximate number of points of each strip.
   const std::vector<std::uint64_t>& pointsByStrip() const { return arrangement_->expectedPoints(); }
-  /// What the last complete reading left out.
+  /// Points that the last complete reading left out.
   const std::vector<LeftOutPoints>& leftOut() const { return left_out_; }
-  /// CRS that the files have in common, and what is converted or assumed of their units.
+  /// Common CRS of the files, and conversions or assumptions about their units.
   const PointReference& reference() const { return reference_; }
   /// Box of all points in plan, metres; empty when there are none.
   Eigen::AlignedBox2d extent() const;
@@ -84,7 +84,7 @@ class SurveyReader {
   /// Calls \a sink with all points, in runs of one strip; from several threads for different
   /// strips.
   void read(const Sink& sink) const;
-  /// The same with all that the files know of the points.
+  /// The same with all fields of the points.
   void readRuns(const RunSink& sink) const;
 
  private:

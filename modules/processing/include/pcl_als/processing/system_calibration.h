@@ -17,24 +17,24 @@ namespace pcl_als {
 /** \brief Calibrates a LiDAR system from strips that are clouds in memory (Habib et al. 2011).
  *
  * The same computation as calibrateSurvey() and pcl_als_calibrate: point-to-patch pairs of
- * overlapping strips (Eq. (11)) and vertical control (Eq. (12)), adjusted until the corrections
- * vanish. Points in the same order give the same result, from PCD files to the last bit.
+ * overlapping strips (Eq. (11)) and vertical control (Eq. (12)), iterated until convergence. Points
+ * in the same order give the same result, from PCD files to the last bit.
  *
  * Each cloud is relative to its own LocalFrame; trajectory and control are in the ground frame
  * (east, north, up; metres). The coordinates of a cloud are floats: within 1 km of the frame's
- * origin they have steps of at most 0.06 mm, within 4 km (LocalFrame::kReach) of 0.25 mm. So small
- * a change moves no pair by more, but changes which points are chosen as candidates: estimates from
- * LAS files and from clouds loaded of them differ by some tenths of a standard deviation at most
+ * origin they have steps of at most 0.06 mm, within 4 km (LocalFrame::kReach) of 0.25 mm. Such a
+ * change has no larger effect on any pair, but it changes the choice of candidates: estimates from
+ * LAS files and from clouds loaded from them differ by a few tenths of a standard deviation at most
  * (0.3 in a small block, tests). InputError where the steps exceed 2 mm.
  *
  * The point type needs x, y, z (float) and gps_time (double). return_number and number_of_returns,
  * classification, and flags (bits of PointFlag) are used where the type has them; without them
- * every return counts as single, unclassified and valid, and vegetation then has to be left out by
- * the criterion of surfaces alone. For a type of one's own include impl/system_calibration.hpp.
+ * every return is assumed to be single, unclassified and valid, and vegetation is excluded by the
+ * criterion of surfaces alone. For other types than PointLidar include impl/system_calibration.hpp.
  *
- * UsageError for wrong arguments, InputError for data that cannot be used, Cancelled. A calibration
- * that does not converge is a result whose verdict says so. Memory: beside the clouds, which are
- * not copied, that of calibrateSurvey().
+ * UsageError for wrong arguments, InputError for unusable data, Cancelled. A calibration that does
+ * not converge returns a result with a verdict. Memory: that of calibrateSurvey(), besides the
+ * clouds, which are not copied.
  * \code
  * pcl_als::SystemCalibration<pcl_als::PointLidar> calibration;
  * for (const auto& strip : pcl_als::loadStrips({"strip1.las", "strip2.las"}))
@@ -55,8 +55,8 @@ class SystemCalibration {
   using PointCloudConstPtr = typename PointCloud::ConstPtr;
   using StripNames = std::vector<std::pair<std::string, std::string>>;
 
-  /// Adds a strip, or a further part of the strip of that id. Points that are not finite take no
-  /// part. UsageError for a null cloud or an empty id.
+  /// Adds a strip, or a further part of the strip of that id. Points that are not finite are left
+  /// out. UsageError for a null cloud or an empty id.
   void addInputStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame,
                      const std::string& id) {
     strips_.add(cloud, frame, id);
@@ -64,7 +64,7 @@ class SystemCalibration {
   void clearInputStrips() { strips_.clear(); }
 
   /// The flight as delivered. With Trajectory::Options::use_attitude the model is the rigorous one
-  /// of Eq. (1), else the quasi-rigorous one, as the page of module calibration says.
+  /// of Eq. (1), otherwise the quasi-rigorous one (README of module calibration).
   void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
     trajectory_ = std::move(trajectory);
   }
@@ -84,21 +84,21 @@ class SystemCalibration {
   void setStripPairs(StripNames pairs) { options_.pairs = std::move(pairs); }
   const StripNames& getStripPairs() const { return options_.pairs; }
 
-  /// Everything else, and the parameters; the resolution is that of the clouds.
+  /// All other settings, and the parameters; the resolution is that of the clouds.
   void setSettings(const CalibrationSettings& settings) { options_.settings = settings; }
   const CalibrationSettings& getSettings() const { return options_.settings; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
-  /// Told of phases and iterations; false cancels.
+  /// Called in every phase and iteration; returning false cancels.
   void setProgressCallback(ProgressCallback callback) { progress_ = std::move(callback); }
 
-  /// Estimates the parameters; getResult() then is the result. Where it throws, there is none.
+  /// Estimates the parameters; if an exception is thrown, there is no result.
   void calibrate();
-  /// Of the last calibrate(); getResult().verdict tells whether to apply it. UsageError where there
-  /// is none.
+  /// Result of the last calibrate(); getResult().verdict states whether it may be applied.
+  /// UsageError where there is none.
   const CalibrationResult& getResult() const;
   bool hasConverged() const { return calibration_ && calibration_->result.converged; }
   /// The result with the areas that were used and the attitude that was recovered.

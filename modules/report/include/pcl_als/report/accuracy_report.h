@@ -22,7 +22,7 @@ struct AccuracyReport {
   std::optional<AccuracyResult> other;
   std::optional<AccuracyComparison> comparison;
   std::vector<std::string> inputs, remarks;
-  std::vector<LeftOutPoints> left_out;  ///< of the points that were classified by
+  std::vector<LeftOutPoints> left_out;  ///< points of strips that were left out
 };
 
 /// The tables that the tools print.
@@ -31,8 +31,8 @@ void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& repo
 
 ConfusionMatrix matrixOf(const CountTable& table);
 
-/// Check points of one or two classifications with a common list of classes. A class that only
-/// check points have, and points without a class, get a row of their own ("unclassified").
+/// Check points of one or two classifications with a common list of classes. Classes of check
+/// points only, and points without a class, have a row of their own ("unclassified").
 struct CountedSites {
   std::vector<std::string> classes;
   std::vector<CheckedPoint> points;
@@ -40,11 +40,11 @@ struct CountedSites {
 inline constexpr const char* kUnclassified = "unclassified";
 CountedSites countSites(const std::vector<CheckedSite>& sites, std::vector<std::string> classes);
 
-/// assessAccuracy(), without remarks on the row of points without a class, which is no class.
+/// assessAccuracy() without remarks on the row of points without a class.
 AccuracyResult assessSites(const CountedSites& sites);
 
-/// The outcome of the same check points in another classification, found again by their places.
-/// InputError when they are not the same points.
+/// The same check points in another classification, identified by their positions. InputError when
+/// they are not the same points.
 std::vector<CheckedSite> matchSites(const std::string& file, const std::vector<CheckedSite>& wanted,
                                     const std::vector<CheckedSite>& sites);
 

@@ -12,14 +12,14 @@
 
 namespace pcl_als {
 
-/// What was aligned with what.
+/// Source and target of an alignment.
 struct AlignedStrips {
   std::string source, target;
   std::uint64_t source_points = 0, target_points = 0;  ///< in the common area
-  std::vector<LeftOutPoints> left_out;                 ///< points that took no part
+  std::vector<LeftOutPoints> left_out;                 ///< points that were left out
 };
 
-/// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and how the strips fit.
+/// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and the fit of the strips.
 std::string alignmentTable(const PatchAlignmentResult& result);
 
 /// Writes the result as JSON (module registration's README has the format). Through AtomicFile.

@@ -19,7 +19,7 @@ namespace pcl_als {
  */
 class CalibrationPage {
  public:
-  /// \param wanted false: it sees nothing and costs nothing
+  /// \param wanted false: no page is made, and observing costs nothing
   explicit CalibrationPage(bool wanted);
   ~CalibrationPage();
   CalibrationPage(const CalibrationPage&) = delete;
@@ -27,9 +27,9 @@ class CalibrationPage {
 
   static bool draws();
 
-  /// To be given to the calibration, for the map; the page must outlive it.
+  /// Observer for the calibration, for the map; the page must exist as long as it is called.
   SurveyObserver observer();
-  /// Writes into the folder of \a origin.
+  /// Writes the page into the folder of \a origin.
   void write(const ReportOrigin& origin, const CalibrationResult& result,
              const std::vector<SurveyArea>& areas,
              const std::shared_ptr<const Trajectory>& trajectory) const;

@@ -14,8 +14,8 @@ namespace pcl_als {
 /// The result as tables for a terminal: parameters, pairs, control, warnings.
 std::string calibrationTables(const CalibrationResult& result);
 
-/// Writes pairs.csv, iterations.csv and areas.csv into a folder. \a information: what each area
-/// contributed to the determination, together 1.
+/// Writes pairs.csv, iterations.csv and areas.csv into a folder. \a information: share of each area
+/// in the information about the parameters, sum 1.
 void writeCalibrationCsv(const std::filesystem::path& folder, const CalibrationResult& result,
                          const std::vector<SurveyArea>& areas,
                          const std::vector<double>& information);

@@ -10,7 +10,7 @@
 
 namespace pcl_als {
 
-/// The census as text for people; \a left_out: points that are of none of its strips.
+/// The census as text; \a left_out: points that belong to none of its strips.
 std::string censusText(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out);
 
 /// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.

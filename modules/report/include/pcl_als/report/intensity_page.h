@@ -9,18 +9,17 @@
 
 namespace pcl_als {
 
-/** \brief The report of a radiometric correction for people: report.html with pictures, and
- * report.md.
+/** \brief The report of a radiometric correction: report.html with pictures, and report.md.
  *
  * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is no page; writeIntensityReport()
- * writes report.md and tables all the same.
+ * writes report.md and the tables.
  */
 class IntensityPage {
  public:
   virtual ~IntensityPage() = default;
-  /// For IntensityOptions::observe: the page needs to know where points are.
+  /// For IntensityOptions::observe: the page receives the positions of the points that are written.
   virtual IntensityOptions::SeenPoint observe(const IntensityRun& run) = 0;
-  /// Writes into the folder of \a origin.
+  /// Writes the page into the folder of \a origin.
   virtual void write(const ReportOrigin& origin, const IntensityReport& report) const = 0;
 };
 

@@ -12,15 +12,15 @@
 
 namespace pcl_als {
 
-/// Where the extinction comes from.
+/// Source of the extinction.
 struct ExtinctionChoice {
   std::optional<Atmosphere> air;  ///< empty: given directly, switched off, or of another run
   Extinction parts;               ///< of the air
   double per_km = 0.0;
-  std::string remark;  ///< one line for a user
+  std::string remark;  ///< one line for the user
 };
 
-/// Everything about a run that is printed or written.
+/// Contents of the reports of a run.
 struct IntensityReport {
   const IntensityResult* result = nullptr;
   ExtinctionChoice extinction;
@@ -28,7 +28,7 @@ struct IntensityReport {
   std::vector<std::string> outputs;  ///< names, by file
 };
 
-/// What estimation and targets found, as lines for a user.
+/// Results of estimation and targets, as lines for the user.
 std::string overlapText(const OverlapResult& overlaps, const std::vector<std::string>& strips);
 std::string referenceText(const ReferenceResult& reference);
 std::string countsText(const IntensityCounts& counts, const IntensityRun& run);
@@ -39,11 +39,11 @@ std::string slopeName(std::size_t bin);
 /// Factor by which corrected values have the mean of the given ones.
 double meanScale(const BeforeAfter& all);
 
-/// model.json of a run; see the tool's help for what it holds.
+/// model.json of a run; the help of the tool lists its content.
 void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
 
-/// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv into a folder, made if missing.
-/// Without \a markdown all but report.md, which the page writes then.
+/// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv, written into a folder that is
+/// made if missing. Without \a markdown report.md is left to the page.
 void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
                           bool markdown);
 

@@ -14,10 +14,10 @@
 
 namespace pcl_als {
 
-/** \brief The report of a check for people: report.html with pictures, and report.md.
+/** \brief The report of a check: report.html with pictures, and report.md.
  *
- * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is neither; the tables are written all
- * the same (writeQualityTables).
+ * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is neither; writeQualityTables() writes
+ * the tables.
  */
 class QualityPage {
  public:
@@ -27,9 +27,9 @@ class QualityPage {
   QualityPage& operator=(const QualityPage&) = delete;
 
   static bool draws();
-  /// To be given to the check, for the map; the page must outlive it.
+  /// Observer for the check, for the map; the page must exist as long as it is called.
   SurveyObserver observer();
-  /// Writes into the folder of \a origin.
+  /// Writes the page into the folder of \a origin.
   void write(const ReportOrigin& origin, const QualityReport& report,
              const std::vector<SurveyArea>& areas) const;
 

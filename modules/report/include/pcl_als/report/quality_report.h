@@ -15,20 +15,20 @@ namespace pcl_als {
 struct QualityReport {
   CheckedBlock block;
   std::optional<CheckedBlock> before;
-  int quality_level = 2;  ///< that the strips are to keep
+  int quality_level = 2;  ///< required quality level
   double peak_memory_mb = 0.0;
 };
 
-/// A table for people. A row may end early, with a remark for the rest of its cells.
+/// A table of text. A row may end early, with a remark in place of its other cells.
 struct QualityTable {
-  std::string caption;  ///< what it shows, with units
+  std::string caption;  ///< its content, with units
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
 /// Heights, movements, shifts, trends, and control where it was given.
 std::vector<QualityTable> qualityTables(const QualityReport& report);
 
-/// The tables and what they come to, for a terminal.
+/// The tables and the conclusions from them, for a terminal.
 std::string qualityText(const QualityReport& report);
 
 /// quality.json; its keys are in the README of module quality.
@@ -38,14 +38,14 @@ std::string qualityJson(const QualityReport& report);
 /// run.csv (times and memory, which differ from run to run), each complete or not at all.
 void writeQualityTables(const std::filesystem::path& folder, const QualityReport& report);
 
-/// Whether there is any number to rely on: a judged pair, or a control point.
+/// Whether there is a reliable result: an assessed pair, or a control point.
 bool hasAnswer(const CheckedBlock& block);
 
 bool judged(const CheckedPair& pair);
 /// The same pair in the set before; null where there is none.
 const CheckedPair* pairBefore(const QualityReport& report, const CheckedPair& pair);
 
-/// "QL1", or "none" where no level is kept.
+/// "QL1", or "none" where no level is satisfied.
 std::string levelName(const std::optional<int>& level);
 
 }  // namespace pcl_als

@@ -19,14 +19,14 @@
 
 namespace pcl_als {
 
-/** \brief The point files of a picture: strips by name, extents, and all points with what they are
- * coloured by, chunk by chunk.
+/** \brief The point files of a picture: strips by name, extents, and all points with the attributes
+ * by which they are coloured, chunk by chunk.
  */
 class PictureSource {
  public:
   /// Reads all files once. InputError for a file that cannot be read and where no file has a
   /// point.
-  /// \a split: cut into flight lines, as StripChoice.
+  /// \a split: divide into flight lines, as StripChoice.
   explicit PictureSource(const std::vector<std::string>& paths, bool split = false);
 
   const std::vector<std::string>& strips() const { return arrangement_->names(); }
@@ -64,16 +64,15 @@ class PictureSource {
   double first_time_ = 0.0;
 };
 
-/** \brief What points are coloured by: a name of the option -color.
- */
-class PointAttribute {
+/** \brief The attribute by which points are coloured: a name of the option -color.
+* / class PointAttribute {
  public:
   /// elevation, intensity, strip, class, return, scan_angle, time, difference, or an extra-bytes
-  /// field. For difference, \a reference is the strip that heights are above.
+  /// field. For difference, \a reference is the strip to which heights refer.
   PointAttribute(std::string name, const PictureSource& source, const std::string& reference);
 
   const std::string& extraField() const { return extra_field_; }
-  /// Reads what has to be known before the first value: for difference, the reference strip.
+  /// Reads the data needed before the first value: for difference, the reference strip.
   void prepare(double cell);
   float valueOf(const PictureSource::Point& point) const;
   /// Colours and legend; the scale is not yet fitted.

@@ -11,8 +11,8 @@
 
 namespace pcl_als {
 
-/// How densely a strip's points lie, from the boxes of its files: a slanting strip fills its box in
-/// part, and counts as sparser.
+/// Density of the points of a strip, from the boxes of its files. An oblique strip fills its box in
+/// part and has a smaller density here.
 struct StripDensity {
   double area = 0.0;  ///< m^2
   std::uint64_t points = 0;

@@ -22,14 +22,16 @@ namespace pcl_als {
 struct SurveyPictureOptions {
   int width = 1600, height = 1000;      ///< pixels
   std::string attribute = "elevation";  ///< that points are coloured by, see PointAttribute
-  std::string reference;                ///< for attribute "difference": the strip heights are above
-  double difference_cell = 0.0;         ///< metres, cells of the reference's planes; 0: by density
+  std::string reference;  ///< for attribute "difference": the strip to which heights refer
+  /// metres, cell size of the planes of the reference strip; 0: by density
+  double difference_cell = 0.0;
   StripChoice strips;
   double azimuth = 0.0, elevation = 90.0;  ///< of the camera, degrees, see OrthographicCamera
   double zoom = 1.0;
-  std::optional<Eigen::AlignedBox2d> extent;       ///< metres: draw this part only
-  std::string color_map;                           ///< empty: by attribute
-  std::optional<std::pair<double, double>> range;  ///< of the colours; else by what is shown
+  std::optional<Eigen::AlignedBox2d> extent;  ///< metres: draw this part only
+  std::string color_map;                      ///< empty: by attribute
+  /// of the colours; default: from the points drawn
+  std::optional<std::pair<double, double>> range;
   PointShade shade = PointShade::none;
   double point_size = 0.0;  ///< pixels; 0: as large as the gaps between points
   std::string title;
@@ -47,8 +49,8 @@ struct SurveyPictureOptions {
  */
 class SurveyPicture {
  public:
-  /// UsageError for unknown strips, attributes or colour maps; InputError where nothing is to be
-  /// drawn; Cancelled.
+  /// UsageError for unknown strips, attributes or colour maps; InputError where there is nothing to
+  /// draw; Cancelled.
   SurveyPicture(const std::vector<std::string>& files, const SurveyPictureOptions& options,
                 const ProgressCallback& progress = {});
 

@@ -16,8 +16,8 @@ struct SurveyProfile {
   SectionPoints before, after;
 };
 
-/** \brief The gable roof or slope of a survey where a misfit of its strips shows best; empty where
- * no two strips see one.
+/** \brief The gable roof or slope of a survey at which a misfit of its strips is most visible;
+ * empty where no two strips cover one.
  *
  * Reads all points twice. Memory: that of SectionSearch during the search, then the section's
  * points.

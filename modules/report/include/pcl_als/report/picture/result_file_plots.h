@@ -11,14 +11,14 @@
 
 namespace pcl_als {
 
-/// A plot that a result file can be drawn as.
+/// A plot of a result file.
 struct NamedPlot {
   std::string name;  ///< of the file, without .png
   std::function<Canvas(PictureSize)> draw;
-  std::string file{};  ///< that holds it
+  std::string file{};  ///< result file that contains it
 };
 
-/** \brief All plots that a result file holds, whichever tool wrote it.
+/** \brief All plots of a result file of any tool.
  *
  * calibration.json: parameters, correlation, pairs, convergence, residuals, strip_errors.
  * quality.json: heights, offset_against_distance, …_time and …_scan_angle of the pairs.
