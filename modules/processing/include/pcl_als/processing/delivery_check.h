@@ -75,8 +75,8 @@ struct CheckedBlock {
 };
 
 /** \brief Checks one set of strips: three passes over the files, memory for the chosen areas only.
- * */
-* / class BlockCheck {
+ */
+class BlockCheck {
  public:
   BlockCheck(SurveyReader& survey, const CheckSettings& settings,
              std::shared_ptr<const Trajectory> trajectory);

@@ -64,8 +64,8 @@ class PictureSource {
   double first_time_ = 0.0;
 };
 
-/** \brief The attribute by which points are coloured: a name of the option -color.
-* / class PointAttribute {
+/// The attribute by which points are coloured: a name of the option -color.
+class PointAttribute {
  public:
   /// elevation, intensity, strip, class, return, scan_angle, time, difference, or an extra-bytes
   /// field. For difference, \a reference is the strip to which heights refer.
