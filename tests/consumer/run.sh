@@ -88,6 +88,14 @@ awk '{ exit !($3 > 0.58 && $3 <= 0.68) }' accuracy.txt || { cat accuracy.txt; ex
 "$prefix/bin/pcl_als_classify" "$block"/strip*.las -training "$block/training.csv" -output by_tool.tif -quiet
 cmp map.tif by_tool.tif
 if [[ -x jobs/draw ]]; then env -u DISPLAY jobs/draw drawn.png "$block"/strip*.las && test -s drawn.png; fi
+# The same from clouds: the noise of the block is 2 cm.
+if [[ -x jobs/clouds ]]; then
+  "$prefix/bin/pcl_als_classify" "$block"/strip*.las -training "$block/training.csv" -output by_tool.tif \
+    -save_model model.json -quiet
+  env -u DISPLAY jobs/clouds "$block/trajectory.csv" "$block/control.csv" model.json cloud.png "$block"/strip*.las >clouds.txt
+  test -s cloud.png
+  awk '{ exit !($2 > 0.1 && $5 < 0.03 && $8 < 0.02) }' clouds.txt || { cat clouds.txt; exit 1; }
+fi
 
 ln -s "$block"/{strip1.las,strip2.las,trajectory.csv,control.csv} .
 # From clouds as from the PCD files of the same points.
