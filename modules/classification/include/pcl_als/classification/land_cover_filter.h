@@ -21,7 +21,8 @@ namespace pcl_als {
 /** \brief Band values and class of a single point: its own where it has them, else its cell's.
  *
  * height is the point's height above the cell's terrain, surface its height, intensity its own; all
- * other bands are those of the raster. So a return from under a tree can be ground. Thread-safe.
+ * other bands are those of the raster. A return from under a tree can therefore be ground.
+ * Thread-safe.
  */
 class PointClassifier {
  public:
