@@ -67,6 +67,25 @@ TEST(PairAssessment, StandardDeviationOfTheMeanKnowsNeighboursErrTogether) {
   EXPECT_NEAR(stds, 0.00375, 0.0006);
 }
 
+// Strips tilted against each other by 0.4 mm per metre: the means of the western and the eastern
+// half differ by 4 cm. With cells taken as independent, each was known to 2 mm.
+TEST(PairAssessment, StandardDeviationOfTheMeanKnowsTiltedStrips) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  OffsetSummary halves[2];
+  for (int half = 0; half < 2; ++half) {
+    const auto samples =
+        levelSamples([&](int x, int) { return 4e-4 * (x + 100.0 * half) + noise(random); }, 100);
+    halves[half] = assessPair(samples, {}, {}).vertical;
+  }
+  const double difference = halves[1].mean - halves[0].mean;
+  EXPECT_NEAR(difference, 0.04, 0.002);
+  const double std = std::hypot(halves[0].std_of_mean, halves[1].std_of_mean);
+  // Adjacent halves of a uniform tilt: 1 / (sqrt(2) sqrt(1/12)) = 2.45 standard deviations.
+  EXPECT_LT(difference / std, 2.6);
+  EXPECT_GT(difference / std, 1.0);
+}
+
 TEST(PairAssessment, HorizontalShiftFromRoofs) {
   using namespace test;
   Flight first, other;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <pcl_als/adjustment/clustered_regression.h>
+#include <pcl_als/adjustment/overlap_variation.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/quality/offset_sample.h>
 
@@ -33,12 +34,15 @@ OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64
   if (values.empty()) return summary;
   RunningStatistics statistics;
   ClusteredRegression mean(1);
+  OverlapVariation variation;
   for (std::size_t i = 0; i < values.size(); ++i) {
     statistics.add(values[i]);
-    if (places.empty())
+    if (places.empty()) {
       mean.add(clusters[i], Eigen::VectorXd::Ones(1), values[i]);
-    else
+    } else {
       mean.add(clusters[i], Eigen::VectorXd::Ones(1), values[i], places[i]);
+      variation.add(clusters[i], places[i], values[i]);
+    }
   }
   summary.mean = statistics.mean();
   summary.std = statistics.standardDeviation();
@@ -46,6 +50,10 @@ OffsetSummary summarize(std::vector<double> values, const std::vector<std::int64
   const ClusteredRegression::Result solved = mean.solve();
   summary.std_of_mean = solved.std(0);
   summary.std_of_mean_formal = solved.formalStd(0);
+  if (solved.determined && !places.empty())
+    summary.std_of_mean = std::max(
+        summary.std_of_mean,
+        std::sqrt(summary.std_of_mean_formal * summary.std_of_mean_formal + variation.ofOffset()));
   summary.nmad = robustSigma(values);
   summary.median = medianInPlace(values);
   for (double& value : values) value = std::abs(value);

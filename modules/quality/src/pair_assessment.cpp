@@ -5,6 +5,7 @@
 #include <map>
 
 #include <pcl_als/adjustment/clustered_regression.h>
+#include <pcl_als/adjustment/overlap_variation.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/quality/accuracy_standards.h>
@@ -18,6 +19,8 @@ namespace {
 constexpr std::size_t kFewest = 50;       // least number of level places of a pair
 constexpr std::size_t kFewestInCell = 5;  // for the mean of a cell
 constexpr double kSteep = 10.0 * kRadiansPerDegree;
+constexpr double kSignificant = 3.841;  // 95 % of chi-squared with one degree of freedom
+constexpr double kLeastVertical = 0.5;  // cosine: 60 degrees, the steepest of the slope classes
 // metres: shifts with larger standard deviations are not determined
 constexpr double kWeakest = 0.5;
 constexpr double kCopied = 0.5;                                       // share of identical points
@@ -49,6 +52,43 @@ OffsetSummary cellSummary(const std::vector<OffsetSample>& samples) {
   return summarize(std::move(means), clusters, places);
 }
 
+/// How the height varies over the overlap that remains when \a b is shifted (OverlapVariation).
+double variationOfHeight(const std::vector<OffsetSample>& samples, const Eigen::Vector3d& shift) {
+  OverlapVariation variation;
+  for (const OffsetSample& s : samples) {
+    if (!s.conjugate || s.normal.z() < kLeastVertical) continue;
+    variation.add(s.cluster(), s.position.head<2>(),
+                  (s.normal_distance - s.normal.dot(shift)) / s.normal.z());
+  }
+  return variation.ofOffset();
+}
+
+/// Squares of what the shift changes by if the strips may be tilted against each other, where this
+/// is significant (95 %): slopes that face different ways lie at different places.
+Eigen::Vector3d changeByTilt(const std::vector<OffsetSample>& samples,
+                             const ClusteredRegression::Result& shift) {
+  constexpr double kScale = 100.0;  // metres: rows of size about 1
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  for (const OffsetSample& s : samples)
+    centre += s.position.head<2>() / static_cast<double>(samples.size());
+  ClusteredRegression tilted(5);
+  for (const OffsetSample& s : samples) {
+    if (!s.conjugate || s.slope <= kSteep) continue;
+    Eigen::VectorXd row(5);
+    row << s.normal, s.normal.z() * (s.position.head<2>() - centre) / kScale;
+    tilted.add(s.cluster(), row, s.normal_distance, s.position.head<2>(), s.normal);
+  }
+  const ClusteredRegression::Result fit = tilted.solve(true);
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  if (!fit.determined) return squares;
+  for (int i = 0; i < 3; ++i) {
+    const double change = fit.estimate[i] - shift.estimate[i];
+    const double chance = std::max(0.0, fit.covariance(i, i) - shift.covariance(i, i));
+    if (change * change > kSignificant * chance) squares[i] = change * change - chance;
+  }
+  return squares;
+}
+
 HorizontalShift horizontalShift(const std::vector<OffsetSample>& samples) {
   HorizontalShift found;
   ClusteredRegression equations(3);
@@ -66,6 +106,10 @@ HorizontalShift horizontalShift(const std::vector<OffsetSample>& samples) {
     found.std[i] = result.std(i);
     found.std_formal[i] = result.formalStd(i);
   }
+  Eigen::Vector3d deformation = changeByTilt(samples, result);
+  deformation[2] += variationOfHeight(samples, result.estimate);
+  const Eigen::Vector3d raised = (found.std_formal.cwiseAbs2() + deformation).cwiseSqrt();
+  found.std = found.std.cwiseMax(raised);
   found.rms = result.rms;
   if (!(found.std.maxCoeff() < kWeakest)) {
     found.reason = "slopes over 10 degrees do not face in enough directions";

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <pcl_als/adjustment/overlap_variation.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
@@ -85,7 +86,8 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
     const double formal_variance = result.covariance_formal(p, p);
     const double excess = result.surface_std[p] * result.surface_std[p] +
                           result.convergence_std[p] * result.convergence_std[p];
-    const double variance = std::max({formal_variance, result.covariance_jackknife(p, p),
+    const double bent = result.deformation_std[p] * result.deformation_std[p];
+    const double variance = std::max({formal_variance + bent, result.covariance_jackknife(p, p),
                                       result.covariance_correlated(p, p)}) +
                             excess;
     raise(p, p) = !result.parameters[p].determined ? 0.0 : std::sqrt(variance / formal_variance);
@@ -98,6 +100,22 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
   if (frame_.with_scale)
     result.scale_std =
         std::sqrt(std::max({formal(6, 6), scatter(6, 6), correlated(6, 6)})) / frame_.radius;
+}
+
+/// How rotations vary over the overlap where the clouds are bent against each other.
+void AlignmentReport::fillDeformation(PatchAlignmentResult& result) const {
+  constexpr std::size_t kEnough = 20'000;
+  const double cut = Robustness().cut;
+  const std::size_t stride = 1 + pairs_.size() / kEnough;
+  OverlapVariation variation;
+  for (std::size_t i = 0; i < pairs_.size(); i += stride) {
+    const PatchPair& pair = pairs_[i];
+    if (pair.normal.z() < kGentleCosine ||
+        std::abs(pair.distance) > cut * scatter_.of(pair) * std::sqrt(pair.variance))
+      continue;
+    variation.add(pair.group, pair.position.head<2>(), pair.distance / pair.normal.z());
+  }
+  result.deformation_std.segment<2>(3) = variation.ofRotations().cwiseSqrt();
 }
 
 void AlignmentReport::fillFit(PatchAlignmentResult& result) const {
@@ -125,6 +143,7 @@ void AlignmentReport::fill(std::size_t groups, PatchAlignmentResult& result) con
   result.sigma0 = scatter_.all();
   result.radius = frame_.radius;
   fillParameters(result);
+  fillDeformation(result);
   fillCovariance(groups, result);
   fillFit(result);
   const auto unknowns = static_cast<std::size_t>(directions_.unknowns - directions_.weak);

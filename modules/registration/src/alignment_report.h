@@ -29,6 +29,7 @@ class AlignmentReport {
   using Matrix6d = PatchAlignmentResult::Matrix6d;
   void fillParameters(PatchAlignmentResult& result) const;
   void fillCovariance(std::size_t groups, PatchAlignmentResult& result) const;
+  void fillDeformation(PatchAlignmentResult& result) const;
   void fillFit(PatchAlignmentResult& result) const;
   /// Covariance of XT … kappa (m, rad) from that of the unknowns.
   Matrix6d ofParameters(const UnknownsMatrix& covariance, const RigidMotion& motion) const;

@@ -13,7 +13,7 @@ namespace pcl_als {
 
 using CountMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Check points counted by what they were classified as (rows) and what they are (columns).
+/// Numbers of check points by the class found (rows) and the reference class (columns).
 struct ConfusionMatrix {
   std::vector<std::string> classes;
   CountMatrix counts;
@@ -32,8 +32,8 @@ struct Proportion {
 struct ClassAccuracy {
   std::string name;
   std::int64_t classified = 0, reference = 0, correct = 0;  ///< row, column, diagonal
-  Proportion users{};      ///< share of the points classified so that are so
-  Proportion producers{};  ///< share of the points that are so that were classified so
+  Proportion users{};      ///< share of the points classified as this class that belong to it
+  Proportion producers{};  ///< share of the points of this class that are classified as it
   double kappa = 0.0;      ///< conditional, by row; NaN where undefined
   double kappa_std = 0.0;
 };
@@ -49,7 +49,8 @@ struct AccuracyResult {
 
 /** \brief Accuracy of a classification from its confusion matrix.
  *
- * With p_ij the shares of points classified i that are j: overall accuracy sum p_ii; kappa =
+ * With p_ij the share of points classified as i with reference class j: overall accuracy sum p_ii;
+ * kappa =
  * (sum p_ii - sum p_i+ p_+i) / (1 - sum p_i+ p_+i) (Cohen 1960); conditional kappa of row i
  * (p_ii - p_i+ p_+i) / (p_i+ - p_i+ p_+i), as Habib et al. 2011, Table 6. Standard deviations are
  * those of large samples (delta method; Bishop, Fienberg and Holland 1975), intervals of
@@ -74,19 +75,19 @@ struct AccuracyComparison {
   double overall_difference = 0.0, kappa_difference = 0.0;
   double kappa_difference_std = 0.0;
   double kappa_z = 0.0, kappa_p = 1.0;  ///< two-sided; NaN where the deviation is 0
-  bool same_points = false;             ///< the following are known
+  bool same_points = false;             ///< whether the following values are known
   std::int64_t only_first_right = 0, only_second_right = 0;
   double mcnemar_chi_sq = 0.0;  ///< with Edwards' continuity correction, one degree of freedom
   double mcnemar_p = 1.0;       ///< exact (binomial), two-sided
 };
 
-/// Of different check points: the kappas are independent.
+/// For different check points: the kappas are independent.
 AccuracyComparison compareAccuracy(const ConfusionMatrix& first, const ConfusionMatrix& second);
 
-/** \brief Of the same check points, in the same order: McNemar's test, and the difference of the
- * kappas with the covariance that common points give them (delta method on pairs of outcomes).
+/** \brief For the same check points in the same order: McNemar's test, and the difference of the
+ * kappas with their covariance due to common points (delta method on pairs of outcomes).
  *
- * UsageError when the points are not as many or their references differ.
+ * UsageError when the numbers of points or their references differ.
  */
 AccuracyComparison compareAccuracy(const std::vector<std::string>& classes,
                                    const std::vector<CheckedPoint>& first,

@@ -16,17 +16,16 @@ struct GaussianClass {
   Eigen::VectorXd mean;        ///< bands, in their units
   Eigen::MatrixXd covariance;  ///< bands x bands; positive definite
   double prior = 0.0;          ///< probability; of all classes together 1
-  std::size_t samples = 0;     ///< that it was estimated from
+  std::size_t samples = 0;     ///< number of samples from which it was estimated
   double shrinkage = 0.0;      ///< weight of the common variances in the covariance, 0 … 1
 };
 
-/// The statistics of all classes: what is learnt from training, and all that classifying needs.
+/// The statistics of all classes, from training; all that a classification needs.
 struct GaussianModel {
   std::vector<std::string> bands;
   std::vector<GaussianClass> classes;
 
-  /// UsageError for statistics that fit together in no way or a covariance that is not positive
-  /// definite.
+  /// UsageError for inconsistent statistics or a covariance that is not positive definite.
   void check() const;
 };
 
@@ -43,28 +42,28 @@ struct TrainingResult {
 
 /** \brief Means and covariances (n - 1) of classes, with equal priors.
  *
- * Few samples make a poor covariance, one makes none, and a band that does not vary within a class
- * a singular one. So the covariance is (1 - w) S + w D, where D has the variances within classes,
- * pooled over all, on its diagonal: w = 0 from 10 samples per band on, else m / (m + n - 1) with
- * m = bands + 1; and at least so much, in powers of ten from 1e-4 on, that no direction has less
- * than 1e-6 of its variance in D. Every w > 0 is remarked. Classes without samples are left out,
- * and samples that are not finite.
+ * A covariance from few samples is inaccurate, from one sample it does not exist, and a band
+ * without variation within a class makes it singular. The covariance is therefore (1 - w) S + w D,
+ * where D has the variances within classes, pooled over all classes, on its diagonal: w = 0 from 10
+ * samples per band on, otherwise m / (m + n - 1) with m = bands + 1. In addition w is increased, in
+ * powers of ten from 1e-4 on, until no direction has less than 1e-6 of its variance in D. Every w >
+ * 0 is reported. Classes without samples and samples that are not finite are left out.
  *
  * UsageError when fewer than two classes remain, or samples do not have one value per band.
  */
 TrainingResult trainGaussianModel(const std::vector<std::string>& bands,
                                   const std::vector<TrainingClass>& training);
 
-/// Sets priors by name; the others share what is left equally. UsageError for an unknown name, a
-/// value that is no probability, or a sum above 1.
+/// Sets priors by name; the others share the remaining probability equally. UsageError for an
+/// unknown name, a value that is not a probability, or a sum above 1.
 void setPriors(const std::vector<std::pair<std::string, double>>& priors, GaussianModel& model);
 
 /** \brief Gaussian maximum likelihood with priors: the class with the largest
  * ln p - (ln det C + (x - m)' C^-1 (x - m)) / 2.
  *
- * Equal ones: the first. A vector whose squared Mahalanobis distance from its class a chi-squared
- * variable of as many degrees of freedom as bands exceeds with less than the rejection probability
- * is of no class. Thread-safe.
+ * Of classes with equal values the first is chosen. A vector has no class if the probability that a
+ * chi-squared variable with as many degrees of freedom as bands exceeds its squared Mahalanobis
+ * distance is less than the rejection probability. Thread-safe.
  */
 class MaximumLikelihood {
  public:
@@ -76,12 +75,12 @@ class MaximumLikelihood {
     double distance_sq = 0.0;  ///< squared Mahalanobis distance from it
   };
 
-  /// \param rejection probability in [0, 1); 0: nothing is rejected
+  /// \param rejection probability in [0, 1); 0: no rejection
   explicit MaximumLikelihood(GaussianModel model, double rejection = 0.0);
 
   const GaussianModel& model() const { return model_; }
   double largestDistanceSq() const { return largest_distance_sq_; }
-  /// \param values one per band; with one that is not finite: no class
+  /// \param values one per band; no class if one is not finite
   Decision classify(const double* values) const;
 
  private:

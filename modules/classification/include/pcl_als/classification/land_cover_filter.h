@@ -18,10 +18,12 @@
 
 namespace pcl_als {
 
-/** \brief Band values and class of a single point: its own where it has them, else its cell's.
+/** \brief Band values and class of a single point: its own values where it has them, otherwise
+ * those of its cell.
  *
  * height is the point's height above the cell's terrain, surface its height, intensity its own; all
- * other bands are those of the raster. So a return from under a tree can be ground. Thread-safe.
+ * other bands are those of the raster. A return from under a tree can therefore be ground.
+ * Thread-safe.
  */
 class PointClassifier {
  public:
@@ -31,7 +33,7 @@ class PointClassifier {
 
   /// \param x, y, z metres, ground frame
   MaximumLikelihood::Decision classify(double x, double y, double z, double intensity) const;
-  /// Of a point in a cell that is known. \param cell see RasterGrid::index()
+  /// For a point in a known cell. \param cell see RasterGrid::index()
   MaximumLikelihood::Decision classifyIn(std::size_t cell, double z, double intensity) const;
   const GaussianModel& model() const { return classifier_->model(); }
 
@@ -44,21 +46,20 @@ class PointClassifier {
   std::vector<const float*> bands_;
 };
 
-/// ASPRS class codes by the names that land cover goes by: tree 5, grass 3, soil 2, built-up and
-/// building 6, road 11, water 9, ground 2; 1 (unclassified) for others.
+/// ASPRS class codes of the names of land cover: tree 5, grass 3, soil 2, built-up and building 6,
+/// road 11, water 9, ground 2; 1 (unclassified) for others.
 std::uint8_t asprsCodeOf(const std::string& class_name);
 
-/// Whether an ASPRS class code is that of noise (7 low, 18 high), which is no land cover.
+/// Whether an ASPRS class code is that of noise (7 low, 18 high).
 constexpr bool isNoise(std::uint8_t code) {
   return code == 7 || code == 18;
 }
 
 /** \brief Writes into each point's classification the ASPRS code of its land cover.
  *
- * A point that is not classified (beside the raster, rejected, not finite) keeps its code, and so
- * does one of noise (7, 18). Every other field and the order stay; the input is not changed. For a
- * point type of one's own with x, y, z, intensity and classification include
- * impl/land_cover_filter.hpp.
+ * Points that are not classified (outside the raster, rejected, not finite) and points of noise (7,
+ * 18) keep their code. All other fields and the order are kept; the input is not changed. For other
+ * point types with x, y, z, intensity and classification include impl/land_cover_filter.hpp.
  * \code
  * pcl_als::LandCoverFilter<pcl_als::PointLidar> filter;
  * filter.setClassifier(std::make_shared<pcl_als::PointClassifier>(likelihood, raster));
@@ -81,7 +82,7 @@ class LandCoverFilter : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const PointClassifier> getClassifier() const { return classifier_; }
 
-  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  /// Origin of the cloud's coordinates; default: that of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 

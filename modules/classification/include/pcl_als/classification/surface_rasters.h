@@ -12,14 +12,14 @@
 
 namespace pcl_als {
 
-/// How rasters are made from the points of strips.
+/// Options of the rasters of points.
 struct SurfaceOptions {
   enum class Interpolation { tin, inverse_distance };
   enum class Ground { classified, filtered };
 
   Interpolation interpolation = Interpolation::tin;
-  /// Empty cells of the surface are filled where the circle through the three points around them is
-  /// not larger (TIN), or from points no farther (inverse distance): radius, metres.
+  /// Empty cells of the surface are interpolated where the circle through the three points around
+  /// them has at most this radius (TIN), or from points within it (inverse distance), metres.
   double surface_gap = 6.0;
   double terrain_gap = 30.0;  ///< the same for the terrain, which has houses and woods to bridge
   Ground ground = Ground::classified;
@@ -31,18 +31,18 @@ struct SurfaceOptions {
 
   /// UsageError for values that are impossible.
   void check() const;
-  /// Cells beside a tile that its cells depend on.
+  /// Number of cells around a tile on which its cells depend.
   int margin(double cell) const;
 };
 
-/// A return, as far as rasters need it; metres, ground frame.
+/// A return with the values that rasters need; metres, ground frame.
 struct SurfaceReturn {
   double x = 0.0, y = 0.0, z = 0.0;
   float intensity = 0.0F;
   std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
 };
 
-/// Where a cell's value comes from.
+/// Source of the value of a cell.
 enum class CellSource : std::uint8_t { empty, interpolated, measured };
 
 struct CellCounts {
@@ -67,11 +67,11 @@ struct CellCounts {
  * | density | first returns per square metre |
  *
  * Cells without returns are interpolated (surface, intensity, terrain): linearly in the TIN of the
- * cells that have some, or by inverse squared distances from the nearest of them; farther from any
- * return they stay empty. Points of the classes 7 and 18 (noise) take no part.
+ * cells with returns, or by inverse squared distances from the nearest of them; cells further from
+ * any return stay empty. Points of the classes 7 and 18 (noise) are left out.
  *
- * A tile with SurfaceOptions::margin() cells around it has the values that the whole block would
- * give it. Memory: 76 bytes per cell, in compute() up to 300 more; none per point.
+ * A tile with SurfaceOptions::margin() cells around it has the values of the whole block. Memory:
+ * 76 bytes per cell, in compute() up to 300 more; none per point.
  * \code
  * SurfaceAccumulator tile(grid, options);
  * for (…) tile.add({x, y, z, intensity, return_number, number_of_returns, classification});
@@ -91,7 +91,7 @@ class SurfaceAccumulator {
   SurfaceAccumulator(RasterGrid grid, SurfaceOptions options);
   ~SurfaceAccumulator();
 
-  /// False for a point beside the grid or of noise, which is not used.
+  /// False for a point outside the grid or of noise, which is not used.
   bool add(const SurfaceReturn& point);
   SurfaceResult compute() const;
 
@@ -100,14 +100,14 @@ class SurfaceAccumulator {
   std::unique_ptr<State> state_;
 };
 
-/// A tile of a raster and the grid of it with its margin.
+/// A tile of a raster, and its grid with the margin.
 struct RasterTile {
   RasterWindow window;  ///< within the raster
   RasterGrid padded;
   int margin = 0;  ///< cells around the window in padded
 };
 
-/// Cuts a raster into tiles of at most \a side cells.
+/// Divides a raster into tiles of at most \a side cells.
 std::vector<RasterTile> tilesOf(const RasterGrid& grid, int side, int margin);
 
 }  // namespace pcl_als

@@ -18,7 +18,7 @@ namespace pcl_als {
 std::uint64_t movePointFile(const std::filesystem::path& input, const std::filesystem::path& output,
                             const RigidMotion& motion, int threads);
 
-/// UsageError where movePointFile() would refuse input and output for their names.
+/// UsageError where movePointFile() does not support the kinds of input and output.
 void checkMovable(const std::filesystem::path& input, const std::filesystem::path& output);
 
 }  // namespace pcl_als

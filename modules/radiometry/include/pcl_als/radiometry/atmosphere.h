@@ -4,7 +4,7 @@
 
 namespace pcl_als {
 
-/// The air between sensor and ground as a weather station reports it.
+/// The atmosphere between sensor and ground as reported by a weather station.
 struct Atmosphere {
   double visibility_km = 23.0;      ///< meteorological range, (0, 500]
   double temperature_c = 15.0;      ///< [-60, 60]
@@ -38,7 +38,7 @@ Extinction extinctionOf(const Atmosphere& atmosphere);
 /// 1/km from dB/km (of power, one way): ln(10) / 10.
 double extinctionFromDecibel(double decibel_per_km);
 
-/// exp(-2 a r): what is left of a pulse that goes \a range metres and back.
+/// exp(-2 a r): transmission over \a range metres and back.
 double twoWayTransmission(double extinction_per_km, double range);
 
 }  // namespace pcl_als

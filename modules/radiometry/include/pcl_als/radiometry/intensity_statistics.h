@@ -24,11 +24,11 @@ struct BeforeAfter {
 /// Variance over mean (Habib et al. 2011, Figure 5); 0 without values.
 double varianceToMean(const RunningStatistics& statistics);
 
-/** \brief What a correction of intensity did, by slope, by class and by strip.
+/** \brief Effect of a correction of intensity, by slope, by class and by strip.
  *
- * The variance-to-mean ratio has the unit of the intensity: to compare it before and after, scale
- * the corrected values to the mean of the given ones. Merging in one order gives one result.
- * Memory: some kilobytes per strip, whatever the number of points.
+ * The variance-to-mean ratio has the unit of the intensity: for a comparison, scale the corrected
+ * values to the mean of the given ones. Merging in the same order gives the same result. Memory:
+ * some kilobytes per strip for any number of points.
  */
 class IntensityStatistics {
  public:

@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/// The plane that a point lies on; without one (leaves, wires, edges) the normal is NaN.
+/// Plane of the surface at a point; without one (leaves, wires, edges) the normal is NaN.
 struct LocalSurface {
   Eigen::Vector3f normal =  ///< unit, upward
       Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
@@ -21,12 +21,12 @@ struct LocalSurface {
 };
 
 struct LocalSurfaceSettings {
-  /// Metres in plan; 0: that of about 16 points, at least the footprint. See radiusFor().
+  /// Metres in plan; 0: radius with about 16 points, at least the footprint. See radiusFor().
   double radius = 0.0;
-  double tolerance = 0.10;       ///< metres: points closer to a plane lie on it
+  double tolerance = 0.10;       ///< metres: largest distance of points on a plane
   int least_support = 6;         ///< points on the plane
   double least_share = 0.45;     ///< of the neighbours
-  double steepest = 75.0;        ///< degrees: planes are not sought in walls
+  double steepest = 75.0;        ///< degrees: no planes on steeper surfaces
   std::size_t most_points = 24;  ///< nearest neighbours used
 
   void check() const;  ///< UsageError
@@ -34,17 +34,17 @@ struct LocalSurfaceSettings {
 
 /** \brief Robust local planes of the points of one strip.
  *
- * A plane z(x, y) is fitted by least squares to the nearest points within the radius. Where they do
- * not lie on one plane, planes through the point and two of its neighbours are tried and the one
- * with the least truncated squared distances is refitted to the points on it (MSAC), so that a
- * point at a ridge, at eaves or at a kerb takes the plane it lies on. A plane that holds too few of
- * the neighbours, is too steep, or has its points on a line is none, and so is a steep one whose
- * points are two rows with nothing between (one on a roof, one on the ground).
+ * A plane z(x, y) is fitted by least squares to the nearest points within the radius. Where they
+ * are not on one plane, planes through the point and two of its neighbours are tried, and the one
+ * with the least sum of truncated squared distances is fitted again to the points on it (MSAC), so
+ * that a point at a ridge, at eaves or at a kerb has the plane on which it is. A plane is rejected
+ * if it contains too few of the neighbours, is too steep, or has its points on a line, or if it is
+ * steep and its points form two rows with a gap between them (one on a roof, one on the ground).
  *
- * Which points count as neighbours is the caller's choice: single and last returns of one strip.
- * Points: metres in a frame in which floats are sufficient (LocalFrame). Const functions may be
- * called by several threads. The planes depend on the points alone, not on the order of the calls.
- * Memory: 16 bytes per point, 4 per grid cell.
+ * The caller chooses which points are neighbours: single and last returns of one strip. Points:
+ * metres in a frame in which floats are sufficient (LocalFrame). Const functions may be called by
+ * several threads. The planes depend on the points alone, not on the order of the calls. Memory: 16
+ * bytes per point, 4 per grid cell.
  */
 class LocalSurfaces {
  public:
@@ -53,7 +53,7 @@ class LocalSurfaces {
   LocalSurface at(const Eigen::Vector3f& point) const;
   double radius() const { return radius_; }
 
-  /// The radius of a circle that holds 16 of the points, from the area they cover.
+  /// The radius of a circle that contains 16 of the points, from the area that they cover.
   static double radiusFor(const std::vector<Eigen::Vector3f>& points);
 
  private:

@@ -36,19 +36,19 @@ struct OverlapSettings {
   int most_iterations = 60;
 };
 
-/// A parameter and what is known of it.
+/// A parameter with its standard deviation.
 struct EstimatedTerm {
   double value = 0.0, std = 0.0;
-  double std_formal = 0.0;  ///< as if cells were independent
+  double std_formal = 0.0;  ///< with independent cells
   TermStatus status = TermStatus::fixed;
   std::string reason;  ///< why it is not estimable
 };
 
 struct OverlapResult {
-  RadiometricModel model;  ///< the given one with what was estimated
+  RadiometricModel model;  ///< the given model with the estimated terms
   std::array<EstimatedTerm, kRadiometricTermCount> terms;
-  /// By strip: factor on what the strip received, geometric mean 1 over each group of strips that
-  /// overlap; std is relative.
+  /// By strip: factor of the received intensity, with a geometric mean of 1 over each group of
+  /// overlapping strips; std is relative.
   std::vector<EstimatedTerm> gains;
   std::vector<double> gainFactors() const;  ///< 1 where not estimated
 
@@ -59,8 +59,9 @@ struct OverlapResult {
   int iterations = 0;
   bool converged = false;  ///< true where there was nothing to estimate
   std::vector<std::string> warnings;
-  CellVariation before, physics, after;  ///< as they are; with the given model; with this result
-  bool reliable() const;                 ///< converged, and every requested term is estimated
+  /// without correction; with the given model; with this result
+  CellVariation before, physics, after;
+  bool reliable() const;  ///< converged, and every requested term is estimated
 };
 
 /// Calls each(name, term) with the terms of the model, then with the gains of the strips.
@@ -75,22 +76,24 @@ void forEachTerm(const OverlapResult& overlaps, const std::vector<std::string>& 
   }
 }
 
-/// The names of requested terms that are not estimable, or that the adjustment did not converge.
+/// Requested terms that are not estimable, or that the adjustment did not converge.
 std::string notEstimable(const OverlapResult& overlaps, const std::vector<std::string>& strips);
 
-/** \brief Estimates radiometric parameters from what overlapping strips saw in the same cells.
+/** \brief Estimates radiometric parameters from the intensities of overlapping strips in common
+ * cells.
  *
- * ln I_cs = ln rho_c + ln g_s - m ln(r / r0) + k ln cos(theta) - 2 a (r - r0) + e: reflectances of
- * the cells are eliminated, the rest is least squares with Huber's weights. The covariance is a
- * jackknife over clusters of cells (Bell and McCaffrey 2002, CR3), since cells of one roof or field
- * share errors; it counts that the scatter of few clusters is itself uncertain. What all cells
- * share (a receiver that is not linear, a wrong trajectory) no residual shows.
+ * ln I_cs = ln rho_c + ln g_s - m ln(r / r0) + k ln cos(theta) - 2 a (r - r0) + e: the reflectances
+ * of the cells are eliminated, and the other parameters are estimated by least squares with Huber's
+ * weights. The covariance is a jackknife over clusters of cells (Bell and McCaffrey 2002, CR3),
+ * because cells of one roof or field share errors, and it includes the uncertainty of the scatter
+ * of few clusters. Effects common to all cells (a receiver that is not linear, a wrong trajectory)
+ * are not visible in residuals.
  *
- * Observability: strips of one height differ little in range, so m and a come apart only in blocks
- * of two heights, and there only where gains are fixed or known; on level ground cos(theta) and r
- * are functions of one another, so m and k need slopes. A term whose standard deviation exceeds its
- * limit is set back to the given model, worst first, and the result names the term from which it
- * cannot be separated.
+ * Observability: strips of one height differ little in range, so that m and a can be separated in
+ * blocks of two heights only, and only where gains are fixed or known; on level ground cos(theta)
+ * and r are functions of one another, so that m and k need slopes. A term whose standard deviation
+ * exceeds its limit keeps the value of the given model, worst first, and the result names the term
+ * from which it cannot be separated.
  */
 OverlapResult adjustOverlaps(const std::vector<SharedCell>& cells, double cell_size,
                              const std::vector<std::string>& strips, const RadiometricModel& model,

@@ -13,7 +13,7 @@
 
 namespace pcl_als {
 
-/// What one strip saw in one cell; sums over its points that can be compared.
+/// Observations of one strip in one cell; sums over its comparable points.
 struct CellSums {
   int strip = 0;
   std::uint32_t points = 0;    ///< with a surface, neither zero nor saturated
@@ -22,7 +22,7 @@ struct CellSums {
   Eigen::Vector3d beam = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
 };
 
-/// What makes a cell of a strip smooth enough to be compared with that of another.
+/// Criterion of cells that are smooth enough to be compared with those of another strip.
 struct SmoothCellSettings {
   std::uint32_t least_points = 3;
   double most_excluded = 0.1;      ///< share of the cell's points
@@ -31,7 +31,7 @@ struct SmoothCellSettings {
   double most_turn = 5.0;          ///< degrees between the normals of two strips
 };
 
-/// A smooth cell seen by several strips.
+/// A smooth cell covered by several strips.
 struct SharedCell {
   struct View {
     int strip;
@@ -43,9 +43,10 @@ struct SharedCell {
 
 /** \brief Means of intensity, range and incidence per plan cell and strip.
  *
- * To keep memory bounded on large blocks only one cell in \a one_in is kept, chosen by a hash of
- * its place, so the same cells for all strips and files. Memory: about 150 bytes per cell and
- * strip. The normal of a cell is the mean over its strips: two strips that each had their own would
+ * To bound memory on large blocks only one cell in \a one_in is kept, chosen by a hash of its
+ * position and therefore the same for all strips and files. Memory: about 150 bytes per cell and
+ * strip. The normal of a cell is the mean over its strips: with separate normals their noise would
+ * bias the incidence exponent.
  * pass its noise on to the incidence exponent.
  */
 class RadiometricCells {
@@ -56,9 +57,9 @@ class RadiometricCells {
   double size() const { return size_; }
   std::uint32_t oneIn() const { return one_in_; }
   bool wants(double x, double y) const;
-  /// \a usable: the intensity is neither zero nor saturated, and the return its pulse's only one:
-  /// what reaches the ground through leaves is darker, and more so from one strip than from
-  /// another.
+  /// \a usable: the intensity is neither zero nor saturated, and the return is the only one of its
+  /// pulse: returns from the ground below leaves are darker, by an amount that differs between
+  /// strips.
   void add(int strip, double x, double y, double intensity, bool usable,
            const PointRadiometry& point, const LocalSurface& surface);
   void merge(const RadiometricCells& other);
@@ -74,8 +75,8 @@ class RadiometricCells {
   std::unordered_map<std::uint64_t, std::vector<CellSums>> cells_;
 };
 
-/// How much strips differ in shared cells: coefficient of variation (standard deviation over mean
-/// of the strips' means) of each cell.
+/// Differences between strips in common cells: coefficient of variation (standard deviation over
+/// mean of the means of the strips) of each cell.
 struct CellVariation {
   std::size_t cells = 0;
   double median = 0.0, rms = 0.0, p90 = 0.0;

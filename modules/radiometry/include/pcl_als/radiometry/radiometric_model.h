@@ -16,10 +16,10 @@
 
 namespace pcl_als {
 
-/** \brief The radar equation for extended targets, with every term to be weighed.
+/** \brief The radar equation for extended targets, with optional terms.
  *
- * Habib et al. 2011, Eq. (35)-(36): an extended Lambertian target that holds the footprint sends
- * back rho cos(theta) exp(-2 a r) / r^2. Corrected to the reference range,
+ * Habib et al. 2011, Eq. (35)-(36): the return of an extended Lambertian target that fills the
+ * footprint is proportional to rho cos(theta) exp(-2 a r) / r^2. Corrected to the reference range,
  * I_c = I (r / r0)^m / cos(theta)^k exp(2 a (r - r0)), m = 2, k = 1.
  */
 struct RadiometricModel {
@@ -27,22 +27,23 @@ struct RadiometricModel {
   double incidence_exponent = 1.0;  ///< k, [0, 4]; 0: no incidence term
   double extinction_per_km = 0.0;   ///< a, one way, [0, 50]
   double reference_range = 1000.0;  ///< r0, metres, (0, 20000]
-  double largest_incidence = 75.0;  ///< degrees, (0, 90): steeper incidence counts as this
+  /// degrees, (0, 90): larger incidence angles are limited to this
+  double largest_incidence = 75.0;
 
   void check() const;  ///< UsageError naming value and limits
   /// I_c / I. \a cosine: of the incidence angle; NaN: no incidence term.
   double factor(double range, double cosine) const;
 };
 
-/// What could be done for a point.
+/// Terms that were applied to a point.
 enum class RadiometryStatus : std::uint8_t {
   surface,       ///< range, atmosphere and incidence
-  limited,       ///< the same, with the largest incidence in place of a steeper one
+  limited,       ///< the same, with the incidence angle limited
   no_surface,    ///< no plane (leaves, wires, edges): range and atmosphere only
   partial,       ///< a return that is not the last: only part of the energy; range and atmosphere
-  uncovered,     ///< the trajectory does not cover its time: left as it is
-  above_sensor,  ///< not below the sensor: left as it is
-  not_finite,    ///< no coordinates: left as it is
+  uncovered,     ///< the trajectory does not cover its time: unchanged
+  above_sensor,  ///< not below the sensor: unchanged
+  not_finite,    ///< coordinates are not finite: unchanged
 };
 inline constexpr std::size_t kRadiometryStatusCount = 7;
 /// "surface", "limited_incidence", "no_surface", …: the names in reports.
@@ -59,34 +60,34 @@ struct PointRadiometry {
 
 /// A point as RadiometricEvaluator needs it.
 struct RadiometryPoint {
-  double time = 0.0;                                   ///< the trajectory's
+  double time = 0.0;  ///< seconds, in the time system of the trajectory
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, ground frame
   std::uint8_t return_number = 1, number_of_returns = 1;
 };
 
-/// Where the last point was found on the flight: points in order of time are looked up once per
+/// Position of the last point on the flight: points in order of time are interpolated once per
 /// piece of flight. Start with an empty one.
 struct RadiometryCursor {
   std::size_t node = 0;
   PathSpan span;
 };
 
-/// Columns that receive what evaluateRanges() finds of points.
+/// Columns for the results of evaluateRanges().
 struct RangeColumns {
-  double* range = nullptr;   ///< metres; NaN: left as it is
-  double* factor = nullptr;  ///< corrected over given intensity; 1: left as it is
+  double* range = nullptr;   ///< metres; NaN: unchanged
+  double* factor = nullptr;  ///< corrected over given intensity; 1: unchanged
 };
 
-/// Points that evaluateRanges() left as they are.
+/// Points that evaluateRanges() left unchanged.
 struct RangeCounts {
   std::uint64_t uncovered = 0, above_sensor = 0;
 };
 
 /** \brief Applies a RadiometricModel to points of a flight.
  *
- * The range is that from the trajectory's position at the point's time to the point; a lever arm of
- * decimetres between the two is a relative error of 1e-4 to 1e-3 and is left out. Incidence is the
- * angle between that line and the surface's normal. Thread-safe.
+ * The range is the distance of the point from the trajectory's position at its time; a lever arm of
+ * decimetres between trajectory and laser is a relative error of 1e-4 to 1e-3 and is neglected.
+ * Incidence is the angle between that line and the normal of the surface. Thread-safe.
  */
 class RadiometricEvaluator {
  public:
@@ -98,7 +99,7 @@ class RadiometricEvaluator {
   PointRadiometry evaluate(const RadiometryPoint& point, const LocalSurface& surface,
                            RadiometryCursor& cursor) const;
 
-  /// As evaluate() of points without surfaces, many at a time; factors agree to 2e-11. Positions
+  /// As evaluate() for points without surfaces, many at a time; factors agree to 2e-11. Positions
   /// must be finite.
   RangeCounts evaluateRanges(const PointColumns& points, std::size_t count, const RangeColumns& out,
                              RadiometryCursor& cursor) const;

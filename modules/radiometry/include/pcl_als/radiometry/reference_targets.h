@@ -15,11 +15,12 @@ struct ReferenceResult {
   struct Target {
     std::string id;
     std::size_t points = 0;
-    double reflectance = 0.0, measured = 0.0;  ///< given; from the points with the constant found
-    double relative_std = 0.0;                 ///< of the points' median and the given value
+    /// given; from the points with the estimated constant
+    double reflectance = 0.0, measured = 0.0;
+    double relative_std = 0.0;  ///< of the points' median and the given value
     bool used = false;
   };
-  double constant = 0.0;      ///< corrected intensity of reflectance 1; 0: none found
+  double constant = 0.0;      ///< corrected intensity of reflectance 1; 0: not determined
   double relative_std = 0.0;  ///< of the constant
   /// Root mean square of (measured - given) / given over used targets; 0 for a single one.
   double relative_rms = 0.0;
@@ -27,12 +28,12 @@ struct ReferenceResult {
   std::vector<std::string> warnings;
 };
 
-/** \brief Finds the constant from corrected points within a radius around targets.
+/** \brief Estimates the constant from corrected points within a radius around targets.
  *
  * The median of a target's points over its reflectance estimates the constant; targets are weighted
  * by the spread of their points and their own sigma, and where they differ by more than that the
- * standard deviation grows accordingly. A single target cannot show such differences: the result
- * says so. Memory: 8 bytes for each point in a target.
+ * standard deviation is increased accordingly. A single target cannot show such differences, which
+ * the result states. Memory: 8 bytes for each point in a target.
  */
 class ReferenceCalibration {
  public:
@@ -41,7 +42,7 @@ class ReferenceCalibration {
   /// UsageError for no targets, a reflectance outside (0, 2], a radius that is not positive.
   ReferenceCalibration(std::vector<ReferenceTarget> targets, double radius);
 
-  /// Whether any target is within reach of a box.
+  /// Whether any target is within its radius of a box.
   bool touches(double min_x, double min_y, double max_x, double max_y) const;
   /// Points with a surface, neither zero nor saturated.
   void add(double x, double y, double corrected_intensity);

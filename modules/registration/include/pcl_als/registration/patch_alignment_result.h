@@ -48,7 +48,7 @@ struct PatchAlignmentResult {
   /// m^2, m rad, rad^2. The formal one, sigma0^2 N^-1 (Habib et al. 2011, Eq. (26)), with each
   /// standard deviation raised to those of the jackknife over areas (neighbouring points may share
   /// errors) and of errors that vary slowly over the ground (strips deform along time), and by
-  /// surface_std and convergence_std. Rows of what is not determined are zero.
+  /// surface_std, convergence_std and deformation_std. Rows of what is not determined are zero.
   Matrix6d covariance = Matrix6d::Zero();
   Matrix6d covariance_formal = Matrix6d::Zero();
   Matrix6d covariance_jackknife = Matrix6d::Zero();  ///< zero with fewer than ten groups of pairs
@@ -62,6 +62,10 @@ struct PatchAlignmentResult {
   /// Metres, radians: the remaining update where the iteration entered a cycle and was damped; zero
   /// where it converged without damping. Included in covariance.
   Eigen::Matrix<double, kParameters, 1> convergence_std =
+      Eigen::Matrix<double, kParameters, 1>::Zero();
+  /// Radians (shifts: 0): by how much omega and phi vary over the overlap where the clouds are bent
+  /// against each other (OverlapVariation). Part of covariance.
+  Eigen::Matrix<double, kParameters, 1> deformation_std =
       Eigen::Matrix<double, kParameters, 1>::Zero();
   double scale_std = 0.0;  ///< of motion.scale; 0 where the scale is not estimated
 

@@ -6,7 +6,7 @@
 
 namespace pcl_als::simulation {
 
-/** \brief How the errors of a trajectory vary with time along a line.
+/** \brief Variation of the errors of a trajectory with time along a line.
  *
  * Every process has a mean of zero and the standard deviation of NoiseOptions, taken over many
  * lines and the duration of a line; lines and the six components are independent. With tau =

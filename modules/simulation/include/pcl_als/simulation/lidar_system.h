@@ -31,14 +31,14 @@ class LidarSystem {
   /// \param parameters in internal units (m, rad); scan_angle_scale is S - 1
   explicit LidarSystem(const SystemVector& parameters);
 
-  /// Where the laser fires from, ground frame.
+  /// Position of the laser at emission, ground frame.
   Eigen::Vector3d firingPoint(const Eigen::Vector3d& position,
                               const Eigen::Matrix3d& ground_from_body) const {
     return position + ground_from_body * lever_arm_;
   }
   /// Unit vector of the pulse, ground frame.
   Eigen::Vector3d direction(const Eigen::Matrix3d& ground_from_body, double encoder_angle) const;
-  /// What the instrument reads for a target at a distance.
+  /// Measurements of the instrument for a target at a distance.
   double measuredRange(double distance) const { return distance - range_bias_; }
   double distance(double measured_range) const { return measured_range + range_bias_; }
 

@@ -10,13 +10,14 @@
 
 namespace pcl_als::simulation {
 
-/// A plane convex polygon of three to five corners; opaque, seen from both sides.
+/// A plane convex polygon of three to five corners; opaque, visible from both sides.
 class Polygon {
  public:
   /// Corners in order, either sense, in one plane.
   explicit Polygon(const std::vector<Eigen::Vector3d>& corners);
 
-  /// Distance along the ray to the polygon (border included); empty when missed or behind.
+  /// Distance along the ray to the polygon (border included); empty when the ray misses it or
+  /// points away.
   std::optional<double> intersect(const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) const;
   const Eigen::Vector3d& normal() const { return normal_; }  ///< unit; up for a roof
@@ -31,12 +32,12 @@ class Polygon {
   std::array<double, 5> side_offset_{};
 };
 
-/// A clump of leaves: a ball whose near surface keeps a part of the energy and lets the rest pass.
+/// A clump of leaves: a ball whose near surface keeps a part of the energy and transmits the rest.
 struct Ball {
   Eigen::Vector3d centre;
   double radius = 0.5;
 
-  /// Distance along the ray to the near surface; empty when missed or behind.
+  /// Distance along the ray to the near surface; empty when the ray misses it or points away.
   std::optional<double> intersect(const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) const;
 };

@@ -23,7 +23,7 @@ std::string_view classNameOf(LandCover cover);
 /// ASPRS: 2 ground (grass, soil), 5 vegetation, 6 building, 11 road.
 std::uint8_t asprsClassOf(LandCover cover);
 
-/// One surface met by a ray.
+/// Intersection of a ray with a surface.
 struct SurfaceHit {
   static constexpr std::uint32_t kGround = 0xFFFFFFFF;
   double range = 0.0;               ///< metres from the ray's origin
@@ -59,7 +59,7 @@ class Scene {
   /// Share of the energy that one clump of leaves keeps.
   static constexpr double kBallOpacity = 0.4;
 
-  /// Covers the rectangle; what a ray meets outside is not simulated.
+  /// Covers the rectangle; surfaces outside are not simulated.
   Scene(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, const SceneOptions& options,
         std::uint64_t seed);
   ~Scene();
@@ -73,17 +73,18 @@ class Scene {
   const Eigen::Vector2d& minimum() const;
   const Eigen::Vector2d& maximum() const;
 
-  /// Surfaces along a downward ray, near to far, up to and with the first opaque one; false (and no
-  /// hits) where it meets the terrain outside the rectangle. \a direction is a unit vector at most
-  /// 50 degrees from straight down; the origin is above all objects.
+  /// Surfaces along a downward ray, from near to far, up to and including the first opaque one;
+  /// false (without surfaces) where the ray intersects the terrain outside the rectangle. \a
+  /// direction is a unit vector at most 50 degrees from straight down; the origin is above all
+  /// objects.
   bool trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
              std::vector<SurfaceHit>& hits) const;
 
-  /// True when no building or tree can be met within \a radius (plan) of a ray that meets the
-  /// terrain at \a ground_range.
+  /// True when no building or tree is within \a radius (plan) of a ray that intersects the terrain
+  /// at \a ground_range.
   bool isOpen(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double ground_range,
               double radius) const;
-  /// True when no building or tree stands within \a radius of a place.
+  /// True when no building or tree is within \a radius of a place.
   bool isOpen(const Eigen::Vector2d& place, double radius) const;
 
   LandCover groundCover(double x, double y) const;  ///< of the bare ground

@@ -15,7 +15,7 @@
 
 namespace pcl_als::simulation {
 
-/// Standard deviations of the errors that are put into the measurements; all zero: none.
+/// Standard deviations of the errors of the measurements; all zero: no errors.
 struct NoiseOptions {
   double range = 0.0;       ///< metres, white, one value per return
   double scan_angle = 0.0;  ///< radians, white, error of the mirror encoder per pulse
@@ -41,8 +41,8 @@ struct ScannerOptions {
   double field_of_view = 40.0 * kRadiansPerDegree;  ///< full angle, radians, (0, 75 degrees]
   double divergence = 0.33e-3;        ///< full angle between the 1/e^2 points of the beam, radians
   int max_returns = 5;                ///< per pulse, 1 … 15
-  double return_separation = 1.5;     ///< metres: two echoes closer than this come as one
-  double detection_threshold = 0.05;  ///< share of the pulse's energy that a return needs
+  double return_separation = 1.5;     ///< metres: closer echoes are merged
+  double detection_threshold = 0.05;  ///< share of the pulse's energy of the weakest return
   double gain = 10000.0;  ///< digital number of a full-footprint target of reflectance 1, normal to
                           ///< the beam, at 1000 m in vacuum
   double range_exponent = 2.0;      ///< signal falls with range to this power
@@ -56,10 +56,10 @@ struct AtmosphereOptions {
   double pressure_kpa = 101.81;
 };
 
-/// One flight line as ordered; coordinates relative to SimulationOptions::origin.
+/// One planned flight line; coordinates relative to SimulationOptions::origin.
 struct PlannedLine {
   std::uint16_t id = 1;                             ///< point source id
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< where the first pulse is fired, metres
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< position of the first pulse, metres
   Eigen::Vector2d end = Eigen::Vector2d::Zero();
   double height = 1000.0;  ///< metres above the origin's height (mean terrain)
   double speed = 60.0;     ///< metres per second
@@ -73,8 +73,7 @@ struct SceneOptions {
   double trees = 1.0;      ///< factor on their number, 0: none; at most 4
 };
 
-/** \brief Everything a simulation depends on. Equal options give equal points, whatever the number
- * of threads.
+/** \brief All options of a simulation. Equal options give equal points for any number of threads.
  *
  * Biases are assumed - true (Habib et al. 2011, Eq. (8)): the system has the parameters `mounting`,
  * the points are computed with `mounting + bias`.

@@ -20,7 +20,7 @@ namespace pcl_als::simulation {
 struct SimulatedPoint {
   Eigen::Vector3d position;  ///< as written: measurements, assumed parameters, written trajectory
   Eigen::Vector3d unbiased;  ///< the same measurements and trajectory with the true parameters
-  Eigen::Vector3d surface;   ///< what was hit: no noise, no bias
+  Eigen::Vector3d surface;   ///< position on the surface: no noise, no bias
   double time = 0.0;         ///< GPS seconds of week
   float scan_angle = 0.0F;   ///< degrees from the vertical, right of flight positive (as LAS)
   float reflectance = 0.0F;  ///< truth, 0 … 1
@@ -39,9 +39,10 @@ struct LandCoverSite {
 
 /** \brief Flies a block over a scene and computes the points as a survey would deliver them.
  *
- * Rays are traced exactly in the true geometry; measured range, encoder angle and trajectory (with
- * noise) and the assumed system parameters then give the coordinates through the full chain of
- * rotations of Habib et al. 2011, Eq. (1), see LidarSystem. No linearised equation takes part.
+ * Rays are traced exactly in the true geometry. Coordinates are then computed from the measured
+ * range, encoder angle and trajectory (with noise) and the assumed system parameters by the full
+ * chain of rotations of Habib et al. 2011, Eq. (1), see LidarSystem. No linearised equation is
+ * used.
  *
  * \code
  * auto options = SimulationOptions::preset("small");
@@ -55,7 +56,7 @@ class Simulator {
  public:
   using Sink = std::function<void(const std::vector<SimulatedPoint>& points)>;
 
-  /// Builds the scene and flies the lines. UsageError for impossible options.
+  /// Builds the scene and simulates the flight. UsageError for impossible options.
   explicit Simulator(const SimulationOptions& options);
   ~Simulator();
 
@@ -69,11 +70,11 @@ class Simulator {
   void simulateStrip(std::size_t strip, int threads, const Sink& sink) const;
   std::vector<SimulatedPoint> strip(std::size_t strip, int threads = 0) const;
 
-  /// All lines in order of time, as a user would see it (with the GNSS/INS errors), or without.
+  /// All lines in order of time, with the GNSS/INS errors as delivered, or without.
   std::vector<TrajectorySample> trajectory() const;
   std::vector<TrajectorySample> trueTrajectory() const;
 
-  /// On bare ground, clear of objects, where several strips overlap.
+  /// Points on bare ground, clear of objects, where several strips overlap.
   std::vector<ControlPoint> controlPoints() const;
   /// \a per_class places for each of tree, grass, soil and built_up, away from borders; \a set
   /// gives independent sets (0: training, 1: check).

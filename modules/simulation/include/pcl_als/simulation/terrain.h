@@ -13,8 +13,8 @@ namespace pcl_als::simulation {
 /** \brief A smooth height field: a uniform bicubic B-spline (twice continuously differentiable) of
  * ridges and hills, mean height near 0.
  *
- * Local frame, metres. maximumSlope() bounds the gradient everywhere, so a ray steeper than it
- * meets the surface exactly once.
+ * Local frame, metres. maximumSlope() bounds the gradient everywhere, so that a steeper ray
+ * intersects the surface exactly once.
  */
 class Terrain {
  public:

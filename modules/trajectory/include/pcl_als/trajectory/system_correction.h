@@ -68,7 +68,7 @@ class SystemCorrection {
               CoverageCount& coverage) const;
 
  private:
-  /// Zero changes where the attitude is not known.
+  /// The displacement is zero where the attitude is not known.
   void keepUnknown(const PointColumns& points, std::size_t count, const EffectColumns& change,
                    CoverageCount& coverage) const;
 

@@ -17,8 +17,8 @@ struct Axis {
   bool logarithmic = false;  ///< low and high > 0
   bool ticks = true;
 
-  /// Covers the values with a margin; zero included on request. A single value gets room on both
-  /// sides, no value at all [0, 1].
+  /// Covers the values with a margin; zero included on request. A single value has a margin on both
+  /// sides; without values the axis is [0, 1].
   static Axis around(const std::vector<double>& values, std::string label, bool with_zero = false);
   /// 0 at low, 1 at high.
   double share(double value) const;

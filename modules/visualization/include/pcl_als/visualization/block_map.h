@@ -11,10 +11,10 @@
 
 namespace pcl_als {
 
-/** \brief Where the points of each strip lie, as cells of a grid; filled point by point, strips
- * from different threads at once.
+/** \brief Cells of a grid with points of each strip; filled point by point, by different threads
+ * for different strips.
  *
- * One byte per cell and strip; cells are so large that the whole takes at most some 16 MB.
+ * One byte per cell and strip; cells are so large that all take at most some 16 MB.
  */
 class StripCoverage {
  public:
@@ -37,8 +37,8 @@ class StripCoverage {
   std::vector<std::vector<char>> cells_;
 };
 
-/** \brief A map of a block: how many strips see each place, the strips' outlines with their names,
- * chosen areas and control points.
+/** \brief A map of a block: number of strips at each place, outlines of the strips with their
+ * names, chosen areas and control points.
  */
 class BlockMap {
  public:
@@ -50,7 +50,7 @@ class BlockMap {
   void setAreas(std::vector<Area> areas) { areas_ = std::move(areas); }
   void setControl(std::vector<Eigen::Vector2d> points) { control_ = std::move(points); }
 
-  /// The height at which the map fills a width, within limits.
+  /// The height of the picture for a width, within limits.
   static int heightFor(const StripCoverage& coverage, int width, int lowest = 560,
                        int highest = 1400);
   /// \param names one for each strip of the coverage, else UsageError

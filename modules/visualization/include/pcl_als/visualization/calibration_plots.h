@@ -30,7 +30,7 @@ Canvas drawResiduals(const CalibrationResult& result, PictureSize size = {});
 /// none: as written in pictures and reports.
 std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate);
 
-/// What each strip's trajectory was found to be wrong by over time: position and angles.
+/// Estimated trajectory errors of each strip over time: position and angles.
 /// UsageError without strip corrections.
 Canvas drawStripErrors(const CalibrationResult& result, PictureSize size = {});
 

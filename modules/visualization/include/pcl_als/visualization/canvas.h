@@ -42,8 +42,8 @@ enum class Marker { disk, square, diamond, triangle, ring };
  *
  * Coordinates are pixels, real-valued, from the upper left corner; the pixel (i, j) covers
  * [i, i + 1) x [j, j + 1). Drawing needs no display and gives the same bytes everywhere (text: with
- * the same fonts). What is drawn outside is cut off; texts() lists the place of every text, so that
- * a layout can be checked.
+ * the same fonts). Parts outside the picture are cut off; texts() lists the position of every text,
+ * so that a layout can be checked.
  */
 class Canvas {
  public:
@@ -53,7 +53,7 @@ class Canvas {
   int height() const { return image_.height; }
   const Image& image() const { return image_; }
 
-  void setClip(const PixelBox& box);  ///< limits what follows to a box
+  void setClip(const PixelBox& box);  ///< limits further drawing to a box
   void clearClip();
 
   void fill(const PixelBox& box, const Color& color);
@@ -61,7 +61,7 @@ class Canvas {
   void polygon(const std::vector<Eigen::Vector2d>& corners, const Color& color);
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
             const Color& color);
-  /// Drawn as one stroke: where it crosses itself a translucent colour does not darken.
+  /// Drawn as one stroke: a translucent colour is not darker where it crosses itself.
   void polyline(const std::vector<Eigen::Vector2d>& points, double width, const Color& color);
   void marker(Marker shape, const Eigen::Vector2d& at, double diameter, const Color& color);
   /// An image with its upper left pixel at (x, y), every pixel \a scale times as large.

@@ -21,7 +21,7 @@ struct ClassRaster {
   std::vector<std::uint8_t> codes;
 };
 
-/// How a class is shown.
+/// Colour and name of a class.
 struct MapClass {
   std::uint8_t code = 0;
   std::string name;
@@ -29,7 +29,7 @@ struct MapClass {
 };
 
 /** \brief Draws rasters of classes with legend, scale bar, north arrow and coordinates; several are
- * put side by side at one scale, as for before and after.
+ * drawn side by side at one scale, as for before and after.
  *
  * A raster finer than the picture is reduced to the class that most cells under a pixel have (ties:
  * the class given first), a coarser one is enlarged by whole cells. Codes without a class are left

@@ -9,8 +9,8 @@
 
 namespace pcl_als {
 
-/** \brief The same quantity for many things, a small plot for each, all on the same height axis: as
- * the offsets of every pair of strips before and after.
+/** \brief The same quantity for many objects, a small plot for each with a common height axis, as
+ * for the offsets of every pair of strips before and after.
  */
 struct CurvePanels {
   struct Panel {

@@ -11,8 +11,8 @@
 
 namespace pcl_als {
 
-/// A table of a report. Numbers are given as text with the digits to be shown; a cell that is
-/// empty is shown as a dash. A row may end early: its last cell, a remark, goes across the rest.
+/// A table of a report. Numbers are given as text with the digits to be shown; an empty cell is
+/// shown as a dash. A row may end early: its last cell, a remark, extends over the rest.
 struct ReportTable {
   std::string name;                  ///< of its CSV file: NAME.csv; empty: no file
   std::string caption;               ///< what the table shows, with units
@@ -22,8 +22,8 @@ struct ReportTable {
 
 enum class VerdictGrade { good, attention, bad };
 
-/** \brief A report that a person can decide from: one self-contained HTML page with the pictures
- * inside, and the same without pictures as Markdown and CSV.
+/** \brief A report for decisions: one self-contained HTML page with the pictures inside, and the
+ * same without pictures as Markdown and CSV.
  *
  * The page needs no network and no script, and has a style for printing. Everything given is
  * escaped. \code HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.1.0");
@@ -57,7 +57,7 @@ class HtmlReport {
 
   std::string html() const;
   std::string markdown() const;
-  /// Writes report.html, report.md and the tables as CSV into a folder, which is made if need be.
+  /// Writes report.html, report.md and the tables as CSV into a folder, which is made if missing.
   void write(const std::filesystem::path& folder) const;
 
  private:
@@ -86,7 +86,7 @@ class HtmlReport {
   std::vector<Input> inputs_;
 };
 
-/// Text as it may stand in HTML, between tags and in quoted attributes.
+/// Text escaped for HTML, between tags and in quoted attributes.
 std::string escapeHtml(const std::string& text);
 std::string base64(const std::vector<std::uint8_t>& bytes);
 

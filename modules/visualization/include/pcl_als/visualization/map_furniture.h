@@ -16,7 +16,7 @@ struct LegendEntry {
   bool line = false;  ///< a stroke instead of a square
 };
 
-/// Room that a legend takes, a column with an optional heading.
+/// Width and height of a legend, a column with an optional heading.
 Eigen::Vector2d legendSize(const std::vector<LegendEntry>& entries, const std::string& heading,
                            double text_size = 14.0);
 void drawLegend(Canvas& canvas, const std::vector<LegendEntry>& entries, const std::string& heading,
@@ -32,7 +32,7 @@ void drawColorBar(Canvas& canvas, const ColorMap& map, double low, double high,
 PixelBox drawScaleBar(Canvas& canvas, double metres_per_pixel, double most_pixels,
                       const Eigen::Vector2d& corner);
 
-/// An arrow to grid north; \a direction is where north is in the picture (x right, y down).
+/// An arrow to grid north; \a direction is that of north in the picture (x right, y down).
 void drawNorthArrow(Canvas& canvas, const Eigen::Vector2d& center, double length,
                     const Eigen::Vector2d& direction = {0.0, -1.0});
 

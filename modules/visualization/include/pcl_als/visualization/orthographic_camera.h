@@ -8,7 +8,7 @@
 
 namespace pcl_als {
 
-/// What a camera has to show: limits to the right, up and towards it, metres from a reference.
+/// Extent shown by a camera: limits to the right, up and towards it, metres from a reference.
 struct ViewExtent {
   Eigen::Vector3d reference = Eigen::Vector3d::Zero();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
@@ -16,10 +16,10 @@ struct ViewExtent {
   bool empty() const { return !(low.x() <= high.x()); }
 };
 
-/** \brief A camera far away (orthographic): metres are the same length all over the picture.
+/** \brief An orthographic camera: metres have the same length all over the picture.
  *
- * azimuth: the viewing direction, degrees clockwise from grid north; elevation: how far above
- * the horizon it stands, degrees; 90 views straight down, with the azimuth at the upper edge.
+ * azimuth: the viewing direction, degrees clockwise from grid north; elevation: height of the
+ * camera above the horizon, degrees; 90 views straight down, with the azimuth at the upper edge.
  */
 class OrthographicCamera {
  public:
@@ -32,9 +32,9 @@ class OrthographicCamera {
   void frame(const Eigen::Vector3d& minimum, const Eigen::Vector3d& maximum, int width, int height,
              double zoom = 1.0);
 
-  /// The same for the points that were added to an extent, which suits slanting views better.
+  /// The same for the points that were added to an extent, which suits oblique views better.
   void frame(const ViewExtent& extent, int width, int height, double zoom = 1.0);
-  /// Adds a ground point, if it is finite, to what is to be shown.
+  /// Extends the extent by a ground point, if it is finite.
   void add(const Eigen::Vector3d& ground, ViewExtent& extent) const;
 
   double azimuth() const { return azimuth_; }

@@ -12,19 +12,18 @@
 
 namespace pcl_als {
 
-/** \brief Keeps of any number of points the one that each pixel shows: the nearest to the camera,
- * of equally near ones the first.
+/** \brief Keeps for each pixel the point nearest to the camera; of equally near points the first.
  *
- * So a picture needs memory for its pixels (24 bytes each), not for its points, and is the same
- * however the points were cut into chunks. Points whose coordinates are not finite or outside the
- * picture are counted and left out.
+ * A picture therefore needs memory for its pixels (24 bytes each) and not for its points, and does
+ * not depend on the division of the points into chunks. Points whose coordinates are not finite or
+ * outside the picture are counted and left out.
  */
 class PixelThinning {
  public:
   struct Shown {
     Eigen::Vector3f position;  ///< relative to the camera's centre, metres
     float depth = -std::numeric_limits<float>::infinity();  ///< metres towards the camera
-    float value = 0.0F;  ///< what the point is coloured by; NaN: nothing
+    float value = 0.0F;  ///< value by which the point is coloured; NaN: none
     bool used() const { return depth > -std::numeric_limits<float>::infinity(); }
   };
 
@@ -45,8 +44,9 @@ class PixelThinning {
   std::size_t seen_ = 0, outside_ = 0, invalid_ = 0;
 };
 
-/// Brightness of each pixel (0 … 1, 1 where there is no point) by eye-dome lighting: a point is as
-/// dark as its neighbours up to \a radius pixels away stand before it, in units of pixels.
+/// Brightness of each pixel (0 … 1, 1 where there is no point) by eye-dome lighting: a point is
+/// darker the further its neighbours up to \a radius pixels away are in front of it, in units of
+/// pixels.
 std::vector<float> eyeDomeShade(const PixelThinning& points, int radius, double strength = 1.0);
 
 /// Brightness by hillshade: light from the upper left at 45 degrees, slopes from the nearest pixels

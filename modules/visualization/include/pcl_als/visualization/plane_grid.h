@@ -25,11 +25,11 @@ struct CellPlane {
   Eigen::Vector3d normal() const { return Eigen::Vector3d(-slope_x, -slope_y, 1.0).normalized(); }
 };
 
-/** \brief Planes through the points of square cells, filled point by point: what a picture of the
- * height difference of two strips and the search for profiles stand on.
+/** \brief Planes through the points of square cells, filled point by point, for pictures of the
+ * height difference of two strips and for the search of profiles.
  *
- * 44 bytes per cell, at most kMostCells; a cell size that needs more is enlarged. For pictures:
- * offsets that are reported come from modules that match surfaces.
+ * 44 bytes per cell, at most kMostCells; a cell size that needs more is enlarged. For pictures
+ * only: reported offsets are computed by modules that match surfaces.
  */
 class PlaneGrid {
  public:

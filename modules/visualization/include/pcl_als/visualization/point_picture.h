@@ -11,7 +11,7 @@
 
 namespace pcl_als {
 
-/// How the values of points become colours: a scale, or a list of categories.
+/// Colours of the values of points: a scale, or a list of categories.
 struct PointColoring {
   struct Category {
     float value;
@@ -22,14 +22,14 @@ struct PointColoring {
   std::vector<Category> categories;  ///< empty: a scale
   ColorMap map = ColorMap::named("viridis");
   double low = 0.0, high = 1.0;
-  std::string no_value = "no value";  ///< what NaN means, for the legend
+  std::string no_value = "no value";  ///< meaning of NaN, for the legend
   Color no_value_color{0xb4, 0xb4, 0xb4};
 
   Color operator()(float value) const;
-  /// Sets the scale to the values shown from the p-th to the (1 - p)-th part, so that outliers do
-  /// not take the colours; \a symmetric: the same on both sides of zero. Equal values: 1 around.
+  /// Sets the scale to the quantiles p and 1 - p of the values shown, which excludes outliers; \a
+  /// symmetric: the same on both sides of zero. Equal values: 1 around.
   void fitScale(const PixelThinning& points, double p, bool symmetric);
-  /// Drops the categories that no point of the picture has.
+  /// Removes the categories without a point in the picture.
   void keepShown(const PixelThinning& points);
 };
 
@@ -50,12 +50,12 @@ enum class PointShade { none, eye_dome, hill };
  */
 class PointPicture {
  public:
-  /// \param bare points only, over the whole picture. UsageError where nothing would fit.
+  /// \param bare points only, over the whole picture. UsageError where the picture is too small.
   PointPicture(int width, int height, bool bare = false);
 
   int mapWidth() const { return static_cast<int>(map_.width); }
   int mapHeight() const { return static_cast<int>(map_.height); }
-  const PixelBox& map() const { return map_; }  ///< where in the picture the points are
+  const PixelBox& map() const { return map_; }  ///< position of the points in the picture
 
   void setTitle(std::string title) { title_ = std::move(title); }
   void setSubtitle(std::string text) { subtitle_ = std::move(text); }
@@ -79,7 +79,7 @@ class PointPicture {
   Color background_ = ink::white;
 };
 
-/// Point size at which points that are this far apart close up, 1 to 5 pixels.
+/// Point size at which points with this spacing form a closed surface, 1 to 5 pixels.
 double closingPointSize(const PixelThinning& points);
 
 }  // namespace pcl_als

@@ -17,8 +17,8 @@ namespace pcl_als {
 
 /** \brief Coloured points in a VTK scene, to an image or in a window.
  *
- * Needs a display while it lives: make a PrivateDisplay first. Pictures are drawn without
- * antialiasing, so that a point has the colour that it was given.
+ * Needs a display during its lifetime: make a PrivateDisplay first. Pictures are drawn without
+ * antialiasing, so that a point has exactly its colour.
  */
 class PointScene {
  public:
@@ -38,7 +38,7 @@ class PointScene {
   /// Opens a window and returns when it is closed (or q is pressed). Mouse: turn, shift, zoom.
   void show(const std::string& title);
 
-  vtkRenderer* renderer();  ///< for more actors of one's own
+  vtkRenderer* renderer();  ///< for further actors
 
  private:
   struct Scene;

@@ -8,14 +8,14 @@
 
 namespace pcl_als {
 
-/** \brief Makes sure that there is an X display to draw to while it lives.
+/** \brief Provides an X display for drawing during its lifetime.
  *
- * Where DISPLAY names a display that answers, that one is used. Otherwise a private Xvfb is started
- * (which picks a free number itself, `-displayfd`) with software rendering; DISPLAY points to it,
- * and it ends with this object or with the process, whichever is first. Several may live in
- * different processes. InputError that names the package where Xvfb is not installed.
+ * A display that DISPLAY names and that answers is used. Otherwise a private Xvfb is started (which
+ * chooses a free number itself, `-displayfd`) with software rendering; DISPLAY is set to it, and it
+ * ends with this object or with the process. Several may exist in different processes. InputError
+ * that names the package where Xvfb is not installed.
  *
- * Render windows must be gone before it is.
+ * Render windows must be destroyed before it.
  */
 class PrivateDisplay {
  public:

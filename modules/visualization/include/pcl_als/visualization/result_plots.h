@@ -41,8 +41,8 @@ struct ConfusionPlot {
   std::vector<std::vector<double>> matrix;
 };
 
-/// The plots. UsageError where lengths do not match or there is nothing to draw. A series called
-/// before or after (or ending so) has the colour that these have in every plot.
+/// The plots. UsageError where lengths do not match or there is nothing to draw. Series whose names
+/// end in before or after have the colours used for these in every plot.
 Canvas drawCurves(const CurvePlot& plot, PictureSize size = {});
 Canvas drawHistogram(const HistogramPlot& plot, PictureSize size = {});
 Canvas drawConfusion(const ConfusionPlot& plot, PictureSize size = {});

@@ -9,7 +9,7 @@
 
 namespace pcl_als {
 
-/// Named rows with a value before and one after on a common axis, and limits that they are held to.
+/// Named rows with a value before and one after on a common axis, and limits for comparison.
 struct BeforeAfterPlot {
   struct Row {
     std::string name;
@@ -24,7 +24,8 @@ struct BeforeAfterPlot {
   std::vector<Limit> limits;
   std::string before = "as delivered", after = "calibrated";  ///< in the legend
 
-  /// Keeps the rows with the largest values after (before, where there is none), in their order.
+  /// Keeps the rows with the largest values after (or before, where a row has no value after), in
+  /// their order.
   void keepLargest(std::size_t most);
 };
 
