@@ -91,9 +91,15 @@ class Search {
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate) {
   Search search(adjustment, estimate);
-  // Large steps first: components that are absent end far from the model's variance. The last ones
-  // are small because the estimates of the parameters change with the variance components.
-  for (const int step : {4 * kSteps, kSteps, 1}) search.descend(step);
+  // Large steps first: components that are absent end far from the model's variance. Small ones
+  // refine an earlier estimate, because the parameters change with the variance components.
+  const auto start = adjustment.levels().values();
+  if (std::all_of(start.begin(), start.end(), [](double level) { return level == 1.0; })) {
+    search.descend(4 * kSteps);
+    search.descend(kSteps);
+  } else {
+    search.descend(1);
+  }
   adjustment.setLevels(search.result());
   return search.result();
 }

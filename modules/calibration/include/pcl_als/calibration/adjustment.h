@@ -124,7 +124,8 @@ class Adjustment {
  * Each is the variance of the model times a factor between 1/4096 and 16, with a Cauchy prior on
  * the logarithm of the factor (scale: a factor of e): a component that the observations do not
  * determine keeps the model's variance, and one that they do determine is hardly affected by the
- * prior. The minimum is found by coordinate descent, with factors of 16, of two, then of 2^(1/4).
+ * prior. The minimum is found by coordinate descent, from the model's variances with factors of 16,
+ * then of two; from an earlier estimate with factors of 2^(1/4).
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);
