@@ -113,6 +113,16 @@ while IFS= read -r file; do
   ((lines <= 250)) || breach "$file" "has $lines lines, more than 250 for a tool"
 done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
 
+# The tools only parse options, call one job, print and save: they are short altogether.
+lines=$(find apps \( -name '*.cpp' -o -name '*.h' \) -exec cat {} + | wc -l)
+((lines <= 4000)) || breach apps "has $lines lines, more than 4000"
+
+# Every table of the glossary has the same columns.
+if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |
+     grep -qvFx '| term | symbol | unit | definition | where used |'; then
+  breach share/GLOSSARY.md "has a table without term, symbol, unit, definition and where used"
+fi
+
 # Every module page has the same sections, and lines of text in Markdown have less than 100
 # characters (tables may be wider).
 for page in modules/*/README.md; do
