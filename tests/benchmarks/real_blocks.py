@@ -176,9 +176,9 @@ class Block:
             yield "calibrate", [*files, *self.trajectory, *self.control, *split, "-output", result,
                                 "-report", out / "report"], result, summary_of_calibration
             if self.name == "stbarth":  # conical: no attitude can be recovered from the points
-                nominal = out / "nominal.json"
+                result = out / "nominal.json"
                 yield "calibrate (nominal)", [*files, *self.trajectory, "-model", "nominal",
-                                              "-output", nominal], nominal, summary_of_calibration
+                                              "-output", result], result, summary_of_calibration
             yield "apply", [files[0], out / "applied.las", *self.trajectory, "-calibration",
                             result], None, no_summary
             yield "intensity", [files[0], out / "intensity.las", *self.trajectory], None, no_summary

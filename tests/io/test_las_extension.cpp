@@ -5,6 +5,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/las_writer.h>
+#include <pcl_als/io/recorded_pose.h>
 
 #include "las_bytes.h"
 #include "test_files.h"
@@ -32,6 +33,21 @@ void fill(const LasRecordBlock& block, const std::vector<LasExtraField>& fields)
     storeLas(record + fields[0].position, number);
     storeLas(record + fields[1].position, 0.5F * static_cast<float>(number));
   }
+}
+
+// Names as they are in use: of a drone's processing software, of PDAL, and others that are no pose.
+TEST(RecordedPose, IsFoundByNames) {
+  const auto named = [](const std::vector<std::string>& names) {
+    std::vector<LasExtraField> fields;
+    for (const std::string& name : names) fields.push_back(fieldNamed(name, LasExtraType::f64));
+    return recordedPose(fields);
+  };
+  EXPECT_EQ(named({"frameNo", "SensorX", "SensorY", "SensorZ", "SensorRollRads", "SensorYawRads"}),
+            "SensorX, SensorY, SensorZ, SensorRollRads, SensorYawRads");
+  EXPECT_EQ(named({"BeamOrigin Z", "beam_origin_x", "BeamOriginY"}),
+            "beam_origin_x, BeamOriginY, BeamOrigin Z");
+  EXPECT_EQ(named({"NormalX", "NormalY", "NormalZ", "SensorX", "SensorY"}), "");
+  EXPECT_EQ(named({}), "");
 }
 
 class LasExtensionMatrix : public testing::TestWithParam<std::tuple<int, int>> {};

@@ -159,4 +159,18 @@ void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEff
   assessNeed(!affected.empty(), result);
 }
 
+void assessHeight(const std::string& finding, CalibrationResult& result) {
+  result.verdict.object(CalibrationStatus::parameters_affected, finding);
+  for (const SystemParameter parameter :
+       {SystemParameter::lever_arm_x, SystemParameter::lever_arm_y, SystemParameter::range_bias,
+        SystemParameter::scan_angle_scale}) {
+    ParameterEstimate& p = result[parameter];
+    if (p.status != ParameterStatus::estimated) continue;
+    p.reason += (p.reason.empty() ? "" : "; ") +
+                std::string(
+                    "affected by the height of the trajectory, which is wrong: the "
+                    "standard deviation does not include this");
+  }
+}
+
 }  // namespace pcl_als
