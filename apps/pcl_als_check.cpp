@@ -102,7 +102,7 @@ std::vector<std::string> filesBefore(const CommandLine& line,
         files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
   }
-  if (files.empty()) throw InputError("option -before: " + text + " contains no point files");
+  if (files.empty()) throw InputError("option -before: " + text + " holds no point files");
   const auto place = [&](const std::string& file) {
     return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
       return fs::path(other).filename() == fs::path(file).filename();

@@ -278,7 +278,7 @@ std::string optionFor(Remedy remedy) {
     case Remedy::none:
       break;
     case Remedy::force:
-      return "; -force goes on all the same";
+      return "; use -force to continue";
     case Remedy::force_level:
       return "; -force takes the sensor as level";
     case Remedy::keep_uncovered:

@@ -109,7 +109,7 @@ void assessNeed(bool corrections_are_large, CalibrationResult& result) {
   const std::string text =
       "only corrections of the trajectory make the strips agree (" + sizeText(before, false) +
       " as delivered, " + sizeText(after, false) + " with the biases, " + sizeText(strips, false) +
-      " with strip corrections): what is left is not the effect of system biases";
+      " with strip corrections): the remaining misfit is not the effect of system biases";
   result.warnings.push_back(text);
   if (corrections_are_large) result.verdict.object(CalibrationStatus::parameters_affected, text);
 }

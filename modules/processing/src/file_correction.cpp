@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Flight = std::shared_ptr<const Trajectory>;
 
-/// What is given for one file, and what is found out about it.
+/// Inputs and results of the correction of one file.
 struct Job {
   fs::path input, output;
   const CalibrationResult& calibration;

@@ -18,7 +18,7 @@ namespace pcl_als {
  */
 class RangeOnlyCorrection {
  public:
-  /// Whether it is all that is wanted.
+  /// Whether the correction needs nothing else.
   static bool serves(const IntensitySettings& settings, const IntensityOutput& output);
 
   /// \a original_at: byte of a record where its given intensity goes; -1: nowhere.

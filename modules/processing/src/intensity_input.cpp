@@ -162,7 +162,7 @@ class LasInput : public IntensityInput {
     return point;
   }
 
-  /// The first look: survey and boxes, window by window.
+  /// First pass: survey and boxes, window by window.
   void look(int threads) {
     std::vector<SurveyTally> tallies(windows());
     std::vector<std::vector<BlockBox>> boxes(windows());

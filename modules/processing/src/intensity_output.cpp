@@ -128,7 +128,7 @@ std::uint64_t countOf(const IntensityCounts& counts, RadiometryStatus status) {
   return counts.status[static_cast<std::size_t>(status)];
 }
 
-/// Refuses what a correction cannot serve.
+/// Refuses files that cannot be corrected.
 void checkCounts(const std::string& name, const IntensityCounts& counts, bool keep_uncovered) {
   const std::uint64_t uncovered = countOf(counts, RadiometryStatus::uncovered);
   std::ostringstream text;
@@ -214,7 +214,7 @@ struct FieldPlaces {
   }
 };
 
-/// As writeLas(), where no surfaces are wanted.
+/// As writeLas(), where no surfaces are needed.
 void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
                     const IntensityOutput& output, const std::function<void(double)>& progress,
                     IntensityCounts& counts) {

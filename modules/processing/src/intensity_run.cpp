@@ -200,7 +200,8 @@ void IntensityRun::chooseRadii() {
   }
 }
 
-/// Cells hold some points of the sparsest strip; so many are left out that memory stays bounded.
+/// Cells contain some points of the sparsest strip; a share of the cells is left out to bound
+/// memory.
 void IntensityRun::chooseCells() {
   const double widest = radii_.empty() ? 2.0 : *std::max_element(radii_.begin(), radii_.end());
   const double sparsest = 16.0 / (kPi * widest * widest);

@@ -167,7 +167,7 @@ std::string overlapsText(const SurveyCensus& survey) {
                    std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area));
   if (!text.empty()) text = "Overlaps\n" + text;
   for (std::size_t n = 0; n < survey.area_by_strips.size(); ++n)
-    text += format("%s%zu: %.0f m2", n == 0 ? "  seen by number of strips: " : ", ", n + 1,
+    text += format("%s%zu: %.0f m2", n == 0 ? "  covered by number of strips: " : ", ", n + 1,
                    survey.area_by_strips[n]);
   return text + (survey.area_by_strips.empty() ? "" : "\n");
 }

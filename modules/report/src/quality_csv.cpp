@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-/// A cell of a CSV: quoted where it has to be; empty for a number that is not known.
+/// A cell of a CSV: quoted where necessary; empty for an unknown number.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string out = "\"";

@@ -31,13 +31,13 @@ class MotionSlope {
   double slope() const { return weight_ > 0.0 ? sum_ / weight_ : 0.0; }
   double std() const;
   /// Whether the slope lies above (below) a value by four of its standard deviations.
-  bool above(double value) const { return known() && slope() - kSure * std() > value; }
-  bool below(double value) const { return known() && slope() + kSure * std() < value; }
+  bool above(double value) const { return known() && slope() - kSignificantStd * std() > value; }
+  bool below(double value) const { return known() && slope() + kSignificantStd * std() < value; }
   /// RMS change of x in the series that count, radians.
   double motionX() const;
 
  private:
-  static constexpr double kSure = 4.0;
+  static constexpr double kSignificantStd = 4.0;
   double weight_ = 0.0, sum_ = 0.0, sum_sq_ = 0.0;  ///< of the slopes
   double motion_ = 0.0;                             ///< of the squared changes of x
   std::size_t series_ = 0;

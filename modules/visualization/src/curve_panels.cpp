@@ -111,7 +111,7 @@ void check(const CurvePanels& plot) {
     appendRange(panel, x, y);
     any = any || !x.empty();
   }
-  if (!any) throw UsageError("plot '" + plot.title + "': holds no point with finite numbers");
+  if (!any) throw UsageError("plot '" + plot.title + "': contains no finite values");
 }
 
 }  // namespace

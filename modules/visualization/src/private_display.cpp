@@ -113,7 +113,7 @@ void PrivateDisplay::start() {
   close(ends[0]);
   if (number.empty()) {
     stop();
-    throw InputError(program + " does not start: run it by hand to see why");
+    throw InputError(program + " does not start; run it in a terminal for its messages");
   }
   name_ = ":" + number;
   setenv("DISPLAY", name_.c_str(), 1);
