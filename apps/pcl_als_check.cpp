@@ -124,7 +124,7 @@ void refuseRepeated(const std::vector<std::string>& files) {
   }
 }
 
-/// What can be known to fail should fail before the work, not after it.
+/// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
@@ -158,7 +158,7 @@ SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& 
   return checkSurvey(survey, trajectory, options, app::progressOf(line));
 }
 
-/// Why there is nothing to rely on, in one line.
+/// The reason for which there is no reliable result, in one line.
 std::string whyNot(const CheckedBlock& block) {
   for (const CheckedPair& pair : block.pairs) {
     if (!pair.assessment.reason.empty())

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What can be known to fail should fail before the work, not after it.
+/// Outputs that cannot be written are refused before the computation.
 class OptionCheck {
  public:
   OptionCheck(const CommandLine& line, const std::vector<fs::path>& inputs)

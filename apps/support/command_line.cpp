@@ -272,7 +272,7 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
 
 namespace {
 
-/// How a tool calls what would let it go on.
+/// The option of a tool with which it would continue.
 std::string optionFor(Remedy remedy) {
   switch (remedy) {
     case Remedy::none:

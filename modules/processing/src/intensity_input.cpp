@@ -50,7 +50,7 @@ std::uint32_t labelOf(StripArrangement::Sorter& sorter, const IntensityPoint& po
   return static_cast<std::uint32_t>(sorter.label(point.source, point.time));
 }
 
-/// Where one strip's points of a block lie, in coordinate steps of the file.
+/// Box of the points of one strip in a block, in coordinate steps of the file.
 struct BlockBox {
   std::uint32_t block = 0;
   std::uint16_t source = 0;

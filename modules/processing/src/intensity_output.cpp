@@ -42,7 +42,7 @@ CorrectedPoint correctedPoint(const IntensityRun& run, const EvaluatedWindow& fo
   return point;
 }
 
-/// What a block of points adds to counts and statistics.
+/// Counts and statistics of a block of points.
 struct BlockOutcome {
   explicit BlockOutcome(const IntensityRun& run) : statistics(run.strips().size()) {
     counts.labels.resize(run.arrangement().labels().size());
@@ -191,7 +191,7 @@ double valueOf(const std::string& field, const CorrectedPoint& point) {
   return field.rfind("range", 0) == 0 ? point.range : point.incidence;
 }
 
-/// Where the values of a point go in its record; -1: nowhere.
+/// Positions of the values of a point in its record; -1: not written.
 struct FieldPlaces {
   std::ptrdiff_t original = -1, reflectance = -1, range = -1, incidence = -1;
 

@@ -79,7 +79,7 @@ std::string typeName(const LasExtraField& field) {
   return names[static_cast<std::size_t>(field.type)];
 }
 
-/// What only LAS files have: software, extra bytes, variable length records.
+/// Contents of LAS files only: software, extra bytes, variable length records.
 std::string lasText(const std::filesystem::path& path) {
   const LasFile file(path);
   const LasHeader& h = file.header();

@@ -20,7 +20,7 @@ std::string change(double before, double after) {
   return (relative > 0.0 ? "+" : "") + percent(relative);
 }
 
-/// What overlaps differ by after the correction.
+/// Differences in the overlaps after the correction.
 const CellVariation& variationAfter(const OverlapResult& overlaps) {
   return overlaps.order.empty() ? overlaps.physics : overlaps.after;
 }

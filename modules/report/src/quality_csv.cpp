@@ -179,7 +179,7 @@ std::string controlCsv(const QualityReport& report) {
   return out.str();
 }
 
-/// What differs from run to run, apart from the results.
+/// Values that differ between identical runs, separate from the results.
 std::string runCsv(const QualityReport& report) {
   std::ostringstream out;
   out << "set,a,b,milliseconds,peak_memory_mb\n";

@@ -207,7 +207,7 @@ std::optional<QualityTable> controlTable(const QualityReport& report) {
   return table;
 }
 
-/// What the standards make of control.
+/// Assessment of control by the standards.
 std::string controlFigures(const QualityReport& report) {
   if (!report.block.control) return {};
   std::string text;

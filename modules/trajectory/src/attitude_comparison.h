@@ -29,7 +29,7 @@ class AttitudeComparison {
   AttitudeComparison(const Trajectory& flight, const Trajectory& path)
       : flight_(flight), path_(path) {}
 
-  /// What the points of a strip show, in order of time.
+  /// Attitude from the points of a strip, in order of time.
   void add(const AttitudeRecovery::Outcome& outcome);
 
   struct Result {

@@ -118,7 +118,7 @@ AttitudeRecovery::Range united(const std::vector<AttitudeRecovery::Pass>& passes
   return all;
 }
 
-/// Of pitch and crab together over time, radians.
+/// RMS of pitch and crab together over time, radians.
 double rootMeanSquare(const RecoveredAttitude& attitude) {
   double sum = 0.0, knots = 0.0;
   for (const RecoveredAttitude::Pass& pass : attitude.passes()) {

@@ -13,7 +13,7 @@ struct MotionSample {
   double x = 0.0, y = 0.0;  ///< radians
 };
 
-/** \brief How much one angle changes with another over time, with a realistic standard deviation.
+/** \brief Slope of one angle against another over time, with a realistic standard deviation.
  *
  * Changes over 0.4 to 2 seconds are compared by least squares, dy = a + b dx: constant offsets
  * (mounting angles) and slow trends (the edge of a tile that crosses the flight line) leave b

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMargin = 24.0, kPanel = 210.0, kLeft = 100.0, kFoot = 44.0;
 
-/// Where grid north points to in the picture, x right and y down; zero when straight at the camera.
+/// Direction of grid north in the picture, x right and y down; zero when towards the camera.
 Eigen::Vector2d northIn(const OrthographicCamera& camera) {
   const Eigen::Vector3d north(0.0, 1.0, 0.0);
   return {camera.right().dot(north), -camera.up().dot(north)};

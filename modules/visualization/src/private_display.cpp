@@ -43,7 +43,7 @@ std::string findXvfb() {
       "Xvfb is not installed (Debian: apt-get install xvfb)");
 }
 
-/// What Xvfb writes: its display number and a new line. Empty when it ends or takes too long.
+/// Output of Xvfb: its display number and a new line. Empty when it ends or takes too long.
 std::string readNumber(int descriptor) {
   std::string text;
   pollfd waiting{descriptor, POLLIN, 0};

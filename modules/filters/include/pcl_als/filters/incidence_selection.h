@@ -64,13 +64,13 @@ class IncidenceSelection : public PointSelection<PointT> {
   void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
   const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
-  /// Of the last filter(): incidence angles of its finite points in order, degrees; NaN: none.
+  /// Incidence angles of the finite points of the last filter() in order, degrees; NaN: none.
   const std::vector<float>& getAngles() const { return angles_; }
-  /// Of the last filter(): points whose time the trajectory does not cover.
+  /// Number of points of the last filter() whose time the trajectory does not cover.
   std::size_t getUncovered() const { return uncovered_; }
 
  protected:

@@ -60,7 +60,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
@@ -68,7 +68,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setModel(const RadiometricModel& model) { model_ = model; }
   const RadiometricModel& getModel() const { return model_; }
 
-  /// What the strip's receiver and pulse energy multiplied intensities by, > 0; default 1.
+  /// Known factor of the strip's intensities (receiver, pulse energy), > 0; default 1.
   void setGain(double gain) { gain_ = gain; }
   double getGain() const { return gain_; }
 
@@ -79,7 +79,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
   const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
@@ -91,9 +91,9 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = threads; }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Of the last filter(): points by RadiometryStatus.
+  /// Numbers of points of the last filter() by RadiometryStatus.
   const Counts& getCounts() const { return counts_; }
-  /// Of the last filter(): range, incidence and status of every point of the input, 40 bytes each.
+  /// Range, incidence and status of every input point of the last filter(), 40 bytes each.
   const std::vector<PointRadiometry>& getRadiometry() const { return radiometry_; }
 
  protected:

@@ -53,7 +53,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
@@ -88,7 +88,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setInvert(bool invert) { invert_ = invert; }
   bool getInvert() const { return invert_; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
   /// An alignment that is a constant: seconds to add to point times.
@@ -106,7 +106,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = threads; }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Of the last filter(): how many points were processed, and why others were not.
+  /// Numbers of points that the last filter() corrected or left out, by reason.
   const CoverageCount& getCoverage() const { return coverage_; }
 
  protected:
