@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/crs.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
 #include <pcl_als/simulation/simulator.h>

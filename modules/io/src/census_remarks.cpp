@@ -7,10 +7,9 @@
 #include <sstream>
 
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/recorded_pose.h>
-
-#include "file_kind.h"
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/recorded_pose.h>
 
 namespace pcl_als::detail {
 namespace {

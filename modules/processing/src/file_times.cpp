@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/las/las_file.h>
 
 namespace pcl_als::detail {
 namespace {

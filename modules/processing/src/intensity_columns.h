@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <map>
 
-#include <pcl_als/io/las_rewriter.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_output.h>
 #include <pcl_als/radiometry/radiometric_model.h>
 

@@ -2,14 +2,16 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/intensity_input.h>
 
 #include "intensity_survey.h"
@@ -352,8 +354,7 @@ class PcdInput : public IntensityInput {
 
 std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
                                                      const Options& options) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lowerExtension(path);
   if (extension == ".pcd") return std::make_unique<PcdInput>(path, options);
   if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
   throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");

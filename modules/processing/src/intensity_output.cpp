@@ -8,8 +8,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_output.h>
 #include <pcl_als/survey/coverage_limit.h>
 

@@ -8,8 +8,8 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/io/point_sample.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/las/las_sample.h>
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>

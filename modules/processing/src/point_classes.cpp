@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/point_classes.h>
 
 namespace pcl_als {

@@ -5,8 +5,9 @@
 #include <cstdio>
 
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
 
 namespace pcl_als {
