@@ -204,7 +204,9 @@ def measure(build, block, out):
                                               *arguments])
         lines = summary(load(result) if result else None, text)
         if status != 0:
-            lines.append(message.replace(str(block.folder), "").replace(str(out.parent), ""))
+            for folder in (out.parent, block.files[0].parent.parent):
+                message = message.replace(f"{folder}/", "")
+            lines.append(message)
         rows[tool] = (status, seconds, 1e6 * seconds / max(block.points, 1), lines)
     return rows
 
