@@ -102,7 +102,7 @@ std::vector<std::string> filesBefore(const CommandLine& line,
         files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
   }
-  if (files.empty()) throw InputError("option -before: " + text + " contains no point files");
+  if (files.empty()) throw InputError("option -before: " + text + " holds no point files");
   const auto place = [&](const std::string& file) {
     return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
       return fs::path(other).filename() == fs::path(file).filename();
@@ -124,7 +124,7 @@ void refuseRepeated(const std::vector<std::string>& files) {
   }
 }
 
-/// What can be known to fail should fail before the work, not after it.
+/// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
@@ -158,7 +158,7 @@ SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& 
   return checkSurvey(survey, trajectory, options, app::progressOf(line));
 }
 
-/// Why there is nothing to rely on, in one line.
+/// The reason for which there is no reliable result, in one line.
 std::string whyNot(const CheckedBlock& block) {
   for (const CheckedPair& pair : block.pairs) {
     if (!pair.assessment.reason.empty())

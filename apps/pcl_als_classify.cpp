@@ -9,8 +9,8 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/class_io.h>
-#include <pcl_als/io/crs.h>
 #include <pcl_als/processing/class_maps.h>
 #include <pcl_als/processing/class_model_file.h>
 #include <pcl_als/processing/land_cover_job.h>
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What can be known to fail should fail before the work, not after it.
+/// Outputs that cannot be written are refused before the computation.
 class OptionCheck {
  public:
   OptionCheck(const CommandLine& line, const std::vector<fs::path>& inputs)

@@ -55,7 +55,7 @@ CommandLine commandLine() {
   return line;
 }
 
-/// What to align: the strips, and the arrangement that they refer to, if any.
+/// The strips to align, and the arrangement that they refer to, if any.
 struct Request {
   std::unique_ptr<ArrangedFiles> arranged;
   ArrangedFiles::Use use;
@@ -162,7 +162,7 @@ AlignedBox2d commonBox(const Request& request, const StripFileInfo& source,
   return common;
 }
 
-/// Why a result is not to be trusted, in one line.
+/// The reason for which a result is not reliable, in one line.
 std::string whyNot(const PatchAlignmentResult& result) {
   if (!result.hasConverged()) return result.message;
   std::string why;

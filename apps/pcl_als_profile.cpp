@@ -123,7 +123,7 @@ std::vector<SectionSearch::Place> search(const PictureSource& source,
     if (width > 0.0) place.line.half_width = 0.5 * width;
   }
   if (places.empty()) {
-    throw InputError("no gable roof and no slope that two strips see: give -from and -to");
+    throw InputError("no gable roof or slope that two strips cover: give -from and -to");
   }
   return places;
 }

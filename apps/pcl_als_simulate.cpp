@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/crs.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
 #include <pcl_als/simulation/simulator.h>
@@ -44,23 +44,24 @@ CommandLine declare() {
                         "paper");
   line.add<double>("scale", "factor on the lengths of the lines, 0.05 to 10", 1.0);
   line.add<double>("density", "factor on the pulses per square metre, 0.01 to 50", 1.0);
-  line.add<std::string>("seed", "of scene, flight and noise", "1");
+  line.add<std::string>("seed", "seed of scene, flight and noise", "1");
   line.add<std::string>("noise",
                         "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
                         "control and slowly drifting trajectory errors",
                         "none");
-  line.add<std::string>("error_process",
-                        "of the trajectory errors of -noise realistic: gauss_markov (correlation "
-                        "time 20 s), band_limited (smooth, periods of 12 to 100 s), random_walk, "
-                        "drift (a constant and a linear change in each line), white, jumps",
-                        "gauss_markov");
+  line.add<std::string>(
+      "error_process",
+      "process of the trajectory errors of -noise realistic: gauss_markov (correlation time 20 s), "
+      "band_limited (smooth, periods of 12 to 100 s), random_walk, drift (a constant and a linear "
+      "change in each line), white, jumps",
+      "gauss_markov");
   line.addOptional("bias",
                    "NAME=VALUE,…: assumed - true in m, arcsec or 1, names as in calibration.json; "
                    "replaces the preset's lever_arm_x=0.05, lever_arm_y=-0.05, "
                    "boresight_pitch=-30, boresight_roll=-90, boresight_heading=40, "
                    "range_bias=0.12, scan_angle_scale=1e-4; 'none' sets all to zero, also as "
                    "first entry");
-  line.addFlag("vertical", "fly without attitude motion and crab");
+  line.addFlag("vertical", "flight without attitude motion and crab");
   line.add<double>("fov", "full field of view, degrees, 10 to 60", 40.0);
   line.addOptional("origin",
                    "X,Y,Z: ground coordinates of the block's middle, m (default: "
@@ -71,18 +72,18 @@ CommandLine declare() {
                         "EPSG:32611");
   declareScene(line);
   line.add<std::string>("time",
-                        "of the points: week (seconds) or adjusted (standard GPS time); the "
+                        "times of the points: week (seconds) or adjusted (standard GPS time); the "
                         "trajectory has seconds of the week",
                         "week");
   line.addFlag("truth_points",
-               "extra bytes bias_x, bias_y, bias_z: what the biases did to each point, m");
+               "extra bytes bias_x, bias_y, bias_z: effect of the biases on each point, m");
   line.add<double>("gain", "digital number of a white target at 1000 m in vacuum; under 70: 8-bit",
                    10000.0);
-  line.addOptional("strip_gains", "ID=FACTOR,…: on the gain of single lines, 0.01 to 100");
-  line.add<double>("range_exponent", "power of range that intensity falls with", 2.0);
+  line.addOptional("strip_gains", "ID=FACTOR,…: factors on the gain of single lines, 0.01 to 100");
+  line.add<double>("range_exponent", "power of the range with which intensity decreases", 2.0);
   line.add<double>("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0);
-  line.add<double>("visibility", "of the air, km", 48.3);
-  line.add<std::string>("format", "of the strips: las or laz", "las");
+  line.add<double>("visibility", "visibility, km", 48.3);
+  line.add<std::string>("format", "format of the strips: las or laz", "las");
   return line;
 }
 

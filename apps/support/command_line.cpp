@@ -272,13 +272,13 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
 
 namespace {
 
-/// How a tool calls what would let it go on.
+/// The option of a tool with which it would continue.
 std::string optionFor(Remedy remedy) {
   switch (remedy) {
     case Remedy::none:
       break;
     case Remedy::force:
-      return "; -force goes on all the same";
+      return "; use -force to continue";
     case Remedy::force_level:
       return "; -force takes the sensor as level";
     case Remedy::keep_uncovered:

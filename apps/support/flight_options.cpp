@@ -8,7 +8,7 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/crs.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/survey_io.h>
 
 namespace pcl_als::app {

@@ -21,7 +21,8 @@ void addModelOptions(CommandLine& line) {
   line.add<double>("range_exponent", "power of range, 0 to 6", model.range_exponent);
   line.add<double>("incidence_exponent", "power of cos(incidence), 0 to 4",
                    model.incidence_exponent);
-  line.add<double>("largest_incidence", "degrees; steeper incidence counts as this, and is counted",
+  line.add<double>("largest_incidence",
+                   "largest incidence angle, degrees; larger ones are limited to it and counted",
                    model.largest_incidence);
   line.addFlag("no_range", "leave the range term out");
   line.addFlag("no_incidence", "leave the incidence term out");
@@ -30,22 +31,23 @@ void addModelOptions(CommandLine& line) {
 
 void addAirOptions(CommandLine& line) {
   const Atmosphere air;
-  line.add<double>("visibility", "km (Kruse, Kim)", air.visibility_km);
-  line.add<double>("temperature", "of the air, C", air.temperature_c);
-  line.add<double>("pressure", "of the air, kPa", air.pressure_kpa);
-  line.add<double>("humidity", "relative, %", air.relative_humidity);
-  line.add<double>("wavelength", "of the laser, nm, 500 to 1650", air.wavelength_nm);
-  line.addOptional("attenuation", "dB/km, one way, instead of the weather");
+  line.add<double>("visibility", "visibility, km (models of Kruse and Kim)", air.visibility_km);
+  line.add<double>("temperature", "air temperature, C", air.temperature_c);
+  line.add<double>("pressure", "air pressure, kPa", air.pressure_kpa);
+  line.add<double>("humidity", "relative humidity, %", air.relative_humidity);
+  line.add<double>("wavelength", "wavelength of the laser, nm, 500 to 1650", air.wavelength_nm);
+  line.addOptional("attenuation", "attenuation, dB/km, one way, instead of the weather");
 }
 
 void addGainOptions(CommandLine& line) {
   line.addOptional("gains",
                    "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
   line.addOptional("pulse_rates",
-                   "STRIP=HZ,…, all or none: pulse energy in inverse proportion (constant power)");
-  line.addOptional("agc_field",
-                   "extra field of the LAS points that holds the gain control's value");
-  line.addOptional("agc_gain", "CSV value,gain: the gain at values of -agc_field, linear between");
+                   "STRIP=HZ,…: pulse rates of all strips; the pulse energy is inversely "
+                   "proportional (constant power)");
+  line.addOptional("agc_field", "extra field of the LAS points with the value of the gain control");
+  line.addOptional("agc_gain",
+                   "CSV value,gain: the gain at values of -agc_field, interpolated linearly");
   line.addOptional("saturation",
                    "digital number at which intensity is saturated (default: 255 where none is "
                    "greater, else 65535)");
@@ -53,38 +55,41 @@ void addGainOptions(CommandLine& line) {
 
 void addSurfaceOptions(CommandLine& line) {
   const LocalSurfaceSettings surfaces;
-  line.add<double>("surface_radius",
-                   "of the local planes in plan, m; 0: that of 16 points, at least the footprint",
-                   surfaces.radius);
-  line.add<double>("surface_tolerance", "points closer than this to a plane lie on it, m",
+  line.add<double>(
+      "surface_radius",
+      "radius of the local planes in plan, m; 0: that of 16 points, at least the footprint",
+      surfaces.radius);
+  line.add<double>("surface_tolerance", "largest distance of points on a local plane, m",
                    surfaces.tolerance);
-  line.add<double>("divergence", "of the beam, mrad", 0.3);
+  line.add<double>("divergence", "divergence of the beam, mrad", 0.3);
 }
 
 void addOverlapOptions(CommandLine& line) {
-  line.addOptional("estimate",
-                   "from overlaps: a list of range_exponent, incidence_exponent, extinction, "
-                   "strip_gains, or all; what they do not determine keeps its given value");
-  line.add<double>("cell", "of the comparison of strips, m; 0: that of 6 points", 0.0);
+  line.addOptional(
+      "estimate",
+      "terms to estimate from overlaps: a list of range_exponent, incidence_exponent, extinction, "
+      "strip_gains, or all; terms that the overlaps do not determine keep their given value");
+  line.add<double>("cell", "cell size for the comparison of strips, m; 0: that of 6 points", 0.0);
   line.addOptional("radiometry", "JSON of an earlier run: its model, gains and constant are used");
-  line.addOptional("targets", "CSV x,y,reflectance[,id][,sigma]: output becomes reflectance, too");
+  line.addOptional(
+      "targets",
+      "reference targets, CSV x,y,reflectance[,id][,sigma]: reflectance is written as well");
   addUnitsOption(line, "targets", "-targets");
-  line.add<double>("target_radius", "points this close belong to a target, m", 1.0);
+  line.add<double>("target_radius", "radius within which points belong to a target, m", 1.0);
 }
 
 void addOutputOptions(CommandLine& line) {
-  line.addOptional("corrected", "folder for the corrected files; then all files named are inputs");
+  line.addOptional("corrected", "folder for the corrected files; all files named are then inputs");
   line.add<double>("scale", "factor on corrected intensities in the 16-bit field", 1.0);
   line.addFlag("no_original", "do not keep the original intensity as extra bytes");
-  line.addFlag("no_fields", "add no range, incidence angle and reflectance as extra bytes");
+  line.addFlag("no_fields", "do not add range, incidence angle and reflectance as extra bytes");
   line.addFlag("keep_uncovered",
-               "leave points without a trajectory as they are, however many (default: up to 1 % of "
-               "a file, which are counted; a file with more is refused)");
+               "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
+               "file, which are counted; a file with more is refused)");
   line.addOptional("json", "file for model, uncertainties, counts and statistics");
-  line.addOptional(
-      "report",
-      "folder for report.html (pictures inside), report.md and tables as CSV: what the "
-      "correction did");
+  line.addOptional("report",
+                   "folder for report.html (pictures inside), report.md and tables as CSV on the "
+                   "effect of the correction");
 }
 
 void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {

@@ -8,7 +8,7 @@
 
 namespace pcl_als::app {
 
-/// What can be known to fail should fail before the work: InputError unless the file's folder is
+/// Checks an output before the computation: InputError unless the file's folder is
 /// there and can be written to.
 void checkWritable(const std::filesystem::path& file);
 

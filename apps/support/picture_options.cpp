@@ -3,13 +3,13 @@
 #include "picture_options.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 
 #include "output_check.h"
 
@@ -50,10 +50,7 @@ PictureSize sizeOf(const CommandLine& line) {
 
 std::string pictureFile(const CommandLine& line) {
   const std::filesystem::path file = line.text("output");
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".png" && !std::filesystem::is_directory(file))
+  if (lowerExtension(file) != ".png" && !std::filesystem::is_directory(file))
     throw UsageError("option -output: '" + file.string() + "' does not end in .png");
   checkWritable(file);
   return file.string();

@@ -10,7 +10,7 @@
 
 namespace pcl_als::app {
 
-/// How the report of -report is made: the tool, its settings, the files of \a inputs (names of
+/// Provenance of the report of -report: the tool, its settings, the files of \a inputs (names of
 /// options) that are given, and the points of -control.
 ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*>& inputs);
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# Blocks that determine nothing or not all: said so, and never a number that only looks fine.
+# Blocks that determine no or not all parameters: the result states so and gives no other estimates.
 source "$(dirname -- "$0")/tool_test.sh"
 trajectory=(-trajectory "$block/trajectory.csv")
 parameter() { cmake -DJSON="$1" -DNAME="$2" -DKEY="$3" -P "$here/parameter.cmake" 2>&1; }

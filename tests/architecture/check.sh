@@ -16,7 +16,7 @@ breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 # use visualization. An estimator that used simulation would share its errors: only the writer of
 # simulated surveys does.
 declare -A may=(
-  [common]="" [adjustment]="common" [las]="common" [io]="common las" [trajectory]="common"
+  [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
   [calibration]="common adjustment trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
   [filters]="common trajectory tin radiometry"
@@ -112,6 +112,16 @@ while IFS= read -r file; do
   lines=$(wc -l <"$file")
   ((lines <= 250)) || breach "$file" "has $lines lines, more than 250 for a tool"
 done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
+
+# The tools only parse options, call one job, print and save: they are short altogether.
+lines=$(find apps \( -name '*.cpp' -o -name '*.h' \) -exec cat {} + | wc -l)
+((lines <= 4000)) || breach apps "has $lines lines, more than 4000"
+
+# Every table of the glossary has the same columns.
+if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |
+     grep -qvFx '| term | symbol | unit | definition | where used |'; then
+  breach share/GLOSSARY.md "has a table without term, symbol, unit, definition and where used"
+fi
 
 # Every module page has the same sections, and lines of text in Markdown have less than 100
 # characters (tables may be wider).

@@ -9,9 +9,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/las_rewriter.h>
-#include <pcl_als/io/las_writer.h>
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_rewriter.h>
+#include <pcl_als/las/las_writer.h>
 
 namespace pcl_als {
 namespace {

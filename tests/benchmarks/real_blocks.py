@@ -176,9 +176,9 @@ class Block:
             yield "calibrate", [*files, *self.trajectory, *self.control, *split, "-output", result,
                                 "-report", out / "report"], result, summary_of_calibration
             if self.name == "stbarth":  # conical: no attitude can be recovered from the points
-                nominal = out / "nominal.json"
+                result = out / "nominal.json"
                 yield "calibrate (nominal)", [*files, *self.trajectory, "-model", "nominal",
-                                              "-output", nominal], nominal, summary_of_calibration
+                                              "-output", result], result, summary_of_calibration
             yield "apply", [files[0], out / "applied.las", *self.trajectory, "-calibration",
                             result], None, no_summary
             yield "intensity", [files[0], out / "intensity.las", *self.trajectory], None, no_summary
@@ -204,7 +204,9 @@ def measure(build, block, out):
                                               *arguments])
         lines = summary(load(result) if result else None, text)
         if status != 0:
-            lines.append(message.replace(str(block.folder), "").replace(str(out.parent), ""))
+            for folder in (out.parent, block.files[0].parent.parent):
+                message = message.replace(f"{folder}/", "")
+            lines.append(message)
         rows[tool] = (status, seconds, 1e6 * seconds / max(block.points, 1), lines)
     return rows
 

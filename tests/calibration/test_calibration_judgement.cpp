@@ -115,6 +115,22 @@ TEST(CalibrationJudgement, ASmallerMisfitIsUsableAndSaysHowMuch) {
   EXPECT_NE(verdict.reason.find("5.00 cm as delivered"), std::string::npos) << verdict.reason;
 }
 
+// A scan angle scale twelve standard deviations from zero left the misfit of three strips as it
+// was; the northern part of the block had a third of it.
+TEST(CalibrationJudgement, ABiasThatReducesNoMisfitIsRemarkedOn) {
+  const auto warningsOf = [](double bias, const MisfitChange& misfit) {
+    CalibrationResult result = resultWith(bias, 1e-5, misfit);
+    judgeCalibration({}, "", result);
+    return result.warnings;
+  };
+  const std::vector<std::string> warnings = warningsOf(1.2e-4, kUnchanged);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("boresight_roll by 12.0 standard deviations"), std::string::npos)
+      << warnings[0];
+  EXPECT_TRUE(warningsOf(3e-5, kUnchanged).empty());
+  EXPECT_TRUE(warningsOf(1.2e-4, kSmaller).empty());
+}
+
 TEST(CalibrationJudgement, ALargerMisfitIsNoImprovement) {
   // 2026-11: a block whose misfit grew from 3.1 to 3.3 cm was reported as calibrated.
   const CalibrationVerdict verdict = verdictOn(resultWith(1e-5, 1e-5, kLarger));

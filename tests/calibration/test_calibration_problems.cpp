@@ -73,7 +73,9 @@ TEST(CalibrationProblems, AtTheLimitOfIterationsTheMostRestlessParameterIsLeftOu
   ASSERT_LE(left.size(), 3U);
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
-    if (estimate.status == ParameterStatus::estimated) EXPECT_GT(estimate.std, 0.0) << info.name;
+    if (estimate.status == ParameterStatus::estimated) {
+      EXPECT_GT(estimate.std, 0.0) << info.name;
+    }
   }
 }
 
@@ -141,6 +143,16 @@ TEST(CalibrationProblems, ATrajectoryTooHighAffectsParameters) {
   EXPECT_NEAR(numberAfter("the trajectory is ", result.verdict.reason), 50.0, 3.0)
       << result.verdict.reason;
   EXPECT_NE(result.verdict.reason.find("lever_arm_x"), std::string::npos);
+  // 50 m of roll and pitch are centimetres of lever arm, and those of range bias a scale.
+  for (const SystemParameter parameter :
+       {SystemParameter::lever_arm_x, SystemParameter::lever_arm_y, SystemParameter::range_bias,
+        SystemParameter::scan_angle_scale}) {
+    const ParameterEstimate& p = result[parameter];
+    if (p.status != ParameterStatus::estimated) continue;
+    EXPECT_NE(p.reason.find("height of the trajectory"), std::string::npos)
+        << infoOf(parameter).name;
+  }
+  EXPECT_TRUE(result[SystemParameter::boresight_roll].reason.empty());
 }
 
 TEST(CalibrationProblems, HeightsInFeetAffectParameters) {

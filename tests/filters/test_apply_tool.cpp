@@ -12,13 +12,13 @@
 #include <sys/wait.h>
 
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/las_writer.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_writer.h>
 
-#include "../io/real_data.h"
+#include "real_data.h"
 #include "swath.h"
 #include "test_files.h"
 

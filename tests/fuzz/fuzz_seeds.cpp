@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
-#include <pcl_als/io/las_extra.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/las/las_extra.h>
 
 #include "las_bytes.h"
 

@@ -12,11 +12,11 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/class_io.h>
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/class_model_file.h>
 #include <pcl_als/report/accuracy_report.h>
 

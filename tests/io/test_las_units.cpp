@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/crs/crs.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/las/las_file.h>
 
 #include "las_bytes.h"
 #include "test_files.h"

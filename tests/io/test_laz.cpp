@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_rewriter.h>
-#include <pcl_als/io/las_writer.h>
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_rewriter.h>
+#include <pcl_als/las/las_writer.h>
 
 #include "las_bytes.h"
 #include "real_data.h"

@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_writer.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/strip_loader.h>
+#include <pcl_als/las/las_writer.h>
 
 #include "test_files.h"
 

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/crs.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/raster_io.h>
 
 #include "las_bytes.h"

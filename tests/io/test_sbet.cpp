@@ -12,8 +12,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/las/las_file.h>
 
 #include "test_files.h"
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_writer.h>
 #include <pcl_als/io/strip_loader.h>
+#include <pcl_als/las/las_writer.h>
 
 #include "real_data.h"
 #include "test_files.h"

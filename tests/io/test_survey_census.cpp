@@ -9,8 +9,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
-#include <pcl_als/io/las_writer.h>
 #include <pcl_als/io/survey_census.h>
+#include <pcl_als/las/las_writer.h>
 
 #include "las_bytes.h"
 #include "real_data.h"

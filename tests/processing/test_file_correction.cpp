@@ -7,11 +7,11 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/filters/system_bias_correction.h>
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/las_writer.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_writer.h>
 #include <pcl_als/processing/file_correction.h>
 
 #include "simulated_survey.h"
@@ -189,8 +189,7 @@ TEST(FileCorrection, WhereTheCalibrationHoldsNoneItIsRecoveredFromTheFile) {
   const FileCorrectionResult other =
       correctPointFile(input, survey().folder / "partial.las", partial, survey().flight, options);
   EXPECT_EQ(other.coverage.without_attitude, 0U);
-  EXPECT_EQ(recordsOf(survey().folder / "partial.las"),
-            recordsOf(survey().folder / "earlier.las"));
+  EXPECT_EQ(recordsOf(survey().folder / "partial.las"), recordsOf(survey().folder / "earlier.las"));
 }
 
 TEST(FileCorrection, TheFilterRefusesACalibrationThatLacksTheAttitude) {

@@ -48,6 +48,9 @@ TEST(StripAlignment, NothingInCommonIsAStatus) {
   areas.emplace_back(SurveyArea{kOrigin.head<2>(), 50.0, 5.0}, std::size_t{2});
   for (const SwathPoint& point : fly(village, {}, kOrigin)) areas[0].add(0, point);
   EXPECT_FALSE(alignStrips(areas, 0, 1, {}).hasConverged());
+  // Two sparse strips of 1900 m2 in common were said not to overlap.
+  EXPECT_NE(alignStrips(areas, 0, 1, {}).message.find("enough points of both strips"),
+            std::string::npos);
   EXPECT_FALSE(alignStrips({}, 0, 1, {}).hasConverged());
 }
 

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/las/las_file.h>
 
 #include "test_files.h"
 

@@ -38,7 +38,7 @@ class AreaMatcher {
   std::size_t pointCount() const;
   std::size_t stripCount() const;  ///< strips with points in the area or its margin
 
-  /// When a strip measured the area and its margin; empty where it has no points in it.
+  /// Times at which a strip measured the area with its margin; empty without points in it.
   std::optional<TimeSpan> timesOf(int strip) const;
 
   /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and

@@ -15,6 +15,8 @@ constexpr double kSignificant = 2.0;  // standard deviations of the change of th
 // share of the misfit as delivered: a smaller change is no change
 constexpr double kRelevant = 0.01;
 
+constexpr double kContradicting = 5.0;  // standard deviations of a bias that changes no misfit
+
 std::string centimetres(double metres) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f cm", 100.0 * metres);
@@ -79,6 +81,27 @@ void judgeMisfit(CalibrationResult& result) {
   }
 }
 
+/// A bias of the system would reduce the misfit: what does not may be a deformation of the strips,
+/// which part of the block shares and the standard deviation does not contain.
+void warnOfIneffectiveBiases(CalibrationResult& result) {
+  std::string names;
+  for (const SystemParameter p : result.correlation_order) {
+    const ParameterEstimate& estimate = result[p];
+    if (!(std::abs(estimate.bias) > kContradicting * estimate.std)) continue;
+    char text[64];
+    std::snprintf(text, sizeof text, " by %.1f standard deviations",
+                  std::abs(estimate.bias) / estimate.std);
+    names += (names.empty() ? "" : ", ") + std::string(infoOf(p).name) + text;
+  }
+  if (names.empty()) return;
+  result.warnings.push_back(
+      "biases that differ from zero, but do not reduce the misfit between the strips "
+      "significantly: " +
+      names +
+      "; they may describe deformations of the strips or the ground instead of the system: "
+      "compare the calibrations of parts of the block before they are applied elsewhere");
+}
+
 }  // namespace
 
 bool biasesAreSignificant(const CalibrationResult& result) {
@@ -108,6 +131,7 @@ void judgeCalibration(const std::vector<SystemParameter>& requested,
   } else {
     result.verdict.reason =
         "the misfit between the strips does not change significantly: " + describe(result.misfit);
+    warnOfIneffectiveBiases(result);
   }
 }
 

@@ -17,8 +17,8 @@ constexpr std::array<P, kSystemParameterCount> kDropOrder{
     P::lever_arm_z, P::lever_arm_y,       P::lever_arm_x,     P::scan_angle_scale,
     P::range_bias,  P::boresight_heading, P::boresight_pitch, P::boresight_roll};
 
-constexpr double kConfused = 0.9;  // correlation above which two parameters cannot be separated
-constexpr double kTakesPart =
+constexpr double kInseparable = 0.9;  // correlation above which two parameters cannot be separated
+constexpr double kComponentOfDirection =
     0.3;  // component of a unit vector: the parameter takes part in a weak direction
 
 std::string name(P p) {
@@ -56,7 +56,7 @@ std::vector<P> weakestDirection(const SystemMatrix& normal, const std::vector<P>
   const Eigen::VectorXd weakest = symmetricEigen(scaled).vectors.col(0);
   std::vector<P> taking_part;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    if (std::abs(weakest[i]) >= kTakesPart) taking_part.push_back(estimate[i]);
+    if (std::abs(weakest[i]) >= kComponentOfDirection) taking_part.push_back(estimate[i]);
   }
   return taking_part;
 }
@@ -76,7 +76,7 @@ std::vector<P> tooUncertain(const AdjustmentSolution& solution, const std::vecto
     if (std::sqrt(solution.covariance(indexOf(p), indexOf(p))) <= limit) continue;
     candidates.push_back(p);
     for (const P other : estimate) {
-      if (other != p && std::abs(correlation(solution.covariance, p, other)) > kConfused)
+      if (other != p && std::abs(correlation(solution.covariance, p, other)) > kInseparable)
         candidates.push_back(other);
     }
   }
@@ -235,9 +235,9 @@ void reportParameters(const ParameterChoice& choice, const std::vector<SystemPar
       parameter.reason = "not asked for";
     } else if (info.parameter == SystemParameter::range_bias) {
       parameter.status = ParameterStatus::not_estimable;
-      parameter.reason = "needs control: strips alone hardly see it";
+      parameter.reason = "needs control: strips alone hardly determine it";
     } else {
-      parameter.reason = "not separable from range_bias, and strips alone never see it";
+      parameter.reason = "not separable from range_bias, and never determined by strips alone";
     }
   }
   result.correlation_order = choice.estimate;

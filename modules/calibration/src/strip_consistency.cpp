@@ -157,12 +157,12 @@ void StripConsistency::compareHeights(double alpha) {
     for (const StripFacts& strip : strips_) higher.push_back(strip.height >= heights[k]);
     const Comparison found = compare(higher);
     if (found.probability >= alpha || std::abs(found.difference) <= kLeast) continue;
-    warnings_.push_back("strips " + names(higher) + ", flown at " + text("%.0f m", heights[k]) +
-                        " and more, lie " + text("%+.3f m", found.difference) +
-                        " above the others, flown at " + text("%.0f m", heights[k - 1]) +
-                        " and less, after the calibration: a range bias or scale, or another "
-                        "session; control at both heights or a separate calibration (-strips) "
-                        "tells");
+    warnings_.push_back(
+        "strips " + names(higher) + ", flown at " + text("%.0f m", heights[k]) + " and more, lie " +
+        text("%+.3f m", found.difference) + " above the others, flown at " +
+        text("%.0f m", heights[k - 1]) +
+        " and less, after the calibration: a range bias or scale, or another session; control at "
+        "both heights or a separate calibration of these strips separates these causes");
   }
 }
 

@@ -109,7 +109,7 @@ void assessNeed(bool corrections_are_large, CalibrationResult& result) {
   const std::string text =
       "only corrections of the trajectory make the strips agree (" + sizeText(before, false) +
       " as delivered, " + sizeText(after, false) + " with the biases, " + sizeText(strips, false) +
-      " with strip corrections): what is left is not the effect of system biases";
+      " with strip corrections): the remaining misfit is not the effect of system biases";
   result.warnings.push_back(text);
   if (corrections_are_large) result.verdict.object(CalibrationStatus::parameters_affected, text);
 }
@@ -157,6 +157,20 @@ void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEff
                           describe(large.front()) + "; " + affected);
   }
   assessNeed(!affected.empty(), result);
+}
+
+void assessHeight(const std::string& finding, CalibrationResult& result) {
+  result.verdict.object(CalibrationStatus::parameters_affected, finding);
+  for (const SystemParameter parameter :
+       {SystemParameter::lever_arm_x, SystemParameter::lever_arm_y, SystemParameter::range_bias,
+        SystemParameter::scan_angle_scale}) {
+    ParameterEstimate& p = result[parameter];
+    if (p.status != ParameterStatus::estimated) continue;
+    p.reason += (p.reason.empty() ? "" : "; ") +
+                std::string(
+                    "affected by the height of the trajectory, which is wrong: the "
+                    "standard deviation does not include this");
+  }
 }
 
 }  // namespace pcl_als

@@ -66,4 +66,9 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
 void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEffect>& effects,
                        CalibrationResult& result);
 
+/// Objects to the result of a trajectory whose height is wrong (\a finding), and states so for each
+/// parameter that is estimated from heights above ground: the effects of the biases that are
+/// proportional to the height are then attributed to those that are not, and the reverse.
+void assessHeight(const std::string& finding, CalibrationResult& result);
+
 }  // namespace pcl_als

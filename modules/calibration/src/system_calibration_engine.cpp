@@ -244,8 +244,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   diagnose(result);
   assessControl(state, errors, result);
   assessStripErrors(settings_.shared_errors, effects, result);
-  if (!height_error_.empty())
-    result.verdict.object(CalibrationStatus::parameters_affected, height_error_);
+  if (!height_error_.empty()) assessHeight(height_error_, result);
   judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
   return result;
 }

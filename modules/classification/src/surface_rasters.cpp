@@ -22,7 +22,7 @@ void checkLength(const char* name, double value, double low, double high) {
                    std::to_string(low) + " and " + std::to_string(high));
 }
 
-/// What a cell keeps of the returns in it; heights relative to the accumulator's base.
+/// Sums of the returns in a cell; heights are relative to the base of the accumulator.
 struct Cell {
   float top_z = 0.0F, top_x = 0.0F, top_y = 0.0F;  ///< highest first return; place in the cell
   float low_z = 0.0F, low_x = 0.0F, low_y = 0.0F;  ///< lowest last return

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/io/las_file.h>
-
-#include "file_kind.h"
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/recorded_pose.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -107,6 +107,16 @@ void remarkCrs(const PointFileInfo& info, std::vector<std::string>& remarks) {
     remarks.emplace_back("the unit of the heights is not stated; that of the plan is assumed");
 }
 
+/// A trajectory of such points is that of their records, however coarse their times are.
+void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
+  const std::string pose = recordedPose(las.extraFields());
+  if (pose.empty()) return;
+  remarks.push_back("each record holds the pose of the sensor (" + pose +
+                    "), which is not used: write these fields with the time of each pulse to a "
+                    "CSV file for -trajectory, in metres and degrees, heading clockwise from "
+                    "grid north");
+}
+
 void remarkFile(FileCensus& file) {
   const PointStatistics& s = file.statistics;
   auto& remarks = file.remarks;
@@ -117,8 +127,11 @@ void remarkFile(FileCensus& file) {
   remarkTimes(file.info, s, remarks);
   remarkBox(file.info, s, remarks);
   const std::string extension = lowerExtension(file.info.path);
-  if (extension == ".las" || extension == ".laz")
-    remarkHeader(LasFile(file.info.path).header(), s, remarks);
+  if (extension == ".las" || extension == ".laz") {
+    const LasFile las(file.info.path);
+    remarkHeader(las.header(), s, remarks);
+    remarkPose(las, remarks);
+  }
   remarkCount(remarks, s.invalid_coordinates, s.points, "has coordinates that are no place",
               "have coordinates that are no place");
   remarkCount(remarks, s.wrong_returns, s.points,

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/class_io.h>
 
 #include "csv_table.h"
@@ -128,9 +129,7 @@ class GeoJsonSites {
 }  // namespace
 
 std::vector<ClassSite> readClassSites(const fs::path& path, const LengthUnit& unit) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lowerExtension(path);
   const bool json = extension == ".geojson" || extension == ".json";
   std::vector<ClassSite> sites = json ? GeoJsonSites(path).sites : sitesOfCsv(path);
   if (sites.empty()) throw InputError(path.string() + ": holds no sites");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/local_point_reader.h>
 
 namespace pcl_als {

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/io/point_reader.h>
 
-#include "input_file.h"
 #include "pcd_header.h"
 
 namespace pcl_als::detail {

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/local_point_reader.h>
 #include <pcl_als/io/point_reader.h>
-#include <pcl_als/io/point_reference.h>
+#include <pcl_als/las/las_file.h>
 
-#include "file_kind.h"
 #include "pcd_file.h"
 
 namespace pcl_als {
@@ -76,7 +76,7 @@ class PcdPointReader : public LocalPointReader {
 
 std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path,
                                                OtherCoordinates other) {
-  const std::string extension = detail::lowerExtension(path);
+  const std::string extension = lowerExtension(path);
   if (extension == ".pcd") return std::make_unique<PcdPointReader>(path);
   if (extension == ".las" || extension == ".laz")
     return std::make_unique<LasPointReader>(path, other);

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/crs/crs.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 
 namespace pcl_als {
@@ -49,16 +51,6 @@ std::string remarkOf(const PointFileInfo& file) {
 }
 
 }  // namespace
-
-void requireMapCoordinates(const PointFileInfo& info) {
-  const bool geographic = info.crs_kind == CrsKind::geographic;
-  if (!geographic && info.crs_kind != CrsKind::geocentric) return;
-  std::string crs = info.crs.empty() ? "" : " (" + shortCrsName(info.crs) + ")";
-  if (geographic && info.crs.empty()) crs = " by their range and steps";
-  throw InputError(info.path.string() + ": its coordinates are " +
-                   (geographic ? "degrees" : "geocentric") + crs +
-                   "; reproject it to a map projection in metres or feet first");
-}
 
 PointReference commonReference(const std::vector<PointFileInfo>& files) {
   PointReference common;

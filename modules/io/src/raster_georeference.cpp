@@ -10,7 +10,7 @@
 #include <cpl_string.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/crs.h>
+#include <pcl_als/crs/crs.h>
 
 namespace pcl_als::detail {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/crs/map_projection.h>
 
 #include "csv_table.h"
-#include "map_projection.h"
 #include "week_rollover.h"
 
 namespace pcl_als::detail {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "sbet.h"
@@ -11,10 +12,7 @@ namespace pcl_als {
 namespace {
 
 bool isSbet(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = lowerExtension(path);
   return extension == ".out" || extension == ".sbet";
 }
 

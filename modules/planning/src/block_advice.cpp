@@ -18,10 +18,10 @@ using P = SystemParameter;
 
 // observations of a block that is adjusted repeatedly
 constexpr std::size_t kObservations = 20'000;
-constexpr double kHelps = 0.1;          // least benefit of advice
-constexpr double kWorthSaying = 0.85;   // after / before above which a change is not reported
-constexpr std::size_t kAdviceTold = 6;  // entries in the text; the report contains all
-constexpr double kWellKnown = 0.01;     // metres on the ground: needs no improvement
+constexpr double kLeastBenefit = 0.1;     // least benefit of advice
+constexpr double kReportedRatio = 0.85;   // after / before above which a change is not reported
+constexpr std::size_t kAdviceInText = 6;  // entries in the text; the report contains all
+constexpr double kAccurate = 0.01;        // metres on the ground: needs no improvement
 
 std::string valueOf(P p, double value) {
   const std::string text = inUnit(p, value);
@@ -35,7 +35,7 @@ std::string effectOf(const SystemVector& before, const SystemVector& after,
   for (const SystemParameterInfo& info : systemParameters()) {
     const P p = info.parameter;
     const double from = before[indexOf(p)], to = after[indexOf(p)];
-    if (to >= kWorthSaying * from || !std::isfinite(to)) continue;
+    if (to >= kReportedRatio * from || !std::isfinite(to)) continue;
     const std::string name(info.name);
     if (then.determines(p) && !now.determines(p)) {
       effects.emplace_back(0.0, "determine " + name + " (std " + inUnit(p, to) + ")");
@@ -143,9 +143,9 @@ std::vector<std::string> ObservabilityReport::text() const {
   std::vector<std::string> lines{"the block: " + facts};
   for (const WeakCombination& one : weak) lines.push_back("weak: " + one.text);
   for (const ParameterDirection& one : directions) {
-    if (one.std > kWellKnown) lines.push_back("direction: " + one.text);
+    if (one.std > kAccurate) lines.push_back("direction: " + one.text);
   }
-  for (std::size_t i = 0; i < std::min(kAdviceTold, advice.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kAdviceInText, advice.size()); ++i) {
     lines.push_back("advice: " + advice[i].text);
   }
   return lines;
@@ -167,7 +167,7 @@ std::vector<Advice> adviceFor(const ObservedBlock& block, const AdjustedBlock& n
     advice.benefit = benefitOf(now.deviations(), then.deviations());
     const std::string effect = effectOf(advice.before, advice.after, now, then);
     advice.text = advice.what + " would " + effect;
-    if (advice.benefit > kHelps && !effect.empty()) helpful.push_back(std::move(advice));
+    if (advice.benefit > kLeastBenefit && !effect.empty()) helpful.push_back(std::move(advice));
   }
   std::stable_sort(helpful.begin(), helpful.end(),
                    [](const Advice& a, const Advice& b) { return a.benefit > b.benefit; });

@@ -109,7 +109,8 @@ std::string BlockFacts::fewLines() const {
   if (fewest == lines_at.end() || *fewest >= kEnoughLines) return {};
   const double height = heights[static_cast<std::size_t>(fewest - lines_at.begin())];
   return "the trajectory errors of " + std::to_string(*fewest) + " line" +
-         (*fewest == 1 ? "" : "s") + " at " + metres({height}) + " hide what the heights tell";
+         (*fewest == 1 ? "" : "s") + " at " + metres({height}) +
+         " mask the effect of the different heights";
 }
 
 std::string BlockFacts::causeOf(const std::vector<P>& parameters) const {

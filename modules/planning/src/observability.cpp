@@ -15,11 +15,12 @@ namespace {
 
 using P = SystemParameter;
 
-constexpr double kNamed = 0.3;    // component of a unit vector above which a parameter is named
-constexpr double kAlike = 0.85;   // correlation above which two parameters can hardly be separated
-constexpr double kUnknown = 1e3;  // metres on the ground: an upper bound of any parameter
+constexpr double kNamed = 0.3;  // component of a unit vector above which a parameter is named
+constexpr double kHighCorrelation =
+    0.85;  // correlation above which two parameters can hardly be separated
+constexpr double kLargestEffect = 1e3;  // metres on the ground: an upper bound of any parameter
 // metres: parameters with a larger standard deviation are not observed
-constexpr double kNothing = 100.0;
+constexpr double kNotObserved = 100.0;
 
 std::string name(P p) {
   return std::string(infoOf(p).name);
@@ -110,7 +111,7 @@ std::vector<ParameterDirection> Observability::directions() const {
     }
     const double value = eigen.values[k];
     const bool observed =
-        value > 1.0 / (kNothing * kNothing) && value > 1e-14 * eigen.values.maxCoeff();
+        value > 1.0 / (kNotObserved * kNotObserved) && value > 1e-14 * eigen.values.maxCoeff();
     direction.std = observed ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity();
     direction.text = describe(direction.components, direction.std);
     directions.push_back(std::move(direction));
@@ -124,8 +125,8 @@ WeakCombination Observability::single(std::size_t index, double std,
   const P p = wanted_[index];
   weak.parameters = {p};
   weak.cause = facts.causeOf(weak.parameters);
-  weak.text = name(p) +
-              (std > kNothing ? ", not observed" : ", std " + inUnit(p, std / effect_[indexOf(p)]));
+  weak.text = name(p) + (std > kNotObserved ? ", not observed"
+                                            : ", std " + inUnit(p, std / effect_[indexOf(p)]));
   if (!weak.cause.empty()) weak.text += ": " + weak.cause;
   return weak;
 }
@@ -164,7 +165,7 @@ Observability::Known Observability::known(const SystemVector& prior) const {
   // A prior of a kilometre on the ground, which keeps the matrix regular and has no other effect.
   for (Eigen::Index i = 0; i < normal.rows(); ++i) {
     const int at = indexOf(wanted_[static_cast<std::size_t>(i)]);
-    normal(i, i) += 1.0 / std::pow(std::min(kUnknown, prior[at] * effect_[at]), 2);
+    normal(i, i) += 1.0 / std::pow(std::min(kLargestEffect, prior[at] * effect_[at]), 2);
   }
   Known known;
   known.covariance = inverseOfSymmetric(normal);
@@ -174,17 +175,17 @@ Observability::Known Observability::known(const SystemVector& prior) const {
 
 std::size_t Observability::partnerOf(std::size_t i, const Known& known) const {
   std::size_t partner = i;
-  double strongest = kAlike;
+  double strongest = kHighCorrelation;
   for (std::size_t j = 0; j < wanted_.size(); ++j) {
     if (j == i || std::abs(known.correlation(i, j)) < strongest) continue;
     strongest = std::abs(known.correlation(i, j));
     partner = j;
   }
-  if (partner != i || known.stdOf(i) <= kNothing) return partner;
+  if (partner != i || known.stdOf(i) <= kNotObserved) return partner;
   const auto twin = std::find(wanted_.begin(), wanted_.end(), twinOf(wanted_[i]));
   if (twin == wanted_.end()) return i;
   const auto at = static_cast<std::size_t>(twin - wanted_.begin());
-  return known.stdOf(at) > kNothing ? at : i;
+  return known.stdOf(at) > kNotObserved ? at : i;
 }
 
 SystemVector Observability::deviations(const SystemVector& prior) const {
@@ -193,8 +194,8 @@ SystemVector Observability::deviations(const SystemVector& prior) const {
   const Known all = known(prior);
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     const int at = indexOf(wanted_[i]);
-    std[at] = all.stdOf(i) > kNothing ? std::numeric_limits<double>::infinity()
-                                      : all.stdOf(i) / effect_[at];
+    std[at] = all.stdOf(i) > kNotObserved ? std::numeric_limits<double>::infinity()
+                                          : all.stdOf(i) / effect_[at];
   }
   return std;
 }
@@ -217,7 +218,8 @@ std::vector<WeakCombination> Observability::combinations(const BlockFacts& facts
     if (partner == i) {
       found.push_back(single(i, all.stdOf(i), facts));
     } else {
-      const bool blind = all.stdOf(i) > kNothing && std::abs(all.correlation(i, partner)) < kAlike;
+      const bool blind =
+          all.stdOf(i) > kNotObserved && std::abs(all.correlation(i, partner)) < kHighCorrelation;
       found.push_back(pair(i, partner, blind ? 0.0 : all.correlation(i, partner), facts));
     }
   }

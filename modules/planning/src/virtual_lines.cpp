@@ -9,9 +9,10 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kMostBases = 3;  // lines from which virtual lines are derived
+constexpr std::size_t kMostBaseLines = 3;  // lines from which virtual lines are derived
 constexpr std::size_t kControlField = 9;
-constexpr double kOnTop = 0.2;  // of the half swath: lines closer than this cover the same ground
+constexpr double kSameGround =
+    0.2;  // of the half swath: lines closer than this cover the same ground
 constexpr double kLowest = 100.0;  // metres above ground
 
 using Strips = std::vector<StripGeometry>;
@@ -32,7 +33,7 @@ Strips basesOf(const Strips& strips) {
   }
   std::sort(bases.begin(), bases.end(),
             [](const StripGeometry& a, const StripGeometry& b) { return a.height < b.height; });
-  if (bases.size() > kMostBases) bases.resize(kMostBases);
+  if (bases.size() > kMostBaseLines) bases.resize(kMostBaseLines);
   return bases;
 }
 
@@ -75,8 +76,8 @@ class Additions {
   void add(StripGeometry line, const std::string& what) {
     const bool there = std::any_of(strips_.begin(), strips_.end(), [&](const StripGeometry& flown) {
       return sameHeight(flown, line) && sameWay(flown, line) &&
-             lateralSeparation(flown, line) < kOnTop * line.halfSwath() &&
-             lateralSeparation(line, flown) < kOnTop * line.halfSwath();
+             lateralSeparation(flown, line) < kSameGround * line.halfSwath() &&
+             lateralSeparation(line, flown) < kSameGround * line.halfSwath();
     });
     if (there) return;
     Advice advice;

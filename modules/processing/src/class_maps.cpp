@@ -25,7 +25,7 @@ Colour freeColour(const Colour& wanted, const std::vector<CodeMeaning>& legend) 
   return wanted;
 }
 
-/// The code of a class in the common legend, which it joins where it is new.
+/// The code of a class in the common legend, to which new classes are added.
 std::uint8_t commonCode(const CodeMeaning& entry, std::vector<CodeMeaning>& legend,
                         const std::filesystem::path& path) {
   for (const CodeMeaning& known : legend)

@@ -26,7 +26,7 @@ constexpr double kControlArea = 4.0;         // metres: the patch around a point
 // for a pair.
 constexpr std::size_t kAlignmentPoints = 400'000, kAlignmentPairs = 60'000;
 constexpr double kRepeated = 0.2;  // share of repeated points worth a warning
-constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // and its part of the TIN
+constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // including its part of the TIN
 
 using Clock = std::chrono::steady_clock;
 

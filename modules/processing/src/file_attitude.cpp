@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_file.h>
 
 namespace pcl_als::detail {
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <cctype>
 #include <mutex>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/filters/integer_bias_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/file_correction.h>
 #include <pcl_als/survey/coverage_limit.h>
 #include <pcl_als/trajectory/system_correction.h>
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Flight = std::shared_ptr<const Trajectory>;
 
-/// What is given for one file, and what is found out about it.
+/// Inputs and results of the correction of one file.
 struct Job {
   fs::path input, output;
   const CalibrationResult& calibration;
@@ -192,20 +192,13 @@ void correctPcd(Job& job) {
   savePcd(job.output, strip);
 }
 
-std::string extensionOf(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 }  // namespace
 
 FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& output,
                                       const CalibrationResult& calibration, Flight flight,
                                       const FileCorrectionOptions& options,
                                       const ProgressCallback& progress) {
-  const bool pcd_in = extensionOf(input) == ".pcd", pcd_out = extensionOf(output) == ".pcd";
+  const bool pcd_in = lowerExtension(input) == ".pcd", pcd_out = lowerExtension(output) == ".pcd";
   if (pcd_in != pcd_out) {
     throw UsageError(output.string() + ": input and output must be of one kind, .las/.laz or .pcd");
   }

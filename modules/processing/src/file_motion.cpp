@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_rewriter.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/file_motion.h>
 
 namespace pcl_als {
@@ -16,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-std::string extensionOf(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 std::uint64_t moveLas(const fs::path& input, const fs::path& output, const RigidMotion& motion,
                       int threads) {
@@ -62,7 +55,7 @@ std::uint64_t movePcd(const fs::path& input, const fs::path& output, const Rigid
 }  // namespace
 
 void checkMovable(const fs::path& input, const fs::path& output) {
-  if ((extensionOf(input) == ".pcd") != (extensionOf(output) == ".pcd"))
+  if ((lowerExtension(input) == ".pcd") != (lowerExtension(output) == ".pcd"))
     throw UsageError(output.string() +
                      ": source and output must be of one kind, .las/.laz or .pcd");
 }
@@ -70,8 +63,8 @@ void checkMovable(const fs::path& input, const fs::path& output) {
 std::uint64_t movePointFile(const fs::path& input, const fs::path& output,
                             const RigidMotion& motion, int threads) {
   checkMovable(input, output);
-  return extensionOf(input) == ".pcd" ? movePcd(input, output, motion)
-                                      : moveLas(input, output, motion, threads);
+  return lowerExtension(input) == ".pcd" ? movePcd(input, output, motion)
+                                         : moveLas(input, output, motion, threads);
 }
 
 }  // namespace pcl_als

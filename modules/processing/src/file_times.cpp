@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/las/las_file.h>
 
 namespace pcl_als::detail {
 namespace {
 
-/// Times of points; a time of zero, which stands for "none", only where there is no other.
+/// Times of points; zero, which means "none", is used only where there is no other time.
 class TimeSpread {
  public:
   void add(double time) { (time == 0.0 ? zeros_ : range_).add(time); }
@@ -46,7 +46,7 @@ TimeRange probedTimes(const LasFile& file, std::uint64_t probes, std::uint64_t r
 
 }  // namespace
 
-/// The whole week of a file shows in few of its points; all are looked at only where few miss.
+/// A few points of a file show its whole week; all are read only where few are missing.
 TimeAlignment alignmentOf(const LasFile& file, const Trajectory& flight,
                           std::optional<int> gps_week) {
   if (file.header().point_count == 0) return {};

@@ -7,7 +7,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reader.h>
-#include <pcl_als/io/point_sample.h>
+#include <pcl_als/las/las_sample.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
 namespace pcl_als::detail {

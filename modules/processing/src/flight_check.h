@@ -9,7 +9,7 @@
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
 #include <pcl_als/common/time_alignment.h>
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als::detail {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <map>
 
-#include <pcl_als/io/las_rewriter.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_output.h>
 #include <pcl_als/radiometry/radiometric_model.h>
 
@@ -18,7 +18,7 @@ namespace pcl_als {
  */
 class RangeOnlyCorrection {
  public:
-  /// Whether it is all that is wanted.
+  /// Whether the correction needs nothing else.
   static bool serves(const IntensitySettings& settings, const IntensityOutput& output);
 
   /// \a original_at: byte of a record where its given intensity goes; -1: nowhere.

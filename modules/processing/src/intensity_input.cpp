@@ -2,14 +2,16 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/intensity_input.h>
 
 #include "intensity_survey.h"
@@ -50,7 +52,7 @@ std::uint32_t labelOf(StripArrangement::Sorter& sorter, const IntensityPoint& po
   return static_cast<std::uint32_t>(sorter.label(point.source, point.time));
 }
 
-/// Where one strip's points of a block lie, in coordinate steps of the file.
+/// Box of the points of one strip in a block, in coordinate steps of the file.
 struct BlockBox {
   std::uint32_t block = 0;
   std::uint16_t source = 0;
@@ -162,7 +164,7 @@ class LasInput : public IntensityInput {
     return point;
   }
 
-  /// The first look: survey and boxes, window by window.
+  /// First pass: survey and boxes, window by window.
   void look(int threads) {
     std::vector<SurveyTally> tallies(windows());
     std::vector<std::vector<BlockBox>> boxes(windows());
@@ -352,8 +354,7 @@ class PcdInput : public IntensityInput {
 
 std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
                                                      const Options& options) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lowerExtension(path);
   if (extension == ".pcd") return std::make_unique<PcdInput>(path, options);
   if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
   throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");

@@ -8,8 +8,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_output.h>
 #include <pcl_als/survey/coverage_limit.h>
 
@@ -42,7 +42,7 @@ CorrectedPoint correctedPoint(const IntensityRun& run, const EvaluatedWindow& fo
   return point;
 }
 
-/// What a block of points adds to counts and statistics.
+/// Counts and statistics of a block of points.
 struct BlockOutcome {
   explicit BlockOutcome(const IntensityRun& run) : statistics(run.strips().size()) {
     counts.labels.resize(run.arrangement().labels().size());
@@ -128,7 +128,7 @@ std::uint64_t countOf(const IntensityCounts& counts, RadiometryStatus status) {
   return counts.status[static_cast<std::size_t>(status)];
 }
 
-/// Refuses what a correction cannot serve.
+/// Refuses files that cannot be corrected.
 void checkCounts(const std::string& name, const IntensityCounts& counts, bool keep_uncovered) {
   const std::uint64_t uncovered = countOf(counts, RadiometryStatus::uncovered);
   std::ostringstream text;
@@ -191,7 +191,7 @@ double valueOf(const std::string& field, const CorrectedPoint& point) {
   return field.rfind("range", 0) == 0 ? point.range : point.incidence;
 }
 
-/// Where the values of a point go in its record; -1: nowhere.
+/// Positions of the values of a point in its record; -1: not written.
 struct FieldPlaces {
   std::ptrdiff_t original = -1, reflectance = -1, range = -1, incidence = -1;
 
@@ -214,7 +214,7 @@ struct FieldPlaces {
   }
 };
 
-/// As writeLas(), where no surfaces are wanted.
+/// As writeLas(), where no surfaces are needed.
 void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
                     const IntensityOutput& output, const std::function<void(double)>& progress,
                     IntensityCounts& counts) {

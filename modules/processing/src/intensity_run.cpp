@@ -8,8 +8,8 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/io/point_sample.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/las/las_sample.h>
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
@@ -200,7 +200,8 @@ void IntensityRun::chooseRadii() {
   }
 }
 
-/// Cells hold some points of the sparsest strip; so many are left out that memory stays bounded.
+/// Cells contain some points of the sparsest strip; a share of the cells is left out to bound
+/// memory.
 void IntensityRun::chooseCells() {
   const double widest = radii_.empty() ? 2.0 : *std::max_element(radii_.begin(), radii_.end());
   const double sparsest = 16.0 / (kPi * widest * widest);

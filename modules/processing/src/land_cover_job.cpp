@@ -88,7 +88,7 @@ void LandCover::makeRasters() {
   if (!options_.grids.empty()) {
     raster_path_ = options_.grids;
   } else {
-    // Beside the output, where there is room for it; it goes when the job ends, however it does.
+    // Beside the output, where there is space for it; it is removed when the job ends in any way.
     scratch_.emplace(options_.map);
     raster_path_ = scratch_->temporaryPath();
     options.named = options_.map;

@@ -5,7 +5,9 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/picture/picture_source.h>
 #include <pcl_als/processing/picture/section_places.h>
 

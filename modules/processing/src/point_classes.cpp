@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/las_file.h>
-#include <pcl_als/io/las_rewriter.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/point_classes.h>
 
 namespace pcl_als {
@@ -17,7 +17,7 @@ namespace {
 
 // Formats 0-5 keep flags in the upper three bits.
 constexpr unsigned kShortClass = 0x1F;
-constexpr int kTile = 512;  ///< cells: what points that lie together read at once
+constexpr int kTile = 512;  ///< cells: part of the raster that is read for neighbouring points
 
 /// Bands that come from the cells; a point has its own height and intensity.
 std::vector<std::string> bandsOfCells(const GaussianModel& model) {
@@ -156,7 +156,8 @@ void PointClasses::classify(const std::vector<Point>& points, const Group& group
   const PointClassifier classifier(classifier_, part);
   for (const Group::Member& member : group.members) {
     const Point& point = points[member.point];
-    // The cell is that of the whole raster: a point on an edge may round into another of the part.
+    // The cell is that of the whole raster: a point on an edge may be rounded into another cell of
+    // the part.
     const std::size_t cell =
         part->grid.index(member.column - window.column, member.row - window.row);
     classes[member.point] = classifier.classifyIn(cell, point.z, point.intensity).index;

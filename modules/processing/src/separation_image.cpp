@@ -40,7 +40,7 @@ class OverviewCounts {
   SeparationOverview overview() const {
     SeparationOverview result = overview_;
     for (const auto& counts : counts_) {
-      // Where anything was measured, cells that one strip alone has say nothing.
+      // Where two strips were compared, cells of a single strip are not considered.
       const auto most = std::max_element(counts.begin() + 1, counts.end());
       auto code = static_cast<std::uint8_t>(SeparationOverview::nothing);
       if (*most > 0)
@@ -100,7 +100,7 @@ void writeRows(const std::vector<SwathSeparation::Cell>& cells, const RasterWind
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const SeparationPixel pixel = separationPixel(cells[i], stretch, summary.limit);
     const std::array<std::uint8_t, 3> rgb{pixel.red, pixel.green, pixel.blue};
-    // 0 stands for no data in each band of the GeoTIFF.
+    // 0 means no data in each band of the GeoTIFF.
     for (std::size_t k = 0; k < 3; ++k)
       bands[k][i] = pixel.alpha == 0 ? std::uint8_t{0} : std::max<std::uint8_t>(1, rgb[k]);
     const int row = window.row + static_cast<int>(i) / window.columns;

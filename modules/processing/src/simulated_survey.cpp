@@ -8,8 +8,8 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/io/crs.h>
-#include <pcl_als/io/las_writer.h>
+#include <pcl_als/crs/crs.h>
+#include <pcl_als/las/las_writer.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/radiometry.h>
 

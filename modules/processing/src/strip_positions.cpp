@@ -30,7 +30,7 @@ void addRun(const PointChunk& chunk, std::size_t from, std::size_t to,
   }
 }
 
-/// Adds those points of a chunk that the arrangement says are of the strip.
+/// Adds the points of a chunk that belong to the strip by the arrangement.
 void addArranged(const StripFiles& strip, StripArrangement::Sorter& sorter, const PointChunk& chunk,
                  const Eigen::AlignedBox2d& box, StripPoints& points) {
   for (std::size_t from = 0; from < chunk.size();) {

@@ -16,7 +16,8 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kBytesPerCell = 380.0;  ///< at most, of a tile at work, see SurfaceAccumulator
+/// at most, of a tile that is processed, see SurfaceAccumulator
+constexpr double kBytesPerCell = 380.0;
 
 /// A file and the box its header gives, wider by its resolution.
 struct BoxedFile {
@@ -30,7 +31,7 @@ struct BoxedFile {
   }
 };
 
-/// As many threads as tiles have room at once in half of the memory.
+/// The number of threads whose tiles fit into half of the memory.
 int threadsFor(const RasterTile& tile, int threads) {
   const double memory = physicalMemory(),
                needed = kBytesPerCell * static_cast<double>(tile.padded.cells());

@@ -9,7 +9,7 @@
 namespace pcl_als {
 namespace {
 
-/// The grid of the images; null where none are wanted or no strips overlap.
+/// The grid of the images; null where none are requested or no strips overlap.
 std::unique_ptr<SwathSeparation> separationOf(const SurveyReader& survey, const BlockCheck& check,
                                               const SurveyCheckOptions& options,
                                               ProgressReport& progress) {

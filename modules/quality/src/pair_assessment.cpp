@@ -22,7 +22,7 @@ constexpr double kSteep = 10.0 * kRadiansPerDegree;
 constexpr double kSignificant = 3.841;  // 95 % of chi-squared with one degree of freedom
 constexpr double kLeastVertical = 0.5;  // cosine: 60 degrees, the steepest of the slope classes
 // metres: shifts with larger standard deviations are not determined
-constexpr double kWeakest = 0.5;
+constexpr double kLargestShiftStd = 0.5;
 constexpr double kCopied = 0.5;                                       // share of identical points
 constexpr double kSlopeSteps[] = {0.0, 5.0, 10.0, 20.0, 30.0, 60.0};  // degrees
 constexpr int kAspects = 8;
@@ -111,7 +111,7 @@ HorizontalShift horizontalShift(const std::vector<OffsetSample>& samples) {
   const Eigen::Vector3d raised = (found.std_formal.cwiseAbs2() + deformation).cwiseSqrt();
   found.std = found.std.cwiseMax(raised);
   found.rms = result.rms;
-  if (!(found.std.maxCoeff() < kWeakest)) {
+  if (!(found.std.maxCoeff() < kLargestShiftStd)) {
     found.reason = "slopes over 10 degrees do not face in enough directions";
     return found;
   }

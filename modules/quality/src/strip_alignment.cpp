@@ -62,6 +62,11 @@ PatchAlignmentResult alignStrips(const std::vector<AreaOffsets>& areas, int a, i
   }
   origin = LocalFrame::around(origin / std::max(count, 1.0)).origin;
   const Points source = pointsOf(areas, a, b, origin), target = pointsOf(areas, b, a, origin);
+  if (source.empty() || target.empty()) {
+    PatchAlignmentResult nothing;
+    nothing.message = "no area of the overlap has enough points of both strips";
+    return nothing;
+  }
   return alignPatches(viewOf(source, origin), viewOf(target, origin), settings);
 }
 

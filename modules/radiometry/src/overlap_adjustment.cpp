@@ -78,7 +78,7 @@ class Adjustment {
  private:
   OverlapResult tooFew() {
     const std::string reason = "only " + std::to_string(result_.cells) +
-                               " smooth cells are seen by two strips; " +
+                               " smooth cells are covered by two strips; " +
                                std::to_string(settings_.least_cells) + " are needed";
     for (std::size_t t = 0; t < kRadiometricTermCount; ++t)
       if (wanted_[t]) refuse(t, reason);
@@ -147,7 +147,7 @@ class Adjustment {
     return "the gain of strip " + strips_[static_cast<std::size_t>(row - terms)];
   }
 
-  /// True where a term was set back to its given value, and the rest has to be solved again.
+  /// True where a term was set back to its given value, so that the others are solved again.
   bool dropWorst() {
     if (!solution_.regular) {
       for (const std::size_t t : {2U, 0U, 1U}) {

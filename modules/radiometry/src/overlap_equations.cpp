@@ -18,7 +18,7 @@ namespace {
 /// A cell's mean has the variance of its points and as much again as of this many of them.
 constexpr double kPointsOfTexture = 5.0;
 constexpr int kScaleRounds = 6;  ///< after which the scale of the residuals stays
-constexpr double kNoWitness = 1e3;
+constexpr double kSingleClusterFactor = 1e3;
 constexpr double kSingular = 1e-11;  ///< smallest eigenvalue of the scaled normal matrix
 
 double weightOf(double points) {
@@ -133,7 +133,7 @@ std::vector<double> OverlapEquations::residuals(const OverlapUnknowns& unknowns,
     }
     mean /= sum;
     const auto views = static_cast<double>(first_[cell + 1] - first_[cell]);
-    // With two views both residuals are half their difference: the mean has taken the rest.
+    // With two strips both residuals are half their difference, because the mean was estimated.
     const double inflated = std::sqrt(views / (views - 1.0));
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i)
       residual[i] = (residual[i] - mean) * std::sqrt(rows_[i].weight) * inflated;
@@ -190,8 +190,8 @@ void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighi
     for (; at < by_cluster_.size() && cluster_[by_cluster_[at]] == cluster; ++at)
       addCell(unknowns, by_cluster_[at], weighing, score, own);
     Eigen::VectorXd moved = solveSymmetric(all - own, score);
-    // An unknown that stands on this cluster alone has no other witness.
-    if (!moved.allFinite()) moved.setConstant(kNoWitness);
+    // An unknown determined by this cluster alone has no other estimate for comparison.
+    if (!moved.allFinite()) moved.setConstant(kSingleClusterFactor);
     solution.covariance += moved * moved.transpose();
     fourths += moved.array().pow(4);
   }

@@ -19,7 +19,7 @@ namespace {
 /// tells from 0 or infinity.
 ALS_INLINE double exponential(double x) {
   constexpr double kPerLn2 = 1.4426950408889634, kLn2 = 0.69314718055994531, kMost = 600.0;
-  // Adding 1.5 * 2^52 rounds to a whole number, which then stands in the low bits.
+  // Adding 1.5 * 2^52 rounds to a whole number, which is then in the low bits.
   constexpr double kShift = 6755399441055744.0;
   x = x < -kMost ? -kMost : x;
   x = x > kMost ? kMost : x;

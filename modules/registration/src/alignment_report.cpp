@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kGentleCosine = 0.98481;  // 10 degrees
 // metres: a priori uncertainty of a direction that is left unchanged
-constexpr double kGuessStd = 1.0;
+constexpr double kHeldDirectionStd = 1.0;
 
 DistanceSummary summary(const RunningStatistics& statistics) {
   return {statistics.mean(), statistics.rms()};
@@ -50,7 +50,7 @@ void AlignmentReport::fillParameters(PatchAlignmentResult& result) const {
     double variance = 0.0;
     for (int i = 0; i < directions_.weak; ++i) {
       const double sigma = 1.0 / std::sqrt(std::max(directions_.values[i], 1e-12));
-      const double share = directions_.vectors(p, i) * std::min(sigma, kGuessStd);
+      const double share = directions_.vectors(p, i) * std::min(sigma, kHeldDirectionStd);
       variance += share * share;
     }
     auto& parameter = result.parameters[p];
@@ -69,7 +69,7 @@ void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& r
   UnknownsMatrix weak = UnknownsMatrix::Zero();
   for (int i = 0; i < directions_.weak; ++i) {
     const double sigma = 1.0 / std::sqrt(std::max(directions_.values[i], 1e-12));
-    const double variance = std::min(sigma, kGuessStd) * std::min(sigma, kGuessStd);
+    const double variance = std::min(sigma, kHeldDirectionStd) * std::min(sigma, kHeldDirectionStd);
     weak += variance * directions_.vectors.col(i) * directions_.vectors.col(i).transpose();
   }
   NormalEquations all;

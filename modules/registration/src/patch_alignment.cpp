@@ -29,17 +29,17 @@ constexpr double kFirstFineThreshold = 3.0;  // metres, upper limit
 constexpr double kLeastThreshold = 0.25;     // metres
 constexpr double kThresholdSigmas = 8.0;
 constexpr std::size_t kFewestPairs = 50;
-constexpr double kGroups = 60.0;   // of the jackknife, approximately
-constexpr double kResting = 5e-3;  // metres: an update that ends a stage of the iteration
+constexpr double kGroups = 60.0;       // of the jackknife, approximately
+constexpr double kSmallUpdate = 5e-3;  // metres: an update that ends a stage of the iteration
 // The first stage uses a part of the candidates.
 constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
-constexpr double kSwing = 10.0;  // admissible oscillation of updates, over the limit of convergence
-constexpr std::size_t kSecondOpinionPairs = 25'000;
+constexpr double kOscillation = 10.0;  // of updates, over the limit of convergence
+constexpr std::size_t kSecondEstimatePairs = 25'000;
 // This estimate contributes half of the variance of the difference, which is estimated from two
 // values: Student's 95 % limit with two degrees of freedom is 4.303 standard deviations instead of
 // 1.960.
 constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
-constexpr double kFrozen = 1e-3;  // metres: below, the threshold is no longer changed
+constexpr double kThresholdChange = 1e-3;  // metres: below, the threshold is no longer changed
 
 struct Extent {
   Eigen::AlignedBox3d box;
@@ -256,7 +256,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   all.roughness = 20.0 * criterion_.plain_roughness;
   all.edge_factor = 8.0;
   all.slope = 1.45;
-  chooseCandidates(areas, all, std::min(settings_.pairs, kSecondOpinionPairs));
+  chooseCandidates(areas, all, std::min(settings_.pairs, kSecondEstimatePairs));
   robustness_ = Robustness::trusting();
   frozen_ = false;
   PatchPairs pairs;
@@ -318,13 +318,13 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
       if (frozen_) keepSwing(update);
       return true;
     }
-    if (!last && (stalled || moved < kResting)) {
+    if (!last && (stalled || moved < kSmallUpdate)) {
       last = stride == 1;
       stride = 1;
       if (last) robustness_ = Robustness();
       history = UpdateHistory();
     }
-    if (moved > kFrozen && !frozen_)
+    if (moved > kThresholdChange && !frozen_)
       threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);
   }
   --result_.iterations;
@@ -349,7 +349,7 @@ Unknowns Alignment::returnToGuess() const {
 /// Whether an update is far below the uncertainty of the estimate.
 bool Alignment::isSmall(const Unknowns& update) const {
   const Unknowns parts = directions_.vectors.transpose() * update;
-  return parts.cwiseAbs2().dot(directions_.values) < kSwing * kSwing;
+  return parts.cwiseAbs2().dot(directions_.values) < kOscillation * kOscillation;
 }
 
 PatchAlignmentResult Alignment::run(const PointView& source, const PointView& target) {

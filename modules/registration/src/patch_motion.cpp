@@ -12,7 +12,7 @@ namespace pcl_als {
 Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points) {
   using namespace registration;
   constexpr std::size_t kFewest = 6;
-  constexpr double kUnfixed = 10.0;  // metres
+  constexpr double kUndetermined = 10.0;  // metres
   constexpr int kPasses = 3;
   if (points.size() < kFewest) return Eigen::Affine3d::Identity();
   AdjustmentFrame frame;
@@ -29,7 +29,7 @@ Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points) {
   Unknowns motion = Unknowns::Zero();
   for (int pass = 0; pass < kPasses; ++pass) {
     const NormalEquations equations = adjustment.accumulate(motion, adjustment.scatter(motion));
-    motion += solveDetermined(equations, analyse(equations, frame.unknowns(), kUnfixed));
+    motion += solveDetermined(equations, analyse(equations, frame.unknowns(), kUndetermined));
   }
   return frame.motionOf(motion);
 }

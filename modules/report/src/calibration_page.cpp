@@ -81,7 +81,7 @@ void addParameters(HtmlReport& report, const CalibrationResult& result) {
   report.addTable(parameterTable(result));
   report.addPicture(drawParameters(result, {1400, 900}).image(),
                     "Estimated biases with 95 % intervals; an interval shorter than its dot is not "
-                    "seen, the figures on the right give it.");
+                    "visible; the figures on the right state it.");
   if (result.correlation_order.size() > 1) {
     report.addPicture(drawCorrelation(result, kSquare).image(),
                       "Correlation of the estimates: near ±1, the block can hardly separate two "
@@ -122,7 +122,7 @@ void addProfile(HtmlReport& report, const SurveyReader& survey, const Calibratio
   report.addSection("Profile");
   const auto profile = findProfile(survey, BiasEvaluator(trajectory, result.biases()));
   if (!profile || profile->after.seen() == 0) {
-    report.addText("No two strips see the same gable roof or slope.");
+    report.addText("No two strips cover the same gable roof or slope.");
     return;
   }
   SectionPicture picture;
@@ -130,7 +130,7 @@ void addProfile(HtmlReport& report, const SurveyReader& survey, const Calibratio
   picture.setStrips(survey.strips());
   picture.addPanel("As delivered", profile->before);
   picture.addPanel("Calibrated", profile->after);
-  // So high that heights are not drawn smaller than lengths, if a page has room for it.
+  // High enough that heights are not drawn smaller than lengths, if the page permits.
   PictureSize size{1400, 800};
   while (size.height < 1600 && picture.exaggeration(size) < 1.0) size.height += 100;
   report.addPicture(picture.draw(size).image(),

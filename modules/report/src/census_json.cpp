@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <nlohmann/json.hpp>
 
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
 
 #include "left_out_json.h"

@@ -5,8 +5,9 @@
 #include <cstdio>
 
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/io/las_file.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
 
 namespace pcl_als {
@@ -79,7 +80,7 @@ std::string typeName(const LasExtraField& field) {
   return names[static_cast<std::size_t>(field.type)];
 }
 
-/// What only LAS files have: software, extra bytes, variable length records.
+/// Contents of LAS files only: software, extra bytes, variable length records.
 std::string lasText(const std::filesystem::path& path) {
   const LasFile file(path);
   const LasHeader& h = file.header();
@@ -167,7 +168,7 @@ std::string overlapsText(const SurveyCensus& survey) {
                    std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area));
   if (!text.empty()) text = "Overlaps\n" + text;
   for (std::size_t n = 0; n < survey.area_by_strips.size(); ++n)
-    text += format("%s%zu: %.0f m2", n == 0 ? "  seen by number of strips: " : ", ", n + 1,
+    text += format("%s%zu: %.0f m2", n == 0 ? "  covered by number of strips: " : ", ", n + 1,
                    survey.area_by_strips[n]);
   return text + (survey.area_by_strips.empty() ? "" : "\n");
 }

@@ -118,7 +118,7 @@ std::string overlapText(const OverlapResult& overlaps, const std::vector<std::st
       << " smooth cells (standard deviation over mean of a cell)\n";
   variationLine("as received", overlaps.before, out);
   variationLine("with the given model", overlaps.physics, out);
-  if (!overlaps.order.empty()) variationLine("with what was estimated", overlaps.after, out);
+  if (!overlaps.order.empty()) variationLine("with the estimated terms", overlaps.after, out);
   return out.str();
 }
 

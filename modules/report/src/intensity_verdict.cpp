@@ -20,7 +20,7 @@ std::string change(double before, double after) {
   return (relative > 0.0 ? "+" : "") + percent(relative);
 }
 
-/// What overlaps differ by after the correction.
+/// Differences in the overlaps after the correction.
 const CellVariation& variationAfter(const OverlapResult& overlaps) {
   return overlaps.order.empty() ? overlaps.physics : overlaps.after;
 }
@@ -74,7 +74,9 @@ class VerdictOnIntensity {
   }
 
  private:
-  bool overlapping() const { return report_.result->overlaps && report_.result->overlaps->cells > 0; }
+  bool overlapping() const {
+    return report_.result->overlaps && report_.result->overlaps->cells > 0;
+  }
   void say(const std::string& sentence) { verdict_.sentences.push_back(sentence); }
 
   std::string ratioText() const {
@@ -85,8 +87,9 @@ class VerdictOnIntensity {
   void sayRatio() {
     if (overlapping()) {
       say(ratioText() + ", at the same mean.");
-      say("Differences are standard deviation over mean in " + countText(report_.result->overlaps->cells) +
-          " smooth cells that several strips see, median of the cells; the given model alone "
+      say("Differences are standard deviation over mean in " +
+          countText(report_.result->overlaps->cells) +
+          " smooth cells that several strips cover, median of the cells; the given model alone "
           "leaves " +
           percent(report_.result->overlaps->physics.median) + ".");
     }
@@ -142,8 +145,9 @@ class VerdictOnIntensity {
       say("No reflectance: no target has enough points.");
       return;
     }
-    say("Reflectance is corrected intensity / " + significantText(report_.result->reference->constant, 5) +
-        ", good to " + percent(report_.result->reference->relative_std) + ".");
+    say("Reflectance is corrected intensity / " +
+        significantText(report_.result->reference->constant, 5) + ", good to " +
+        percent(report_.result->reference->relative_std) + ".");
   }
 
   void sayCounts() {

@@ -8,7 +8,7 @@
 
 namespace pcl_als {
 
-/// A number of a result file; null for what is not known.
+/// A number of a result file; null where it is unknown.
 inline nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-/// A cell of a CSV: quoted where it has to be; empty for a number that is not known.
+/// A cell of a CSV: quoted where necessary; empty for an unknown number.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string out = "\"";
@@ -179,7 +179,7 @@ std::string controlCsv(const QualityReport& report) {
   return out.str();
 }
 
-/// What differs from run to run, apart from the results.
+/// Values that differ between identical runs, separate from the results.
 std::string runCsv(const QualityReport& report) {
   std::ostringstream out;
   out << "set,a,b,milliseconds,peak_memory_mb\n";

@@ -46,7 +46,7 @@ std::vector<double> heightsOf(const CheckedBlock& block) {
   return heights;
 }
 
-/// What most values are within, on either side of zero.
+/// Limit on both sides of zero that contains most values.
 double reachOf(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
   const auto most = values.begin() + static_cast<std::ptrdiff_t>(0.99 * values.size());

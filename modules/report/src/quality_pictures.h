@@ -13,7 +13,7 @@ namespace pcl_als {
 /// RMSDz of the pairs against the limits of the quality levels.
 BeforeAfterPlot heightPlot(const QualityReport& report);
 
-/// What offsets are plotted against.
+/// Quantities against which offsets are plotted.
 enum class OffsetAgainst { distance, scan_angle, time };
 /// Height offsets of the pairs, one panel each; no panel where nothing was measured.
 CurvePanels offsetPanels(const QualityReport& report, OffsetAgainst against);

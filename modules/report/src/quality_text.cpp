@@ -22,7 +22,7 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
   return line;
 }
 
-/// "+0.0123", or a dash for what is unknown.
+/// "+0.0123", or a dash for an unknown number.
 std::string metres(double value, int digits = 4) {
   return std::isfinite(value) ? format("%+.*f", digits, value) : "-";
 }
@@ -168,7 +168,7 @@ QualityTable trendTable(const QualityReport& report) {
 std::string triangleText(const QualityReport& report) {
   if (report.block.triangles.empty()) return {};
   std::string text =
-      "\nClosure of height differences around three strips, on the ground that all three see, "
+      "\nClosure of height differences around three strips, on the ground that all three cover, "
       "m\n\n";
   constexpr std::size_t kMost = 20;
   const auto& all = report.block.triangles;
@@ -207,7 +207,7 @@ std::optional<QualityTable> controlTable(const QualityReport& report) {
   return table;
 }
 
-/// What the standards make of control.
+/// Assessment of control by the standards.
 std::string controlFigures(const QualityReport& report) {
   if (!report.block.control) return {};
   std::string text;

@@ -27,7 +27,7 @@ void addMap(const std::vector<ControlPoint>& control, const StripCoverage& cover
     boxes.push_back({area.minimum, area.minimum + Eigen::Vector2d::Constant(area.size)});
   }
   map.setAreas(std::move(boxes));
-  std::string caption = "Outlines of the strips and how many see a place";
+  std::string caption = "Outlines of the strips and number of strips at each place";
   if (!areas.empty()) caption += ", areas that were used";
   if (!control.empty()) {
     std::vector<Eigen::Vector2d> places;

@@ -12,7 +12,7 @@
 
 namespace pcl_als {
 
-/// What a result comes to, in plain words.
+/// Conclusion from a result, in sentences.
 struct Verdict {
   VerdictGrade grade = VerdictGrade::attention;
   std::string headline;

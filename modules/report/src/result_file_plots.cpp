@@ -28,7 +28,7 @@ std::vector<double> numbers(const Json& list) {
   return values;
 }
 
-/// Names become file names: what is no letter, digit, - or _ is replaced.
+/// Names become file names: characters other than letters, digits, - and _ are replaced.
 std::string fileName(std::string name) {
   for (char& c : name) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';

@@ -63,7 +63,7 @@ bool suitsControl(const Eigen::Vector2d& place, const Scene& scene,
   return scene.terrain().normal(place.x(), place.y()).z() > kSteepest;
 }
 
-/// The cover seen from above, where it is the same all around; else nothing.
+/// The cover seen from above where it is uniform around the place; otherwise none.
 bool uniformCover(const Eigen::Vector2d& place, const Scene& scene, LandCover& cover) {
   cover = scene.topCover(place.x(), place.y());
   const double radius = cover == LandCover::tree ? 0.7 : 1.5;
@@ -119,7 +119,7 @@ std::vector<ControlPoint> chooseControlPoints(const Scene& scene,
   const auto [lower, upper] = plannedRectangle(options);
   double distance =
       std::sqrt((upper - lower).prod() / std::max<double>(1.0, options.control_points));
-  constexpr int kTries = 4000;  // then the points may stand closer together
+  constexpr int kTries = 4000;  // after which the points may be closer together
   for (int round = 0; round < 12 && points.size() < wanted; ++round, distance *= 0.7)
     for (int i = 0; i < kTries && points.size() < wanted; ++i) {
       const Eigen::Vector2d place = places.next();

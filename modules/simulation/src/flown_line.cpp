@@ -41,7 +41,7 @@ class Sway {
   std::array<Wave, 3> waves_{};
 };
 
-/// How the pilot and the air move the aircraft along a line.
+/// Motion of the aircraft along a line due to pilot and air.
 class Motion {
  public:
   Motion(const PlannedLine& plan, const SimulationOptions& options, double wind)

@@ -20,7 +20,7 @@ constexpr double kSetback = 18.0;  ///< from the middle of the street to that of
 constexpr double kLot = 26.0;      ///< metres of street per house
 constexpr double kSteepestLot = 0.22;
 
-/// Keeps things apart: circles in plan, looked up by cells.
+/// Keeps objects apart: circles in plan, indexed by cells.
 class Occupancy {
  public:
   bool free(const Eigen::Vector2d& centre, double radius) const {

@@ -21,7 +21,7 @@ struct Tree {
   std::uint64_t key = 0;      ///< of its leaves
 };
 
-/// Where streets, houses and trees are.
+/// Positions of streets, houses and trees.
 struct Layout {
   std::vector<Building> buildings;
   std::vector<Tree> trees;

@@ -31,7 +31,7 @@ Echo joined(const Echo& a, const Echo& b) {
 
 }  // namespace
 
-/// What comes back of a surface, as a share of what comes back at normal incidence.
+/// Energy returned by a surface over that at normal incidence.
 double PulseTracer::returned(double cosine) const {
   const double exponent = scanner_.incidence_exponent;
   return exponent == 1.0 ? cosine : std::pow(cosine, exponent);

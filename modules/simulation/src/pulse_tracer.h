@@ -11,7 +11,7 @@
 
 namespace pcl_als::simulation {
 
-/// What comes back from one range of a pulse.
+/// Echo from one range of a pulse.
 struct Echo {
   double range = 0.0;        ///< metres along the beam's axis
   double share = 0.0;        ///< of the pulse's energy

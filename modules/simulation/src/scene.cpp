@@ -66,7 +66,7 @@ struct Scene::State {
                 SurfaceHit& hit) const;
   void collect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double ground,
                std::vector<SurfaceHit>& hits) const;
-  /// Where a ray that meets the terrain at a range can first meet an object.
+  /// Range from which a ray that intersects the terrain at a given range can intersect an object.
   double objectsFrom(const Eigen::Vector3d& direction, double ground) const {
     const double sideways = std::hypot(direction.x(), direction.y());
     const double descent = -direction.z() - terrain.maximumSlope() * sideways;

@@ -46,7 +46,7 @@ std::vector<FlownLine> fly(const SimulationOptions& options) {
   return lines;
 }
 
-/// What is the same for all pulses of a block.
+/// Data common to all pulses of a block.
 struct Instrument {
   explicit Instrument(const SimulationOptions& options)
       : true_system(options.mounting),

@@ -159,7 +159,7 @@ std::size_t StripArrangement::labelFor(const std::string& strip,
   return labels_.size() - 1;
 }
 
-/// Of the points that have times, in bins of the track.
+/// Points with times, in bins of the track.
 double StripArrangement::coveredShare(const Piece& piece, std::uint64_t& covered) const {
   std::uint64_t all = 0;
   covered = 0;
@@ -199,7 +199,7 @@ bool StripArrangement::losesTimeless(const Key& key, const StripChoice& choice) 
                      [](const PointSource& source) { return source.hasTimes(); });
 }
 
-/// Why a piece is left out as a whole, if it is, and how many of its points are covered.
+/// The reason for which a part is left out as a whole, if any, and its number of covered points.
 std::optional<LeftOutReason> StripArrangement::whyNone(const Piece& piece,
                                                        const StripChoice& choice,
                                                        std::uint64_t& covered) const {

@@ -15,14 +15,14 @@ using Bins = std::vector<SwathTrack::Bin>;
 using Eigen::Vector2d;
 
 constexpr double kGap = 1.0 + 1e-6;   // s: times may be whole seconds, which is no gap
-constexpr double kHalfWindow = 2.0;   // s on either side that show a course
-constexpr double kLeastWindow = 1.0;  // s: shorter stretches show none
-constexpr double kLeastSpeed = 1.0;   // m/s: slower is standing still
+constexpr double kHalfWindow = 2.0;   // s on either side from which a course is determined
+constexpr double kLeastWindow = 1.0;  // s: shorter stretches have no course
+constexpr double kLeastSpeed = 1.0;   // m/s: slower means at rest
 constexpr double kLeastRate = 1.5 * kRadiansPerDegree;   // rad/s: half a standard-rate turn
 constexpr double kTurn = 30.0 * kRadiansPerDegree;       // of the trajectory: a line has bends
 constexpr double kSwathTurn = 60.0 * kRadiansPerDegree;  // of the swath's centre, less certain
 constexpr double kLeastCertain = 0.15;  // rad, standard deviation of the swath's course
-constexpr double kStep = 0.25;          // s between courses that are summed over a gap
+constexpr double kStep = 0.25;          // s between courses whose changes are added up over a gap
 
 /// Angle from one direction to another, (-pi, pi].
 double turned(const Vector2d& from, const Vector2d& to) {
@@ -117,7 +117,7 @@ class Courses {
   const Trajectory* flight_;
 };
 
-/// Whether the points behind the gap before bin \a at belong to another line.
+/// Whether the points after the gap before bin \a at belong to another line.
 bool cutsAt(const Bins& bins, std::size_t start, std::size_t at, const Courses& courses) {
   const double gap = bins[at].first - bins[at - 1].last;
   if (gap <= kGap) return false;

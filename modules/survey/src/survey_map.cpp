@@ -59,7 +59,7 @@ int SurveyMap::addStrip() {
 std::int64_t SurveyMap::keyOf(const Eigen::Vector3d& position) const {
   const double column = std::floor((position.x() - anchor_.x()) / kCell);
   const double row = std::floor((position.y() - anchor_.y()) / kCell);
-  constexpr double kLimit = 1e9;  // far beyond the Earth: a coordinate like this is no coordinate
+  constexpr double kLimit = 1e9;  // far beyond the Earth: not a valid coordinate
   if (!(std::abs(column) < kLimit && std::abs(row) < kLimit))
     throw InputError("a point lies 10 000 000 km away");
   return packed(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
@@ -93,7 +93,7 @@ void SurveyMap::add(int index, const CalibrationPoint* points, std::size_t count
 }
 
 std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
-  // By cell and not by pair: of a thousand strips hardly any two meet.
+  // By cell and not by pair, because of a thousand strips few overlap.
   std::vector<std::pair<std::int64_t, int>> touched;
   for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
     for (const auto& [key, cell] : strips_[strip].cells) {
@@ -138,8 +138,8 @@ SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
 double SurveyMap::score(const Cell& a, const Cell& b) const {
   constexpr std::uint32_t kEnough = 10;
   constexpr double kMostlySolid = 0.15;  // share of points of pulses with several returns
-  constexpr double kFlat = 0.2;          // metres: flat ground counts too, for heights
-  constexpr double kRelief = 2.0;        // metres: more than this is no better
+  constexpr double kFlat = 0.2;          // metres: flat ground is also used, for heights
+  constexpr double kRelief = 2.0;        // metres: further relief has no advantage
   double relief = kRelief;
   for (const Cell* cell : {&a, &b}) {
     if (cell->last_returns < kEnough || cell->multiple > kMostlySolid * cell->points) return 0.0;
@@ -152,7 +152,7 @@ double SurveyMap::score(const Cell& a, const Cell& b) const {
 
 namespace {
 
-/// Areas of one pair of strips in the order in which it wants them.
+/// Areas of one pair of strips in the order of their choice.
 std::vector<std::int64_t> ranked(const std::map<std::int64_t, double>& scores) {
   std::map<std::int64_t, std::vector<std::pair<double, std::int64_t>>> groups;
   for (const auto& [area, score] : scores) groups[coarser(area, kGroup)].emplace_back(-score, area);

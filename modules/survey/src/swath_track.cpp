@@ -9,9 +9,9 @@ namespace pcl_als {
 namespace {
 
 constexpr double kCentimetres = 100.0;  // in a metre
-// Metres: beyond is no place on Earth. Sums of 9e8 such coordinates fit into 64 bits.
+// Metres: larger values are no places on Earth. Sums of 9e8 such coordinates fit into 64 bits.
 constexpr double kFarthest = 1e8;
-constexpr double kLatest = 1e12;  // seconds: beyond is no time
+constexpr double kLatest = 1e12;  // seconds: larger values are not valid
 
 }  // namespace
 

@@ -10,7 +10,8 @@
 namespace pcl_als::tin {
 namespace {
 
-/// What the radix sort moves: the leading 32 bits of the largest code's width, and the input index.
+/// Element of the radix sort: the leading 32 bits of the width of the largest code, and the input
+/// index.
 struct Entry {
   std::uint32_t leading;
   std::int32_t point;

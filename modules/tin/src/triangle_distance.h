@@ -17,7 +17,7 @@ Eigen::Vector3d areaNormal(const Tin& tin, std::int32_t triangle);
 /// areaNormal() made unit and upward; straight up for a triangle without area.
 Eigen::Vector3d unitNormal(const Tin& tin, std::int32_t triangle);
 
-/// How far a point is from a triangle in 3D.
+/// Distance of a point from a triangle in 3D.
 struct TriangleDistance {
   double distance_sq = 0.0;  ///< square metres
   bool inside = false;       ///< the point's projection along the normal falls inside

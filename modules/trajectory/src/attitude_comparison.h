@@ -13,7 +13,7 @@
 
 namespace pcl_als::detail {
 
-/** \brief Roll and pitch of a trajectory against what the points show.
+/** \brief Compares roll and pitch of a trajectory with the attitude that the points indicate.
  *
  * Pitch: that of the pulses' plane (linear scanners). Roll shows in two ways, for any scanner: both
  * edges of the swath move sideways with it, unless the scanner is stabilised or the edge is one of
@@ -29,7 +29,7 @@ class AttitudeComparison {
   AttitudeComparison(const Trajectory& flight, const Trajectory& path)
       : flight_(flight), path_(path) {}
 
-  /// What the points of a strip show, in order of time.
+  /// Attitude from the points of a strip, in order of time.
   void add(const AttitudeRecovery::Outcome& outcome);
 
   struct Result {

@@ -28,7 +28,7 @@ struct PassBin {
 /// Estimates the planes of all bins of a pass: least squares with a random walk in between.
 void smoothPlanes(std::vector<PassBin>& bins);
 
-/// What a pass shows of the scanner; after smoothPlanes().
+/// Properties of the scanner from a pass; after smoothPlanes().
 AttitudeRecovery::Pass judgePass(const std::vector<PassBin>& bins);
 
 /// How recorded scan angles of a pass grow with those from the flight line; -1 where they count to

@@ -40,7 +40,7 @@ std::vector<std::vector<PassBin>> passesOf(
   return passes;
 }
 
-/// Collects what the passes show.
+/// Collects the results of the passes.
 class Recovered {
  public:
   explicit Recovered(double start) : start_(start) {}
@@ -73,7 +73,7 @@ class Recovered {
     instants_.push_back({timeOf(bin), bin.pitch(), bin.crab(), passes_.size()});
   }
   void addSwath(const std::vector<PassBin>& bins);
-  /// The pass that stands for those that are not linear, where they outweigh the others.
+  /// The pass that represents those that are not linear, where these outweigh the others.
   const AttitudeRecovery::Pass* objectingPass() const;
 
   double start_;
@@ -118,7 +118,7 @@ AttitudeRecovery::Range united(const std::vector<AttitudeRecovery::Pass>& passes
   return all;
 }
 
-/// Of pitch and crab together over time, radians.
+/// RMS of pitch and crab together over time, radians.
 double rootMeanSquare(const RecoveredAttitude& attitude) {
   double sum = 0.0, knots = 0.0;
   for (const RecoveredAttitude::Pass& pass : attitude.passes()) {

@@ -10,7 +10,7 @@
 
 namespace pcl_als::detail {
 
-/// Biases in the form the kernel wants them.
+/// Biases in the form that the kernel needs.
 struct MountingBias {
   explicit MountingBias(const SystemVector& biases);
 

@@ -11,14 +11,16 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kFewest = 200.0;                           // points
-constexpr double kNarrow = 3.0 * kRadiansPerDegree;         // standard deviation of seen angles
+constexpr double kFewest = 200.0;  // points
+// standard deviation of the angles from the trajectory
+constexpr double kNarrow = 3.0 * kRadiansPerDegree;
 constexpr double kLargestMisfit = 0.6 * kRadiansPerDegree;  // whole degrees leave 0.29
 constexpr double kLargestAngle = 75.0 * kRadiansPerDegree;
 // Of real trajectories that are right to a metre or two at 400 m the slopes are 0.996 to 1.006.
 constexpr double kAccepted = 0.015;
 constexpr double kGross = 0.25;
-constexpr double kTwoHeights = 1.3;  // ratio: heights and angles can be told apart
+// ratio of flying heights: errors of heights and of angles are separable
+constexpr double kTwoHeights = 1.3;
 
 }  // namespace
 
@@ -88,15 +90,15 @@ HeightError heightError(const std::vector<HeightCheck>& strips) {
                : offset                             ? HeightError::Kind::offset
                                                     : HeightError::Kind::scale;
   char text[400];
-  std::snprintf(text, sizeof text,
-                "the trajectory is %.0f m too %s by the recorded scan angles (their tangents are "
-                "%.3f of those seen from it at %zu strips)%s: check the unit, the vertical datum "
-                "and the reference point of its heights; lever_arm_x, lever_arm_y and range_bias "
-                "depend on them",
-                std::abs(found.metres), high ? "high" : "low", found.slope, errors.size(),
-                found.kind == HeightError::Kind::scale
-                    ? ", unless the recorded angles are wrong by this factor"
-                    : "");
+  std::snprintf(
+      text, sizeof text,
+      "the trajectory is %.0f m too %s by the recorded scan angles (their tangents are %.3f of "
+      "those computed from it at %zu strips)%s: check the unit, the vertical datum and the "
+      "reference point of its heights; lever_arm_x, lever_arm_y and range_bias depend on them",
+      std::abs(found.metres), high ? "high" : "low", found.slope, errors.size(),
+      found.kind == HeightError::Kind::scale
+          ? ", unless the recorded angles are wrong by this factor"
+          : "");
   found.text = text;
   return found;
 }

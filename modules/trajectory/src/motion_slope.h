@@ -13,7 +13,7 @@ struct MotionSample {
   double x = 0.0, y = 0.0;  ///< radians
 };
 
-/** \brief How much one angle changes with another over time, with a realistic standard deviation.
+/** \brief Slope of one angle against another over time, with a realistic standard deviation.
  *
  * Changes over 0.4 to 2 seconds are compared by least squares, dy = a + b dx: constant offsets
  * (mounting angles) and slow trends (the edge of a tile that crosses the flight line) leave b
@@ -31,13 +31,13 @@ class MotionSlope {
   double slope() const { return weight_ > 0.0 ? sum_ / weight_ : 0.0; }
   double std() const;
   /// Whether the slope lies above (below) a value by four of its standard deviations.
-  bool above(double value) const { return known() && slope() - kSure * std() > value; }
-  bool below(double value) const { return known() && slope() + kSure * std() < value; }
+  bool above(double value) const { return known() && slope() - kSignificantStd * std() > value; }
+  bool below(double value) const { return known() && slope() + kSignificantStd * std() < value; }
   /// RMS change of x in the series that count, radians.
   double motionX() const;
 
  private:
-  static constexpr double kSure = 4.0;
+  static constexpr double kSignificantStd = 4.0;
   double weight_ = 0.0, sum_ = 0.0, sum_sq_ = 0.0;  ///< of the slopes
   double motion_ = 0.0;                             ///< of the squared changes of x
   std::size_t series_ = 0;

@@ -156,9 +156,10 @@ bool TrajectoryPlausibility::viewOf(const Strip& strip, View& view) {
   return true;
 }
 
-/// Strips flown one way then see ahead and strips flown the other way back, which no mounting of
-/// the scanner explains: ahead = c height - offset . direction, for all strips together. Across
-/// parallel lines nothing shows it.
+/// With a displaced trajectory, strips of one direction appear to be measured ahead and strips of
+/// the opposite direction behind, which no mounting of the scanner explains:
+/// ahead = c height - offset . direction, for all strips together. A displacement across parallel
+/// lines is not visible.
 Eigen::Vector2d TrajectoryPlausibility::offset(const std::vector<View>& views) const {
   double hh = 0.0, ha = 0.0;
   Eigen::Vector2d hd = Eigen::Vector2d::Zero(), da = hd;
@@ -170,19 +171,20 @@ Eigen::Vector2d TrajectoryPlausibility::offset(const std::vector<View>& views) c
   }
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
   if (hh == 0.0) return offset;
-  // The forward direction c eliminated; then each axis that enough strips see from both sides.
-  constexpr double kSeen = 0.3;  // two strips at a right angle: 1; a turn of 30 degrees: 0.13
+  // The common forward direction c is eliminated; then each axis with strips of both directions.
+  constexpr double kCoveredDirections =
+      0.3;  // two strips at a right angle: 1; a turn of 30 degrees: 0.13
   const SymmetricEigen<2> axes = symmetricEigen2(dd - hd * hd.transpose() / hh);
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector2d axis = axes.vectors.col(i);
-    if (axes.values[i] < kSeen) continue;
+    if (axes.values[i] < kCoveredDirections) continue;
     offset -= axis * (axis.dot(da - hd * ha / hh) / axes.values[i]);
   }
   return offset;
 }
 
-/// The doubt: differences in pitch (5 degrees; one where the attitude is known), and for scanners
-/// that see ahead and back at once, of which a part of a strip shows more of one side.
+/// The tolerance allows for differences in pitch (5 degrees; one where the attitude is known), and
+/// for scanners that measure ahead and behind, of which a part of a strip may contain one more.
 void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
   std::vector<View> views;
   View view;
@@ -194,9 +196,9 @@ void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
     spread = std::max(spread, view.spread);
   }
   const double angle = (path_ ? 1.0 : 5.0) * kRadiansPerDegree;
-  const double doubt = spread > 2.0 * std::tan(angle) ? 2.0 * spread : std::tan(angle);
+  const double tolerance = spread > 2.0 * std::tan(angle) ? 2.0 * spread : std::tan(angle);
   const Eigen::Vector2d found = offset(views);
-  if (found.norm() <= doubt * highest) return;
+  if (found.norm() <= tolerance * highest) return;
   findings.push_back({true, "the trajectory lies " + metres(found.norm()) + " (east " +
                                 std::to_string(std::lround(found.x())) + ", north " +
                                 std::to_string(std::lround(found.y())) +

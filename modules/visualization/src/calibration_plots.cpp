@@ -102,7 +102,7 @@ std::string estimateText(SystemParameter parameter, const ParameterEstimate& est
   const SystemParameterInfo& info = infoOf(parameter);
   if (estimate.status == ParameterStatus::estimated) {
     const double std = estimate.std / info.internal_per_unit;
-    // Two digits of the standard deviation say what there is to say.
+    // Two digits of the standard deviation are significant.
     const int leading = std > 0.0 ? static_cast<int>(std::floor(std::log10(std))) : -6;
     const int decimals = std::clamp(1 - leading, 0, 9);
     return numberText(estimate.bias / info.internal_per_unit, decimals) + " ± " +

@@ -159,7 +159,7 @@ void Canvas::polyline(const std::vector<Eigen::Vector2d>& points, double width,
 
 void Canvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
                   const Color& color) {
-  // Level and upright lines are boxes: exact, and the bulk of what plots are made of.
+  // Horizontal and vertical lines are boxes: exact, and the most frequent elements of plots.
   if (from.x() == to.x() || from.y() == to.y()) {
     const Eigen::Vector2d low = from.cwiseMin(to), size = (to - from).cwiseAbs();
     const double half = 0.5 * width;

@@ -37,7 +37,7 @@ void appendRange(const CurvePanels::Panel& panel, std::vector<double>& x, std::v
   }
 }
 
-/// How panels are laid out: about half as high as wide.
+/// Layout of the panels, about half as high as wide.
 struct PanelGrid {
   int columns = 1, rows = 1;
 
@@ -111,7 +111,7 @@ void check(const CurvePanels& plot) {
     appendRange(panel, x, y);
     any = any || !x.empty();
   }
-  if (!any) throw UsageError("plot '" + plot.title + "': holds no point with finite numbers");
+  if (!any) throw UsageError("plot '" + plot.title + "': contains no finite values");
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ std::string tableHtml(const ReportTable& table) {
   for (const auto& row : table.rows) {
     out << "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      // A row that ends early says in words why; the words go across what is left.
+      // A row that ends early has its remark across the remaining columns.
       const std::size_t across = i + 1 == row.size() ? table.columns.size() - i : 1;
       out << (across > 1   ? "<td colspan=\"" + std::to_string(across) + "\">"
               : numbers[i] ? std::string("<td class=\"n\">")

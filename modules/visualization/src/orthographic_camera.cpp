@@ -51,7 +51,7 @@ void OrthographicCamera::frame(const Eigen::Vector3d& minimum, const Eigen::Vect
 void OrthographicCamera::frame(const ViewExtent& extent, int width, int height, double zoom) {
   if (!(zoom > 0.0) || !std::isfinite(zoom)) throw UsageError("camera zoom: must be above 0");
   if (width < 1 || height < 1) throw UsageError("camera: a picture without pixels");
-  if (extent.empty()) throw UsageError("camera: nothing to look at");
+  if (extent.empty()) throw UsageError("camera: the extent is empty");
   width_ = width;
   height_ = height;
   const Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);

@@ -40,7 +40,7 @@ class DepthMap {
   int width_, height_;
 };
 
-/// Rise of depth per pixel along a direction, 0 where nothing is known.
+/// Slope of the depth per pixel along a direction, 0 where it is unknown.
 double slopeAlong(const DepthMap& map, int x, int y, int dx, int dy, int radius) {
   const float here = map.at(x, y);
   float before = 0.0F, after = 0.0F;

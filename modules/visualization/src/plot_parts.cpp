@@ -71,7 +71,7 @@ std::vector<LegendEntry> fitting(std::vector<LegendEntry> entries, double height
 }
 
 std::string shortened(const std::string& text, double width, const TextStyle& style) {
-  // No character is narrower than a fifth of its height: what is longer need not be measured whole.
+  // No character is narrower than a fifth of its height: longer texts need not be measured.
   const auto most = static_cast<std::size_t>(std::max(0.0, 4.0 * 5.0 * width / style.size)) + 16;
   if (text.size() <= most && Canvas::textSize(text, style).x() <= width) return text;
   // Lengths in bytes at which a character of UTF-8 begins: none of those after it that begin

@@ -18,7 +18,7 @@ constexpr double kPlotMargin = 24.0;
 /// Title of a whole picture; returns the y below it.
 double drawTitle(Canvas& canvas, const std::string& title);
 
-/// The text with "…" for its end where it is wider than so many pixels.
+/// The text, shortened with "…" where it is wider than the given number of pixels.
 std::string shortened(const std::string& text, double width, const TextStyle& style);
 
 /// The text in lines of at most so many pixels, broken at blanks; the last of \a most is shortened.

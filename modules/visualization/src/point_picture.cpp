@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMargin = 24.0, kPanel = 210.0, kLeft = 100.0, kFoot = 44.0;
 
-/// Where grid north points to in the picture, x right and y down; zero when straight at the camera.
+/// Direction of grid north in the picture, x right and y down; zero when towards the camera.
 Eigen::Vector2d northIn(const OrthographicCamera& camera) {
   const Eigen::Vector3d north(0.0, 1.0, 0.0);
   return {camera.right().dot(north), -camera.up().dot(north)};
@@ -162,12 +162,12 @@ Canvas PointPicture::draw(const PixelThinning& points, const PointColoring& colo
 void PointPicture::drawPanel(Canvas& canvas, const PixelThinning& points,
                              const PointColoring& coloring) const {
   const double left = map_.right() + kMargin, top = map_.y;
-  const double foot = map_.bottom();  // scale bar and arrow stand here
+  const double foot = map_.bottom();  // position of scale bar and arrow
   const double metres = points.camera().metresPerPixel();
   drawScaleBar(canvas, metres, kPanel - 40.0, {left, foot});
   const Eigen::Vector2d north = northIn(points.camera());
   const double room = foot - 150.0 - top;
-  // A picture too low for scale and arrow has north up, or says where it looks, all the same.
+  // A picture too low for scale and arrow has north up, or states the direction of view.
   if (north.norm() > 0.05 && room > 130.0)
     drawNorthArrow(canvas, {left + 24.0, foot - 92.0}, 46.0, north);
   const bool gaps = anyWithoutValue(points);

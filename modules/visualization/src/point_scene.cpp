@@ -39,7 +39,8 @@ struct PointScene::Scene {
   double radius = 1.0;  ///< of all points about the camera's centre, metres
   Eigen::Vector3d to_camera = Eigen::Vector3d::UnitZ();
 
-  /// What is behind a VTK camera is cut off, in a parallel projection too: it stands back.
+  /// VTK cuts off everything behind the camera, also in a parallel projection: it is placed further
+  /// back.
   void standBack() {
     const Eigen::Vector3d position = (2.0 * radius + 1.0) * to_camera;
     renderer->GetActiveCamera()->SetPosition(position.x(), position.y(), position.z());

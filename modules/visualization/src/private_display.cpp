@@ -43,7 +43,7 @@ std::string findXvfb() {
       "Xvfb is not installed (Debian: apt-get install xvfb)");
 }
 
-/// What Xvfb writes: its display number and a new line. Empty when it ends or takes too long.
+/// Output of Xvfb: its display number and a new line. Empty when it ends or takes too long.
 std::string readNumber(int descriptor) {
   std::string text;
   pollfd waiting{descriptor, POLLIN, 0};
@@ -113,7 +113,7 @@ void PrivateDisplay::start() {
   close(ends[0]);
   if (number.empty()) {
     stop();
-    throw InputError(program + " does not start: run it by hand to see why");
+    throw InputError(program + " does not start; run it in a terminal for its messages");
   }
   name_ = ":" + number;
   setenv("DISPLAY", name_.c_str(), 1);

@@ -45,7 +45,7 @@ void checkCurves(const CurvePlot& plot) {
       any = any || (std::isfinite(series.x[i]) && std::isfinite(series.y[i]));
     }
   }
-  if (!any) refuse(plot.title, "holds no point with finite numbers");
+  if (!any) refuse(plot.title, "contains no finite values");
 }
 
 /// Step outline of a histogram in percent.
@@ -97,7 +97,7 @@ Canvas drawCurves(const CurvePlot& plot, PictureSize size) {
 }
 
 Canvas drawHistogram(const HistogramPlot& plot, PictureSize size) {
-  if (plot.series.empty()) refuse(plot.title, "holds no series");
+  if (plot.series.empty()) refuse(plot.title, "contains no series");
   std::vector<std::vector<double>> percents;
   std::vector<double> all = {0.0};
   std::vector<std::string> names;

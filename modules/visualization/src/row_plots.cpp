@@ -40,7 +40,7 @@ double rowPosition(std::size_t row, std::size_t rows) {
   return static_cast<double>(rows) - static_cast<double>(row) - 0.5;
 }
 
-/// What is in the picture stands for: a marker or line and its name, one after the other.
+/// Legend entries: a marker or line and its name, one after the other.
 class Key {
  public:
   Key(Canvas& canvas, double left, double y) : canvas_(canvas), x_(left), y_(y) {}
@@ -98,7 +98,7 @@ int heightForRows(std::size_t rows) {
 }
 
 Canvas drawBeforeAfter(const BeforeAfterPlot& plot, PictureSize size) {
-  if (plot.rows.empty()) throw UsageError("plot '" + plot.title + "': holds no row");
+  if (plot.rows.empty()) throw UsageError("plot '" + plot.title + "': contains no row");
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, plot.title);
   std::vector<double> values = {0.0};
@@ -137,7 +137,7 @@ Canvas drawBeforeAfter(const BeforeAfterPlot& plot, PictureSize size) {
 }
 
 Canvas drawIntervals(const IntervalPlot& plot, PictureSize size) {
-  if (plot.rows.empty()) throw UsageError("plot '" + plot.title + "': holds no row");
+  if (plot.rows.empty()) throw UsageError("plot '" + plot.title + "': contains no row");
   Canvas canvas(size.width, size.height);
   const double top = detail::drawTitle(canvas, plot.title);
   std::vector<double> reach;

@@ -17,7 +17,7 @@ namespace {
 
 using detail::kPlotMargin;
 
-/// "1.5", "20": without what is not there.
+/// "1.5", "20": without trailing zeros.
 std::string shortNumber(double value) {
   const bool whole = std::abs(value - std::round(value)) < 1e-9;
   return whole ? numberText(value, 0) : significantText(value, 2);

@@ -12,7 +12,7 @@ constexpr double kSmooth = 0.12;          // m: rms of a plane's points
 constexpr double kLeastTangent = 0.2;     // 11 degrees
 constexpr double kMostTangent = 1.7;      // 60 degrees: steeper are walls
 constexpr double kSameSurface = 0.97;     // cosine between the strips' normals: 14 degrees
-constexpr double kFarthestSurface = 2.0;  // m: strips further apart see different things
+constexpr double kFarthestSurface = 2.0;  // m: strips further apart cover different objects
 constexpr double kRoofTangent = 0.3;      // 17 degrees: flatter crests are round ones of the ground
 constexpr double kWidestRoof = 30.0;      // m, between the sides of a gable
 constexpr double kOpposite = -0.85;       // cosine between the directions of fall: 148 degrees
@@ -21,8 +21,8 @@ constexpr double kInFace = 0.06;          // m: how far a cell of a face may lie
 constexpr std::size_t kFaceCells = 3;     // of 3 x 3: smaller is a dormer, a bush or a heap
 constexpr double kFaceArea = 12.0;        // m2: so large a face may have fewer, larger cells
 constexpr double kSharp = 0.25;           // m: how far the surface may lie below the sharp ridge
-constexpr double kAboveGround = 1.5;      // m: what a roof's face is above the ground beyond it
-constexpr double kEaves = 12.0;           // m: within which that ground is looked for
+constexpr double kAboveGround = 1.5;      // m: height of a roof's face above the ground beside it
+constexpr double kEaves = 12.0;           // m: within which the ground beside a roof is searched
 constexpr double kApart = 25.0;           // m, between places
 
 /// Worth of a place: the misfit that is seen, a little for the slope that would show one, and the
@@ -110,7 +110,7 @@ std::optional<SectionSearch::Place> SectionSearch::oppositeOf(
   return std::nullopt;
 }
 
-/// Height of the surface in the cell of a place: mean over the strips that see one; empty without.
+/// Height of the surface in the cell of a place: mean over the strips that cover it, if any.
 std::optional<double> SectionSearch::surfaceAt(const Eigen::Vector2d& place) const {
   double sum = 0.0, n = 0.0;
   for (const PlaneGrid& grid : grids_) {
@@ -133,7 +133,7 @@ std::size_t SectionSearch::faceCells(const Slopes& slopes, const Slope& face) co
       if (found == slopes.end()) continue;
       const Slope& slope = found->second;
       if (slope.downhill.dot(face.downhill) < kSameFace) continue;
-      // Strips that do not fit each other move a cell's mean height by who sees it.
+      // Misfits between strips change a cell's mean height with the strips that cover it.
       const double misfit = std::max(slope.difference, face.difference);
       if (std::abs(slope.height - face.heightAt(slope.center)) < kInFace + misfit) ++count;
     }
@@ -141,7 +141,7 @@ std::size_t SectionSearch::faceCells(const Slopes& slopes, const Slope& face) co
   return count;
 }
 
-/// Whether the ground beyond a face's lower edge lies well below the face.
+/// Whether the ground beyond the lower edge of a face is well below the face.
 bool SectionSearch::fallsBeyond(const Slope& face) const {
   const double step = grids_[0].cell();
   for (double distance = step; distance <= kEaves; distance += step) {

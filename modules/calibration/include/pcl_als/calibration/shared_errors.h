@@ -54,7 +54,7 @@ struct SharedErrorModel {
 /// Variance components: estimated variance over the variance of the model, by component and kind of
 /// error.
 struct SharedErrorLevels {
-  /// Of one component of the trajectory errors, by kind.
+  /// Variance components of one component of the trajectory errors, by kind.
   struct Trajectory {
     double position = 1.0, roll_pitch = 1.0, heading = 1.0;
   };

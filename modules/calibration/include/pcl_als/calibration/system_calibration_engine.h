@@ -154,7 +154,7 @@ class SystemCalibrationEngine {
   void openVarianceComponents(State& state, std::size_t done) const;
   void closeSelection(State& state) const;
   void closeConverged(State& state) const;
-  /// Why the iteration did not converge, for the verdict.
+  /// The reason for which the iteration did not converge, for the verdict.
   std::string reasonNotConverged(const State& state, const CalibrationResult& result) const;
   bool hasPairs(int strip, const CalibrationResult& result) const;
   /// Reason why a strip that overlaps others has no pairs, for a warning; empty without overlap.

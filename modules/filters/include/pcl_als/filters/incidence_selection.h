@@ -16,16 +16,18 @@
 
 namespace pcl_als {
 
-/** \brief Selects points by their incidence angle: between the pulse and the normal of the surface.
+/** \brief Selects points by their incidence angle, the angle between the pulse and the normal of
+ * the surface.
  *
- * The pulse comes from the trajectory's position at the point's time (RadiometricEvaluator); 0
- * degrees is perpendicular incidence. Normals are those given, of either sign, or local planes
- * (LocalSurfaces) of the last returns of the cloud, which is one strip. A point has no incidence
- * angle, and is not selected, where it has no surface (leaves, wires, edges), where it is not a
- * last return, or where the trajectory does not cover its time.
+ * The pulse starts at the trajectory's position at the time of the point (RadiometricEvaluator); 0
+ * degrees is perpendicular incidence. Normals are given, of either sign, or are those of local
+ * planes (LocalSurfaces) of the last returns of the cloud, which must be one strip. A point has no
+ * incidence angle, and is not selected, where it has no surface (leaves, wires, edges), where it is
+ * not a last return, or where the trajectory does not cover its time.
  *
  * The point type needs x, y, z (float) and gps_time (double); return_number and number_of_returns
- * are used where the type has them. For one's own include impl/incidence_selection.hpp.
+ * are used where the type has them. For other types than PointLidar include
+ * impl/incidence_selection.hpp.
  * \code
  * pcl_als::IncidenceSelection<pcl_als::PointLidar> incidence;
  * incidence.setInputCloud(strip.cloud);
@@ -64,13 +66,13 @@ class IncidenceSelection : public PointSelection<PointT> {
   void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
   const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
-  /// Of the last filter(): incidence angles of its finite points in order, degrees; NaN: none.
+  /// Incidence angles of the finite points of the last filter() in order, degrees; NaN: none.
   const std::vector<float>& getAngles() const { return angles_; }
-  /// Of the last filter(): points whose time the trajectory does not cover.
+  /// Number of points of the last filter() whose time the trajectory does not cover.
   std::size_t getUncovered() const { return uncovered_; }
 
  protected:

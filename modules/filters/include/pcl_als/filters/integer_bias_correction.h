@@ -17,11 +17,11 @@ namespace pcl_als {
  * The engine of LAS to LAS correction. A record begins with X, Y, Z (int32, little-endian); ground
  * = raw scale + offset. The effect A(point) delta is computed in double, divided by the scale,
  * rounded to the nearest integer and subtracted (added where the correction is inverted): no other
- * byte changes, and zero biases change none. Points without a trajectory are counted and left as
- * they are.
+ * byte changes, and zero biases change none. Points without a trajectory are counted and stay
+ * unchanged.
  *
- * Undoing a correction (invert after apply) returns each integer to within one unit: either way
- * rounds once.
+ * Inverting a correction returns each integer to within one unit, because each direction rounds
+ * once.
  *
  * apply() may be called from several threads on different records; results do not depend on how
  * records are divided among calls that begin at multiples of kTile.
@@ -40,7 +40,8 @@ class IntegerBiasCorrection {
   IntegerBiasCorrection(std::string name, SystemCorrection correction, const Layout& layout);
 
   /// Corrects \a count records. \a first: index of the first one in the file. InputError naming the
-  /// point whose new coordinate does not fit an int32; records before it are changed then.
+  /// point whose new coordinate does not fit an int32; the records before it have then been
+  /// changed.
   CoverageCount apply(std::byte* records, std::size_t count, std::uint64_t first) const;
 
  private:

@@ -24,15 +24,16 @@ namespace pcl_als {
  * extinctionOf() for a.
  *
  * The cloud is one strip, relative to its LocalFrame, with the coordinates of the calibrated
- * geometry. Normals are those given, or local planes (LocalSurfaces) of its single and last
- * returns. Leaves, wires and edges have no plane, returns that are not the last only part of a
- * pulse's energy: both are corrected for range and atmosphere only. getCounts() counts them.
+ * geometry. Normals are given, or are those of local planes (LocalSurfaces) of its single and last
+ * returns. Leaves, wires and edges have no plane, and returns before the last have only a part of
+ * the energy of their pulse: both are corrected for range and atmosphere only. getCounts() counts
+ * them.
  *
  * Fields needed: x, y, z, intensity (float), gps_time (double), return_number and
- * number_of_returns; for a type of one's own, include impl/intensity_correction.hpp. Every other
- * field keeps its bits, the input is not changed. A point that is not finite or not below the
- * sensor, and with indices set one outside them, is passed on as it is; one without a trajectory is
- * an InputError unless setKeepUncovered(true).
+ * number_of_returns; for other types than PointLidar include impl/intensity_correction.hpp. All
+ * other fields are kept bit for bit; the input is not changed. Points that are not finite or not
+ * below the sensor, and points outside given indices, stay unchanged; a point without a trajectory
+ * is an InputError unless setKeepUncovered(true).
  * \code
  * pcl_als::IntensityCorrection<pcl_als::PointLidar> correction;
  * correction.setTrajectory(trajectory);
@@ -60,7 +61,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
@@ -68,7 +69,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setModel(const RadiometricModel& model) { model_ = model; }
   const RadiometricModel& getModel() const { return model_; }
 
-  /// What the strip's receiver and pulse energy multiplied intensities by, > 0; default 1.
+  /// Known factor of the strip's intensities (receiver, pulse energy), > 0; default 1.
   void setGain(double gain) { gain_ = gain; }
   double getGain() const { return gain_; }
 
@@ -79,11 +80,11 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setSurfaceSettings(const LocalSurfaceSettings& settings) { surfaces_ = settings; }
   const LocalSurfaceSettings& getSurfaceSettings() const { return surfaces_; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
 
-  /// Leaves points without a trajectory as they are instead of refusing the cloud; default false.
+  /// Keeps points without a trajectory unchanged instead of refusing the cloud; default false.
   void setKeepUncovered(bool keep) { keep_uncovered_ = keep; }
   bool getKeepUncovered() const { return keep_uncovered_; }
 
@@ -91,9 +92,9 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = threads; }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Of the last filter(): points by RadiometryStatus.
+  /// Numbers of points of the last filter() by RadiometryStatus.
   const Counts& getCounts() const { return counts_; }
-  /// Of the last filter(): range, incidence and status of every point of the input, 40 bytes each.
+  /// Range, incidence and status of every input point of the last filter(), 40 bytes each.
   const std::vector<PointRadiometry>& getRadiometry() const { return radiometry_; }
 
  protected:

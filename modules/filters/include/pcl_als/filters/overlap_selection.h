@@ -16,12 +16,12 @@ namespace pcl_als {
  *
  * The ground is divided into square cells, counted from the origin of the ground frame; a point is
  * selected where one of the other strips has at least setMinimumPoints() points in its cell. Each
- * cloud is relative to its own LocalFrame. A cell should be some point spacings wide: finer, and
- * the gaps between points are no overlap; coarser, and the border of the overlap is blurred by as
- * much.
+ * cloud is relative to its own LocalFrame. A cell should be some point spacings wide: with smaller
+ * cells gaps between points do not count as overlap, with larger ones the border of the overlap is
+ * uncertain by the size of a cell.
  *
- * The point type needs x, y, z (float); for one's own include impl/overlap_selection.hpp. Time and
- * memory are linear in the number of points and of cells.
+ * The point type needs x, y, z (float); for other types than PointLidar include
+ * impl/overlap_selection.hpp. Time and memory are linear in the number of points and of cells.
  * \code
  * pcl_als::OverlapSelection<pcl_als::PointLidar> overlap;
  * overlap.setInputCloud(a.cloud);
@@ -44,7 +44,7 @@ class OverlapSelection : public PointSelection<PointT> {
 
   /// Adds a strip; UsageError for a null cloud.
   void addOtherStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame);
-  /// These in place of all that were added.
+  /// Replaces all strips that were added.
   void setOtherStrips(const std::vector<Strip<PointT>>& strips);
   void clearOtherStrips() { others_.clear(); }
 
@@ -52,7 +52,7 @@ class OverlapSelection : public PointSelection<PointT> {
   void setCellSize(double metres);
   double getCellSize() const { return cell_; }
 
-  /// Points of one other strip in a cell, at least; 1 or more, UsageError; default 1.
+  /// Least number of points of one other strip in a cell; 1 or more, UsageError; default 1.
   void setMinimumPoints(std::size_t points);
   std::size_t getMinimumPoints() const { return minimum_points_; }
 

@@ -14,7 +14,7 @@
 
 namespace pcl_als {
 
-/** \brief What the filters that select points have in common: PCL's rules, a frame and threads.
+/** \brief Common base of the filters that select points: PCL's rules, a frame and threads.
  *
  * As in PCL, points outside setIndices() are neither selected nor removed, setNegative() inverts
  * the selection, setKeepOrganized() replaces the coordinates of removed points instead of removing
@@ -29,7 +29,7 @@ class PointSelection : public pcl::FilterIndices<PointT> {
   using PointCloud = typename pcl::FilterIndices<PointT>::PointCloud;
   using PointCloudConstPtr = typename PointCloud::ConstPtr;
 
-  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 

@@ -13,16 +13,16 @@ namespace pcl_als {
  *
  * The criterion is the one by which the calibration chooses points (SurfaceCriterion,
  * suitablePoints(); Habib et al. 2011, section 2.3: patches of a TIN): a single return in a
- * neighbourhood that is plane within its roughness, inside the strip, beside no void, and not as
- * steep as a wall. The TIN is of last returns that are not classified as vegetation (3-5) or noise
- * (7, 18) and not withheld, of all points of the cloud: setIndices() limits what is selected, not
- * what a surface is made of. Leaves, wires, edges of roofs, and points at the border of the cloud
- * are left out.
+ * neighbourhood that is plane within the limit of roughness, inside the strip, not beside a void,
+ * and not as steep as a wall. The TIN consists of the last returns of the whole cloud that are not
+ * classified as vegetation (3-5) or noise (7, 18) and not withheld: setIndices() limits the
+ * selection and not the surface. Leaves, wires, edges of roofs, and points at the border of the
+ * cloud are left out.
  *
- * The cloud is one strip: in the points of several, the offsets between them would count as
- * roughness. Fields used where the type has them: return_number and number_of_returns,
- * classification, flags. For a type of one's own include impl/surface_selection.hpp. Memory: about
- * 40 bytes per point, and 200 per point of a square of 50 m and thread.
+ * The cloud must be one strip: with several, the offsets between them would count as roughness.
+ * Fields used where the type has them: return_number and number_of_returns, classification, flags.
+ * For other types than PointLidar include impl/surface_selection.hpp. Memory: about 40 bytes per
+ * point, and 200 per point of a square of 50 m and thread.
  * \code
  * pcl_als::SurfaceSelection<pcl_als::PointLidar> surfaces;
  * surfaces.setInputCloud(strip.cloud);

@@ -16,19 +16,19 @@ namespace pcl_als {
 
 /** \brief Removes known system biases from a strip: corrected = biased - A(biased) delta.
  *
- * Habib, Kersting, Shaker, Yan 2011, Eq. (13), with A of Eq. (8) from the local flight line at each
- * point's time; with setInvert(true) the exact inverse, which puts the biases in.
+ * Habib, Kersting, Shaker, Yan 2011, Eq. (13), with A of Eq. (8) from the local flight line at the
+ * time of each point; with setInvert(true) the exact inverse, which applies the biases.
  *
  * Points are relative to the LocalFrame, the trajectory is in the ground frame (east, north, up,
- * metres). A calibration includes its model and attitude (SystemCorrection); biases by themselves
- * (assumed - true; m, rad, 1) take the attitude of the trajectory as it is. Any point type with x,
- * y, z (float) and gps_time (double) will do; for one's own, include
+ * metres). A calibration includes its model and attitude (SystemCorrection); biases alone (assumed
+ * - true; m, rad, 1) are used with the attitude of the trajectory. The point type needs x, y, z
+ * (float) and gps_time (double); for other types than PointLidar include
  * impl/system_bias_correction.hpp.
  *
- * Every other field keeps its bits, the input is not changed. A point that is not finite is passed
- * on as it is; with indices set, points outside them, too. A point without a trajectory is an
- * InputError with counts and times unless setKeepUncovered(true), which leaves it as it is;
- * getCoverage() counts them.
+ * All other fields are kept bit for bit; the input is not changed. Points that are not finite, and
+ * points outside given indices, stay unchanged. A point without a trajectory is an InputError with
+ * counts and times unless setKeepUncovered(true), which keeps it unchanged; getCoverage() counts
+ * them.
  * \code
  * pcl_als::SystemBiasCorrection<pcl_als::PointLidar> correction;
  * correction.setTrajectory(trajectory);  // std::shared_ptr<const pcl_als::Trajectory>
@@ -53,30 +53,30 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// What the cloud's coordinates are relative to; default: the ground frame's origin.
+  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
-  /// Biases, assumed - true: m, rad, 1, in place of a calibration. UsageError (in filter()) for
-  /// values no scanner has.
+  /// Biases, assumed - true: m, rad, 1, instead of a calibration. UsageError (in filter()) for
+  /// implausible values.
   void setBiases(const SystemVector& biases) {
     biases_ = biases;
     calibration_.reset();
   }
   const SystemVector& getBiases() const { return biases_; }
-  /// A calibration with its model and attitude. UsageError unless its verdict is usable; in
-  /// filter(), InputError where it lacks what the correction needs.
+  /// A calibration with its model and attitude. UsageError unless its verdict is usable; InputError
+  /// in filter() where data that the correction needs are missing.
   void setCalibration(const CalibrationResult& result) {
     SystemCorrection::requireUsable(result);
     biases_ = result.biases();
     calibration_ = result;
   }
 
-  /// A correction by itself, in place of the trajectory, calibration, attitude, inversion and time
-  /// alignment that are set.
+  /// A correction that replaces the trajectory, calibration, attitude, inversion and time alignment
+  /// that are set.
   void setCorrection(const SystemCorrection& correction) { correction_ = correction; }
 
-  /// Takes out what the calibration found wrong with the trajectory, too; default false.
+  /// Also removes the trajectory errors that the calibration estimated; default false.
   void setStripCorrections(bool use) { strip_corrections_ = use; }
   bool getStripCorrections() const { return strip_corrections_; }
 
@@ -84,21 +84,21 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setFurtherAttitude(const RecoveredAttitude& attitude) { further_attitude_ = attitude; }
   const RecoveredAttitude& getFurtherAttitude() const { return further_attitude_; }
 
-  /// Puts the biases in instead of taking them out; default false.
+  /// Applies the biases instead of removing them; default false.
   void setInvert(bool invert) { invert_ = invert; }
   bool getInvert() const { return invert_; }
 
-  /// How point times become the trajectory's; default: they are the same.
+  /// Conversion of point times to those of the trajectory; default: they are the same.
   void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
   const TimeAlignment& getTimeAlignment() const { return alignment_; }
-  /// An alignment that is a constant: seconds to add to point times.
+  /// A constant alignment: seconds to add to point times.
   void setTimeOffset(double seconds) {
     alignment_ = TimeAlignment();
     alignment_.offset = seconds;
   }
   double getTimeOffset() const { return alignment_.offset; }
 
-  /// Leaves points without a trajectory as they are instead of refusing the cloud; default false.
+  /// Keeps points without a trajectory unchanged instead of refusing the cloud; default false.
   void setKeepUncovered(bool keep) { keep_uncovered_ = keep; }
   bool getKeepUncovered() const { return keep_uncovered_; }
 
@@ -106,7 +106,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setNumberOfThreads(int threads) { threads_ = threads; }
   int getNumberOfThreads() const { return threads_; }
 
-  /// Of the last filter(): how many points were processed, and why others were not.
+  /// Numbers of points that the last filter() corrected or left out, by reason.
   const CoverageCount& getCoverage() const { return coverage_; }
 
  protected:

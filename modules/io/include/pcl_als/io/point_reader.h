@@ -3,48 +3,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include <Eigen/Core>
-
-#include <pcl_als/common/linear_units.h>
-#include <pcl_als/io/crs.h>
+#include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/point_file_info.h>
 
 namespace pcl_als {
-
-/// How the times of a point file count, as its header declares it.
-enum class TimeKind { none, week_seconds, adjusted_standard };
-
-/// Properties of a point file that are known before its points are read.
-struct PointFileInfo {
-  std::filesystem::path path;
-  std::uint64_t point_count = 0;
-  Eigen::Vector3d minimum =
-      Eigen::Vector3d::Zero();  ///< header's bounding box, metres, ground frame
-  Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d resolution = Eigen::Vector3d::Constant(0.001);  ///< coordinate step, metres
-  std::string crs;  ///< WKT or "EPSG:…", of the file's own unit; empty when unknown
-  CrsKind crs_kind = CrsKind::unknown;
-  LinearUnits units;  ///< of the file; everything else here is in metres
-  TimeKind time_kind = TimeKind::none;
-  std::string format;  ///< "LAS 1.4, point format 6", "PCD binary"
-};
-
-/// Points as columns: ground frame in metres and double, one entry per point in each.
-struct PointChunk {
-  std::vector<double> x, y, z, gps_time;
-  std::vector<float> intensity, scan_angle;
-  std::vector<std::uint16_t> point_source_id;
-  std::vector<std::uint8_t> return_number, number_of_returns, classification,
-      flags;  ///< flags: PointFlag
-
-  std::size_t size() const { return x.size(); }
-  void resize(std::size_t count);
-};
 
 /** \brief Reads the points of a .las, .laz or .pcd file chunk by chunk, in file order, in constant
  * memory.

@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/io/point_reader.h>
+#include <pcl_als/common/point_file_info.h>
 
 namespace pcl_als {
-
-/// InputError with the remedy for a file whose coordinates are degrees or geocentric.
-void requireMapCoordinates(const PointFileInfo& info);
 
 /// The CRS and units that the point files of one job have in common.
 struct PointReference {

@@ -12,8 +12,8 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/strip.h>
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/strip_naming.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/survey/strip_arrangement.h>
 
 namespace pcl_als {

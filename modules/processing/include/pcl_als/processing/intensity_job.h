@@ -50,7 +50,7 @@ struct IntensityResult {
   std::optional<ReferenceResult> reference;  ///< where there are targets
   std::vector<LeftOutPoints> left_out;       ///< points that stay as they are
   std::vector<std::string> warnings;
-  /// Why the result is not reliable, in one line; empty: it is.
+  /// The reason for which the result is not reliable, in one line; empty where it is.
   std::string unreliable;
 
   IntensityCounts counts() const;  ///< of all files

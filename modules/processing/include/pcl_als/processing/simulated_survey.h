@@ -12,7 +12,7 @@
 
 namespace pcl_als {
 
-/// How the strips are written.
+/// Format of the strips.
 struct StripFileOptions {
   std::filesystem::path folder;
   bool adjusted_time = false;  ///< adjusted standard GPS time, else seconds of the week
@@ -24,7 +24,7 @@ struct StripFileOptions {
   }
 };
 
-/// What was written of one strip.
+/// Summary of the points that were written of one strip.
 struct StripSummary {
   std::string file;
   std::uint64_t pulses = 0, points = 0;

@@ -47,7 +47,7 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
 void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
                           bool markdown);
 
-/// What a JSON of an earlier run contains of model, gains and constant.
+/// Model, gains and constant from the JSON of an earlier run.
 StoredRadiometry readIntensityJson(const std::filesystem::path& path);
 
 }  // namespace pcl_als

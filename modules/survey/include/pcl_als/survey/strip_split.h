@@ -17,7 +17,7 @@ struct TimeStretch {
 
 /** \brief Divides points without strip numbers into flight lines.
  *
- * Cuts are made
+ * Cuts are made:
  * - where no point was measured for more than StripNaming::kLargestGap;
  * - in shorter gaps of more than a second, where the course changes, or where the position after
  * the gap is not ahead;

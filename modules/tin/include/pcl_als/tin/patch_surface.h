@@ -24,7 +24,7 @@ struct PatchMatch {
 
 /// Properties of the surface around a triangle, from which its suitability for measurement follows.
 struct PatchQuality {
-  /// Of the plane of the vertices around the triangle, without its own: less noisy than the
+  /// Normal of the plane of the vertices around the triangle, without its own: less noisy than the
   /// triangle's, and independent of its noise. Unit, upward.
   Eigen::Vector3d plane_normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d plane_centre = Eigen::Vector3d::Zero();  ///< a point of that plane

@@ -23,7 +23,7 @@ class TrajectoryErrors {
   explicit TrajectoryErrors(const std::vector<StripErrors>& strips);
 
   bool empty() const { return strips_.empty(); }
-  /// False, and zero, at times of no strip.
+  /// False, with errors of zero, at times that belong to no strip.
   bool at(double time, TrajectoryErrorKnot& errors) const;
 
  private:

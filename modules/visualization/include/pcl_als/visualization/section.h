@@ -68,7 +68,7 @@ class SectionPicture {
 
   /// UsageError without a panel or without any point.
   Canvas draw(PictureSize size = {}) const;
-  /// How many times heights are larger than lengths, a round number.
+  /// Exaggeration of heights against lengths, a round number.
   double exaggeration(PictureSize size = {}) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace pcl_als {
 
-/// Where an axis is marked: multiples of 1, 2 or 5 times a power of ten.
+/// Ticks of an axis: multiples of 1, 2 or 5 times a power of ten.
 struct Ticks {
   double step = 1.0;
   int decimals = 0;  ///< digits after the point that distinguish neighbouring ticks

@@ -25,7 +25,7 @@ void IncidenceSelection<PointT>::setAngleLimits(double minimum, double maximum) 
   maximum_ = maximum;
 }
 
-/// Last returns: what lies on surfaces.
+/// Last returns, which are those on surfaces.
 template <typename PointT>
 std::vector<Eigen::Vector3f> IncidenceSelection<PointT>::surfacePoints() const {
   std::vector<Eigen::Vector3f> points;

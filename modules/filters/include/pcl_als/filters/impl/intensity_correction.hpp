@@ -23,7 +23,7 @@ void IntensityCorrection<PointT>::checkSettings() const {
                      std::to_string(this->input_->size()) + " points");
 }
 
-/// Single and last returns: what lies on surfaces.
+/// Single and last returns, which are those on surfaces.
 template <typename PointT>
 std::vector<Eigen::Vector3f> IntensityCorrection<PointT>::surfacePoints() const {
   std::vector<Eigen::Vector3f> points;

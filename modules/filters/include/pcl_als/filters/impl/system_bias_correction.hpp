@@ -25,7 +25,8 @@ SystemCorrection SystemBiasCorrection<PointT>::usedCorrection() const {
 
 template <typename PointT>
 void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
-  // Divides the work; a fixed size, so that threads change no bit.
+  // Division of the work into parts of fixed size, so that results do not depend on the number of
+  // threads.
   constexpr std::size_t kChunk = 16384;
   coverage_ = CoverageCount();
   const SystemCorrection correction = usedCorrection();

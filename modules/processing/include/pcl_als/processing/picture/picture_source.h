@@ -11,8 +11,8 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/io/las_file.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/visualization/plane_grid.h>
 #include <pcl_als/visualization/point_picture.h>

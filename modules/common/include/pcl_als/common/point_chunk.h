@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_als {
+
+/// Points as columns: ground frame in metres and double, one entry per point in each.
+struct PointChunk {
+  std::vector<double> x, y, z, gps_time;
+  std::vector<float> intensity, scan_angle;
+  std::vector<std::uint16_t> point_source_id;
+  std::vector<std::uint8_t> return_number, number_of_returns, classification,
+      flags;  ///< flags: PointFlag
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t count);
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <pcl_als/common/linear_units.h>
+#include <pcl_als/common/point_file_info.h>
+
+namespace pcl_als {
+
+/// A coordinate reference system as PROJ describes it.
+struct CrsDescription {
+  CrsKind kind = CrsKind::unknown;
+  std::string name;                      ///< "NAD83 / California zone 3 (ftUS)"
+  std::optional<LengthUnit> horizontal;  ///< of a projected or local system
+  std::optional<LengthUnit> vertical;    ///< where the system has a vertical axis
+};
+
+/** \brief Describes a CRS: "EPSG:n", "EPSG:n+m", WKT 1 or 2 (of ESRI, too), anything PROJ accepts.
+ *
+ * The horizontal and the vertical part of a compound system are described separately. A text that
+ * PROJ does not know, or any text in a build without PROJ, is of kind unknown. Descriptions are
+ * kept: PROJ takes milliseconds for one.
+ */
+CrsDescription describeCrs(const std::string& crs);
+
+/** \brief The units that a CRS states; one without a vertical axis takes the horizontal unit for
+ * heights. A CRS that states none counts in metres.
+ *
+ * \param source what states the units, for messages; default: the CRS itself
+ */
+LinearUnits unitsOfCrs(const std::string& crs, const std::string& source = {});
+
+/** \brief The same horizontal CRS with axes that count in another unit, as WKT; empty where PROJ
+ * cannot tell.
+ *
+ * For files that name a CRS in metres and state beside it that their coordinates are in feet.
+ */
+std::string crsInUnit(const std::string& crs, const LengthUnit& unit);
+
+/// WKT of a local system of which nothing but the unit is known.
+std::string localCrs(const LengthUnit& unit);
+
+/** \brief Whether coordinates of both, brought to metres, are coordinates of one system.
+ *
+ * The same projection in feet and in metres (EPSG:2271 and EPSG:32128) is one system; vertical
+ * parts are not compared. Without PROJ, texts are compared.
+ */
+bool sameGroundFrame(const std::string& a, const std::string& b);
+
+/** \brief Refuses a CRS that PROJ does not know, or that is not projected, with a UsageError:
+ * "WHAT: …". A build without PROJ accepts every text.
+ *
+ * \param what the option or field that gives it
+ */
+void requireProjectedCrs(const std::string& crs, const std::string& what);
+
+/// InputError with the remedy for a file whose coordinates are degrees or geocentric.
+void requireMapCoordinates(const PointFileInfo& info);
+
+/** \brief A CRS as WKT 1 of one line; empty in a build without PROJ. UsageError for a text that
+ * PROJ does not know.
+ */
+std::string crsAsWkt(const std::string& crs);
+
+/// The unit of an EPSG code of units of length (9001 is the metre); without PROJ those of metre,
+/// foot and US survey foot.
+std::optional<LengthUnit> unitOfEpsgCode(unsigned code);
+
+/// Of a long WKT its beginning, for messages.
+std::string shortCrsName(const std::string& crs);
+
+}  // namespace pcl_als

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/linear_units.h>
+#include <pcl_als/common/point_file_info.h>
+#include <pcl_als/las/las_extra.h>
+#include <pcl_als/las/las_header.h>
+#include <pcl_als/las/las_record.h>
+#include <pcl_als/las/laz_io.h>
+
+namespace pcl_als {
+
+/// How raw integer coordinates become metres: metres = raw * scale + offset.
+struct LasScaling {
+  Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< metres per step
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< metres, ground frame
+};
+
+/** \brief A .las or .laz file opened for reading its raw point records.
+ *
+ * The constructor checks header, VLRs, EVLRs and point range against the size of the file; nothing
+ * in the file is trusted. Memory does not grow with the file. Records of a .laz are packed as the
+ * plain LAS records they came from.
+ *
+ * header() is in the file's own unit; toMetres() is what coordinates are computed with.
+ * \code
+ * LasFile file("strip1.las");
+ * std::vector<std::byte> records(n * file.header().record_length);
+ * file.readRecords(0, n, records.data());
+ * \endcode
+ */
+class LasFile {
+ public:
+  /// \param laz_fields LazField bits: what a caller does not need is not decoded from layers.
+  explicit LasFile(std::filesystem::path path, unsigned laz_fields = kLazAllFields);
+  ~LasFile();
+  LasFile(LasFile&&) noexcept;
+  LasFile& operator=(LasFile&&) = delete;
+
+  const std::filesystem::path& path() const;
+  const LasHeader& header() const;
+  const LasRecordLayout& layout() const;
+  const std::vector<LasVlrEntry>& vlrs() const;  ///< VLRs, then EVLRs, in file order
+  const std::vector<LasExtraField>& extraFields() const;
+  std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not state it
+  CrsKind crsKind() const;
+  /// What the coordinates count in; of geographic and geocentric ones the default.
+  const LinearUnits& units() const;
+  /// InputError for a file whose coordinates are no map coordinates: degrees or geocentric.
+  LasScaling toMetres() const;
+  std::uint64_t fileSize() const;
+  PointFileInfo info() const;
+
+  /// Payload of a VLR; InputError when it is longer than \a limit bytes.
+  std::vector<std::byte> payload(const LasVlrEntry& vlr,
+                                 std::size_t limit = std::size_t{1} << 26) const;
+  /// Any bytes of the file as they are.
+  void readBytes(std::uint64_t position, std::size_t bytes, std::byte* out) const;
+  /// Raw records [first, first + count). Several threads may call it at once; for a .laz they wait
+  /// for each other, because each call decodes on several threads. Fast in the order of the file.
+  void readRecords(std::uint64_t first, std::size_t count, std::byte* out) const;
+  int descriptor() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/point_chunk.h>
+
+namespace pcl_als {
+
+/// A little-endian number at an unaligned place of a record.
+template <typename T>
+T loadLas(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof(T));
+  return value;
+}
+template <typename T>
+void storeLas(std::byte* at, T value) {
+  std::memcpy(at, &value, sizeof(T));
+}
+
+/** \brief Byte positions of the fields of a LAS point record (LAS 1.4 R15, tables 7-17).
+ *
+ * X, Y, Z (int32) lie at 0, 4, 8 and the intensity (uint16) at 12 in every format; -1 where a
+ * format lacks a field. Formats 6-10 are `extended`: four-bit return numbers, scan angle in 0.006
+ * degrees, classes to 255.
+ */
+struct LasRecordLayout {
+  int format = 6;
+  std::size_t length = 30;  ///< of the standard fields; extra bytes follow
+  bool extended = true;
+  int classification = 16, scan_angle = 18, user_data = 17, point_source_id = 20;
+  int gps_time = 22, rgb = -1, nir = -1, waveform = -1;
+
+  static LasRecordLayout of(int format);  ///< 0 … 10, UsageError otherwise
+};
+
+/// Degrees per unit of the scan angle in formats 6-10.
+inline constexpr double kLasScanAngleStep = 0.006;
+
+/// Raw records to columns. x = X scale + offset, in double; what the format lacks is zero.
+void decodeLasRecords(const std::byte* records, std::size_t count, std::size_t record_length,
+                      const LasRecordLayout& layout, const Eigen::Vector3d& scale,
+                      const Eigen::Vector3d& offset, PointChunk& chunk);
+
+/** \brief Columns to raw records; bytes of the standard fields that PointChunk lacks (user data,
+ * colours, waveform) and the extra bytes are zeroed.
+ *
+ * What the format cannot carry (a coordinate out of the 32-bit range, return number 9 or class 64
+ * in format 1, …) is an InputError: "NAME: point 12: …".
+ */
+void encodeLasRecords(const PointChunk& chunk, std::size_t record_length,
+                      const LasRecordLayout& layout, const Eigen::Vector3d& scale,
+                      const Eigen::Vector3d& offset, std::uint64_t first_index,
+                      const std::string& name, std::byte* records);
+
+}  // namespace pcl_als

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "las_crs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/crs/crs.h>
+
+#include "geo_keys.h"
+#include "las_bytes.h"
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr const char* kProjection = "LASF_Projection";
+constexpr std::uint16_t kGeoDoublesRecord = 34736;
+constexpr unsigned long kMostGeoCode = 32766;
+constexpr std::size_t kLargestRecord = std::size_t{1} << 24;
+
+const LasVlrEntry* findRecord(const LasFile& file, std::uint16_t id) {
+  for (const LasVlrEntry& vlr : file.vlrs())
+    if (vlr.user_id == kProjection && vlr.record_id == id) return &vlr;
+  return nullptr;
+}
+
+std::string wktOf(const LasFile& file) {
+  const LasVlrEntry* vlr = findRecord(file, kWktRecord);
+  if (vlr == nullptr) return {};
+  const std::vector<std::byte> bytes = file.payload(*vlr, kLargestRecord);
+  std::string wkt = textField(bytes.data(), bytes.size());
+  while (!wkt.empty() && std::isspace(static_cast<unsigned char>(wkt.back())) != 0) wkt.pop_back();
+  return wkt;
+}
+
+GeoKeys geoKeysOf(const LasFile& file) {
+  const LasVlrEntry* directory = findRecord(file, kGeoKeyRecord);
+  if (directory == nullptr) return {};
+  const LasVlrEntry* doubles = findRecord(file, kGeoDoublesRecord);
+  return readGeoKeys(
+      file.payload(*directory, kLargestRecord),
+      doubles == nullptr ? std::vector<std::byte>() : file.payload(*doubles, kLargestRecord));
+}
+
+LasReference referenceOfWkt(const std::string& wkt) {
+  LasReference reference;
+  reference.crs = wkt;
+  reference.kind = describeCrs(wkt).kind;
+  reference.units = unitsOfCrs(wkt, "WKT");
+  return reference;
+}
+
+/// The horizontal unit that keys state stands above the one that the CRS implies.
+void setHorizontal(const StatedUnit& stated, LasReference& reference) {
+  LinearUnits& units = reference.units;
+  const LinearUnits implied = units;
+  units.horizontal = stated.unit;
+  units.source = stated.source;
+  if (implied.known() && implied.horizontal.metres == stated.unit.metres) return;
+  if (reference.crs.empty()) {
+    if (!stated.unit.isMetre()) reference.crs = localCrs(stated.unit);
+    return;
+  }
+  if (!implied.known()) return;
+  units.source += "; " + reference.crs + " by itself counts in " + implied.horizontal.name;
+  const std::string altered = crsInUnit(reference.crs, stated.unit);
+  if (!altered.empty()) reference.crs = altered;
+}
+
+/// The vertical unit: that of the keys, else that of the CRS, else the horizontal one.
+void setVertical(const GeoKeys& keys, LasReference& reference) {
+  LinearUnits& units = reference.units;
+  if (keys.vertical) {
+    units.vertical = keys.vertical->unit;
+    units.vertical_source = keys.vertical->source;
+  } else if (!units.verticalKnown()) {
+    units.vertical = units.horizontal;
+  }
+}
+
+LasReference referenceOfKeys(const GeoKeys& keys) {
+  LasReference reference;
+  reference.crs = keys.crs;
+  reference.kind = keys.kind;
+  // A code says more than the model type beside it.
+  const CrsKind kind = describeCrs(keys.crs).kind;
+  if (kind != CrsKind::unknown) reference.kind = kind;
+  if (reference.kind == CrsKind::geographic || reference.kind == CrsKind::geocentric)
+    return reference;
+  reference.units = unitsOfCrs(keys.crs);
+  if (keys.horizontal) setHorizontal(*keys.horizontal, reference);
+  setVertical(keys, reference);
+  return reference;
+}
+
+/// Longitudes may run to 360 degrees.
+bool mayBeDegrees(const LasHeader& h) {
+  return h.minimum.x() >= -360.0 && h.maximum.x() <= 360.0 && h.minimum.y() >= -90.0 &&
+         h.maximum.y() <= 90.0;
+}
+
+/// Coordinates in steps of a micrometre with heights in steps of a millimetre are no lengths.
+bool hasStepsOfDegrees(const LasHeader& h) {
+  constexpr double kLargestStep = 1e-6, kLeastRatio = 1e3;
+  const double step = std::max(h.scale.x(), h.scale.y());
+  return step <= kLargestStep && h.scale.z() >= kLeastRatio * step;
+}
+
+void checkDegrees(const LasHeader& h, LasReference& reference) {
+  if (reference.kind == CrsKind::geographic && !mayBeDegrees(h)) {
+    reference = LasReference();
+  } else if (reference.kind == CrsKind::unknown && !reference.units.known() && mayBeDegrees(h) &&
+             hasStepsOfDegrees(h)) {
+    reference.kind = CrsKind::geographic;
+  }
+}
+
+bool isEpsg(const std::string& crs) {
+  return crs.size() > 5 && crs.compare(0, 5, "EPSG:") == 0 &&
+         std::all_of(crs.begin() + 5, crs.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+LasVlr wktRecord(const std::string& wkt) {
+  LasVlr vlr{kProjection, kWktRecord, "OGC coordinate system WKT", {}};
+  const auto* bytes = reinterpret_cast<const std::byte*>(wkt.c_str());
+  vlr.data.assign(bytes, bytes + wkt.size() + 1);
+  return vlr;
+}
+
+}  // namespace
+
+LasReference readLasReference(const LasFile& file) {
+  const bool prefers_wkt = (file.header().global_encoding & kLasWkt) != 0;
+  const std::string wkt = wktOf(file);
+  const GeoKeys keys = geoKeysOf(file);
+  const bool keys_tell = !keys.crs.empty() || keys.horizontal;
+  const bool by_wkt = !wkt.empty() && (prefers_wkt || !keys_tell);
+  LasReference reference = by_wkt ? referenceOfWkt(wkt) : referenceOfKeys(keys);
+  // The records that the encoding does not prefer may tell what the others leave open.
+  if (by_wkt && reference.kind == CrsKind::unknown && keys_tell) {
+    const LasReference by_keys = referenceOfKeys(keys);
+    reference.kind = by_keys.kind;
+    reference.units = by_keys.units;
+  }
+  if (by_wkt && !reference.units.verticalKnown()) setVertical(keys, reference);
+  checkDegrees(file.header(), reference);
+  return reference;
+}
+
+std::vector<LasVlr> lasCrsRecords(const std::string& crs, bool wkt_wanted) {
+  if (crs.empty()) return {};
+  if (!isEpsg(crs)) return {wktRecord(crs)};
+  const unsigned long code = std::stoul(crs.substr(5, 6));
+  if (wkt_wanted || code > kMostGeoCode) {
+    const std::string wkt = crsAsWkt(crs);
+    if (!wkt.empty()) return {wktRecord(wkt)};
+  }
+  if (code > kMostGeoCode)
+    throw UsageError("CRS " + crs + ": GeoTIFF keys hold codes up to 32766; give it as WKT");
+  return {{kProjection, kGeoKeyRecord, "GeoTIFF GeoKeyDirectoryTag",
+           geoKeysOfEpsg(static_cast<unsigned>(code))}};
+}
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cerrno>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
+#include <pcl_als/crs/crs.h>
+#include <pcl_als/las/las_file.h>
+
+#include "las_bytes.h"
+#include "las_crs.h"
+#include "laz.h"
+
+namespace pcl_als {
+
+struct LasFile::State {
+  std::filesystem::path path;
+  InputFile file;
+  LasHeader header;
+  LasRecordLayout layout;
+  std::vector<LasVlrEntry> vlrs;
+  std::vector<LasExtraField> extra_fields;
+  std::unique_ptr<LazPointReader> laz;
+  detail::LasReference reference;
+
+  explicit State(std::filesystem::path p) : path(std::move(p)), file(path) {}
+};
+
+namespace {
+
+constexpr std::size_t kLargestExtraRecord = std::size_t{1} << 20;
+
+LasHeader readHeader(const InputFile& file) {
+  std::array<std::byte, 375> block{};
+  const std::size_t available = std::min<std::uint64_t>(block.size(), file.size());
+  file.read(0, available, block.data());
+  return parseLasHeader(block.data(), available, file.size(), file.name());
+}
+
+LasVlrEntry parseEntry(const std::byte* at, bool extended) {
+  LasVlrEntry entry;
+  entry.user_id = detail::textField(at + 2, 16);
+  entry.record_id = loadLas<std::uint16_t>(at + 18);
+  entry.length = extended ? loadLas<std::uint64_t>(at + 20) : loadLas<std::uint16_t>(at + 20);
+  entry.description = detail::textField(at + (extended ? 28 : 22), 32);
+  entry.extended = extended;
+  return entry;
+}
+
+std::string entryName(bool extended, std::uint32_t index, std::uint32_t count) {
+  return std::string(extended ? "extended VLR " : "VLR ") + std::to_string(index + 1) + " of " +
+         std::to_string(count);
+}
+
+/// Walks \a count records from \a position; none may reach past \a end.
+void readEntries(const InputFile& file, bool extended, std::uint64_t position, std::uint32_t count,
+                 std::uint64_t end, std::vector<LasVlrEntry>& entries) {
+  const std::size_t header = extended ? kLasEvlrHeader : kLasVlrHeader;
+  const char* const limit = extended ? "the end of the file" : "the beginning of the points";
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (position > end || end - position < header)
+      throw InputError(file.name() + ": " + entryName(extended, i, count) + " lies past " + limit +
+                       " (truncated copy, or the number of VLRs is wrong)");
+    std::array<std::byte, kLasEvlrHeader> block{};
+    file.read(position, header, block.data());
+    LasVlrEntry entry = parseEntry(block.data(), extended);
+    entry.position = position + header;
+    if (entry.length > end - entry.position)
+      throw InputError(file.name() + ": " + entryName(extended, i, count) + " (" + entry.user_id +
+                       " " + std::to_string(entry.record_id) + ", " + std::to_string(entry.length) +
+                       " bytes) reaches past " + limit);
+    position = entry.position + entry.length;
+    entries.push_back(std::move(entry));
+  }
+}
+
+void readExtendedEntries(const InputFile& file, const LasHeader& header,
+                         std::vector<LasVlrEntry>& entries) {
+  if (header.evlr_count == 0) return;
+  const std::uint64_t points_end =
+      header.offset_to_points + (header.compressed ? 0 : header.point_count * header.record_length);
+  if (header.evlr_start < points_end)
+    throw InputError(file.name() + ": the extended VLRs are said to begin at byte " +
+                     std::to_string(header.evlr_start) + ", before the end of the points");
+  readEntries(file, true, header.evlr_start, header.evlr_count, file.size(), entries);
+}
+
+bool isRecord(const LasVlrEntry& entry, const char* user, std::uint16_t id) {
+  return entry.user_id == user && entry.record_id == id;
+}
+
+std::vector<std::byte> lazPayload(const LasFile& file) {
+  for (const LasVlrEntry& vlr : file.vlrs())
+    if (isRecord(vlr, kLazUser, kLazRecord)) return file.payload(vlr);
+  throw InputError(
+      file.path().string() +
+      ": the points are compressed, but the record \"laszip encoded\" that says how is "
+      "missing");
+}
+
+}  // namespace
+
+LasFile::LasFile(std::filesystem::path path, unsigned laz_fields)
+    : state_(std::make_unique<State>(std::move(path))) {
+  State& s = *state_;
+  s.header = readHeader(s.file);
+  s.layout = LasRecordLayout::of(s.header.point_format);
+  readEntries(s.file, false, s.header.header_size, s.header.vlr_count, s.header.offset_to_points,
+              s.vlrs);
+  readExtendedEntries(s.file, s.header, s.vlrs);
+  if (s.header.compressed)
+    s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields);
+  s.reference = detail::readLasReference(*this);
+  const auto extra = std::find_if(s.vlrs.begin(), s.vlrs.end(), [](const LasVlrEntry& entry) {
+    return isRecord(entry, "LASF_Spec", 4) && entry.length <= kLargestExtraRecord;
+  });
+  if (extra != s.vlrs.end())
+    s.extra_fields = parseLasExtraFields(payload(*extra), s.layout.length, s.header.record_length);
+}
+
+LasFile::~LasFile() = default;
+LasFile::LasFile(LasFile&&) noexcept = default;
+
+const std::filesystem::path& LasFile::path() const {
+  return state_->path;
+}
+const LasHeader& LasFile::header() const {
+  return state_->header;
+}
+const LasRecordLayout& LasFile::layout() const {
+  return state_->layout;
+}
+const std::vector<LasVlrEntry>& LasFile::vlrs() const {
+  return state_->vlrs;
+}
+const std::vector<LasExtraField>& LasFile::extraFields() const {
+  return state_->extra_fields;
+}
+std::string LasFile::crs() const {
+  return state_->reference.crs;
+}
+CrsKind LasFile::crsKind() const {
+  return state_->reference.kind;
+}
+const LinearUnits& LasFile::units() const {
+  return state_->reference.units;
+}
+std::uint64_t LasFile::fileSize() const {
+  return state_->file.size();
+}
+int LasFile::descriptor() const {
+  return state_->file.descriptor();
+}
+
+LasScaling LasFile::toMetres() const {
+  requireMapCoordinates(info());
+  const Eigen::Vector3d metres = units().metres();
+  return {header().scale.cwiseProduct(metres), header().offset.cwiseProduct(metres)};
+}
+
+PointFileInfo LasFile::info() const {
+  const LasHeader& h = header();
+  const Eigen::Vector3d metres = units().metres();
+  PointFileInfo info;
+  info.path = path();
+  info.point_count = h.point_count;
+  info.minimum = h.minimum.cwiseProduct(metres);
+  info.maximum = h.maximum.cwiseProduct(metres);
+  info.resolution = h.scale.cwiseProduct(metres);
+  info.crs = crs();
+  info.crs_kind = crsKind();
+  info.units = units();
+  if (layout().gps_time >= 0)
+    info.time_kind = (h.global_encoding & kLasAdjustedStandardTime) != 0
+                         ? TimeKind::adjusted_standard
+                         : TimeKind::week_seconds;
+  info.format = h.describe();
+  return info;
+}
+
+std::vector<std::byte> LasFile::payload(const LasVlrEntry& vlr, std::size_t limit) const {
+  if (vlr.length > limit)
+    throw InputError(state_->file.name() + ": VLR " + vlr.user_id + " " +
+                     std::to_string(vlr.record_id) + " of " + std::to_string(vlr.length) +
+                     " bytes is too large to be read");
+  std::vector<std::byte> bytes(vlr.length);
+  readBytes(vlr.position, bytes.size(), bytes.data());
+  return bytes;
+}
+
+void LasFile::readBytes(std::uint64_t position, std::size_t bytes, std::byte* out) const {
+  state_->file.read(position, bytes, out);
+}
+
+void LasFile::readRecords(std::uint64_t first, std::size_t count, std::byte* out) const {
+  const State& s = *state_;
+  if (first > s.header.point_count || count > s.header.point_count - first)
+    throw UsageError(s.file.name() + ": point records past the end were asked for");
+  if (s.laz)
+    s.laz->read(first, count, out);
+  else
+    s.file.read(s.header.offset_to_points + first * s.header.record_length,
+                count * s.header.record_length, out);
+}
+
+}  // namespace pcl_als

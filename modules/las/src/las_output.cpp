@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "las_output.h"
+
+#include <algorithm>
+
+#include <sys/stat.h>
+
+#include <pcl_als/common/file_extension.h>
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr std::size_t kOffsetToPoints = 96, kVlrCount = 100, kFormat = 104;
+constexpr std::uint8_t kCompressed = 0x80;
+
+/// Stores the fields of the header that the record of the compression changes.
+void storeChanged(LasHead& head, bool compressed) {
+  const LasHeader& h = head.header;
+  storeLas(&head.bytes[kOffsetToPoints], h.offset_to_points);
+  storeLas(&head.bytes[kVlrCount], h.vlr_count);
+  const std::uint8_t format = compressed ? h.point_format | kCompressed : h.point_format;
+  storeLas(&head.bytes[kFormat], format);
+}
+
+void insertLazRecord(LasHead& head, const std::vector<std::byte>& vlr) {
+  head.bytes.insert(head.bytes.begin() + static_cast<std::ptrdiff_t>(head.vlrs_end), vlr.begin(),
+                    vlr.end());
+  head.header.offset_to_points += static_cast<std::uint32_t>(vlr.size());
+  head.header.vlr_count += 1;
+  storeChanged(head, true);
+}
+
+}  // namespace
+
+LasHead readLasHead(const LasFile& file) {
+  LasHead head;
+  head.header = file.header();
+  head.bytes.resize(head.header.offset_to_points);
+  file.readBytes(0, head.bytes.size(), head.bytes.data());
+  head.vlrs_end = head.header.header_size;
+  const LasVlrEntry* laz = nullptr;
+  for (const LasVlrEntry& vlr : file.vlrs()) {
+    if (vlr.extended) continue;
+    head.vlrs_end = vlr.position + vlr.length;
+    if (vlr.user_id == kLazUser && vlr.record_id == kLazRecord) laz = &vlr;
+  }
+  if (!head.header.compressed) return head;
+  head.header.compressed = false;
+  if (laz != nullptr) {
+    const auto first = static_cast<std::ptrdiff_t>(laz->position - kLasVlrHeader);
+    const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + laz->length);
+    head.bytes.erase(head.bytes.begin() + first, head.bytes.begin() + first + size);
+    head.vlrs_end -= static_cast<std::size_t>(size);
+    head.header.offset_to_points -= static_cast<std::uint32_t>(size);
+    head.header.vlr_count -= 1;
+  }
+  storeChanged(head, false);
+  return head;
+}
+
+LasOutput::LasOutput(const std::filesystem::path& path, LasHead head, int threads)
+    : file_(path), record_length_(head.header.record_length) {
+  const LazSchema schema = LazSchema::forFormat(head.header.point_format, record_length_);
+  const bool compressed = lowerExtension(path) == ".laz";
+  if (compressed) insertLazRecord(head, lazVlr(schema));
+  offset_to_points_ = head.header.offset_to_points;
+  file_.write(head.bytes.data(), head.bytes.size());
+  if (!compressed) return;
+  const auto write = [this](std::uint64_t position, std::size_t bytes, const void* data) {
+    file_.writeAt(position, data, bytes);
+  };
+  laz_ = std::make_unique<LazPointWriter>(schema, write, offset_to_points_, threads);
+}
+
+void LasOutput::append(const std::byte* records, std::size_t count) {
+  if (laz_)
+    laz_->write(records, count);
+  else
+    file_.write(records, count * record_length_);
+}
+
+void LasOutput::putAt(std::uint64_t first, const std::byte* records, std::size_t count) {
+  const std::lock_guard<std::mutex> lock(one_writer_);
+  file_.writeAt(offset_to_points_ + first * record_length_, records, count * record_length_);
+}
+
+std::uint64_t LasOutput::endPoints() {
+  if (laz_) return laz_->finish();
+  struct stat status {};
+  fstat(file_.descriptor(), &status);
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+void LasOutput::put(std::uint64_t position, const std::byte* bytes, std::size_t count) {
+  file_.writeAt(position, bytes, count);
+}
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <pcl_als/common/atomic_file.h>
+#include <pcl_als/las/las_file.h>
+#include <pcl_als/las/las_header.h>
+
+#include "laz.h"
+
+namespace pcl_als::detail {
+
+/// What comes before the points of a plain LAS file: header block, VLRs, bytes between.
+struct LasHead {
+  std::vector<std::byte> bytes;
+  LasHeader header;
+  std::size_t vlrs_end = 0;  ///< where the VLRs end in `bytes`
+};
+
+/// The head of an existing file; of a compressed one as if it were plain.
+LasHead readLasHead(const LasFile& file);
+
+/// Plain or compressed (by extension .laz) point records into an AtomicFile.
+class LasOutput {
+ public:
+  /// \param threads that compress; 0: all cores.
+  LasOutput(const std::filesystem::path& path, LasHead head, int threads = 0);
+
+  void append(const std::byte* records, std::size_t count);
+  /// Plain LAS only: records at an index; by several threads at once.
+  void putAt(std::uint64_t first, const std::byte* records, std::size_t count);
+  bool compressed() const { return laz_ != nullptr; }
+  std::uint64_t endPoints();  ///< no more points; the position behind the last
+
+  /// Bytes at a position of the file, behind the points or in the header.
+  void put(std::uint64_t position, const std::byte* bytes, std::size_t count);
+  void commit() { file_.commit(); }
+
+ private:
+  AtomicFile file_;
+  /// The kernel lets one thread at a time write to a file and makes the others spin: with other
+  /// work on the machine copying takes five times as long. Waiting here costs nothing.
+  std::mutex one_writer_;
+  std::unique_ptr<LazPointWriter> laz_;
+  std::uint64_t offset_to_points_;
+  std::size_t record_length_;
+};
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/las/las_rewriter.h>
+
+#include "las_extension.h"
+#include "las_output.h"
+#include "las_tally.h"
+
+namespace pcl_als {
+namespace {
+
+// Blocks of about 1 MiB stay in the second-level cache from reading to writing.
+constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+constexpr std::size_t kBoxBytes = 48, kWaveformStart = 227, kEvlrStart = 235;
+
+/// Boxes before and after the edit, merged over blocks; the order does not matter.
+struct Boxes {
+  std::mutex mutex;
+  detail::LasBox before, after;
+
+  void add(const detail::LasBox& b, const detail::LasBox& a) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    before.add(b);
+    after.add(a);
+  }
+};
+
+class Rewrite {
+ public:
+  Rewrite(const LasFile& input, const std::filesystem::path& output, const LasEdit& edit,
+          const LasExtension& extension, int threads)
+      : input_(input),
+        edit_(edit),
+        header_(input.header()),
+        head_(detail::extendedHead(input, extension.fields)),
+        out_length_(head_.header.record_length),
+        per_block_(extension.block_records > 0
+                       ? extension.block_records
+                       : std::max<std::size_t>(1, kBlockBytes / out_length_)),
+        keeps_coordinates_(extension.keeps_coordinates),
+        threads_(threads),
+        output_(output, head_, threads) {}
+
+  LasRewriteResult run() {
+    const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
+    // Compressed points are coded in the order of the file, on several threads within.
+    const bool in_order = header_.compressed || output_.compressed();
+    parallelFor(blocks, in_order ? 1 : threads_,
+                [this](std::size_t block) { rewriteBlock(block); });
+    copyTail();
+    LasRewriteResult result;
+    result.points = header_.point_count;
+    result.box_changed = !(boxes_.before == boxes_.after);
+    if (result.box_changed) storeBox();
+    output_.commit();
+    return result;
+  }
+
+ private:
+  void rewriteBlock(std::size_t block) {
+    thread_local std::vector<std::byte> buffer;
+    const std::uint64_t first = block * per_block_;
+    const std::size_t count = std::min<std::uint64_t>(per_block_, header_.point_count - first);
+    buffer.resize(per_block_ * out_length_);
+    readBlock(first, count, buffer);
+    editBlock({buffer.data(), count, out_length_, first});
+    if (output_.compressed())
+      output_.append(buffer.data(), count);
+    else
+      output_.putAt(first, buffer.data(), count);
+  }
+
+  void editBlock(const LasRecordBlock& block) {
+    if (keeps_coordinates_) return edit_(block);
+    detail::LasBox before, after;
+    before.add(block.records, block.count, out_length_);
+    edit_(block);
+    after.add(block.records, block.count, out_length_);
+    boxes_.add(before, after);
+  }
+
+  /// The input's records, each followed by zeros up to the output's length.
+  void readBlock(std::uint64_t first, std::size_t count, std::vector<std::byte>& buffer) const {
+    const std::size_t length = header_.record_length;
+    if (length == out_length_) return input_.readRecords(first, count, buffer.data());
+    thread_local std::vector<std::byte> packed;
+    packed.resize(count * length);
+    input_.readRecords(first, count, packed.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      std::byte* record = &buffer[i * out_length_];
+      std::memcpy(record, &packed[i * length], length);
+      std::memset(record + length, 0, out_length_ - length);
+    }
+  }
+
+  /// Where the bytes behind the points begin. Behind compressed points only what the header points
+  /// at can be told from the chunk table.
+  std::uint64_t tailOfInput() const {
+    if (!header_.compressed)
+      return header_.offset_to_points + header_.point_count * header_.record_length;
+    std::uint64_t tail = input_.fileSize();
+    if (header_.evlr_count > 0) tail = std::min(tail, header_.evlr_start);
+    if (header_.waveform_start > header_.offset_to_points)
+      tail = std::min(tail, header_.waveform_start);
+    return tail;
+  }
+
+  /// Everything behind the points: EVLRs, waveform packets, unknown bytes.
+  void copyTail() {
+    const std::uint64_t from = tailOfInput(), to = output_.endPoints();
+    std::vector<std::byte> buffer(kBlockBytes);
+    for (std::uint64_t at = from; at < input_.fileSize();) {
+      const std::size_t bytes = std::min<std::uint64_t>(buffer.size(), input_.fileSize() - at);
+      input_.readBytes(at, bytes, buffer.data());
+      output_.put(to + (at - from), buffer.data(), bytes);
+      at += bytes;
+    }
+    if (from == to) return;
+    if (header_.version_minor >= 3 && header_.waveform_start >= from)
+      movePosition(kWaveformStart, header_.waveform_start + (to - from));
+    if (header_.version_minor >= 4 && header_.evlr_count > 0)
+      movePosition(kEvlrStart, header_.evlr_start + (to - from));
+  }
+
+  void movePosition(std::size_t field, std::uint64_t position) {
+    output_.put(field, reinterpret_cast<const std::byte*>(&position), sizeof position);
+  }
+
+  void storeBox() {
+    LasHeader changed = header_;
+    boxes_.after.store(changed);
+    const std::vector<std::byte> bytes = serialiseLasHeader(changed);
+    output_.put(kLasBoxPosition, &bytes[kLasBoxPosition], kBoxBytes);
+  }
+
+  const LasFile& input_;
+  const LasEdit& edit_;
+  const LasHeader header_;
+  const detail::LasHead head_;
+  const std::size_t out_length_;
+  const std::size_t per_block_;
+  const bool keeps_coordinates_;
+  const int threads_;
+  detail::LasOutput output_;
+  Boxes boxes_;
+};
+
+}  // namespace
+
+LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& output,
+                            const LasEdit& edit, int threads) {
+  return extendLas(input, output, LasExtension(), edit, threads);
+}
+
+LasRewriteResult extendLas(const LasFile& input, const std::filesystem::path& output,
+                           const LasExtension& extension, const LasEdit& edit, int threads) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(input.path(), output, absent))
+    throw UsageError(output.string() + ": input and output are the same file");
+  return Rewrite(input, output, edit, extension, threads).run();
+}
+
+LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::filesystem::path& output,
+                            const LasEdit& edit, int threads) {
+  return rewriteLas(LasFile(input), output, edit, threads);
+}
+
+}  // namespace pcl_als

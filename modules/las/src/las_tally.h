@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include <pcl_als/las/las_header.h>
+#include <pcl_als/las/las_record.h>
+
+namespace pcl_als::detail {
+
+/// Bounding box of raw integer coordinates; empty while low > high.
+struct LasBox {
+  std::array<std::int32_t, 3> low{kMost, kMost, kMost}, high{kLeast, kLeast, kLeast};
+
+  static constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+
+  /// Takes in raw records (of at least 20 bytes, as every LAS record has).
+  void add(const std::byte* records, std::size_t count, std::size_t record_length);
+  void add(const LasBox& other);
+  bool operator==(const LasBox& other) const { return low == other.low && high == other.high; }
+  bool empty() const { return low[0] > high[0]; }
+  /// Stores the box in metres; an empty one as zeros.
+  void store(LasHeader& header) const;
+};
+
+/// What a header counts: points, returns by number, box.
+struct LasTally {
+  std::uint64_t points = 0;
+  std::array<std::uint64_t, 15> by_return{};
+  LasBox box;
+
+  void add(const std::byte* records, std::size_t count, std::size_t record_length,
+           const LasRecordLayout& layout);
+  void store(LasHeader& header) const;
+};
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <pcl_als/common/input_file.h>
+#include <pcl_als/las/las_header.h>
+#include <pcl_als/las/laz_point_reader.h>
+#include <pcl_als/las/laz_point_writer.h>
+
+namespace pcl_als::detail {
+
+/// The compressed points of a file that stays open as long as the reader.
+/// \param payload of the record kLazUser, kLazRecord. \param fields LazField bits.
+std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHeader& header,
+                                              const std::vector<std::byte>& payload,
+                                              unsigned fields);
+
+/// The VLR (header and payload) that a compressed file needs among its others.
+std::vector<std::byte> lazVlr(const LazSchema& schema);
+
+}  // namespace pcl_als::detail

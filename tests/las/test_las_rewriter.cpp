@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/las/las_rewriter.h>
+
+#include "las_bytes.h"
+#include "real_data.h"
+#include "test_files.h"
+
+namespace pcl_als {
+namespace {
+
+using test::LasBytes;
+
+const LasEdit kNothing = [](const LasRecordBlock&) {};
+
+void addToX(const LasRecordBlock& block, int units) {
+  for (std::size_t i = 0; i < block.count; ++i) {
+    std::byte* x = block.records + i * block.record_length;
+    storeLas(x, loadLas<std::int32_t>(x) + units);
+  }
+}
+
+class LasRewriterMatrix : public testing::TestWithParam<std::tuple<int, int>> {};
+
+TEST_P(LasRewriterMatrix, CopiesEveryByte) {
+  const auto folder = test::scratch("las_rewriter_matrix");
+  const std::string bytes =
+      test::fullFile(std::get<0>(GetParam()), std::get<1>(GetParam()), 1000).str();
+  test::writeBytes(folder / "in.las", bytes);
+  const LasRewriteResult result = rewriteLas(folder / "in.las", folder / "out.las", kNothing, 2);
+  EXPECT_EQ(result.points, 1000U);
+  EXPECT_FALSE(result.box_changed);
+  EXPECT_EQ(test::readBytes(folder / "out.las"), bytes);
+}
+
+TEST_P(LasRewriterMatrix, ChangesOnlyWhatTheEditChanges) {
+  const auto folder = test::scratch("las_rewriter_edit");
+  LasBytes las = test::fullFile(std::get<0>(GetParam()), std::get<1>(GetParam()), 1000);
+  test::writeBytes(folder / "in.las", las.str());
+  const LasRewriteResult result = rewriteLas(
+      folder / "in.las", folder / "out.las",
+      [](const LasRecordBlock& block) { addToX(block, 500); }, 2);
+  EXPECT_TRUE(result.box_changed);
+  const LasFile out(folder / "out.las");
+  // 1e-9 m: rounding of a double at 1e5.
+  EXPECT_NEAR(out.header().minimum.x(), LasBytes::X(0) * 0.001 + las.offset_x + 0.5, 1e-9);
+  EXPECT_EQ(out.header().minimum.y(), LasBytes::Y(999) * 0.001 + las.offset_y);
+  rewriteLas(
+      folder / "out.las", folder / "back.las",
+      [](const LasRecordBlock& block) { addToX(block, -500); }, 2);
+  EXPECT_EQ(test::readBytes(folder / "back.las"), las.str());
+}
+
+INSTANTIATE_TEST_SUITE_P(VersionsAndFormats, LasRewriterMatrix,
+                         testing::Combine(testing::Values(2, 3, 4), testing::Range(0, 11)));
+
+TEST(LasRewriter, CallsTheEditOnceForEveryRecord) {
+  const auto folder = test::scratch("las_rewriter_blocks");
+  LasBytes las;
+  las.count = 120000;  // several blocks of 1 MiB
+  test::writeBytes(folder / "in.las", las.str());
+  std::vector<std::atomic<int>> seen(las.count);
+  rewriteLas(
+      folder / "in.las", folder / "out.las",
+      [&](const LasRecordBlock& block) {
+        for (std::size_t i = 0; i < block.count; ++i) {
+          const std::uint64_t index = block.first + i;
+          const auto x = loadLas<std::int32_t>(block.records + i * block.record_length);
+          EXPECT_EQ(x, LasBytes::X(static_cast<unsigned>(index)));
+          ++seen[index];
+        }
+      },
+      3);
+  for (const auto& count : seen) ASSERT_EQ(count, 1);
+}
+
+TEST(LasRewriter, OneThreadEqualsEight) {
+  const auto folder = test::scratch("las_rewriter_threads");
+  LasBytes las;
+  las.count = 120000;
+  test::writeBytes(folder / "in.las", las.str());
+  const LasEdit edit = [](const LasRecordBlock& block) {
+    addToX(block, static_cast<int>(block.first % 1000));
+  };
+  rewriteLas(folder / "in.las", folder / "one.las", edit, 1);
+  rewriteLas(folder / "in.las", folder / "eight.las", edit, 8);
+  EXPECT_NE(test::readBytes(folder / "one.las"), las.str());
+  EXPECT_EQ(test::readBytes(folder / "one.las"), test::readBytes(folder / "eight.las"));
+}
+
+TEST(LasRewriter, AWrongBoxIsLeftAloneUntilPointsMove) {
+  const auto folder = test::scratch("las_rewriter_box");
+  std::string bytes = LasBytes().str();
+  const double wrong = 1e6;
+  std::memcpy(&bytes[kLasBoxPosition], &wrong, sizeof wrong);
+  test::writeBytes(folder / "in.las", bytes);
+  rewriteLas(folder / "in.las", folder / "out.las", kNothing);
+  EXPECT_EQ(test::readBytes(folder / "out.las"), bytes);
+}
+
+TEST(LasRewriter, AnExceptionInTheEditLeavesNoFile) {
+  const auto folder = test::scratch("las_rewriter_throw");
+  test::writeBytes(folder / "in.las", LasBytes().str());
+  const LasEdit edit = [](const LasRecordBlock&) { throw InputError("no trajectory"); };
+  EXPECT_THROW(rewriteLas(folder / "in.las", folder / "out.las", edit), InputError);
+  const auto files = std::filesystem::directory_iterator(folder);
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);  // only in.las
+}
+
+TEST(LasRewriter, RefusesItsOwnInputAsOutput) {
+  const auto folder = test::scratch("las_rewriter_same");
+  test::writeBytes(folder / "in.las", LasBytes().str());
+  std::filesystem::create_symlink(folder / "in.las", folder / "link.las");
+  EXPECT_THROW(rewriteLas(folder / "in.las", folder / "in.las", kNothing), UsageError);
+  EXPECT_THROW(rewriteLas(folder / "in.las", folder / "link.las", kNothing), UsageError);
+  EXPECT_EQ(test::readBytes(folder / "in.las"), LasBytes().str());
+}
+
+TEST(LasRewriter, CopiesARealTile) {
+  const auto tile = test::unpacked("delft_ahn3/ahn3_cropped_2.las.xz");
+  PCL_ALS_REQUIRE_DATA(tile);
+  const auto folder = test::scratch("las_rewriter_real");
+  rewriteLas(*tile, folder / "out.las", kNothing, 2);
+  EXPECT_EQ(test::readBytes(folder / "out.las"), test::readBytes(*tile));
+}
+
+}  // namespace
+}  // namespace pcl_als
