@@ -90,6 +90,19 @@ for folder in modules/*/; do
   [[ -e modules/$module/README.md ]] || breach "modules/$module" "has no README.md"
 done
 
+# Messages of a library do not name options of the tools: a tool adds the name of its own (Remedy).
+# The options in private_display.cpp are those of the X server.
+while IFS= read -r place; do
+  breach "$place" "names an option of a tool in a library"
+done < <(find modules \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) \
+  ! -name private_display.cpp -exec awk '
+    /^[[:space:]]*(\/\/|\*|\/\*)/ { next }
+    { gsub(/\047\\?"\047/, "")  # the character, which begins no text
+      for (rest = $0; match(rest, /"([^"\\]|\\.)*"/); rest = substr(rest, RSTART + RLENGTH)) {
+        if (substr(rest, 1, RSTART - 1) ~ /\/\//) break
+        text = substr(rest, RSTART, RLENGTH)
+        if (text ~ /["(,;: \047`]--?[a-z][a-z_]+/) print FILENAME ":" FNR ": " text } }' {} +)
+
 # A user of the calibration needs settings, result and one class; internal headers are in src/.
 installed=(modules/calibration/include/pcl_als/calibration/*.h)
 ((${#installed[@]} <= 8)) ||

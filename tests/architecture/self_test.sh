@@ -43,6 +43,8 @@ make_tree; echo '#include "command_line.h"' >>modules/tin/src/a.cpp; expect 1 "n
 make_tree; echo '# include <vtkActor.h>' >>modules/tin/src/a.cpp; expect 1 "only visualization draws"
 make_tree; echo 'void f() { std::cout << 1; }' >>modules/tin/src/a.cpp; expect 1 "prints"
 make_tree; echo 'void f() { char b[9]; std::snprintf(b, 9, ""); }' >>modules/tin/src/a.cpp; expect 0 "keep to"
+make_tree; echo 'const char* s = "too far apart; see -max_distance";' >>modules/tin/src/a.cpp; expect 1 "names an option"
+make_tree; echo 'const char* s = "from 1 -", *t = "x" /* -y */;  // "-crs"' >>modules/tin/src/a.cpp; expect 0 "keep to"
 make_tree; echo 'int x;' >modules/tin/src/a.cpp; expect 1 "no SPDX line"
 make_tree; printf '//\n%.0s' {1..400} >>modules/tin/src/a.cpp; expect 1 "more than 400"
 make_tree; cp modules/tin/src/a.cpp modules/tin/src/forgotten.cpp; expect 1 "is not listed"

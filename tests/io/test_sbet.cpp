@@ -264,12 +264,12 @@ TEST(Sbet, RefusesASizeThatIsNoMultipleOfARecord) {
   EXPECT_NE(refusal({}, kUtm11).find("is empty"), std::string::npos);
 }
 
-TEST(Sbet, WithoutACrsTheOptionIsNamed) {
+TEST(Sbet, WithoutACrsTheRemedyIsNamed) {
   try {
     readTrajectory(file({record(1.0)}));
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("-crs"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("give the CRS of the points"), std::string::npos);
   }
 }
 

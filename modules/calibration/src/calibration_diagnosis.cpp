@@ -41,7 +41,7 @@ std::string SystemCalibrationEngine::reasonWithoutPairs(int strip) const {
   char text[240];
   std::snprintf(text, sizeof text,
                 "it lies %+.2f m above strip %s (median of %zu cells of 10 m); check its heights "
-                "(unit, height reference, trajectory), or leave it out (-without)",
+                "(unit, height reference, trajectory), or leave it out",
                 best.offset, ids_[static_cast<std::size_t>(partner)].c_str(), best.cells);
   return start + text;
 }

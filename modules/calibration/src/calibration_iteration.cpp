@@ -212,9 +212,9 @@ std::string SystemCalibrationEngine::reasonNotConverged(const State& state,
     const SystemParameter p = mostChangingParameter(state);
     text.precision(2);
     text << ": " << infoOf(p).name << " still changes by " << state.recent_updates[indexOf(p)]
-         << " standard deviations; estimate fewer parameters (-estimate)";
+         << " standard deviations; estimate fewer parameters";
   }
-  if (settings_.pair_budget > 0) text << " or keep more pairs (-select)";
+  if (settings_.pair_budget > 0) text << " or keep more pairs of points";
   return text.str();
 }
 

@@ -82,9 +82,7 @@ void SystemCalibrationEngine::useNonLinearModel(const std::string& remark) {
   const std::string text =
       remark + ": the attitude of a scanner that is not linear has to come with the trajectory";
   if (!settings_.force) {
-    throw InputError(text +
-                     "; give one with roll, pitch and heading, or use -model nominal, which takes "
-                     "the sensor as level with its heading along the course");
+    throw InputError(text + "; give one with roll, pitch and heading", Remedy::nominal_model);
   }
   warnings_.push_back(text);
   if (!settings_.recover_attitude) return;

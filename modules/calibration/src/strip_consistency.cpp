@@ -18,8 +18,7 @@ constexpr double kSession = 3.0 * 3600.0;  // seconds without a strip between tw
 constexpr double kOtherHeight = 1.1;       // ratio of flying heights
 constexpr double kFewPairs = 200.0;        // number of pairs with which a mean has half its weight
 constexpr double kLeast = 0.01;  // metres: smaller offsets are not reported, however significant
-constexpr const char* kAdvice =
-    ": calibrate without it (-without) or separately (-strips), or correct its trajectory";
+constexpr const char* kAdvice = ": calibrate without it or separately, or correct its trajectory";
 
 /// Two-sided probability of a value of Student's t (approximation of Wallace 1959).
 double probabilityOf(double t, double freedom) {
@@ -138,7 +137,7 @@ void StripConsistency::compareSessions(double alpha) {
                           " after the others, in another session";
     warning += differs ? ", and lie " + text("%+.3f m", found.difference) +
                              " above them after the calibration: calibrate the sessions "
-                             "separately (-strips)"
+                             "separately"
                        : "; their heights agree with the others to " +
                              text("%.3f m", std::abs(found.difference)) +
                              ", but the mounting may have changed";

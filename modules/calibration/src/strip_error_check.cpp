@@ -15,7 +15,7 @@ constexpr std::size_t kListed = 5;
 struct Component {
   const char* name;
   bool angle;
-  const char* option;
+  const char* measured;  ///< quantity whose a priori standard deviation a user states
   const char* causes;
 };
 constexpr const char* kPlanCauses = "datum, projection or reference point of the trajectory";
@@ -23,12 +23,12 @@ constexpr const char* kHeightCauses =
     "unit or vertical datum of the trajectory's heights, or its reference point";
 constexpr const char* kAttitudeCauses = "attitude of the trajectory, its unit and its time";
 constexpr std::array<Component, 6> kComponents{{
-    {"east", false, "-position_sigma", kPlanCauses},
-    {"north", false, "-position_sigma", kPlanCauses},
-    {"height", false, "-position_sigma", kHeightCauses},
-    {"pitch", true, "-roll_pitch_sigma", kAttitudeCauses},
-    {"roll", true, "-roll_pitch_sigma", kAttitudeCauses},
-    {"heading", true, "-heading_sigma", kAttitudeCauses},
+    {"east", false, "positions", kPlanCauses},
+    {"north", false, "positions", kPlanCauses},
+    {"height", false, "positions", kHeightCauses},
+    {"pitch", true, "roll and pitch", kAttitudeCauses},
+    {"roll", true, "roll and pitch", kAttitudeCauses},
+    {"heading", true, "heading", kAttitudeCauses},
 }};
 
 std::string sizeText(double value, bool angle) {
@@ -48,7 +48,8 @@ std::string describe(const StripErrorSize& error) {
   return "strip " + error.strip + ": trajectory correction in " + component.name + " of " +
          sizeText(error.rms, component.angle) + " (RMS over the strip), " + ratio +
          " times its a priori standard deviation of " + sizeText(error.sigma, component.angle) +
-         "; check the " + component.causes + ", or state what it is worth with " + component.option;
+         "; check the " + component.causes + ", or give a larger standard deviation of its " +
+         component.measured;
 }
 
 /// RMS over all pairs of strips.

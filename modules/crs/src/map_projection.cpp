@@ -43,9 +43,9 @@ struct MapProjection::State {
 void MapProjection::State::inspect() {
   const CrsDescription description = describeCrs(crs);
   if (description.kind == CrsKind::unknown && description.name.empty())
-    throw InputError(nameOf(crs) + ": PROJ does not know it; give one with -crs");
+    throw InputError(nameOf(crs) + ": PROJ does not know it", Remedy::crs);
   if (description.kind != CrsKind::projected || !description.horizontal)
-    throw InputError(nameOf(crs) + ": is not a projected CRS; give one with -crs");
+    throw InputError(nameOf(crs) + ": is not a projected CRS", Remedy::crs);
   needs_geoid = openCrs(context.get(), crs).vertical != nullptr;
   metres.head<2>().setConstant(description.horizontal->metres);
   // Without a vertical axis PROJ hands the ellipsoidal height through, in metres.
@@ -90,7 +90,7 @@ MapProjection::Result MapProjection::project(double latitude, double longitude,
     throw InputError(
         nameOf(state_->crs) +
         ": the geoid grid of its heights is not installed for PROJ; if the points have "
-        "ellipsoidal heights, give the CRS of plan only with -crs");
+        "ellipsoidal heights, give the CRS of plan only");
   }
   return result;
 }

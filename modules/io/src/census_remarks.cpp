@@ -113,7 +113,7 @@ void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
   if (pose.empty()) return;
   remarks.push_back("each record holds the pose of the sensor (" + pose +
                     "), which is not used: write these fields with the time of each pulse to a "
-                    "CSV file for -trajectory, in metres and degrees, heading clockwise from "
+                    "trajectory as CSV, in metres and degrees, heading clockwise from "
                     "grid north");
 }
 

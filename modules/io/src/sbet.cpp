@@ -65,8 +65,8 @@ std::vector<TrajectorySample> readSbet(const std::filesystem::path& path, const 
   const std::string name = path.string();
   if (crs.empty()) {
     throw UsageError(name +
-                     ": an SBET is in latitude and longitude; give the CRS of the points "
-                     "with -crs EPSG:...");
+                     ": an SBET is in latitude and longitude; give the CRS of the points, "
+                     "such as EPSG:25832");
   }
   const std::string content = readWholeFile(path);
   if (content.empty()) throw InputError(name + ": is empty");

@@ -134,7 +134,7 @@ class LasInput : public IntensityInput {
     if (gain_control_ >= 0) return;
     std::string names;
     for (const LasExtraField& field : fields) names += " " + field.name;
-    throw InputError(path_ + ": has no extra field " + name + " for -agc_field" +
+    throw InputError(path_ + ": has no extra field " + name + " of gain control values" +
                      (names.empty() ? "; it has none at all" : "; it has" + names));
   }
 

@@ -135,8 +135,8 @@ void checkCounts(const std::string& name, const IntensityCounts& counts, bool ke
   text << name << ": ";
   if (!keep_uncovered && !fewUncovered(uncovered, counts.points)) {
     text << "the trajectory does not cover the times of " << uncovered << " of " << counts.points
-         << " points; -keep_uncovered leaves them as they are";
-    throw InputError(text.str());
+         << " points";
+    throw InputError(text.str(), Remedy::keep_uncovered);
   }
   const std::uint64_t above = countOf(counts, RadiometryStatus::above_sensor);
   if (2 * above > counts.points) {
@@ -164,7 +164,7 @@ class OutputFields {
         if (name == kOriginal)
           throw InputError(file.path().string() + ": has a field " + name +
                            ": its intensity was corrected before; give the file it came from, or "
-                           "-no_original to correct it again");
+                           "do not keep the original intensity to correct it again");
         field.name = name + '_' + std::to_string(n);
       }
     }

@@ -223,9 +223,8 @@ double IntensityRun::gainControl(double value, const std::string& path) const {
   const std::vector<GainStep>& steps = settings_.gain_steps;
   if (!(value >= steps.front().value && value <= steps.back().value)) {
     throw InputError(path + ": a gain control value of " + std::to_string(value) +
-                     " lies outside the table of -agc_gain (" +
-                     std::to_string(steps.front().value) + " to " +
-                     std::to_string(steps.back().value) + ")");
+                     " lies outside the table of gains (" + std::to_string(steps.front().value) +
+                     " to " + std::to_string(steps.back().value) + ")");
   }
   const auto above =
       std::lower_bound(steps.begin(), steps.end(), value,

@@ -140,21 +140,20 @@ PointAttribute::PointAttribute(std::string name, const PictureSource& source,
     : name_(std::move(name)), source_(source) {
   if (name_ == "difference") {
     if (reference.empty()) {
-      throw UsageError(
-          "option -color difference: needs -reference STRIP, the strip to compare with");
+      throw UsageError("colour by difference needs a reference: the strip to compare with");
     }
     reference_ = static_cast<int>(stripNamed(source.strips(), reference, "reference"));
     if (source.strips().size() < 2)
-      throw UsageError("option -color difference: needs a second strip besides " + reference);
+      throw UsageError("colour by difference needs a second strip besides " + reference);
     return;
   }
-  if (!reference.empty()) throw UsageError("option -reference: only for -color difference");
+  if (!reference.empty()) throw UsageError("a reference strip serves colour by difference only");
   if (std::find(kNames.begin(), kNames.end(), name_) != kNames.end()) return;
   const std::string fields = extraFieldNames(source.files());
   if ((", " + fields + ",").find(", " + name_ + ",") == std::string::npos || name_.empty()) {
     std::string known;
     for (const char* each : kNames) known += (known.empty() ? "" : ", ") + std::string(each);
-    throw UsageError("option -color: '" + name_ + "' is none of " + known +
+    throw UsageError("colour by '" + name_ + "': it is none of " + known +
                      (fields.empty() ? ", and the files have no extra-bytes fields"
                                      : ", nor of the extra-bytes fields " + fields));
   }

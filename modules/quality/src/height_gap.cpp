@@ -56,12 +56,13 @@ std::string describeGap(const HeightGap& gap, const std::string& a, const std::s
                         double maximum_distance) {
   if (!(std::abs(gap.median) > maximum_distance)) return "";
   char text[320];
-  std::snprintf(text, sizeof text,
-                "%s lies %.2f m %s %s (median of %zu cells of %.0f m), which is beyond the %.2f m "
-                "within which surfaces are compared: a height offset of one strip (height "
-                "reference, units, lever arm); -max_distance compares surfaces further apart",
-                a.c_str(), std::abs(gap.median), gap.median > 0.0 ? "above" : "below", b.c_str(),
-                gap.cells, HeightGap::kCell, maximum_distance);
+  std::snprintf(
+      text, sizeof text,
+      "%s lies %.2f m %s %s (median of %zu cells of %.0f m), which is beyond the %.2f m "
+      "within which surfaces are compared: a height offset of one strip (height "
+      "reference, units, lever arm); a larger maximum distance compares surfaces further apart",
+      a.c_str(), std::abs(gap.median), gap.median > 0.0 ? "above" : "below", b.c_str(), gap.cells,
+      HeightGap::kCell, maximum_distance);
   return text;
 }
 

@@ -50,7 +50,7 @@ std::string_view describe(HeadingReading reading) {
     case HeadingReading::opposite:
       return "the direction of the tail (heading + 180 degrees)";
     case HeadingReading::from_north_counter_clockwise:
-      return "an angle counter-clockwise from north (-heading)";
+      return "an angle counter-clockwise from north (minus the heading)";
     case HeadingReading::left:
       return "the direction to the left (heading - 90 degrees)";
     case HeadingReading::right:

@@ -230,18 +230,18 @@ void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const 
   }
   if (all.count() < kFewestHeadings || all.followsCourse()) return;
   const HeadingReading best = all.best();
-  char text[400];
+  char text[480];
   if (all.deviation(best) <= HeadingCheck::kLargestCrab && !all.constant()) {
     std::snprintf(text, sizeof text,
                   "the heading of the trajectory does not follow its course (%.0f degrees away), "
                   "but would as %s: give roll, pitch and heading in degrees, heading clockwise "
-                  "from grid north, or use -model quasi_rigorous",
+                  "from grid north, or use the quasi-rigorous model, which needs no attitude",
                   all.deviation(HeadingReading::heading), std::string(describe(best)).c_str());
   } else {
     std::snprintf(text, sizeof text,
                   "the heading of the trajectory does not follow its course (%.0f degrees away)%s: "
                   "give the attitude of this flight in degrees, heading clockwise from grid "
-                  "north, or use -model quasi_rigorous",
+                  "north, or use the quasi-rigorous model, which needs no attitude",
                   all.deviation(HeadingReading::heading),
                   all.constant() ? "; it is the same at all times, a column without values" : "");
   }

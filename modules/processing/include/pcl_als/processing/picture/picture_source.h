@@ -64,7 +64,7 @@ class PictureSource {
   double first_time_ = 0.0;
 };
 
-/// The attribute by which points are coloured: a name of the option -color.
+/// The attribute by which points are coloured.
 class PointAttribute {
  public:
   /// elevation, intensity, strip, class, return, scan_angle, time, difference, or an extra-bytes
