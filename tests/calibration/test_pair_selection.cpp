@@ -196,7 +196,7 @@ TEST(PairSelection, LeavesNoMeetingOfStripsUnseen) {
   areas.emplace_back();  // an area that tells nothing new
   for (int i = 0; i < 500; ++i) areas.back().push_back(pairAt(0.0, Eigen::Vector3d::UnitZ(), 2, 3));
   const PairSelection selection = Block(areas).choose({800, 0.25});
-  EXPECT_GE(selection.chosen().back().size(), 15U);  // 200 pairs over 11 meetings
+  EXPECT_GE(selection.chosen().back().size(), 15U);  // 200 pairs over 11 pairs of strips in areas
 }
 
 TEST(PairSelection, NeverTakesOutliersAndAlwaysControl) {

@@ -67,8 +67,8 @@ void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {
     if (!used_[i]) continue;
     const int strip = static_cast<int>(i);
     if (!hasPairs(strip, result)) {
-      const std::string lost = reasonWithoutPairs(strip);
-      if (!lost.empty()) result.warnings.push_back(lost);
+      const std::string reason = reasonWithoutPairs(strip);
+      if (!reason.empty()) result.warnings.push_back(reason);
     }
     strips.push_back(
         {ids_[i], map_.startTime(strip), map_.endTime(strip), plausibility_.meanHeight(strip)});

@@ -113,18 +113,18 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
   return groups;
 }
 
-PairSelection::Meetings PairSelection::meetingsOf(const std::vector<Group>& groups) {
-  Meetings meetings;
+PairSelection::StripsInAreas PairSelection::stripsInAreas(const std::vector<Group>& groups) {
+  StripsInAreas strips_in_areas;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    meetings[{groups[g].area, groups[g].strips}].push_back(g);
-  return meetings;
+    strips_in_areas[{groups[g].area, groups[g].strips}].push_back(g);
+  return strips_in_areas;
 }
 
 void PairSelection::spreadEvenly(std::vector<Group>& groups) const {
-  const Meetings meetings = meetingsOf(groups);
+  const StripsInAreas strips_in_areas = stripsInAreas(groups);
   const double each = settings_.spread * static_cast<double>(settings_.budget) /
-                      std::max<double>(1.0, static_cast<double>(meetings.size()));
-  for (const auto& [where, members] : meetings) {
+                      std::max<double>(1.0, static_cast<double>(strips_in_areas.size()));
+  for (const auto& [where, members] : strips_in_areas) {
     std::vector<double> sizes;
     for (const std::size_t g : members) {
       sizes.push_back(static_cast<double>(groups[g].members.size()));
@@ -164,7 +164,7 @@ void PairSelection::takeMembers(std::vector<Group>& groups) {
     carried = std::clamp(group.number + carried - static_cast<double>(taken), -1.0, 1.0);
     for (std::size_t k = 0; k < taken; ++k) group.taken.push_back(group.members[k * size / taken]);
   }
-  for (const auto& [where, members] : meetingsOf(groups)) {
+  for (const auto& [where, members] : stripsInAreas(groups)) {
     std::vector<const Group*> groups_of_strips;
     for (const std::size_t g : members) groups_of_strips.push_back(&groups[g]);
     setOffsets(groups_of_strips);

@@ -62,8 +62,9 @@ class PairSelection {
  private:
   struct Group;
   /// Indices of the groups of two strips in an area.
-  using Meetings = std::map<std::pair<std::size_t, std::array<int, 2>>, std::vector<std::size_t>>;
-  static Meetings meetingsOf(const std::vector<Group>& groups);
+  using StripsInAreas =
+      std::map<std::pair<std::size_t, std::array<int, 2>>, std::vector<std::size_t>>;
+  static StripsInAreas stripsInAreas(const std::vector<Group>& groups);
 
   /// Also keeps all control.
   std::vector<Group> groupsOf(std::size_t area, const AreaObservations& observations,

@@ -29,13 +29,15 @@ struct Kappa {
   explicit Kappa(const CountMatrix& counts) {
     shares = counts.cast<double>() / static_cast<double>(counts.sum());
     const Eigen::VectorXd rows = shares.rowwise().sum(), columns = shares.colwise().sum();
-    const double agreed = shares.trace(), by_chance = rows.dot(columns), room = 1.0 - by_chance;
-    value = room > 0.0 ? (agreed - by_chance) / room : kNone;
+    const double agreed = shares.trace(), by_chance = rows.dot(columns),
+                 beyond_chance = 1.0 - by_chance;
+    value = beyond_chance > 0.0 ? (agreed - by_chance) / beyond_chance : kNone;
     gradient.resize(shares.rows(), shares.cols());
     for (Eigen::Index i = 0; i < shares.rows(); ++i)
       for (Eigen::Index j = 0; j < shares.cols(); ++j)
         gradient(i, j) =
-            ((i == j ? room : 0.0) - (1.0 - agreed) * (columns[i] + rows[j])) / (room * room);
+            ((i == j ? beyond_chance : 0.0) - (1.0 - agreed) * (columns[i] + rows[j])) /
+            (beyond_chance * beyond_chance);
   }
   double variance(double points) const {
     const double mean = shares.cwiseProduct(gradient).sum();
@@ -50,11 +52,12 @@ struct Kappa {
 void conditionalKappa(double n, ClassAccuracy& row) {
   const auto a = static_cast<double>(row.correct), r = static_cast<double>(row.classified),
              c = static_cast<double>(row.reference);
-  const double room = r * (n - c);
-  row.kappa = room > 0.0 ? (n * a - r * c) / room : kNone;
-  row.kappa_std = room > 0.0 ? std::sqrt(n * (r - a) / (room * room * room) *
-                                         ((r - a) * (r * c - n * a) + n * a * (n - r - c + a)))
-                             : kNone;
+  const double beyond_chance = r * (n - c);
+  row.kappa = beyond_chance > 0.0 ? (n * a - r * c) / beyond_chance : kNone;
+  row.kappa_std = beyond_chance > 0.0
+                      ? std::sqrt(n * (r - a) / (beyond_chance * beyond_chance * beyond_chance) *
+                                  ((r - a) * (r * c - n * a) + n * a * (n - r - c + a)))
+                      : kNone;
 }
 
 double twoSidedNormal(double z) {

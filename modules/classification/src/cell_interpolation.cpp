@@ -111,9 +111,10 @@ class RingSearch {
     found_.clear();
     centre_ = {(column + 0.5) * grid_.cell, -(row + 0.5) * grid_.cell};
     for (int ring = 1; ring <= reach_ && found_.size() < kNeighbours; ++ring) {
-      for (int c = column - ring; c <= column + ring; ++c) look(c, row - ring), look(c, row + ring);
+      for (int c = column - ring; c <= column + ring; ++c)
+        visit(c, row - ring), visit(c, row + ring);
       for (int r = row - ring + 1; r < row + ring; ++r)
-        look(column - ring, r), look(column + ring, r);
+        visit(column - ring, r), visit(column + ring, r);
     }
     return found_;
   }
@@ -121,7 +122,7 @@ class RingSearch {
  private:
   static constexpr std::uint32_t kNoSample = 0xFFFFFFFF;
 
-  void look(int column, int row) {
+  void visit(int column, int row) {
     if (!grid_.holds(column, row)) return;
     const std::uint32_t sample = sample_of_[grid_.index(column, row)];
     if (sample == kNoSample) return;

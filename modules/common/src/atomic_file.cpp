@@ -58,7 +58,7 @@ AtomicFile::AtomicFile(fs::path target) : requested_(std::move(target)) {
   descriptor_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode | 0600U);
   if (descriptor_ < 0) {
     const int error = errno;
-    detail::forgetTemporary(slot_);
+    detail::unregisterTemporary(slot_);
     fail("cannot be created", error);
   }
   // The umask took part in the creation; on file systems without permissions this fails,
@@ -75,7 +75,7 @@ void AtomicFile::discard() {
   if (descriptor_ >= 0) close(descriptor_);
   descriptor_ = -1;
   unlink(temporary_.c_str());
-  detail::forgetTemporary(slot_);
+  detail::unregisterTemporary(slot_);
   slot_ = nullptr;
 }
 
@@ -125,7 +125,7 @@ void AtomicFile::commit() {
     discard();
     fail("cannot be renamed to its final name", error);
   }
-  detail::forgetTemporary(slot_);
+  detail::unregisterTemporary(slot_);
   slot_ = nullptr;
 }
 

@@ -51,7 +51,7 @@ TemporarySlot* registerTemporary(const std::string& path) {
   return slot;
 }
 
-void forgetTemporary(TemporarySlot* slot) {
+void unregisterTemporary(TemporarySlot* slot) {
   if (slot != nullptr) slot->state.store(kFree);
 }
 

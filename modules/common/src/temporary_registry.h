@@ -15,6 +15,6 @@ struct TemporarySlot;
 
 /// Enters a name (before the file is created, so that there is no moment without protection).
 TemporarySlot* registerTemporary(const std::string& path);
-void forgetTemporary(TemporarySlot* slot);
+void unregisterTemporary(TemporarySlot* slot);
 
 }  // namespace pcl_als::detail

@@ -46,7 +46,7 @@ Axes::Axes(Canvas& canvas, const PixelBox& box, const Axis& x, const Axis& y)
   // Low panels get closer marks, so that there is more than one to read a scale from.
   const double most = std::max(box_.height / 45.0, std::min(5.0, box_.height / 24.0));
   y_marks_ = marksOf(y_, std::max(2, static_cast<int>(most)));
-  // Marks of the x axis must leave room between each other.
+  // Marks of the x axis must not overlap.
   TextStyle style;
   style.size = kTextSize;
   double widest = 0.0;

@@ -70,9 +70,9 @@ void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const U
     const double pixel_y = axes.pixel(0.0, at).y();
     name.color = value.color = known ? ink::black : ink::gray;
     canvas.text(plainName(info), {box.x - 14.0, pixel_y}, name);
-    const double room = canvas.width() - kPlotMargin - right;
+    const double available = canvas.width() - kPlotMargin - right;
     value.size = known ? 15.0 : 13.0;
-    const auto lines = detail::wrapped(estimateText(info.parameter, estimate), room, value, 3);
+    const auto lines = detail::wrapped(estimateText(info.parameter, estimate), available, value, 3);
     for (std::size_t k = 0; k < lines.size(); ++k) {
       const double shift = static_cast<double>(k) - 0.5 * static_cast<double>(lines.size() - 1);
       canvas.text(lines[k], {right, pixel_y + 17.0 * shift}, value);

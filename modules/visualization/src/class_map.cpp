@@ -82,8 +82,9 @@ std::vector<LegendEntry> ClassMapPicture::legend() const {
 
 /// Pixels from west to east that each map may take.
 double ClassMapPicture::roomAcross(int width) const {
-  const double room = width - 3.0 * kMargin - std::max(legendSize(legend(), heading_).x(), 130.0);
-  return room / static_cast<double>(maps_.size()) - kLabels - 2.0 * kMargin;
+  const double available =
+      width - 3.0 * kMargin - std::max(legendSize(legend(), heading_).x(), 130.0);
+  return available / static_cast<double>(maps_.size()) - kLabels - 2.0 * kMargin;
 }
 
 int ClassMapPicture::heightFor(int width, int lowest, int highest) const {

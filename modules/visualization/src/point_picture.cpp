@@ -143,12 +143,12 @@ Canvas PointPicture::draw(const PixelThinning& points, const PointColoring& colo
   TextStyle style;
   style.size = 20.0;
   style.bold = true;
-  const double room = width_ - 2.0 * kMargin;
-  canvas.text(detail::shortened(title_, room, style), {kMargin, 24.0}, style);
+  const double available = width_ - 2.0 * kMargin;
+  canvas.text(detail::shortened(title_, available, style), {kMargin, 24.0}, style);
   style = {};
   style.color = ink::gray;
   const std::string facts = (subtitle_.empty() ? "" : subtitle_ + ", ") + viewText(camera);
-  canvas.text(detail::shortened(facts, room, style), {kMargin, 50.0}, style);
+  canvas.text(detail::shortened(facts, available, style), {kMargin, 50.0}, style);
   if (camera.isTopView()) {
     const Eigen::Vector2d north_west =
         camera.center().head<2>() +
@@ -166,15 +166,15 @@ void PointPicture::drawPanel(Canvas& canvas, const PixelThinning& points,
   const double metres = points.camera().metresPerPixel();
   drawScaleBar(canvas, metres, kPanel - 40.0, {left, foot});
   const Eigen::Vector2d north = northIn(points.camera());
-  const double room = foot - 150.0 - top;
+  const double available = foot - 150.0 - top;
   // A picture too low for scale and arrow has north up, or states the direction of view.
-  if (north.norm() > 0.05 && room > 130.0)
+  if (north.norm() > 0.05 && available > 130.0)
     drawNorthArrow(canvas, {left + 24.0, foot - 92.0}, 46.0, north);
   const bool gaps = anyWithoutValue(points);
   if (coloring.categories.empty()) {
     TextStyle bold;
     bold.bold = true;
-    const double height = std::clamp(room - 60.0, 60.0, 420.0);
+    const double height = std::clamp(available - 60.0, 60.0, 420.0);
     drawColorBar(canvas, coloring.map, coloring.low, coloring.high,
                  detail::shortened(coloring.heading, kPanel, bold),
                  {left, top + 28.0, 24.0, height});
@@ -189,7 +189,7 @@ void PointPicture::drawPanel(Canvas& canvas, const PixelThinning& points,
     entries.push_back({detail::shortened(category.name, kPanel - 26.0, {}), category.color});
   }
   if (gaps) entries.push_back({coloring.no_value, coloring.no_value_color});
-  const auto most = static_cast<std::size_t>(std::max(2.0, room / 21.0 - 2.0));
+  const auto most = static_cast<std::size_t>(std::max(2.0, available / 21.0 - 2.0));
   if (entries.size() > most) {
     const std::size_t more = entries.size() - most + 1;
     entries.resize(most - 1);

@@ -15,7 +15,7 @@ namespace {
 using detail::kPlotMargin;
 
 constexpr double kNinetyFivePercent = 1.96;
-constexpr double kAxisRoom = 84.0;
+constexpr double kAxisHeight = 84.0;
 
 double shownValue(const BeforeAfterPlot::Row& row) {
   return std::isfinite(row.after) ? row.after : row.before;
@@ -55,8 +55,9 @@ class Key {
 
  private:
   void text(const std::string& name, double shift) {
-    const double room = canvas_.width() - kPlotMargin - x_ - shift;
-    x_ = canvas_.text(detail::shortened(name, std::max(0.0, room), {}), {x_ + shift, y_}).right() +
+    const double available = canvas_.width() - kPlotMargin - x_ - shift;
+    x_ = canvas_.text(detail::shortened(name, std::max(0.0, available), {}), {x_ + shift, y_})
+             .right() +
          30.0;
   }
   Canvas& canvas_;
@@ -111,7 +112,7 @@ Canvas drawBeforeAfter(const BeforeAfterPlot& plot, PictureSize size) {
   }
   const double left = std::min(widest, 0.3 * size.width) + kPlotMargin + 14.0;
   const PixelBox box{left, top + 40.0, size.width - left - 2.0 * kPlotMargin,
-                     size.height - top - 40.0 - kAxisRoom};
+                     size.height - top - 40.0 - kAxisHeight};
   Axes axes(canvas, box, Axis::around(values, plot.x_label, true), rowAxis(plot.rows.size()));
   drawLimits(canvas, axes, plot);
   const TextStyle name = nameStyle(box.height, plot.rows.size());
@@ -152,7 +153,7 @@ Canvas drawIntervals(const IntervalPlot& plot, PictureSize size) {
   const double left = std::min(names, 0.25 * size.width) + kPlotMargin + 14.0;
   const double right = std::min(texts, 0.35 * size.width) + kPlotMargin + 16.0;
   const PixelBox box{left, top + 12.0, size.width - left - right,
-                     size.height - top - 12.0 - kAxisRoom};
+                     size.height - top - 12.0 - kAxisHeight};
   Axes axes(canvas, box, Axis::around(reach, plot.x_label), rowAxis(plot.rows.size()));
   if (std::isfinite(plot.reference)) axes.verticalLine(plot.reference, 1.5, ink::gray);
   TextStyle name = nameStyle(box.height, plot.rows.size()), value = name;

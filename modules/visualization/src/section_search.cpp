@@ -25,9 +25,8 @@ constexpr double kAboveGround = 1.5;      // m: height of a roof's face above th
 constexpr double kEaves = 12.0;           // m: within which the ground beside a roof is searched
 constexpr double kApart = 25.0;           // m, between places
 
-/// Worth of a place: the misfit that is seen, a little for the slope that would show one, and the
-/// number of strips.
-double worthOf(const SectionSearch::Place& place) {
+/// Rank of a place: the misfit, with a constant for slopes without one, and the number of strips.
+double rankOf(const SectionSearch::Place& place) {
   return (place.difference + 0.02) * std::sqrt(static_cast<double>(place.strips)) *
          (place.kind == SectionSearch::Place::Kind::gable ? 1.5 : 1.0);
 }
@@ -208,7 +207,7 @@ std::vector<SectionSearch::Place> SectionSearch::find(std::size_t most) const {
     if (auto place = slopeAround(slopes, entry.first)) places.push_back(*place);
   }
   std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return worthOf(a) > worthOf(b); });
+                   [](const Place& a, const Place& b) { return rankOf(a) > rankOf(b); });
   std::vector<Place> chosen;
   for (const Place& place : places) {
     if (chosen.size() >= most) break;

@@ -15,12 +15,12 @@ namespace pcl_als {
 /// Tilt over its standard deviation above which it is significant; below, distances are vertical.
 constexpr double kSignificantTilt = 5.0;
 
-/// Candidates of a strip in an area, for \a all candidates of a block with \a meetings combinations
-/// of strip and area.
+/// Candidates of a strip in an area, for \a all candidates of a block and the number of
+/// combinations of strip and area.
 template <typename Amount>
-Amount candidatesPerStrip(Amount all, Amount meetings) {
+Amount candidatesPerStrip(Amount all, Amount strips_in_areas) {
   constexpr Amount kFewest = 150;
-  return std::max(all / meetings, kFewest);
+  return std::max(all / strips_in_areas, kFewest);
 }
 
 /// Effect of the stretch of the pulse over the footprint on the normal distance, n'u range
