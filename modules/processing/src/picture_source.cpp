@@ -153,7 +153,7 @@ PointAttribute::PointAttribute(std::string name, const PictureSource& source,
   if ((", " + fields + ",").find(", " + name_ + ",") == std::string::npos || name_.empty()) {
     std::string known;
     for (const char* each : kNames) known += (known.empty() ? "" : ", ") + std::string(each);
-    throw UsageError("colour by '" + name_ + "': it is none of " + known +
+    throw UsageError("colour of points: '" + name_ + "' is none of " + known +
                      (fields.empty() ? ", and the files have no extra-bytes fields"
                                      : ", nor of the extra-bytes fields " + fields));
   }

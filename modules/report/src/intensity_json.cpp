@@ -246,8 +246,7 @@ StoredRadiometry readIntensityJson(const std::filesystem::path& path) {
   const Json json = Json::parse(stream, nullptr, false);
   if (json.is_discarded() || !json.is_object() || json.value("format", "") != kFormat ||
       json.value("version", 0) != 1 || !json.contains("model") || !json["model"].is_object())
-    throw InputError(name +
-                     ": is no result of a radiometric correction (pcl_als_intensity), version 1");
+    throw InputError(name + ": is no result of pcl_als_intensity, version 1");
   StoredRadiometry stored;
   const Json& model = json["model"];
   stored.model.range_exponent = positive(model, "range_exponent", name);
