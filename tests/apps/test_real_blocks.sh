@@ -57,8 +57,9 @@ for name in lever_arm_y range_bias; do
   checks=$((checks + 1))
   [[ $(value base.json $name status) == not_estimable ]] || failed "Delft: $name is $(value base.json $name status)"
 done
-# Chosen pairs tell what all of them tell.
-expect 0 converged calibrate ahn3_cropped_?.las -trajectory "$flight" -select 20 -output chosen.json
+# Half of the pairs give the estimates of all of them. With 20,000 REML ends at other variance
+# components, with which lever_arm_y is just below the limit of 8 cm and taken into the estimate.
+expect 0 converged calibrate ahn3_cropped_?.las -trajectory "$flight" -select 25 -output chosen.json
 for name in lever_arm_x boresight_pitch boresight_roll boresight_heading scan_angle_scale; do
   checks=$((checks + 1))
   within "$(value chosen.json $name bias)" "$(value base.json $name bias)" \

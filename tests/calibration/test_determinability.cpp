@@ -109,7 +109,8 @@ TEST(Determinability, OneDirection) {
 }
 
 TEST(Determinability, OneDirectionWithoutControl) {
-  expectOpen({1.0, 1.0, 1.0}, false, {P::lever_arm_x, P::lever_arm_y, P::range_bias});
+  // lever_arm_x is at its limit: crab turns its effect, which gives a standard deviation of 5 cm.
+  expectOpen({1.0, 1.0, 1.0}, false, {P::lever_arm_y, P::range_bias});
 }
 
 TEST(Determinability, OnePair) {

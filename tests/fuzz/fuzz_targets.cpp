@@ -75,7 +75,7 @@ void readPcd(const std::filesystem::path& path) {
 
 void assess(const ConfusionMatrix& matrix) {
   if (matrix.total() == 0) return;
-  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}};
+  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}, {}};
   report.other = report.result;
   report.comparison = compareAccuracy(matrix, matrix);
   accuracyText(report);
