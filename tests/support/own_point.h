@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <pcl/point_types.h>
+
 #include <pcl_als/common/point_types.h>
 
 namespace pcl_als::test {
