@@ -46,7 +46,7 @@ TEST(CalibrationProblems, AGoodBlockIsUsableWithoutWarnings) {
   EXPECT_GT(result.control_points.size(), 5U);
 }
 
-/// What is left out because the iteration ends at its limit: names, and that each says so.
+/// Names of the parameters that are left out at the limit of iterations; each must state it.
 std::vector<P> leftOutAtTheLimit(const CalibrationResult& result) {
   std::vector<P> names;
   for (const SystemParameterInfo& info : systemParameters()) {

@@ -302,7 +302,7 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
   }
 }
 
-const OverlapResult& IntensityRun::adjust(const std::function<void(double)>& progress) {
+OverlapResult IntensityRun::adjust(const std::function<void(double)>& progress) {
   RadiometricCells cells(cell_size_, one_cell_in_);
   std::size_t all = 0, done = 0;
   for (const auto& input : inputs_) all += input->windows();
@@ -333,13 +333,14 @@ const OverlapResult& IntensityRun::adjust(const std::function<void(double)>& pro
       progress(static_cast<double>(done) / static_cast<double>(all));
     }
   }
-  overlaps_ = adjustOverlaps(cells.shared(), cell_size_, strips(), model_, settings_.overlaps);
-  model_ = overlaps_.model;
-  estimated_gains_ = overlaps_.gainFactors();
-  return overlaps_;
+  OverlapResult overlaps =
+      adjustOverlaps(cells.shared(), cell_size_, strips(), model_, settings_.overlaps);
+  model_ = overlaps.model;
+  estimated_gains_ = overlaps.gainFactors();
+  return overlaps;
 }
 
-const ReferenceResult& IntensityRun::refer(std::vector<ReferenceTarget> targets, double radius) {
+ReferenceResult IntensityRun::refer(std::vector<ReferenceTarget> targets, double radius) {
   ReferenceCalibration calibration(std::move(targets), radius);
   for (std::size_t file = 0; file < files(); ++file) {
     for (std::size_t window = 0; window < inputs_[file]->windows(); ++window) {
@@ -361,9 +362,9 @@ const ReferenceResult& IntensityRun::refer(std::vector<ReferenceTarget> targets,
       }
     }
   }
-  reference_ = calibration.solve();
-  constant_ = reference_.constant;
-  return reference_;
+  ReferenceResult reference = calibration.solve();
+  constant_ = reference.constant;
+  return reference;
 }
 
 }  // namespace pcl_als

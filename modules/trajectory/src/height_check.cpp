@@ -24,23 +24,17 @@ constexpr double kTwoHeights = 1.3;
 
 }  // namespace
 
-void HeightCheck::Line::add(double seen, double recorded) {
-  n += 1.0, x += seen, y += recorded;
-  xx += seen * seen, xy += seen * recorded, yy += recorded * recorded;
-}
-
 double HeightCheck::Line::slope() const {
-  const double sxx = xx - x * x / n, sxy = xy - x * y / n;
-  return sxx > 0.0 ? std::abs(sxy / sxx) : 0.0;
+  return sxx() > 0.0 ? std::abs(sxy() / sxx()) : 0.0;
 }
 
 double HeightCheck::Line::residual() const {
-  const double sxx = xx - x * x / n, sxy = xy - x * y / n, syy = yy - y * y / n;
-  return sxx > 0.0 ? std::sqrt(std::max(0.0, syy - sxy * sxy / sxx) / n) : 0.0;
+  if (!(sxx() > 0.0)) return 0.0;
+  return std::sqrt(std::max(0.0, syy() - sxy() * sxy() / sxx()) / n);
 }
 
 double HeightCheck::Line::spread() const {
-  return std::sqrt(std::max(0.0, yy - y * y / n) / n);
+  return std::sqrt(std::max(0.0, syy()) / n);
 }
 
 void HeightCheck::add(double lateral, double along, double height, double scan_angle) {

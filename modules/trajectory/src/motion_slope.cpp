@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/line_sums.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -18,18 +19,8 @@ constexpr double kSystematic = 0.05;  // of a slope: crab and mounting angles at
 // RMS change; less is noise of the attitude and bending of the mount.
 constexpr double kMotion = 0.03 * kRadiansPerDegree;
 
-/// Sums over changes of x and y.
-struct Changes {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-
-  void add(double dx, double dy) {
-    n += 1.0, x += dx, y += dy;
-    xx += dx * dx, xy += dx * dy, yy += dy * dy;
-  }
-};
-
-Changes changesOf(const std::vector<MotionSample>& series, double lag) {
-  Changes changes;
+LineSums changesOf(const std::vector<MotionSample>& series, double lag) {
+  LineSums changes;
   for (std::size_t i = 0, before = 0; i < series.size(); ++i) {
     while (series[i].time - series[before + 1].time >= lag) ++before;
     const double step = series[i].time - series[before].time;
@@ -45,13 +36,13 @@ void MotionSlope::add(const std::vector<MotionSample>& series) {
   if (series.size() < 2) return;
   const double duration = series.back().time - series.front().time;
   const double lag = std::clamp(duration / kChanges, kShortest, kLongest);
-  const Changes c = changesOf(series, lag);
+  const LineSums c = changesOf(series, lag);
   const double observations = std::min(c.n, duration / lag);
   if (observations < kFewest || c.yy < kMotion * kMotion * c.n) return;
-  const double xx = c.xx - c.x * c.x / c.n, xy = c.xy - c.x * c.y / c.n;
+  const double xx = c.sxx(), xy = c.sxy();
   if (!(xx > 0.0)) return;
   const double slope = xy / xx;
-  const double left = std::max(0.0, c.yy - c.y * c.y / c.n - slope * xy) / c.n;
+  const double left = std::max(0.0, c.syy() - slope * xy) / c.n;
   const double variance = left * c.n / (xx * (observations - 2.0));
   const double weight = 1.0 / (variance + kSystematic * kSystematic);
   weight_ += weight, sum_ += weight * slope, sum_sq_ += weight * slope * slope;

@@ -3,6 +3,7 @@
 //
 // clouds TRAJECTORY CONTROL.csv MODEL.json PICTURE.png STRIP…: whole jobs on clouds in memory. The
 // model is one of pcl_als_classify -save_model.
+#include <cmath>
 #include <exception>
 #include <iostream>
 

@@ -81,9 +81,6 @@ class IncidenceSelection : public PointSelection<PointT> {
   std::vector<bool> select(const pcl::Indices& points) override;
 
  private:
-  std::vector<Eigen::Vector3f> surfacePoints() const;
-  LocalSurface surfaceAt(const LocalSurfaces& planes, std::size_t index) const;
-
   std::shared_ptr<const Trajectory> trajectory_;
   NormalsConstPtr normals_;
   LocalSurfaceSettings surfaces_;

@@ -102,7 +102,6 @@ class IntensityCorrection : public pcl::Filter<PointT> {
 
  private:
   void checkSettings() const;
-  std::vector<Eigen::Vector3f> surfacePoints() const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   NormalsConstPtr normals_;

@@ -76,7 +76,7 @@ struct SurveyCensus {
   std::vector<std::string> remarks;
 };
 
-/// Which points are which strip, where something other than StripNaming says so (module survey).
+/// Assignment of points to strips where StripNaming does not determine it (module survey).
 struct CensusStrips {
   std::vector<std::string> names;
   /// The end of the run of points of one strip that starts with row \a from of a chunk, and the

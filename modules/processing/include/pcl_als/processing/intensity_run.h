@@ -109,9 +109,9 @@ class IntensityRun {
   double radius(int strip) const { return radii_[static_cast<std::size_t>(strip)]; }
 
   /// Estimates the parameters that the settings request; they are used in what follows.
-  const OverlapResult& adjust(const std::function<void(double)>& progress);
+  OverlapResult adjust(const std::function<void(double)>& progress);
   /// Estimates the factor to reflectance, which is used in what follows.
-  const ReferenceResult& refer(std::vector<ReferenceTarget> targets, double radius);
+  ReferenceResult refer(std::vector<ReferenceTarget> targets, double radius);
 
   void useModel(const RadiometricModel& model) { model_ = model; }
   /// Estimated gains by strip (of an earlier run).
@@ -153,8 +153,6 @@ class IntensityRun {
   RadiometricModel model_;
   double saturation_ = 65535.0, cell_size_ = 2.0, constant_ = 0.0;
   std::uint32_t one_cell_in_ = 1;
-  OverlapResult overlaps_;
-  ReferenceResult reference_;
 };
 
 }  // namespace pcl_als

@@ -10,7 +10,7 @@
 
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
-#include <pcl_als/processing/cloud_strips.h>
+#include <pcl_als/processing/cloud_job.h>
 #include <pcl_als/processing/survey_check.h>
 
 namespace pcl_als {
@@ -24,8 +24,9 @@ namespace pcl_als {
  *
  * The point type needs x, y and z (float). gps_time, return_number and number_of_returns,
  * classification, flags (bits of PointFlag) and scan_angle are used where the type has them;
- * without scan angles and a trajectory, trends with scan angle are not computed. For other types
- * than PointLidar include impl/strip_check.hpp.
+ * a trajectory gives scan angles that are finer
+ * than those of the points; without either, trends with scan angle are not computed. For other
+ * types than PointLidar include impl/strip_check.hpp.
  *
  * UsageError for wrong arguments, InputError for data that cannot be used, Cancelled.
  * \code
@@ -38,26 +39,12 @@ namespace pcl_als {
  * \endcode
  */
 template <typename PointT>
-class StripCheck {
+class StripCheck : public CloudJob<PointT> {
  public:
   using Ptr = std::shared_ptr<StripCheck<PointT>>;
   using ConstPtr = std::shared_ptr<const StripCheck<PointT>>;
-  using PointCloud = pcl::PointCloud<PointT>;
-  using PointCloudConstPtr = typename PointCloud::ConstPtr;
 
-  /// Adds a strip, or a further part of the strip of that id. Points that are not finite are left
-  /// out. UsageError for a null cloud or an empty id.
-  void addInputStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame,
-                     const std::string& id) {
-    strips_.add(cloud, frame, id);
-  }
-  void clearInputStrips() { strips_.clear(); }
-
-  /// For scan angles that are finer than those of the points; default none.
-  void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
-    trajectory_ = std::move(trajectory);
-  }
-  std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
+  StripCheck() : CloudJob<PointT>("StripCheck") {}
 
   /// Settings::control: points on the ground, used vertically; default none.
   void setControl(std::vector<ControlPoint> control) {
@@ -75,13 +62,6 @@ class StripCheck {
   /// Areas of the last check().
   const std::vector<SurveyArea>& getAreas() const { return requireCheck().areas; }
 
-  /// Conversion of point times to those of the trajectory; default: they are the same.
-  void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
-  const TimeAlignment& getTimeAlignment() const { return alignment_; }
-
-  /// Called in every phase; returning false cancels.
-  void setProgressCallback(ProgressCallback callback) { progress_ = std::move(callback); }
-
   /// Computes the result; if an exception is thrown, there is none.
   void check();
   /// Result of the last check(); UsageError where there is none.
@@ -90,11 +70,7 @@ class StripCheck {
  private:
   const SurveyCheck& requireCheck() const;
 
-  CloudStrips<PointT> strips_;
-  std::shared_ptr<const Trajectory> trajectory_;
   SurveyCheckOptions options_;
-  TimeAlignment alignment_;
-  ProgressCallback progress_;
   std::optional<SurveyCheck> check_;
 };
 

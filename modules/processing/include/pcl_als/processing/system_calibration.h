@@ -9,7 +9,7 @@
 
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
-#include <pcl_als/processing/cloud_strips.h>
+#include <pcl_als/processing/cloud_job.h>
 #include <pcl_als/processing/survey_calibration.h>
 
 namespace pcl_als {
@@ -19,6 +19,9 @@ namespace pcl_als {
  * The same computation as calibrateSurvey() and pcl_als_calibrate: point-to-patch pairs of
  * overlapping strips (Eq. (11)) and vertical control (Eq. (12)), iterated until convergence. Points
  * in the same order give the same result, from PCD files to the last bit.
+ *
+ * A trajectory is needed, as delivered. With Trajectory::Options::use_attitude the model is the
+ * rigorous one of Eq. (1), otherwise the quasi-rigorous one (README of module calibration).
  *
  * Each cloud is relative to its own LocalFrame; trajectory and control are in the ground frame
  * (east, north, up; metres). The coordinates of a cloud are floats: within 1 km of the frame's
@@ -47,28 +50,13 @@ namespace pcl_als {
  * \endcode
  */
 template <typename PointT>
-class SystemCalibration {
+class SystemCalibration : public CloudJob<PointT> {
  public:
   using Ptr = std::shared_ptr<SystemCalibration<PointT>>;
   using ConstPtr = std::shared_ptr<const SystemCalibration<PointT>>;
-  using PointCloud = pcl::PointCloud<PointT>;
-  using PointCloudConstPtr = typename PointCloud::ConstPtr;
   using StripNames = std::vector<std::pair<std::string, std::string>>;
 
-  /// Adds a strip, or a further part of the strip of that id. Points that are not finite are left
-  /// out. UsageError for a null cloud or an empty id.
-  void addInputStrip(const PointCloudConstPtr& cloud, const LocalFrame& frame,
-                     const std::string& id) {
-    strips_.add(cloud, frame, id);
-  }
-  void clearInputStrips() { strips_.clear(); }
-
-  /// The flight as delivered. With Trajectory::Options::use_attitude the model is the rigorous one
-  /// of Eq. (1), otherwise the quasi-rigorous one (README of module calibration).
-  void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
-    trajectory_ = std::move(trajectory);
-  }
-  std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
+  SystemCalibration() : CloudJob<PointT>("SystemCalibration") {}
 
   /// Points on the ground, used vertically; default none.
   void setControl(std::vector<ControlPoint> control) { options_.control = std::move(control); }
@@ -88,13 +76,6 @@ class SystemCalibration {
   void setSettings(const CalibrationSettings& settings) { options_.settings = settings; }
   const CalibrationSettings& getSettings() const { return options_.settings; }
 
-  /// Conversion of point times to those of the trajectory; default: they are the same.
-  void setTimeAlignment(const TimeAlignment& alignment) { alignment_ = alignment; }
-  const TimeAlignment& getTimeAlignment() const { return alignment_; }
-
-  /// Called in every phase and iteration; returning false cancels.
-  void setProgressCallback(ProgressCallback callback) { progress_ = std::move(callback); }
-
   /// Estimates the parameters; if an exception is thrown, there is no result.
   void calibrate();
   /// Result of the last calibrate(); getResult().verdict states whether it may be applied.
@@ -105,11 +86,7 @@ class SystemCalibration {
   const SurveyCalibration& getSurveyCalibration() const;
 
  private:
-  CloudStrips<PointT> strips_;
-  std::shared_ptr<const Trajectory> trajectory_;
   SurveyCalibrationOptions options_;
-  TimeAlignment alignment_;
-  ProgressCallback progress_;
   std::optional<SurveyCalibration> calibration_;
 };
 

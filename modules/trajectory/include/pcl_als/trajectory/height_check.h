@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/trajectory/line_sums.h>
+
 namespace pcl_als {
 
 /** \brief The height of a strip's trajectory above its points, from recorded scan angles.
@@ -36,10 +38,7 @@ class HeightCheck {
 
  private:
   /// Recorded tangents (y) over those from the trajectory (x).
-  struct Line {
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-
-    void add(double seen, double recorded);
+  struct Line : LineSums {
     double slope() const;
     double residual() const;  ///< RMS of the tangents
     double spread() const;    ///< standard deviation of the recorded tangents

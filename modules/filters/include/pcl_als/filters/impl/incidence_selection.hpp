@@ -11,6 +11,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/filters/impl/cloud_surfaces.hpp>
 #include <pcl_als/filters/incidence_selection.h>
 
 namespace pcl_als {
@@ -25,40 +26,15 @@ void IncidenceSelection<PointT>::setAngleLimits(double minimum, double maximum) 
   maximum_ = maximum;
 }
 
-/// Last returns, which are those on surfaces.
-template <typename PointT>
-std::vector<Eigen::Vector3f> IncidenceSelection<PointT>::surfacePoints() const {
-  std::vector<Eigen::Vector3f> points;
-  if (normals_) return points;
-  for (const PointT& point : *this->input_) {
-    const PointFields<PointT> fields{point};
-    if (fields.returnNumber() >= fields.numberOfReturns() && fields.isFinite())
-      points.push_back(fields.position());
-  }
-  return points;
-}
-
-template <typename PointT>
-LocalSurface IncidenceSelection<PointT>::surfaceAt(const LocalSurfaces& planes,
-                                                   std::size_t index) const {
-  if (!normals_) return planes.at(PointFields<PointT>{(*this->input_)[index]}.position());
-  LocalSurface surface;
-  surface.normal = (*normals_)[index].getNormalVector3fMap().normalized();
-  surface.support = 1;
-  return surface;
-}
-
 template <typename PointT>
 std::vector<bool> IncidenceSelection<PointT>::select(const pcl::Indices& points) {
   static_assert(HasGpsTime<PointT>::value,
                 "IncidenceSelection needs a point type with x, y, z and gps_time (double)");
   constexpr std::size_t kChunk = 16384;  // divides the work
   if (!trajectory_) throw UsageError("IncidenceSelection: no trajectory is set");
-  if (normals_ && normals_->size() != this->input_->size())
-    throw UsageError("IncidenceSelection: " + std::to_string(normals_->size()) + " normals for " +
-                     std::to_string(this->input_->size()) + " points");
+  CloudSurfaces<PointT>::requireOnePerPoint(normals_, this->input_->size(), "IncidenceSelection");
   const RadiometricEvaluator evaluator(trajectory_, RadiometricModel());
-  const LocalSurfaces planes(surfacePoints(), surfaces_);
+  const CloudSurfaces<PointT> surfaces(*this->input_, normals_, surfaces_);
   std::vector<std::uint8_t> covered(points.size());
   angles_.assign(points.size(), std::numeric_limits<float>::quiet_NaN());
   parallelFor((points.size() + kChunk - 1) / kChunk, this->threads_, [&](std::size_t chunk) {
@@ -66,11 +42,11 @@ std::vector<bool> IncidenceSelection<PointT>::select(const pcl::Indices& points)
     for (std::size_t i = chunk * kChunk; i < std::min(points.size(), (chunk + 1) * kChunk); ++i) {
       const auto index = static_cast<std::size_t>(points[i]);
       const PointFields<PointT> fields{(*this->input_)[index]};
-      const bool last = fields.returnNumber() >= fields.numberOfReturns();
+      const bool last = CloudSurfaces<PointT>::isLast(fields);
       const PointRadiometry found = evaluator.evaluate(
           {alignment_(fields.gpsTime()), this->frame_.toGround(fields.position()),
            fields.returnNumber(), fields.numberOfReturns()},
-          last ? surfaceAt(planes, index) : LocalSurface(), cursor);
+          last ? surfaces.at(index) : LocalSurface(), cursor);
       covered[i] = found.status != RadiometryStatus::uncovered ? 1 : 0;
       angles_[i] = static_cast<float>(static_cast<double>(found.incidence) / kRadiansPerDegree);
     }

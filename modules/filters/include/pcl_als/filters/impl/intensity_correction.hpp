@@ -9,6 +9,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/filters/impl/cloud_surfaces.hpp>
 #include <pcl_als/filters/intensity_correction.h>
 
 namespace pcl_als {
@@ -18,22 +19,7 @@ void IntensityCorrection<PointT>::checkSettings() const {
   if (!trajectory_) throw UsageError("IntensityCorrection: no trajectory is set");
   if (!std::isfinite(gain_) || gain_ <= 0.0)
     throw UsageError("IntensityCorrection: the gain must be more than 0");
-  if (normals_ && normals_->size() != this->input_->size())
-    throw UsageError("IntensityCorrection: " + std::to_string(normals_->size()) + " normals for " +
-                     std::to_string(this->input_->size()) + " points");
-}
-
-/// Single and last returns, which are those on surfaces.
-template <typename PointT>
-std::vector<Eigen::Vector3f> IntensityCorrection<PointT>::surfacePoints() const {
-  std::vector<Eigen::Vector3f> points;
-  if (normals_) return points;
-  for (const PointT& point : *this->input_) {
-    const Eigen::Vector3f place(point.x, point.y, point.z);
-    if (point.return_number >= point.number_of_returns && place.allFinite())
-      points.push_back(place);
-  }
-  return points;
+  CloudSurfaces<PointT>::requireOnePerPoint(normals_, this->input_->size(), "IntensityCorrection");
 }
 
 template <typename PointT>
@@ -41,7 +27,7 @@ void IntensityCorrection<PointT>::applyFilter(PointCloud& output) {
   constexpr std::size_t kChunk = 16384;  // divides the work
   checkSettings();
   const RadiometricEvaluator evaluator(trajectory_, model_);
-  const LocalSurfaces surfaces(surfacePoints(), surfaces_);
+  const CloudSurfaces<PointT> surfaces(*this->input_, normals_, surfaces_);
   const std::size_t count = this->indices_->size();
   radiometry_.assign(this->input_->size(), PointRadiometry());
   output = *this->input_;
@@ -51,13 +37,9 @@ void IntensityCorrection<PointT>::applyFilter(PointCloud& output) {
       const auto index = static_cast<std::size_t>((*this->indices_)[i]);
       const PointT& point = (*this->input_)[index];
       const Eigen::Vector3f place(point.x, point.y, point.z);
-      LocalSurface surface;
-      if (normals_) {
-        surface.normal = (*normals_)[index].getNormalVector3fMap().normalized();
-        surface.support = 1;
-      } else if (point.return_number >= point.number_of_returns) {
-        surface = surfaces.at(place);
-      }
+      const bool has_surface =
+          normals_ || CloudSurfaces<PointT>::isLast(PointFields<PointT>{point});
+      const LocalSurface surface = has_surface ? surfaces.at(index) : LocalSurface();
       const RadiometryPoint where{alignment_(point.gps_time), frame_.toGround(place),
                                   point.return_number, point.number_of_returns};
       PointRadiometry& result = radiometry_[index];

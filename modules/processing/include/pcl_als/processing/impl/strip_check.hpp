@@ -10,15 +10,14 @@ namespace pcl_als {
 template <typename PointT>
 void StripCheck<PointT>::check() {
   check_.reset();
-  if (strips_.size() == 0) throw UsageError("StripCheck: no strips are set");
-  SurveyReader survey =
-      SurveyReader::ofInputs(strips_.inputs(alignment_), options_.settings.threads);
-  check_ = checkSurvey(survey, trajectory_, options_, progress_);
+  this->requireStrips();
+  SurveyReader survey = this->survey(options_.settings.threads);
+  check_ = checkSurvey(survey, this->trajectory_, options_, this->progress_);
 }
 
 template <typename PointT>
 const SurveyCheck& StripCheck<PointT>::requireCheck() const {
-  if (!check_) throw UsageError("StripCheck: check() has given no result yet");
+  if (!check_) throw UsageError(this->name_ + ": check() has given no result yet");
   return *check_;
 }
 

@@ -12,16 +12,15 @@ void SystemCalibration<PointT>::calibrate() {
   static_assert(HasGpsTime<PointT>::value,
                 "SystemCalibration needs a point type with x, y, z and gps_time (double)");
   calibration_.reset();
-  if (strips_.size() == 0) throw UsageError("SystemCalibration: no strips are set");
-  if (!trajectory_) throw UsageError("SystemCalibration: no trajectory is set");
-  SurveyReader survey =
-      SurveyReader::ofInputs(strips_.inputs(alignment_), options_.settings.threads);
-  calibration_ = calibrateSurvey(survey, trajectory_, options_, progress_);
+  this->requireStrips();
+  if (!this->trajectory_) throw UsageError(this->name_ + ": no trajectory is set");
+  SurveyReader survey = this->survey(options_.settings.threads);
+  calibration_ = calibrateSurvey(survey, this->trajectory_, options_, this->progress_);
 }
 
 template <typename PointT>
 const SurveyCalibration& SystemCalibration<PointT>::getSurveyCalibration() const {
-  if (!calibration_) throw UsageError("SystemCalibration: calibrate() has given no result yet");
+  if (!calibration_) throw UsageError(this->name_ + ": calibrate() has given no result yet");
   return *calibration_;
 }
 
