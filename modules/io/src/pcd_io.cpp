@@ -2,72 +2,31 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <cstring>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/pcd_io.h>
 
 #include "pcd_file.h"
+#include "pcd_layout.h"
 #include "point_fill.h"
 
 namespace pcl_als {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 15;
-constexpr std::size_t kRecord = 34;
-
-/// A comment must stay one line.
-std::string oneLine(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
-}
-
-/// " VALUE" once for every column.
-std::string repeated(const char* value, std::size_t times) {
-  std::string text;
-  for (std::size_t i = 0; i < times; ++i) text.append(" ").append(value);
-  return text;
-}
 
 std::string headerOf(const Strip<PointLidar>& strip, const std::vector<PcdColumn>& columns) {
   const auto& cloud = *strip.cloud;
   const bool organized = std::size_t{cloud.width} * cloud.height == cloud.size();
-  const std::size_t width = organized ? cloud.width : cloud.size();
-  const std::size_t height = organized ? cloud.height : 1;
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(17);
-  text << "# .PCD v0.7 - Point Cloud Data file format\n";
-  if (!strip.id.empty()) text << detail::kPcdStripComment << oneLine(strip.id) << '\n';
-  if (!strip.frame.crs.empty()) text << detail::kPcdCrsComment << oneLine(strip.frame.crs) << '\n';
-  text << "VERSION 0.7\n"
-          "FIELDS x y z gps_time intensity scan_angle point_source_id return_number "
-          "number_of_returns classification flags";
-  for (const PcdColumn& column : columns) text << ' ' << column.name;
-  text << "\nSIZE 4 4 4 8 4 4 2 1 1 1 1" << repeated("4", columns.size())
-       << "\nTYPE F F F F F F U U U U U" << repeated("F", columns.size())
-       << "\nCOUNT 1 1 1 1 1 1 1 1 1 1 1" << repeated("1", columns.size()) << '\n'
-       << "WIDTH " << width << "\nHEIGHT " << height << "\nVIEWPOINT " << strip.frame.origin.x()
-       << ' ' << strip.frame.origin.y() << ' ' << strip.frame.origin.z() << " 1 0 0 0\nPOINTS "
-       << cloud.size() << "\nDATA binary\n";
-  return text.str();
-}
-
-template <typename T>
-void put(char*& at, const T& value) {
-  std::memcpy(at, &value, sizeof value);
-  at += sizeof value;
-}
-
-void putPoint(char* at, const PointLidar& p) {
-  put(at, p.x), put(at, p.y), put(at, p.z);
-  put(at, p.gps_time);
-  put(at, p.intensity), put(at, p.scan_angle);
-  put(at, p.point_source_id);
-  put(at, p.return_number), put(at, p.number_of_returns);
-  put(at, p.classification), put(at, p.flags);
+  detail::PcdDescription description;
+  description.strip_id = strip.id;
+  description.frame = strip.frame;
+  for (const PcdColumn& column : columns) description.columns.push_back(column.name);
+  description.width = organized ? cloud.width : cloud.size();
+  description.height = organized ? cloud.height : 1;
+  return detail::pcdHeaderText(description);
 }
 
 bool hasDoubles(const detail::PcdHeader& header) {
@@ -115,16 +74,20 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
   }
   AtomicFile file(path);
   file.write(headerOf(strip, columns));
-  const std::size_t length = kRecord + sizeof(float) * columns.size();
+  const std::size_t length = detail::kPcdRecord + sizeof(float) * columns.size();
   std::vector<char> block;
   const auto& points = strip.cloud->points;
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - first);
     block.resize(count * length);
     for (std::size_t i = 0; i < count; ++i) {
-      putPoint(&block[i * length], points[first + i]);
-      char* at = &block[i * length + kRecord];
-      for (const PcdColumn& column : columns) put(at, column.values[first + i]);
+      char* at = &block[i * length];
+      detail::putPcdPoint(points[first + i], at);
+      at += detail::kPcdRecord;
+      for (const PcdColumn& column : columns) {
+        std::memcpy(at, &column.values[first + i], sizeof(float));
+        at += sizeof(float);
+      }
     }
     file.write(block.data(), block.size());
   }

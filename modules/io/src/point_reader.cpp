@@ -1,58 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <cmath>
-
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
-#include <pcl_als/crs/crs.h>
+#include <pcl_als/io/las_point_reader.h>
 #include <pcl_als/io/local_point_reader.h>
 #include <pcl_als/io/point_reader.h>
-#include <pcl_als/las/las_file.h>
 
 #include "pcd_file.h"
 
 namespace pcl_als {
 namespace {
-
-constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
-
-/// What a PointChunk has columns for; the layers of other fields are not decoded.
-constexpr unsigned kColumns = kLazZ | kLazClassification | kLazFlags | kLazIntensity |
-                              kLazScanAngle | kLazPointSource | kLazGpsTime;
-
-class LasPointReader : public PointReader {
- public:
-  LasPointReader(const std::filesystem::path& path, OtherCoordinates other)
-      : file_(path, kColumns), info_(file_.info()) {
-    if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
-    const Eigen::Vector3d metres = info_.units.metres();
-    scaling_ = {file_.header().scale.cwiseProduct(metres),
-                file_.header().offset.cwiseProduct(metres)};
-  }
-
-  const PointFileInfo& info() const override { return info_; }
-
-  bool read(PointChunk& chunk) override {
-    const LasHeader& header = file_.header();
-    // Records may have up to 64 kB; a chunk of those is shorter.
-    const std::size_t most = std::min(kChunk, kMostBytes / header.record_length);
-    const std::size_t count = std::min<std::uint64_t>(most, header.point_count - position_);
-    buffer_.resize(count * header.record_length);
-    file_.readRecords(position_, count, buffer_.data());
-    decodeLasRecords(buffer_.data(), count, header.record_length, file_.layout(), scaling_.scale,
-                     scaling_.offset, chunk);
-    position_ += count;
-    return count > 0;
-  }
-
- private:
-  LasFile file_;
-  PointFileInfo info_;
-  LasScaling scaling_;
-  std::uint64_t position_ = 0;
-  std::vector<std::byte> buffer_;
-};
 
 /// A PCD header knows neither box nor kind of time.
 class PcdPointReader : public LocalPointReader {
@@ -72,15 +29,47 @@ class PcdPointReader : public LocalPointReader {
   detail::PcdFile file_;
 };
 
+/// The points of another reader within bounds.
+class BoundedReader : public PointReader {
+ public:
+  BoundedReader(std::unique_ptr<PointReader> reader, const PointWindow& window)
+      : reader_(std::move(reader)), window_(window), info_(within(window, reader_->info())) {}
+
+  const PointFileInfo& info() const override { return info_; }
+
+  bool read(PointChunk& chunk) override {
+    bool more = reader_->read(chunk);
+    for (; more; more = reader_->read(chunk)) {
+      keepInside(*window_.bounds, chunk);
+      if (chunk.size() > 0) break;
+    }
+    return more;
+  }
+
+ private:
+  std::unique_ptr<PointReader> reader_;
+  PointWindow window_;
+  PointFileInfo info_;
+};
+
 }  // namespace
 
 std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path,
-                                               OtherCoordinates other) {
+                                               const PointWindow& window, OtherCoordinates other) {
   const std::string extension = lowerExtension(path);
-  if (extension == ".pcd") return std::make_unique<PcdPointReader>(path);
   if (extension == ".las" || extension == ".laz")
-    return std::make_unique<LasPointReader>(path, other);
+    return std::make_unique<LasPointReader>(path, window, other);
+  if (extension == ".pcd") {
+    auto reader = std::make_unique<PcdPointReader>(path);
+    if (window.everything()) return reader;
+    return std::make_unique<BoundedReader>(std::move(reader), window);
+  }
   throw InputError(path.string() + ": is no point file by its name (.las, .laz or .pcd)");
+}
+
+std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path,
+                                               OtherCoordinates other) {
+  return open(path, PointWindow(), other);
 }
 
 }  // namespace pcl_als

@@ -87,9 +87,11 @@ PointFileSources surveySources(const std::filesystem::path& path,
 PointFileSources surveySources(PointReader& reader,
                                const std::function<void(const PointChunk&)>& also) {
   PointFileSources file{reader.info(), {}};
+  file.info.point_count = 0;  // of a part of a file only an estimate is known before
   std::map<std::uint16_t, PointSource> sources;
   PointChunk chunk;
   while (reader.read(chunk)) {
+    file.info.point_count += chunk.size();
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
       const double time = chunk.gps_time[i];

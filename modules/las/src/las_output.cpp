@@ -3,15 +3,19 @@
 #include "las_output.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <sys/stat.h>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 
 namespace pcl_als::detail {
 namespace {
 
 constexpr std::size_t kOffsetToPoints = 96, kVlrCount = 100, kFormat = 104;
+constexpr std::size_t kLegacyCounts = 107, kLegacyCountsEnd = 131, kCounts = 247, kCountsEnd = 375;
+constexpr std::size_t kBoxBytes = 48;
 constexpr std::uint8_t kCompressed = 0x80;
 
 /// Stores the fields of the header that the record of the compression changes.
@@ -31,7 +35,20 @@ void insertLazRecord(LasHead& head, const std::vector<std::byte>& vlr) {
   storeChanged(head, true);
 }
 
+void eraseVlr(LasHead& head, const LasVlrEntry& vlr) {
+  const auto first = static_cast<std::ptrdiff_t>(vlr.position - kLasVlrHeader);
+  const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + vlr.length);
+  head.bytes.erase(head.bytes.begin() + first, head.bytes.begin() + first + size);
+  head.vlrs_end -= static_cast<std::size_t>(size);
+  head.header.offset_to_points -= static_cast<std::uint32_t>(size);
+  head.header.vlr_count -= 1;
+}
+
 }  // namespace
+
+bool describesChunks(const LasVlrEntry& vlr) {
+  return (vlr.user_id == kLazUser && vlr.record_id == kLazRecord) || vlr.user_id == kCopcUser;
+}
 
 LasHead readLasHead(const LasFile& file) {
   LasHead head;
@@ -39,28 +56,21 @@ LasHead readLasHead(const LasFile& file) {
   head.bytes.resize(head.header.offset_to_points);
   file.readBytes(0, head.bytes.size(), head.bytes.data());
   head.vlrs_end = head.header.header_size;
-  const LasVlrEntry* laz = nullptr;
+  std::vector<const LasVlrEntry*> dropped;
   for (const LasVlrEntry& vlr : file.vlrs()) {
     if (vlr.extended) continue;
     head.vlrs_end = vlr.position + vlr.length;
-    if (vlr.user_id == kLazUser && vlr.record_id == kLazRecord) laz = &vlr;
+    if (describesChunks(vlr)) dropped.push_back(&vlr);
   }
   if (!head.header.compressed) return head;
   head.header.compressed = false;
-  if (laz != nullptr) {
-    const auto first = static_cast<std::ptrdiff_t>(laz->position - kLasVlrHeader);
-    const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + laz->length);
-    head.bytes.erase(head.bytes.begin() + first, head.bytes.begin() + first + size);
-    head.vlrs_end -= static_cast<std::size_t>(size);
-    head.header.offset_to_points -= static_cast<std::uint32_t>(size);
-    head.header.vlr_count -= 1;
-  }
+  for (auto vlr = dropped.rbegin(); vlr != dropped.rend(); ++vlr) eraseVlr(head, **vlr);
   storeChanged(head, false);
   return head;
 }
 
 LasOutput::LasOutput(const std::filesystem::path& path, LasHead head, int threads)
-    : file_(path), record_length_(head.header.record_length) {
+    : name_(path.string()), file_(path), record_length_(head.header.record_length) {
   const LazSchema schema = LazSchema::forFormat(head.header.point_format, record_length_);
   const bool compressed = lowerExtension(path) == ".laz";
   if (compressed) insertLazRecord(head, lazVlr(schema));
@@ -94,6 +104,20 @@ std::uint64_t LasOutput::endPoints() {
 
 void LasOutput::put(std::uint64_t position, const std::byte* bytes, std::size_t count) {
   file_.writeAt(position, bytes, count);
+}
+
+void LasOutput::putCounts(const LasHeader& header) {
+  if (header.version_minor < 4 && header.point_count > std::numeric_limits<std::uint32_t>::max())
+    throw InputError(name_ + ": LAS 1." + std::to_string(header.version_minor) +
+                     " cannot hold more than 4294967295 points; use LAS 1.4");
+  // Only these: compression changes other fields of the header.
+  const std::vector<std::byte> bytes = serialiseLasHeader(header);
+  const auto store = [&](std::size_t begin, std::size_t end) {
+    put(begin, &bytes[begin], end - begin);
+  };
+  store(kLegacyCounts, kLegacyCountsEnd);
+  store(kLasBoxPosition, kLasBoxPosition + kBoxBytes);
+  if (header.version_minor >= 4) store(kCounts, kCountsEnd);
 }
 
 }  // namespace pcl_als::detail

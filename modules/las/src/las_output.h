@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include <pcl_als/common/atomic_file.h>
@@ -24,8 +25,13 @@ struct LasHead {
   std::size_t vlrs_end = 0;  ///< where the VLRs end in `bytes`
 };
 
-/// The head of an existing file; of a compressed one as if it were plain.
+/// The head of an existing file; of a compressed one as if it were plain: without the records that
+/// describe its compression and the octree of its chunks (COPC).
 LasHead readLasHead(const LasFile& file);
+
+/// Whether a record (VLR or EVLR) describes how the points of its file are compressed or where
+/// their chunks are: it does not hold for a file that is written anew.
+bool describesChunks(const LasVlrEntry& vlr);
 
 /// Plain or compressed (by extension .laz) point records into an AtomicFile.
 class LasOutput {
@@ -41,9 +47,13 @@ class LasOutput {
 
   /// Bytes at a position of the file, behind the points or in the header.
   void put(std::uint64_t position, const std::byte* bytes, std::size_t count);
+  /// Stores the counts and the bounding box of a header; InputError where the version of the file
+  /// cannot hold so many points.
+  void putCounts(const LasHeader& header);
   void commit() { file_.commit(); }
 
  private:
+  std::string name_;
   AtomicFile file_;
   /// The kernel lets one thread at a time write to a file and makes the others spin: with other
   /// work on the machine copying takes five times as long. Waiting here costs nothing.

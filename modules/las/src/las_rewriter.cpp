@@ -10,6 +10,7 @@
 
 #include "las_extension.h"
 #include "las_output.h"
+#include "las_tail.h"
 #include "las_tally.h"
 
 namespace pcl_als {
@@ -17,7 +18,7 @@ namespace {
 
 // Blocks of about 1 MiB stay in the second-level cache from reading to writing.
 constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
-constexpr std::size_t kBoxBytes = 48, kWaveformStart = 227, kEvlrStart = 235;
+constexpr std::size_t kBoxBytes = 48;
 
 /// Boxes before and after the edit, merged over blocks; the order does not matter.
 struct Boxes {
@@ -53,7 +54,7 @@ class Rewrite {
     const bool in_order = header_.compressed || output_.compressed();
     parallelFor(blocks, in_order ? 1 : threads_,
                 [this](std::size_t block) { rewriteBlock(block); });
-    copyTail();
+    detail::copyLasTail(input_, output_);
     LasRewriteResult result;
     result.points = header_.point_count;
     result.box_changed = !(boxes_.before == boxes_.after);
@@ -97,39 +98,6 @@ class Rewrite {
       std::memcpy(record, &packed[i * length], length);
       std::memset(record + length, 0, out_length_ - length);
     }
-  }
-
-  /// Where the bytes behind the points begin. Behind compressed points only what the header points
-  /// at can be told from the chunk table.
-  std::uint64_t tailOfInput() const {
-    if (!header_.compressed)
-      return header_.offset_to_points + header_.point_count * header_.record_length;
-    std::uint64_t tail = input_.fileSize();
-    if (header_.evlr_count > 0) tail = std::min(tail, header_.evlr_start);
-    if (header_.waveform_start > header_.offset_to_points)
-      tail = std::min(tail, header_.waveform_start);
-    return tail;
-  }
-
-  /// Everything behind the points: EVLRs, waveform packets, unknown bytes.
-  void copyTail() {
-    const std::uint64_t from = tailOfInput(), to = output_.endPoints();
-    std::vector<std::byte> buffer(kBlockBytes);
-    for (std::uint64_t at = from; at < input_.fileSize();) {
-      const std::size_t bytes = std::min<std::uint64_t>(buffer.size(), input_.fileSize() - at);
-      input_.readBytes(at, bytes, buffer.data());
-      output_.put(to + (at - from), buffer.data(), bytes);
-      at += bytes;
-    }
-    if (from == to) return;
-    if (header_.version_minor >= 3 && header_.waveform_start >= from)
-      movePosition(kWaveformStart, header_.waveform_start + (to - from));
-    if (header_.version_minor >= 4 && header_.evlr_count > 0)
-      movePosition(kEvlrStart, header_.evlr_start + (to - from));
-  }
-
-  void movePosition(std::size_t field, std::uint64_t position) {
-    output_.put(field, reinterpret_cast<const std::byte*>(&position), sizeof position);
   }
 
   void storeBox() {

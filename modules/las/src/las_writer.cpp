@@ -30,7 +30,6 @@ struct LasWriter::State {
 
 namespace {
 
-constexpr std::size_t kLegacyCounts = 107, kLegacyCountsEnd = 131, kCounts = 247, kCountsEnd = 375;
 constexpr int kMostFormat[] = {1, 1, 3, 5, 10};
 
 void checkOptions(const LasWriterOptions& options) {
@@ -179,19 +178,8 @@ void LasWriter::appendRecords(const std::byte* records, std::size_t count) {
 void LasWriter::finish() {
   State& s = *state_;
   s.tally.store(s.header);
-  if (s.header.version_minor < 4 &&
-      s.header.point_count > std::numeric_limits<std::uint32_t>::max())
-    throw InputError(s.name + ": LAS 1." + std::to_string(s.header.version_minor) +
-                     " cannot hold more than 4294967295 points; use LAS 1.4");
   s.output->endPoints();
-  // Only what became known at the end: compression changes other fields of the header.
-  const std::vector<std::byte> bytes = serialiseLasHeader(s.header);
-  const auto put = [&](std::size_t begin, std::size_t end) {
-    s.output->put(begin, &bytes[begin], end - begin);
-  };
-  put(kLegacyCounts, kLegacyCountsEnd);
-  put(kLasBoxPosition, kLasBoxPosition + 48);
-  if (s.header.version_minor >= 4) put(kCounts, kCountsEnd);
+  s.output->putCounts(s.header);
   s.output->commit();
 }
 

@@ -9,18 +9,22 @@
 namespace pcl_als {
 namespace {
 
-std::vector<SurveyedFile> surveyAll(const std::vector<std::filesystem::path>& paths) {
+std::vector<SurveyedFile> surveyAll(const std::vector<std::filesystem::path>& paths,
+                                    const PointWindow& window) {
   std::vector<SurveyedFile> files;
   files.reserve(paths.size());
-  for (const std::filesystem::path& path : paths) files.push_back(surveyFile(path));
+  for (const std::filesystem::path& path : paths)
+    files.push_back(surveyFile(SurveyInput::ofFile(path, window)));
   return files;
 }
 
 }  // namespace
 
 ArrangedFiles::ArrangedFiles(const std::vector<std::filesystem::path>& paths,
-                             const StripChoice& choice)
-    : files_(surveyAll(paths)), arrangement_(files_, choice, FlownTimes()) {
+                             const StripChoice& choice, const PointWindow& window)
+    : window_(window),
+      files_(surveyAll(paths, window)),
+      arrangement_(files_, choice, FlownTimes()) {
   if (arrangement_.names().empty())
     throw InputError("no strip is left: all are excluded or have no times");
 }
@@ -58,7 +62,7 @@ ArrangedFiles::Use ArrangedFiles::use() const {
   const CensusStrips strips = censusStrips(counts);
   PointChunk chunk;
   for (std::size_t file = 0; file < files_.size(); ++file) {
-    const auto reader = PointReader::open(files_[file].sources.info.path);
+    const auto reader = PointReader::open(files_[file].sources.info.path, window_);
     while (reader->read(chunk)) {
       for (std::size_t from = 0; from < chunk.size();) {
         const auto [to, strip] = strips.run(file, chunk, from);

@@ -4,9 +4,9 @@
 
 namespace pcl_als {
 
-SurveyInput SurveyInput::ofFile(const std::filesystem::path& path) {
+SurveyInput SurveyInput::ofFile(const std::filesystem::path& path, const PointWindow& window) {
   SurveyInput input;
-  input.open = [path] { return PointReader::open(path); };
+  input.open = [path, window] { return PointReader::open(path, window); };
   return input;
 }
 

@@ -8,6 +8,7 @@
 
 #include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/point_file_info.h>
+#include <pcl_als/io/point_window.h>
 
 namespace pcl_als {
 
@@ -29,6 +30,11 @@ class PointReader {
   enum class OtherCoordinates { refuse, as_stored };
   /// Opens by extension.
   static std::unique_ptr<PointReader> open(const std::filesystem::path& path,
+                                           OtherCoordinates other = OtherCoordinates::refuse);
+  /// Opens a part of a file: info() describes the part, as far as that is known before its points
+  /// are read.
+  static std::unique_ptr<PointReader> open(const std::filesystem::path& path,
+                                           const PointWindow& window,
                                            OtherCoordinates other = OtherCoordinates::refuse);
 
   virtual const PointFileInfo& info() const = 0;

@@ -12,6 +12,8 @@ namespace pcl_als {
 /// The VLR of a LAZ file that describes the compression of its points.
 inline constexpr const char* kLazUser = "laszip encoded";
 inline constexpr std::uint16_t kLazRecord = 22204;
+/// User id of the records of a COPC file, whose chunks are the nodes of an octree.
+inline constexpr const char* kCopcUser = "copc";
 
 /// Parts of a point record that are compressed by one method; numbers of the format.
 enum class LazItemType : std::uint16_t {

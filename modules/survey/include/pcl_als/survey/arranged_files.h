@@ -23,8 +23,9 @@ namespace pcl_als {
 class ArrangedFiles {
  public:
   /// InputError for a file that cannot be read, or where no strip remains; UsageError for a strip
-  /// that \a choice names and no file has.
-  ArrangedFiles(const std::vector<std::filesystem::path>& paths, const StripChoice& choice);
+  /// that \a choice names and no file has. Strips are those of the points in \a window.
+  ArrangedFiles(const std::vector<std::filesystem::path>& paths, const StripChoice& choice,
+                const PointWindow& window = {});
   ArrangedFiles(const ArrangedFiles&) = delete;
   ArrangedFiles& operator=(const ArrangedFiles&) = delete;
 
@@ -47,6 +48,7 @@ class ArrangedFiles {
   Use use() const;
 
  private:
+  PointWindow window_;
   std::vector<SurveyedFile> files_;
   StripArrangement arrangement_;
 };

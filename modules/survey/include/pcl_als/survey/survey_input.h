@@ -25,7 +25,7 @@ struct SurveyInput {
   /// to the time system of the trajectory; default: reconcileTimes()
   std::optional<TimeAlignment> time;
 
-  static SurveyInput ofFile(const std::filesystem::path& path);
+  static SurveyInput ofFile(const std::filesystem::path& path, const PointWindow& window = {});
 };
 
 }  // namespace pcl_als

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_file.h>
+
+namespace pcl_als {
+
+/** \brief Reads the points of a .las or .laz as columns, with their raw records beside them.
+ *
+ * As PointReader::open() of such a file; for jobs that also need what a PointChunk has no columns
+ * for.
+ */
+class LasPointReader : public PointReader {
+ public:
+  /// What a PointChunk has columns for; the layers of other fields of a .laz are not decoded.
+  static constexpr unsigned kColumns = kLazZ | kLazClassification | kLazFlags | kLazIntensity |
+                                       kLazScanAngle | kLazPointSource | kLazGpsTime;
+
+  /// \param fields LazField bits that records() are to have.
+  LasPointReader(const std::filesystem::path& path, const PointWindow& window,
+                 OtherCoordinates other, unsigned fields = kColumns);
+
+  const PointFileInfo& info() const override { return info_; }
+  bool read(PointChunk& chunk) override;
+
+  const LasFile& file() const { return file_; }
+  /// The raw records of the points that read() gave last; they may be changed.
+  std::byte* records() { return buffer_.data(); }
+
+ private:
+  std::size_t keepInside(std::size_t count);
+
+  LasFile file_;
+  PointWindow window_;
+  PointFileInfo info_;
+  LasScaling scaling_;
+  std::uint64_t position_ = 0;
+  std::vector<std::byte> buffer_;
+};
+
+}  // namespace pcl_als

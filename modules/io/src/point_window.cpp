@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
+#include <pcl_als/io/point_window.h>
+
+namespace pcl_als {
+namespace {
+
+template <typename T>
+void keepRows(const std::vector<std::size_t>& rows, std::vector<T>& column) {
+  for (std::size_t i = 0; i < rows.size(); ++i) column[i] = column[rows[i]];
+}
+
+}  // namespace
+
+void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < chunk.size(); ++i)
+    if (bounds.contains(Eigen::Vector2d(chunk.x[i], chunk.y[i]))) rows.push_back(i);
+  if (rows.size() == chunk.size()) return;
+  keepRows(rows, chunk.x), keepRows(rows, chunk.y), keepRows(rows, chunk.z);
+  keepRows(rows, chunk.gps_time);
+  keepRows(rows, chunk.intensity), keepRows(rows, chunk.scan_angle);
+  keepRows(rows, chunk.point_source_id);
+  keepRows(rows, chunk.return_number), keepRows(rows, chunk.number_of_returns);
+  keepRows(rows, chunk.classification), keepRows(rows, chunk.flags);
+  chunk.resize(rows.size());
+}
+
+PointFileInfo within(const PointWindow& window, PointFileInfo info) {
+  if (!window.bounds) return info;
+  const Eigen::AlignedBox2d box(Eigen::Vector2d(info.minimum.head<2>()),
+                                Eigen::Vector2d(info.maximum.head<2>()));
+  const Eigen::AlignedBox2d part = box.intersection(*window.bounds);
+  if (box.isEmpty() || part.isEmpty()) {
+    info.minimum.head<2>() = info.maximum.head<2>() = window.bounds->min();
+    info.point_count = 0;
+    return info;
+  }
+  info.minimum.head<2>() = part.min();
+  info.maximum.head<2>() = part.max();
+  const double area = box.volume();
+  if (area > 0.0)
+    info.point_count = static_cast<std::uint64_t>(
+        std::ceil(static_cast<double>(info.point_count) * std::min(1.0, part.volume() / area)));
+  return info;
+}
+
+}  // namespace pcl_als
