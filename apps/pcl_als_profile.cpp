@@ -17,6 +17,7 @@
 #include "output_check.h"
 #include "picture_options.h"
 #include "strip_options.h"
+#include "window_options.h"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include "command_line.h"
 #include "picture_options.h"
 #include "strip_options.h"
+#include "window_options.h"
 
 namespace {
 
@@ -56,14 +57,6 @@ PointShade shadeOf(const CommandLine& line) {
   throw UsageError("option -shade: '" + name + "' is none of none, edl, hill");
 }
 
-Eigen::AlignedBox2d extentOf(const CommandLine& line) {
-  const std::vector<double> edges = app::numbersOf(line, "extent", ',', 4, app::kFarthest);
-  if (!(edges[0] < edges[2] && edges[1] < edges[3])) {
-    throw UsageError("option -extent: XMIN,YMIN,XMAX,YMAX needs the smaller values first");
-  }
-  return {Eigen::Vector2d(edges[0], edges[1]), Eigen::Vector2d(edges[2], edges[3])};
-}
-
 std::pair<double, double> rangeOf(const CommandLine& line) {
   const std::vector<double> range = app::numbersOf(line, "range", ':', 2, app::kFarthest);
   if (!(range[0] < range[1])) throw UsageError("option -range: LOW:HIGH needs LOW below HIGH");
@@ -81,7 +74,7 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   options.azimuth = line.number("azimuth", -360.0, 360.0, "degrees");
   options.elevation = line.get<double>("elevation");
   options.zoom = line.number("zoom", 1e-3, 1e6, "times");
-  if (line.has("extent")) options.extent = extentOf(line);
+  if (line.has("extent")) options.extent = app::rectangleOf(line, "extent");
   if (line.has("map")) options.color_map = line.text("map");
   if (line.has("range")) options.range = rangeOf(line);
   options.shade = shadeOf(line);

@@ -20,11 +20,6 @@ PictureSize sizeOf(const CommandLine& line);
 /// The file of -output, which can be written and ends in .png; UsageError or InputError.
 std::string pictureFile(const CommandLine& line);
 
-/// \a count numbers of an option, separated by a character, none beyond \a largest in absolute
-/// value; UsageError otherwise.
-std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
-                              std::size_t count, double largest);
-
 /// "strip1.las, strip2.las and 3 more"
 std::string namesOf(const std::vector<std::string>& paths);
 

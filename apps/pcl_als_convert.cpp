@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <filesystem>
+#include <limits>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/point_conversion.h>
+
+#include "command_line.h"
+#include "strip_options.h"
+#include "window_options.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+
+CommandLine commandLine() {
+  CommandLine line("pcl_als_convert",
+                   "converts point files between .las, .laz and .pcd, or writes parts of them. LAS "
+                   "to LAZ to LAS gives the same bytes",
+                   "IN OUT | IN... FOLDER [options]",
+                   "pcl_als_convert tile.laz part.las -bounds 84900,447500,84950,447600");
+  app::addWindowOptions(line);
+  app::addStripOptions(line, false);
+  line.addFlag("split",
+               "write a file for each strip into the output folder; points are divided into flight "
+               "lines at gaps in time, changes of course and turns, points in turns are left out");
+  line.addOptional("format",
+                   "las, laz or pcd: of the files in an output folder (default: that of "
+                   "the input)");
+  return line;
+}
+
+PointConversionOptions optionsOf(const CommandLine& line) {
+  PointConversionOptions options;
+  options.window = app::windowOf(line);
+  options.strips = app::stripChoice(line);
+  if (line.has("format")) options.format = line.text("format");
+  if (line.has("format") && options.format != "las" && options.format != "laz" &&
+      options.format != "pcd") {
+    throw UsageError("option -format: '" + options.format + "' is none of las, laz, pcd");
+  }
+  options.threads = line.threads();
+  return options;
+}
+
+int convert(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const std::vector<std::string>& files = line.inputs(2, std::numeric_limits<std::size_t>::max());
+  const PointConversionOptions options = optionsOf(line);
+  const std::vector<std::filesystem::path> inputs(files.begin(), files.end() - 1);
+  const PointConversionResult result =
+      convertPointFiles(inputs, files.back(), options, app::progressOf(line));
+  if (options.strips.split) {
+    for (const PointConversionResult::Output& output : result.outputs)
+      app::remark(line, output.path.string() + ": " + grouped(output.points) + " points");
+  }
+  app::remarks(line, describe(result.left_out));
+  app::remarks(line, result.remarks);
+  return app::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_convert", [argc, argv] { return convert(argc, argv); });
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "window_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als::app {
+
+std::vector<double> numbersIn(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) {
+    const auto number = decimalNumber(part);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
+                              std::size_t count, double largest) {
+  std::vector<double> numbers = numbersIn(line.text(option), separator);
+  const bool small = std::all_of(numbers.begin(), numbers.end(),
+                                 [&](double number) { return std::abs(number) <= largest; });
+  if (numbers.size() == count && small) return numbers;
+  std::ostringstream message;
+  message << "option -" << option << ": '" << line.text(option) << "' is not " << count
+          << " numbers separated by '" << separator << "', at most " << largest;
+  throw UsageError(message.str());
+}
+
+Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option) {
+  const std::vector<double> edges = numbersOf(line, option, ',', 4, kFarthest);
+  if (!(edges[0] < edges[2] && edges[1] < edges[3])) {
+    throw UsageError("option -" + std::string(option) +
+                     ": XMIN,YMIN,XMAX,YMAX needs the smaller values first");
+  }
+  return {Eigen::Vector2d(edges[0], edges[1]), Eigen::Vector2d(edges[2], edges[3])};
+}
+
+void addWindowOptions(CommandLine& line) {
+  line.addOptional("bounds",
+                   "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges");
+}
+
+PointWindow windowOf(const CommandLine& line) {
+  PointWindow window;
+  if (line.has("bounds")) window.bounds = rectangleOf(line, "bounds");
+  return window;
+}
+
+}  // namespace pcl_als::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <pcl_als/io/point_window.h>
+
+#include "command_line.h"
+
+namespace pcl_als::app {
+
+/// The numbers of a text, separated by one character each; empty where it has another form.
+std::vector<double> numbersIn(const std::string& text, char separator);
+
+/// \a count numbers of an option, separated by a character, none beyond \a largest in absolute
+/// value; UsageError otherwise.
+std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
+                              std::size_t count, double largest);
+
+/// XMIN,YMIN,XMAX,YMAX of an option, metres; UsageError otherwise.
+Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option);
+
+/// Adds -bounds, which means the same in every tool that reads parts of files.
+void addWindowOptions(CommandLine& line);
+/// Its value.
+PointWindow windowOf(const CommandLine& line);
+
+}  // namespace pcl_als::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/left_out.h>
+#include <pcl_als/common/progress.h>
+#include <pcl_als/io/point_window.h>
+#include <pcl_als/survey/strip_arrangement.h>
+
+namespace pcl_als {
+
+struct PointConversionOptions {
+  PointWindow window;  ///< points outside are left out
+  /// Strips whose points are written, those of the points in the window. With StripChoice::split
+  /// one file for each strip.
+  StripChoice strips;
+  /// "las", "laz" or "pcd" of the files in an output folder; empty: that of each input, with
+  /// StripChoice::split of the first one.
+  std::string format;
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
+};
+
+struct PointConversionResult {
+  struct Output {
+    std::filesystem::path path;
+    std::uint64_t points = 0;
+  };
+  std::vector<Output> outputs;
+  std::vector<LeftOutPoints> left_out;  ///< of strips that were not chosen, and in turns
+  std::vector<std::string> remarks;  ///< values that a format does not store, files without points
+};
+
+/** \brief Converts .las, .laz and .pcd files into each other, or writes parts of them.
+ *
+ * - LAS and LAZ to LAS or LAZ: the records as they are, in their order, with every other byte of
+ *   the file. Of a part, the counts and the bounding box of the header are those of its points.
+ *   LAS -> LAZ -> LAS gives the same bytes. Records that describe the compression of the input
+ *   (laszip, COPC) are replaced or left out.
+ * - to PCD: the fields of PointLidar, in metres, relative to the centre of the points (PcdWriter).
+ * - PCD to LAS or LAZ: version 1.4, point format 6, steps of 0.001 in the unit of the CRS.
+ *
+ * Points are streamed: memory does not grow with the files, except for compressed PCD.
+ *
+ * \param output a file for one input and without StripChoice::split; otherwise, or where it exists
+ * as a folder, a folder, which is made. Its files are named like the inputs or the strips. Points
+ * of one strip in several LAS files are joined where their records can be (stepsBetween()).
+ *
+ * UsageError for an output that is an input or is COPC, for two outputs of one name, and for strips
+ * that the files do not have; InputError for files that cannot be used and where no point is left;
+ * Cancelled. Every output appears only when it is complete.
+ */
+PointConversionResult convertPointFiles(const std::vector<std::filesystem::path>& inputs,
+                                        const std::filesystem::path& output,
+                                        const PointConversionOptions& options = {},
+                                        const ProgressCallback& progress = {});
+
+}  // namespace pcl_als

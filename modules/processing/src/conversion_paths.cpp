@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "conversion_paths.h"
+
+#include <algorithm>
+#include <map>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
+
+namespace pcl_als::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isPointFormat(const std::string& extension) {
+  return extension == ".las" || extension == ".laz" || extension == ".pcd";
+}
+
+bool isCopcName(const fs::path& path) {
+  return lowerExtension(path) == ".laz" && lowerExtension(path.stem()) == ".copc";
+}
+
+/// The name without extension, also without that of COPC.
+std::string stemOf(const fs::path& path) {
+  return isCopcName(path) ? path.stem().stem().string() : path.stem().string();
+}
+
+bool isFolder(const fs::path& output) {
+  return fs::is_directory(output) || output.extension().empty();
+}
+
+/// ".las", ".laz" or ".pcd" of a file in a folder.
+std::string extensionFor(const fs::path& input, const std::string& format) {
+  const std::string extension = format.empty() ? lowerExtension(input) : "." + format;
+  if (isPointFormat(extension)) return extension;
+  if (format.empty())
+    throw InputError(input.string() + ": is no point file by its name (.las, .laz or .pcd)");
+  throw UsageError("point format '" + format + "' is none of las, laz, pcd");
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder))
+    throw InputError(folder.string() + ": is no folder and cannot be made one");
+}
+
+/// UsageError for an output that is an input or another output, or that would be COPC.
+void check(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+  std::error_code absent;
+  std::map<std::string, bool> known;
+  for (const fs::path& output : outputs) {
+    if (isCopcName(output))
+      throw UsageError(output.string() +
+                       ": COPC files are read, not written; give it a name in .laz only");
+    if (!known.emplace(output.string(), true).second)
+      throw UsageError(output.string() + ": would be written twice; convert the inputs by turns");
+    for (const fs::path& input : inputs)
+      if (fs::equivalent(input, output, absent))
+        throw UsageError(output.string() + ": input and output are the same file");
+  }
+}
+
+/// A strip may be named by the path of a file.
+std::string fileName(std::string strip) {
+  std::replace_if(
+      strip.begin(), strip.end(), [](unsigned char c) { return c == '/' || c == '\\' || c < ' '; },
+      '_');
+  return strip;
+}
+
+}  // namespace
+
+std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs::path& output,
+                                  const std::string& format) {
+  std::vector<fs::path> outputs;
+  if (isFolder(output)) {
+    for (const fs::path& input : inputs)
+      outputs.push_back(output / (stemOf(input) + extensionFor(input, format)));
+    check(inputs, outputs);
+    makeFolder(output);
+    return outputs;
+  }
+  const std::string extension = lowerExtension(output);
+  if (!isPointFormat(extension))
+    throw UsageError(output.string() + ": is no point file by its name (.las, .laz or .pcd)");
+  if (inputs.size() != 1)
+    throw UsageError(output.string() + ": is one file; several inputs need a folder");
+  if (!format.empty() && extension != "." + format)
+    throw UsageError(output.string() + ": does not have the extension of format " + format);
+  outputs.push_back(output);
+  check(inputs, outputs);
+  return outputs;
+}
+
+std::vector<fs::path> stripPaths(const std::vector<fs::path>& inputs, const fs::path& folder,
+                                 const std::string& format,
+                                 const std::vector<std::string>& strips) {
+  if (!isFolder(folder))
+    throw UsageError(folder.string() + ": is a file; a file for each strip needs a folder");
+  const std::string extension = extensionFor(inputs.at(0), format);
+  std::vector<fs::path> outputs;
+  for (const std::string& strip : strips) outputs.push_back(folder / (fileName(strip) + extension));
+  check(inputs, outputs);
+  makeFolder(folder);
+  return outputs;
+}
+
+}  // namespace pcl_als::detail

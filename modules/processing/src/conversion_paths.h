@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pcl_als::detail {
+
+/// The output of each input: the output itself, or files in the output folder, which is made.
+std::vector<std::filesystem::path> outputPaths(const std::vector<std::filesystem::path>& inputs,
+                                               const std::filesystem::path& output,
+                                               const std::string& format);
+
+/// The output of each strip in the output folder, which is made.
+std::vector<std::filesystem::path> stripPaths(const std::vector<std::filesystem::path>& inputs,
+                                              const std::filesystem::path& folder,
+                                              const std::string& format,
+                                              const std::vector<std::string>& strips);
+
+}  // namespace pcl_als::detail

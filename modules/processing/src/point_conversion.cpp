@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <tuple>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reference.h>
+#include <pcl_als/las/las_rewriter.h>
+#include <pcl_als/processing/point_conversion.h>
+#include <pcl_als/survey/arranged_files.h>
+
+#include "conversion_paths.h"
+#include "point_sink.h"
+
+namespace pcl_als {
+namespace {
+
+namespace fs = std::filesystem;
+using detail::PointSink;
+
+/// Outputs that are written in one reading of the inputs: each holds a few MB and an open file.
+constexpr std::size_t kMostOutputs = 16;
+
+/// The points of a file and, of LAS, their records.
+class Source {
+ public:
+  Source(const fs::path& path, const PointWindow& window) {
+    constexpr auto refuse = PointReader::OtherCoordinates::refuse;
+    if (detail::isLas(path)) {
+      auto las = std::make_unique<LasPointReader>(path, window, refuse, kLazAllFields);
+      las_ = las.get();
+      reader_ = std::move(las);
+    } else {
+      reader_ = PointReader::open(path, window);
+    }
+  }
+
+  const PointFileInfo& info() const { return reader_->info(); }
+  bool read() { return reader_->read(chunk_); }
+  const PointChunk& chunk() const { return chunk_; }
+  detail::PointBlock block() {
+    if (las_ == nullptr) return {chunk_};
+    return {chunk_, &las_->file(), las_->records()};
+  }
+  /// What the points lose in a file of that name; empty: nothing.
+  std::string lossIn(const fs::path& output) const {
+    if (las_ == nullptr || detail::isLas(output)) return {};
+    return detail::fieldsWithoutColumn(las_->file());
+  }
+
+ private:
+  std::unique_ptr<PointReader> reader_;
+  LasPointReader* las_ = nullptr;
+  PointChunk chunk_;
+};
+
+/// The end of a run of rows from \a from on that go to one output, and its number; -1: to none.
+using Distribution =
+    std::function<std::pair<std::size_t, int>(std::size_t file, const PointChunk&, std::size_t)>;
+
+class Conversion {
+ public:
+  Conversion(const std::vector<fs::path>& inputs, const PointConversionOptions& options,
+             const ProgressCallback& progress)
+      : inputs_(inputs), options_(options), report_(progress) {
+    const StripChoice& choice = options.strips;
+    if (choice.only.empty() && choice.without.empty() && !choice.split) return;
+    StripChoice strips = choice;
+    strips.keep_timeless = !choice.split;  // nothing here needs times
+    report_.begin("Reading " + counted(inputs.size(), "file"));
+    arranged_.emplace(inputs, strips, options.window);
+    report_.end(counted(arranged_->arrangement().names().size(), "strip"));
+  }
+
+  PointConversionResult run(const fs::path& output) {
+    if (options_.strips.split)
+      writeStrips(
+          detail::stripPaths(inputs_, output, options_.format, arranged_->arrangement().names()));
+    else
+      writeFiles(detail::outputPaths(inputs_, output, options_.format));
+    if (arranged_) result_.left_out = arranged_->arrangement().leftOut(label_counts_);
+    if (result_.outputs.empty()) refuseNothing();
+    return std::move(result_);
+  }
+
+ private:
+  struct Target {
+    fs::path path;
+    std::string strip;
+    Eigen::AlignedBox3d box;          ///< of its points; empty: that of the first file
+    std::unique_ptr<PointSink> sink;  ///< opened with the first point
+  };
+
+  [[noreturn]] void refuseNothing() const {
+    if (!options_.window.bounds) throw InputError("no point is left, the files have none");
+    std::ostringstream text;
+    text.precision(10);
+    text << "no point lies within the bounds; " << inputs_[0].string() << " covers ";
+    const PointFileInfo info = PointReader::open(inputs_[0])->info();
+    text << "x " << info.minimum.x() << " to " << info.maximum.x() << " m, y " << info.minimum.y()
+         << " to " << info.maximum.y() << " m";
+    throw InputError(text.str());
+  }
+
+  bool copiesWholeFile(const fs::path& input, const fs::path& output) const {
+    return options_.window.everything() && !arranged_ && detail::isLas(input) &&
+           detail::isLas(output);
+  }
+
+  void writeFiles(const std::vector<fs::path>& outputs) {
+    const Distribution chosen = chosenPoints();
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      report_.begin("Writing " + outputs[i].string());
+      const std::size_t before = result_.outputs.size();
+      if (copiesWholeFile(inputs_[i], outputs[i])) {
+        copyFile(inputs_[i], outputs[i]);
+      } else {
+        std::vector<Target> targets(1);
+        targets[0].path = outputs[i];
+        records_ = detail::isLas(inputs_[i]);
+        distribute({i}, targets, chosen);
+        finish(targets);
+      }
+      const bool written = result_.outputs.size() > before;
+      report_.end(written ? grouped(result_.outputs.back().points) + " points"
+                          : "not written, no point is left");
+    }
+  }
+
+  void copyFile(const fs::path& input, const fs::path& output) {
+    const LasFile file(input);
+    const auto count = static_cast<double>(std::max<std::uint64_t>(1, file.header().point_count));
+    LasExtension none;
+    none.keeps_coordinates = true;
+    std::mutex mutex;
+    std::uint64_t done = 0;
+    const LasEdit edit = [&](const LasRecordBlock& block) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      done += block.count;
+      report_.advance(static_cast<double>(done) / count);
+    };
+    const auto copied = extendLas(file, output, none, edit, options_.threads);
+    result_.outputs.push_back({output, copied.points});
+  }
+
+  void writeStrips(const std::vector<fs::path>& paths) {
+    std::vector<std::size_t> all(inputs_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    const std::vector<std::string>& names = arranged_->arrangement().names();
+    std::vector<Eigen::AlignedBox3d> boxes(names.size());
+    records_ = std::all_of(inputs_.begin(), inputs_.end(), detail::isLas);
+    if (!records_ || !detail::isLas(paths[0])) boxes = arranged_->use().boxes;
+    std::vector<PointFileInfo> infos;
+    for (const SurveyedFile& file : arranged_->files()) infos.push_back(file.sources.info);
+    result_.remarks = commonReference(infos).remarks;
+    for (std::size_t first = 0; first < names.size(); first += kMostOutputs) {
+      const std::size_t last = std::min(names.size(), first + kMostOutputs);
+      report_.begin("Writing " + counted(last - first, "strip"));
+      std::vector<Target> targets;
+      for (std::size_t i = first; i < last; ++i)
+        targets.push_back({paths[i], names[i], boxes[i], nullptr});
+      distribute(all, targets, stripPoints(first, last));
+      const std::uint64_t points = finish(targets);
+      report_.end(grouped(points) + " points");
+    }
+  }
+
+  /// Everything in the window and of the chosen strips goes to one output.
+  Distribution chosenPoints() {
+    if (!arranged_)
+      return [](std::size_t, const PointChunk& chunk, std::size_t) {
+        return std::pair(chunk.size(), 0);
+      };
+    const Distribution strips = stripPoints(0, arranged_->arrangement().names().size());
+    return [strips](std::size_t file, const PointChunk& chunk, std::size_t from) {
+      const auto [to, strip] = strips(file, chunk, from);
+      return std::pair(to, strip < 0 ? -1 : 0);
+    };
+  }
+
+  /// Points of the strips [first, last), each to an output of its own.
+  Distribution stripPoints(std::size_t first, std::size_t last) {
+    const CensusStrips strips = arranged_->censusStrips(label_counts_);
+    const auto low = static_cast<int>(first), high = static_cast<int>(last);
+    return [strips, low, high](std::size_t file, const PointChunk& chunk, std::size_t from) {
+      const auto [to, strip] = strips.run(file, chunk, from);
+      return std::pair(to, strip >= low && strip < high ? strip - low : -1);
+    };
+  }
+
+  void distribute(const std::vector<std::size_t>& files, std::vector<Target>& targets,
+                  const Distribution& target_of) {
+    std::uint64_t done = 0;
+    for (const std::size_t file : files) {
+      Source source(inputs_[file], options_.window);
+      while (source.read()) {
+        const PointChunk& chunk = source.chunk();
+        for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
+          int target = -1;
+          std::tie(to, target) = target_of(file, chunk, from);
+          if (target >= 0)
+            append(targets[static_cast<std::size_t>(target)], file, source, from, to);
+        }
+        done += chunk.size();
+        report_.advance(std::min(1.0, static_cast<double>(done) / expected(files, source)));
+      }
+    }
+  }
+
+  /// Points of all files, as far as their number is known.
+  static double expected(const std::vector<std::size_t>& files, const Source& source) {
+    return static_cast<double>(files.size() *
+                               std::max<std::uint64_t>(1, source.info().point_count));
+  }
+
+  void append(Target& target, std::size_t file, Source& source, std::size_t from, std::size_t to) {
+    if (!target.sink) {
+      PointFileInfo info = source.info();
+      if (!target.box.isEmpty()) info.minimum = target.box.min(), info.maximum = target.box.max();
+      target.sink = detail::openSink(target.path, inputs_[file], info,
+                                     {records_, target.strip, options_.threads});
+      const std::string loss = source.lossIn(target.path);
+      if (!loss.empty()) remarkOnce(loss);
+    }
+    target.sink->append(source.block(), from, to);
+  }
+
+  void remarkOnce(const std::string& text) {
+    const auto& known = result_.remarks;
+    if (std::find(known.begin(), known.end(), text) == known.end()) result_.remarks.push_back(text);
+  }
+
+  std::uint64_t finish(std::vector<Target>& targets) {
+    std::uint64_t points = 0;
+    for (Target& target : targets) {
+      if (!target.sink) continue;
+      target.sink->finish();
+      result_.outputs.push_back({target.path, target.sink->pointCount()});
+      points += target.sink->pointCount();
+    }
+    return points;
+  }
+
+  const std::vector<fs::path>& inputs_;
+  const PointConversionOptions& options_;
+  ProgressReport report_;
+  std::optional<ArrangedFiles> arranged_;
+  std::vector<std::uint64_t> label_counts_;
+  bool records_ = false;  ///< all points of the targets have raw records
+  PointConversionResult result_;
+};
+
+}  // namespace
+
+PointConversionResult convertPointFiles(const std::vector<fs::path>& inputs, const fs::path& output,
+                                        const PointConversionOptions& options,
+                                        const ProgressCallback& progress) {
+  return Conversion(inputs, options, progress).run(output);
+}
+
+}  // namespace pcl_als

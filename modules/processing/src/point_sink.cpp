@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "point_sink.h"
+
+#include <array>
+#include <cmath>
+
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/crs/crs.h>
+#include <pcl_als/io/pcd_writer.h>
+#include <pcl_als/las/las_selection.h>
+#include <pcl_als/las/las_writer.h>
+
+namespace pcl_als::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kOffsetStep = 1000.0;  ///< offsets of new LAS files are multiples of this
+
+/// Raw records into a file like that of the first of them.
+class RecordSink : public PointSink {
+ public:
+  RecordSink(const fs::path& path, const fs::path& first, int threads)
+      : like_(first), writer_(path, like_, threads) {}
+
+  void append(const PointBlock& block, std::size_t from, std::size_t to) override {
+    const std::size_t length = like_.header().record_length;
+    if (block.file->path() != last_) {
+      steps_ = stepsBetween(*block.file, like_);
+      last_ = block.file->path();
+    }
+    std::byte* records = block.records + from * length;
+    moveRecords(steps_, records, to - from, length, block.file->path().string());
+    writer_.append(records, to - from);
+  }
+  std::uint64_t pointCount() const override { return writer_.pointCount(); }
+  void finish() override { writer_.finish(); }
+
+ private:
+  LasFile like_;
+  LasSelectionWriter writer_;
+  fs::path last_;  ///< file of the records that were appended last
+  std::array<std::int64_t, 3> steps_{};
+};
+
+PointChunk rowsOf(const PointChunk& chunk, std::size_t from, std::size_t to) {
+  const auto part = [from, to](const auto& column) {
+    return std::decay_t<decltype(column)>(column.begin() + static_cast<std::ptrdiff_t>(from),
+                                          column.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  return {part(chunk.x),
+          part(chunk.y),
+          part(chunk.z),
+          part(chunk.gps_time),
+          part(chunk.intensity),
+          part(chunk.scan_angle),
+          part(chunk.point_source_id),
+          part(chunk.return_number),
+          part(chunk.number_of_returns),
+          part(chunk.classification),
+          part(chunk.flags)};
+}
+
+LasWriterOptions optionsFor(const PointFileInfo& info) {
+  LasWriterOptions options;
+  options.crs = info.crs;
+  options.time_kind = info.time_kind == TimeKind::adjusted_standard ? TimeKind::adjusted_standard
+                                                                    : TimeKind::week_seconds;
+  const Eigen::Vector3d metres = unitsOfCrs(info.crs).metres();
+  for (int axis = 0; axis < 3; ++axis)
+    options.offset[axis] =
+        std::floor(info.minimum[axis] / metres[axis] / kOffsetStep) * kOffsetStep;
+  return options;
+}
+
+/// Columns into a new LAS file.
+class ColumnSink : public PointSink {
+ public:
+  ColumnSink(const fs::path& path, const PointFileInfo& info) : writer_(path, optionsFor(info)) {}
+
+  void append(const PointBlock& block, std::size_t from, std::size_t to) override {
+    if (from == 0 && to == block.chunk.size())
+      writer_.append(block.chunk);
+    else
+      writer_.append(rowsOf(block.chunk, from, to));
+  }
+  std::uint64_t pointCount() const override { return writer_.pointCount(); }
+  void finish() override { writer_.finish(); }
+
+ private:
+  LasWriter writer_;
+};
+
+LocalFrame frameOf(const PointFileInfo& info) {
+  const Eigen::Vector3d centre = 0.5 * (info.minimum + info.maximum);
+  return LocalFrame::around(centre.allFinite() ? centre : Eigen::Vector3d::Zero(), info.crs);
+}
+
+class PcdSink : public PointSink {
+ public:
+  PcdSink(const fs::path& path, const PointFileInfo& info, const std::string& strip)
+      : writer_(path, frameOf(info), strip) {}
+
+  void append(const PointBlock& block, std::size_t from, std::size_t to) override {
+    writer_.append(block.chunk, from, to);
+  }
+  std::uint64_t pointCount() const override { return writer_.pointCount(); }
+  void finish() override { writer_.finish(); }
+
+ private:
+  PcdWriter writer_;
+};
+
+}  // namespace
+
+bool isLas(const fs::path& path) {
+  const std::string extension = lowerExtension(path);
+  return extension == ".las" || extension == ".laz";
+}
+
+std::unique_ptr<PointSink> openSink(const fs::path& path, const fs::path& first,
+                                    const PointFileInfo& info, const SinkOptions& options) {
+  if (!isLas(path)) return std::make_unique<PcdSink>(path, info, options.strip);
+  if (options.records) return std::make_unique<RecordSink>(path, first, options.threads);
+  return std::make_unique<ColumnSink>(path, info);
+}
+
+std::string fieldsWithoutColumn(const LasFile& file) {
+  std::string names = "user data";
+  const LasRecordLayout& layout = file.layout();
+  if (layout.rgb >= 0) names += ", colours";
+  if (layout.nir >= 0) names += ", near infrared";
+  if (layout.waveform >= 0) names += ", waveforms";
+  if (file.header().record_length > layout.length) names += ", extra bytes";
+  return file.path().string() + ": a PCD does not store " + names;
+}
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# pcl_als_convert: formats, parts of files, a file for each strip, wrong usage.
+source "$(dirname -- "$0")/tool_test.sh"
+strip=$block/strip1.las
+
+# There and back is the same to the byte, with any number of threads.
+expect 0 "points" convert "$strip" packed.laz
+expect 0 "points" convert "$strip" one.laz -threads 1
+check "one thread as many" cmp packed.laz one.laz
+expect 0 "points" convert packed.laz back.las
+check "LAS to LAZ to LAS" cmp "$strip" back.las
+check "LAZ is smaller" test "$(stat -c %s packed.laz)" -lt "$(stat -c %s "$strip")"
+
+# The tools read what comes out.
+expect 0 "does not store user data" convert "$strip" strip.pcd
+expect 0 "LAZ 1." info packed.laz
+expect 0 "PCD binary" info strip.pcd
+expect 0 "" convert strip.pcd strip.las
+expect 0 "point format 6" info strip.las
+
+# Parts.
+read -r west east south north < <("$bin/pcl_als_info" "$strip" |
+  awk '/^  extent/ { gsub(",", ""); print $3, $5, $7, $9; exit }')
+middle=$(awk -v a="$west" -v b="$east" 'BEGIN { printf "%.3f", (a + b) / 2 }')
+expect 0 "points" convert "$strip" west.laz -bounds "$west,$south,$middle,$north"
+expect 0 "" info west.laz -json west.json
+check "the part is smaller" test "$(stat -c %s west.laz)" -lt "$(stat -c %s packed.laz)"
+expect 2 "no point lies within the bounds; *covers x " convert "$strip" none.laz -bounds 0,0,1,1
+absent none.laz
+expect 1 "-bounds" convert "$strip" none.laz -bounds 1,2,3
+expect 1 "smaller values first" convert "$strip" none.laz -bounds 3,3,1,1
+expect 0 "strip 1: * left out: " convert "$block"/strip1.las "$block"/strip2.las chosen -without 1 -format laz
+absent chosen/strip1.laz none.laz
+check "the other strip" test -s chosen/strip2.laz
+
+# A file for each strip, also of one file with all of them.
+expect 0 "lines/1.laz" convert "$block"/strip*.las lines -split -format laz
+expect 1 "needs a folder" convert "$block"/strip*.las lines.las -split
+expect 1 "several inputs need a folder" convert "$block"/strip1.las "$block"/strip2.las both.las
+
+# Wrong usage; inputs stay as they are.
+expect 1 "usage: pcl_als_convert" convert "$strip"
+expect 1 "none of las, laz, pcd" convert "$strip" folder -format txt
+expect 1 "no point file by its name" convert "$strip" points.txt
+expect 1 "COPC" convert "$strip" out.copc.laz
+cp "$strip" own.las
+expect 1 "given twice" convert own.las ./own.las
+expect 1 "same file" convert own.las "$PWD"
+check "the input is as it was" cmp "$strip" own.las
+expect 2 "there is no such file" convert missing.las out.las
+head -c 100000 packed.laz >cut.laz
+expect 2 "cut.laz: " convert cut.laz out.las
+absent out.las points.txt out.copc.laz folder
+finish
