@@ -216,7 +216,7 @@ int calibrate(int argc, char** argv) {
   options.observer = page.observer();
   SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
   CalibrationResult& result = calibration.result;
-  result.inputs.push_back(line.text("trajectory"));
+  for (const std::string& file : line.list("trajectory")) result.inputs.push_back(file);
   if (line.has("control")) result.inputs.push_back(line.text("control"));
   writeCalibration(line.text("output"), result);
   if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;

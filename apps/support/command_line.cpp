@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "command_line.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include <pcl_als/common/errors.h>
 
 #include "interruption.h"
+#include "option_list.h"
 #include "option_suggestion.h"
 #include "output_check.h"
 #include "standard_streams.h"
@@ -62,6 +64,7 @@ T CommandLine::get(const char* name) const {
 template void CommandLine::add(const char*, const char*, const double&);
 template void CommandLine::add(const char*, const char*, const int&);
 template void CommandLine::add(const char*, const char*, const std::string&);
+template std::vector<std::string> CommandLine::get(const char*) const;
 template double CommandLine::get(const char*) const;
 template int CommandLine::get(const char*) const;
 template std::string CommandLine::get(const char*) const;
@@ -72,6 +75,22 @@ void CommandLine::addOptional(const char* name, const char* help) {
 
 void CommandLine::addFlag(const char* name, const char* help) {
   parser_->options.add_options()(name, help);
+}
+
+void CommandLine::addList(const char* name, const char* help) {
+  lists_.emplace_back(name);
+  parser_->options.add_options()(name, po::value<std::vector<std::string>>(), help);
+}
+
+std::vector<std::string> CommandLine::list(const char* name) const {
+  return get<std::vector<std::string>>(name);
+}
+
+std::string CommandLine::text(const char* name) const {
+  if (std::find(lists_.begin(), lists_.end(), name) == lists_.end()) return get<std::string>(name);
+  std::string joined;
+  for (const std::string& value : list(name)) joined += (joined.empty() ? "" : ",") + value;
+  return joined;
 }
 
 std::string CommandLine::help() const {
@@ -96,9 +115,12 @@ bool CommandLine::parse(int argc, const char* const* argv) {
       (po::command_line_style::unix_style | po::command_line_style::allow_long_disguise) &
       ~po::command_line_style::allow_guessing;
   try {
-    po::store(
-        po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(),
-        parser_->values);
+    po::store(po::command_line_parser(spreadLists(argc, argv, lists_))
+                  .options(all)
+                  .positional(positional)
+                  .style(style)
+                  .run(),
+              parser_->values);
     po::notify(parser_->values);
   } catch (const po::unknown_option& error) {
     throw UsageError(error.what() + suggestionFor(error.get_option_name()) + " (see " + tool_ +
@@ -147,6 +169,9 @@ void CommandLine::refuseToOverwrite() const {
   std::vector<std::filesystem::path> inputs(inputs_.begin(), inputs_.end());
   std::vector<std::pair<std::string, std::string>> written;
   for (const auto& [name, value] : parser_->values) {
+    if (std::find(lists_.begin(), lists_.end(), name) != lists_.end()) {
+      for (const std::string& path : list(name.c_str())) inputs.emplace_back(path);
+    }
     const auto* text = boost::any_cast<std::string>(&value.value());
     if (text == nullptr) continue;
     if (outputs.count(name) != 0)
@@ -197,6 +222,8 @@ std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
     if (const auto* word = boost::any_cast<std::string>(&value.value())) {
       text << (word->empty() ? "yes" : *word);
     }
+    if (std::find(lists_.begin(), lists_.end(), name) != lists_.end())
+      text << this->text(name.c_str());
     settings.emplace_back(name, text.str());
   }
   return settings;

@@ -40,6 +40,8 @@ class CommandLine {
   void add(const char* name, const char* help, const T& default_value);
   void addOptional(const char* name, const char* help);  ///< text value, absent by default
   void addFlag(const char* name, const char* help);
+  /// An option with one value or more: those that follow it up to the next option or point file.
+  void addList(const char* name, const char* help);
 
   /// Parses; returns false when help or version was printed and the tool is done. Throws
   /// UsageError.
@@ -48,7 +50,8 @@ class CommandLine {
   template <typename T>
   T get(const char* name) const;
   bool has(const char* name) const;
-  std::string text(const char* name) const { return get<std::string>(name); }
+  std::string text(const char* name) const;  ///< of a list: separated by commas
+  std::vector<std::string> list(const char* name) const;
   /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
   double number(const char* name, double low, double high, const char* unit) const;
   /// The value of a std::string option as a whole number; UsageError for anything else.
@@ -76,7 +79,7 @@ class CommandLine {
   std::string tool_, purpose_, synopsis_, example_;
   struct Parser;  ///< what Boost keeps of options and values
   std::unique_ptr<Parser> parser_;
-  std::vector<std::string> inputs_;
+  std::vector<std::string> inputs_, lists_;
 };
 
 /** \brief Prints one line per step with counts and milliseconds to stdout, unless quiet.

@@ -9,7 +9,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
-#include <pcl_als/io/survey_io.h>
+#include <pcl_als/io/trajectory_io.h>
 
 namespace pcl_als::app {
 namespace {
@@ -19,11 +19,36 @@ constexpr double kLongestWindow = 60.0;  // seconds, half of it
 }  // namespace
 
 void addFlightOptions(CommandLine& line, const char* use) {
-  const std::string help = std::string("trajectory: .csv, or SBET .out/.sbet (") + use + ")";
-  line.addOptional("trajectory", help.c_str());
+  const std::string help =
+      std::string(
+          "trajectory: text (.csv, .txt, .pos, ...) or SBET (.out, .sbet); several files or a "
+          "folder are joined in order of time (") +
+      use + ")";
+  line.addList("trajectory", help.c_str());
   line.addOptional("crs",
-                   "CRS of the points for an SBET, e.g. EPSG:32611 (default: the point file's)");
-  addUnitsOption(line, "trajectory", "a trajectory CSV");
+                   "CRS of the points, e.g. EPSG:32611, for an SBET or other geographic "
+                   "coordinates (default: the point file's)");
+  line.addOptional("trajectory_crs",
+                   "CRS of the trajectory's coordinates (default: WGS 84 for geographic and "
+                   "geocentric ones, that of the points for map coordinates)");
+  addUnitsOption(line, "trajectory", "a trajectory of map coordinates");
+  line.addOptional("columns",
+                   "columns of a trajectory text file in their order, e.g. "
+                   "time,easting,northing,height,roll,pitch,heading; skip: a column that is not "
+                   "used (default: by its header)");
+  line.addOptional("trajectory_angles",
+                   "unit of trajectory angles that state none: deg, rad or gon (default: deg)");
+  line.addOptional("trajectory_axes",
+                   "ned: roll right wing down, pitch nose up, heading clockwise from north; enu: "
+                   "pitch nose down, yaw counter-clockwise from east (default: ned)");
+  line.addOptional("trajectory_north",
+                   "north that headings count from: true or grid (default: grid for map "
+                   "coordinates, else true)");
+  line.addOptional("leap_seconds",
+                   "the trajectory's times are UTC: seconds to be added (18 since 2017)");
+  line.addOptional("geoid",
+                   "geoid undulation that is subtracted from the trajectory's heights: metres, or "
+                   "a grid file that PROJ reads");
   line.addOptional(
       "gps_week",
       "GPS week of times that are seconds of the week (default: determined from the data)");
@@ -83,24 +108,91 @@ double halfWidthOf(const CommandLine& line, double otherwise) {
   return numberIn(line.text("line_fit"), "option -line_fit, seconds", 0.001, kLongestWindow);
 }
 
+/// The value of a word that an option gives; unchanged without the option.
+template <typename T>
+void choose(const CommandLine& line, const char* option, T& value,
+            const std::vector<std::pair<std::string, T>>& words) {
+  if (!line.has(option)) return;
+  std::string names;
+  for (const auto& [word, meaning] : words) {
+    if (line.text(option) == word) {
+      value = meaning;
+      return;
+    }
+    names += (names.empty() ? "" : ", ") + word;
+  }
+  throw UsageError(std::string("option -") + option + ": '" + line.text(option) + "' is none of " +
+                   names);
+}
+
+/// The option that answers what has to be stated.
+std::string optionFor(TrajectoryQuestion question) {
+  switch (question) {
+    case TrajectoryQuestion::columns:
+      return "; or name the columns with -columns";
+    case TrajectoryQuestion::own_crs:
+      return "; give it with -trajectory_crs";
+    case TrajectoryQuestion::leap_seconds:
+      return " with -leap_seconds";
+    case TrajectoryQuestion::geoid:
+      return "; give it with -geoid";
+  }
+  return {};
+}
+
+std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line) {
+  if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
+  const std::vector<std::string> names = line.list("trajectory");
+  return {names.begin(), names.end()};
+}
+
 }  // namespace
+
+TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs) {
+  TrajectoryReading reading;
+  if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
+  reading.crs = line.has("crs") ? line.text("crs") : points_crs;
+  if (line.has("trajectory_crs")) reading.own_crs = line.text("trajectory_crs");
+  reading.unit = unitOption(line, "trajectory");
+  if (line.has("columns")) reading.columns = splitList(line.text("columns"));
+  using Angles = AngleUnit;
+  choose(line, "trajectory_angles", reading.angles,
+         {{"deg", Angles::degrees}, {"rad", Angles::radians}, {"gon", Angles::gon}});
+  choose(line, "trajectory_axes", reading.axes,
+         {{"ned", AttitudeAxes::ned}, {"enu", AttitudeAxes::enu}});
+  choose(line, "trajectory_north", reading.north,
+         {{"true", NorthReference::true_north}, {"grid", NorthReference::grid_north}});
+  if (line.has("leap_seconds"))
+    reading.leap_seconds = numberIn(line.text("leap_seconds"), "option -leap_seconds", 0.0, 60.0);
+  if (line.has("geoid")) reading.geoid = line.text("geoid");
+  return reading;
+}
+
+FlightFile readFlightFile(const CommandLine& line, const FlightFileOptions& options) {
+  try {
+    return pcl_als::readFlight(trajectoryFiles(line), options);
+  } catch (const TrajectoryQuestionError& error) {
+    throw InputError(error.what() + optionFor(error.question()));
+  }
+}
 
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
                                              double half_width, AttitudeUse attitude) {
-  if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
   FlightFileOptions options;
+  static_cast<TrajectoryReading&>(options) = trajectoryReading(line, points_crs);
   options.line_fit_half_width = halfWidthOf(line, half_width);
   options.attitude = attitude;
-  if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
-  options.crs = line.has("crs") ? line.text("crs") : points_crs;
-  options.unit = unitOption(line, "trajectory");
-  Step step("Reading " + line.text("trajectory"), line.quiet());
-  const FlightFile file = pcl_als::readFlight(line.text("trajectory"), options);
+  const std::vector<std::filesystem::path> files = trajectoryFiles(line);
+  Step step("Reading " +
+                (files.size() == 1 ? files.front().string() : counted(files.size(), "trajectory file")),
+            line.quiet());
+  const FlightFile file = readFlightFile(line, options);
   const Trajectory& flight = *file.trajectory;
   step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +
             (flight.attitudeIsNominal() ? ", nominal attitude"
              : flight.hasAttitude()     ? ", with attitude"
                                         : ""));
+  if (file.format != "text") remark(line, file.format + ": " + file.frame);
   remarks(line, file.remarks);
   return file.trajectory;
 }

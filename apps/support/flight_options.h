@@ -13,7 +13,8 @@
 
 namespace pcl_als::app {
 
-/// Declares -trajectory, -crs, -gps_week and -line_fit; \a use: what the trajectory is for.
+/// Declares -trajectory, what is known of its files, -gps_week and -line_fit; \a use: what the
+/// trajectory is for.
 void addFlightOptions(CommandLine& line, const char* use = "needed");
 
 /// -gps_week; empty when it is to be found from the data.
@@ -25,6 +26,9 @@ void addForceOption(CommandLine& line, const std::string& reason = "inputs do no
 /// -model auto, quasi_rigorous, rigorous or nominal.
 void addModelOption(CommandLine& line);
 AttitudeUse attitudeUse(const CommandLine& line);
+
+/// What the options state of the files of -trajectory.
+TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs);
 
 /// Reads -trajectory as a step of its own. An SBET is projected to -crs, else to \a points_crs.
 /// \a half_width: trajectory window in seconds where -line_fit is not given; 0: the library's.

@@ -131,6 +131,21 @@ std::string crsInUnit(const std::string& crs, [[maybe_unused]] const LengthUnit&
 #endif
 }
 
+std::string horizontalCrs(const std::string& crs) {
+#ifdef PCL_ALS_HAVE_PROJ
+  if (!crs.empty() && crs.size() <= kLongestCrs) {
+    const ProjContext context = quietProjContext();
+    const ProjCrs parts = openCrs(context.get(), crs);
+    const char* const options[] = {"MULTILINE=NO", nullptr};
+    const char* text =
+        parts.vertical ? proj_as_wkt(context.get(), parts.horizontal.get(), PJ_WKT2_2019, options)
+                       : nullptr;
+    if (text != nullptr) return text;
+  }
+#endif
+  return crs;
+}
+
 std::string localCrs(const LengthUnit& unit) {
   char factor[40];
   std::snprintf(factor, sizeof factor, "%.17g", unit.metres);

@@ -84,6 +84,10 @@ std::string readWholeFile(const std::filesystem::path& path) {
 
 CsvTable::CsvTable(const std::filesystem::path& path)
     : name_(path.string()), content_(readWholeFile(path)), rest_(content_) {
+  readFirstLine();
+}
+
+void CsvTable::readFirstLine() {
   if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
   std::string_view header;
   if (!nextLine(header)) throw InputError(name_ + ": is empty; a header line is needed");
@@ -116,17 +120,26 @@ std::string CsvTable::headerText() const {
   return quotable(header);
 }
 
+std::string CsvTable::at(const std::string& what) const {
+  return name_ + ": line " + std::to_string(line_) + ": " + what;
+}
+
 void CsvTable::refuseHeader(const std::string& what) const {
-  throw InputError(name_ + ": line " + std::to_string(line_) + ": " + what);
+  throw InputError(at(what));
+}
+
+bool CsvTable::rawLine(std::string_view& line) {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find('\n');
+  line = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  ++line_;
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return true;
 }
 
 bool CsvTable::nextLine(std::string_view& line) {
-  while (!rest_.empty()) {
-    const std::size_t end = rest_.find('\n');
-    line = rest_.substr(0, end);
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-    ++line_;
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  while (rawLine(line)) {
     const std::string_view text = trimmed(line, kBlanks);
     if (!text.empty() && text.front() != '#') return true;
   }
@@ -156,6 +169,7 @@ bool CsvTable::next() {
   if (!nextLine(line)) return false;
   split(line);
   // A separator at the end of a line adds no column.
+  if (!spans_.empty()) mergeSpans();
   if (fields_.size() == columns_.size() + 1 && fields_.back().empty()) fields_.pop_back();
   if (fields_.size() == columns_.size()) return true;
   throw InputError(name_ + ": line " + std::to_string(line_) + ": " +

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,12 +25,27 @@ class CsvTable {
  public:
   explicit CsvTable(const std::filesystem::path& path);
 
+  /// What is known of the header of an export, which may follow other lines.
+  struct Header {
+    /// Whether these are the names of the columns.
+    std::function<bool(const std::vector<std::string_view>&)> recognised;
+    /// Whether a column may be degrees, minutes and seconds in three fields.
+    std::function<bool(std::string_view)> geodetic;
+    /// Names given by the caller: lines before the first numbers are skipped.
+    std::vector<std::string> columns;
+  };
+  /// The same with a header that stands below other lines, maybe as a comment, and a line of units
+  /// below it. Columns may repeat a name. Fields of degrees, minutes and seconds are one field.
+  CsvTable(const std::filesystem::path& path, const Header& header);
+
   /// Number of the column; InputError when the header lacks it.
   std::size_t required(std::string_view name) const;
   /// Number of the column, or npos.
   std::size_t optional(std::string_view name) const;
   /// Names of the columns as the header has them.
   const std::vector<std::string_view>& header() const { return header_; }
+  /// Units of the columns from the line below the header; empty where there is none.
+  const std::vector<std::string>& units() const { return units_; }
   static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 
   /// Reads the next record; false at the end. InputError when its fields are not as many as the
@@ -39,10 +55,15 @@ class CsvTable {
   std::string_view text(std::size_t column) const { return fields_[column]; }
   /// A finite number.
   double number(std::size_t column) const;
+  /// A finite number of degrees: decimal or "D M S" with blanks, colons or signs of the units
+  /// between, the sign or the letter of the hemisphere at either end.
+  double sexagesimal(std::size_t column) const;
   /// A finite number, or NaN where the field is empty or says nan.
   double numberOrNan(std::size_t column) const;
   /// The header as one line, fit for a message.
   std::string headerText() const;
+  /// "FILE: line L: WHAT", of the line that was read last.
+  std::string at(const std::string& what) const;
   /// Throws the InputError "FILE: line L: WHAT" about the header.
   [[noreturn]] void refuseHeader(const std::string& what) const;
   /// Throws the InputError "FILE: line L, column 'c': 'text' WHAT".
@@ -50,7 +71,14 @@ class CsvTable {
 
  private:
   bool nextLine(std::string_view& line);
+  bool rawLine(std::string_view& line);
   void split(std::string_view line);
+  void readFirstLine();
+  bool findHeader(const Header& header);
+  void takeUnits();
+  void skipToNumbers(const Header& header);
+  void prepareRecords(const Header& header);
+  void mergeSpans();
 
   std::string name_, content_;
   std::string_view rest_;
@@ -59,6 +87,8 @@ class CsvTable {
   std::vector<std::string> columns_;
   std::vector<std::string_view> header_;
   std::vector<std::string_view> fields_;
+  std::vector<std::string> names_given_, units_;
+  std::vector<std::size_t> spans_;  ///< fields of each column; empty: one each
 };
 
 }  // namespace pcl_als::detail

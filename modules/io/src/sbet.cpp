@@ -8,7 +8,6 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/crs/map_projection.h>
 
 #include "csv_table.h"
 #include "week_rollover.h"
@@ -40,34 +39,20 @@ const char* fault(const Record& record) {
   return nullptr;
 }
 
-/// An angle in [0, 2 pi).
-double wrapped(double angle) {
-  const double turn = 2.0 * kPi;
-  const double rest = std::fmod(angle, turn);
-  return rest < 0.0 ? rest + turn : rest;
-}
-
-TrajectorySample toSample(const Record& record, const MapProjection& projection) {
-  const MapProjection::Result mapped =
-      projection.project(record[kLatitude], record[kLongitude], record[kHeight]);
+TrajectorySample toSample(const Record& record) {
   TrajectorySample sample;
   sample.time = record[kTime];
-  sample.position = mapped.position;
+  sample.position = {record[kLatitude], record[kLongitude], record[kHeight]};
   sample.roll = record[kRoll];
   sample.pitch = record[kPitch];
-  sample.heading = wrapped(record[kHeading] - record[kWander] + mapped.north_azimuth);
+  sample.heading = record[kHeading] - record[kWander];
   return sample;
 }
 
 }  // namespace
 
-std::vector<TrajectorySample> readSbet(const std::filesystem::path& path, const std::string& crs) {
+TrajectoryRecords readSbet(const std::filesystem::path& path, const TrajectoryReading& reading) {
   const std::string name = path.string();
-  if (crs.empty()) {
-    throw UsageError(name +
-                     ": an SBET is in latitude and longitude; give the CRS of the points, "
-                     "such as EPSG:25832");
-  }
   const std::string content = readWholeFile(path);
   if (content.empty()) throw InputError(name + ": is empty");
   if (content.size() % kRecordBytes != 0) {
@@ -75,8 +60,10 @@ std::vector<TrajectorySample> readSbet(const std::filesystem::path& path, const 
                      " bytes, is not a multiple of the 136 of an SBET record; truncated or not an "
                      "SBET");
   }
-  const MapProjection projection(crs);
-  std::vector<TrajectorySample> samples;
+  TrajectoryRecords records;
+  records.format = "SBET";
+  records.coordinates = TrajectoryCoordinates::geographic;
+  std::vector<TrajectorySample>& samples = records.samples;
   samples.reserve(content.size() / kRecordBytes);
   for (std::size_t at = 0; at < content.size(); at += kRecordBytes) {
     const auto refuse = [&](const char* why) {
@@ -89,10 +76,12 @@ std::vector<TrajectorySample> readSbet(const std::filesystem::path& path, const 
         !isWeekRollover(samples.back().time, record[kTime])) {
       refuse("the time runs backwards");
     }
-    samples.push_back(toSample(record, projection));
-    if (!samples.back().position.allFinite()) refuse("the position is outside the CRS");
+    samples.push_back(toSample(record));
   }
-  return samples;
+  if (reading.leap_seconds) {
+    for (TrajectorySample& sample : samples) sample.time += *reading.leap_seconds;
+  }
+  return records;
 }
 
 }  // namespace pcl_als::detail

@@ -5,33 +5,38 @@
 #include <pcl_als/io/survey_io.h>
 
 #include "sbet.h"
-#include "trajectory_csv.h"
+#include "trajectory_records.h"
 #include "week_rollover.h"
 
 namespace pcl_als {
-namespace {
 
-bool isSbet(const std::filesystem::path& path) {
+namespace detail {
+
+TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
+                                        const TrajectoryReading& reading) {
   const std::string extension = lowerExtension(path);
-  return extension == ".out" || extension == ".sbet";
+  TrajectoryRecords records = extension == ".out" || extension == ".sbet"
+                                  ? readSbet(path, reading)
+                                  : readTextTrajectory(path, reading);
+  unwrapWeek(records.samples);
+  for (std::size_t i = 0; i < records.accuracy.size(); ++i)
+    records.accuracy[i].time = records.samples[i].time;
+  return records;
 }
 
-}  // namespace
+}  // namespace detail
+
+TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,
+                                  const TrajectoryReading& reading) {
+  return detail::inPointFrame(detail::readTrajectoryRecords(path, reading), path, reading);
+}
 
 TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs,
                                   const LengthUnit& unit) {
-  TrajectoryFile file;
-  if (isSbet(path)) {
-    if (!unit.isMetre())
-      throw UsageError(path.string() + ": an SBET is in degrees and metres; its unit is not " +
-                       unit.name);
-    file.samples = detail::readSbet(path, crs);
-  } else {
-    file = detail::readTrajectoryCsv(path);
-  }
-  for (TrajectorySample& sample : file.samples) sample.position *= unit.metres;
-  detail::unwrapWeek(file.samples);
-  return file;
+  TrajectoryReading reading;
+  reading.crs = crs;
+  reading.unit = unit;
+  return readTrajectoryFile(path, reading);
 }
 
 std::vector<TrajectorySample> readTrajectory(const std::filesystem::path& path,

@@ -43,13 +43,18 @@ FlightFileOptions flightFileOptions(const CalibrationResult& calibration) {
 }
 
 FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options) {
-  TrajectoryFile file = readTrajectoryFile(path, options.crs, options.unit);
+  return readFlight(std::vector<std::filesystem::path>{path}, options);
+}
+
+FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
+                      const FlightFileOptions& options) {
+  TrajectoryFile file = readTrajectoryFiles(paths, options);
   const std::string yaw = decideYaw(file);
   const bool complete = !file.samples.empty() &&
                         std::all_of(file.samples.begin(), file.samples.end(),
                                     [](const TrajectorySample& s) { return s.hasAttitude(); });
   if (options.attitude == AttitudeUse::needed && !complete) {
-    throw InputError(path.string() +
+    throw InputError(paths.front().string() +
                      ": has no roll, pitch and heading for every sample; the rigorous model "
                      "needs them");
   }
@@ -60,7 +65,11 @@ FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions
                                   options.attitude == AttitudeUse::needed);
   FlightFile flight;
   flight.trajectory = std::make_shared<const Trajectory>(std::move(file.samples), use);
-  if (!file.columns.empty()) flight.remarks.push_back(file.columns);
+  flight.format = file.format;
+  flight.frame = file.frame;
+  flight.accuracy = std::move(file.accuracy);
+  flight.remarks = std::move(file.remarks);
+  if (!file.columns.empty()) flight.remarks.insert(flight.remarks.begin(), file.columns);
   if (use.use_attitude && !yaw.empty()) flight.remarks.push_back(yaw);
   const std::vector<std::string>& repairs = flight.trajectory->repairs();
   flight.remarks.insert(flight.remarks.end(), repairs.begin(), repairs.end());

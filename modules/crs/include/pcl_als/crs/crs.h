@@ -40,6 +40,10 @@ LinearUnits unitsOfCrs(const std::string& crs, const std::string& source = {});
  */
 std::string crsInUnit(const std::string& crs, const LengthUnit& unit);
 
+/// A CRS without its vertical part: of a compound one the horizontal part as WKT, any other text as
+/// it is.
+std::string horizontalCrs(const std::string& crs);
+
 /// WKT of a local system of which nothing but the unit is known.
 std::string localCrs(const LengthUnit& unit);
 

@@ -9,33 +9,12 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/io/trajectory_io.h>
 
 namespace pcl_als {
 
-/// A trajectory as a file holds it.
-struct TrajectoryFile {
-  std::vector<TrajectorySample> samples;  ///< in the order of the file
-  /// The heading's column is called yaw. Some write yaw counter-clockwise from east; the samples
-  /// hold it as a heading, clockwise from north, until the course shows otherwise.
-  bool heading_is_yaw = false;
-  /// "columns: time from GpsTime, heading from Azimuth"; empty where all have their plain names.
-  std::string columns;
-};
-
-/** \brief Reads a trajectory: CSV or Applanix SBET (.out, .sbet).
- *
- * CSV: a header line and the columns time,x,y,z[,roll,pitch,heading] in any order, separator , ;
- * tab or blanks; seconds, metres, degrees. Columns are found by the names in use (GpsTime, Easting,
- * Height, Azimuth, ...; the module's README lists them) in any case; angles in radians where the
- * name contains the unit ("roll_rad"). SBET: projected to \a crs with PROJ, meridian convergence
- * applied to the heading = platform heading - wander angle.
- *
- * InputError names file, line (or record) and column. SBET without \a crs is a UsageError that
- * names the option.
- *
- * \param unit that the coordinates of a CSV count in; samples are in metres. An SBET is brought to
- * metres from the unit of \a crs
- */
+/// readTrajectoryFile() of trajectory_io.h with the two things that most callers state: the CRS of
+/// the points and the unit of map coordinates.
 TrajectoryFile readTrajectoryFile(const std::filesystem::path& path, const std::string& crs = {},
                                   const LengthUnit& unit = {});
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/common/linear_units.h>
+#include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
@@ -21,9 +21,8 @@ enum class AttitudeUse {
   nominal,      ///< a level sensor whose heading is the course
 };
 
-struct FlightFileOptions {
-  std::string crs;  ///< of the points; for an SBET, which has geographic coordinates
-  LengthUnit unit;  ///< of the coordinates of a CSV; default metre
+/// What is known of the files (TrajectoryReading), and how they are used.
+struct FlightFileOptions : TrajectoryReading {
   double line_fit_half_width = 0.0;  ///< seconds; 0: Trajectory's default
   AttitudeUse attitude = AttitudeUse::where_given;
 };
@@ -33,11 +32,17 @@ FlightFileOptions flightFileOptions(const CalibrationResult& calibration);
 
 struct FlightFile {
   std::shared_ptr<const Trajectory> trajectory;
+  std::string format;                ///< "SBET", "text", "several formats"
+  std::string frame;                 ///< coordinates and datum of the file
   std::vector<std::string> remarks;  ///< remarks for the user on columns, angles and repairs
+  std::vector<TrajectoryAccuracy> accuracy;  ///< that the files state; may be empty
 };
 
-/// Reads a trajectory (.csv, SBET .out/.sbet). Whether a column named yaw is clockwise from north
-/// or counter-clockwise from east is determined from the course. InputError naming the file.
+/// Reads a trajectory from files or folders of any format (readTrajectoryFiles()). Whether a column
+/// named yaw is clockwise from north or counter-clockwise from east is determined from the course.
+/// InputError naming the file.
+FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
+                      const FlightFileOptions& options = {});
 FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options = {});
 
 }  // namespace pcl_als

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_units.h>
+#include <pcl_als/common/survey_types.h>
+#include <pcl_als/common/time_alignment.h>
+
+namespace pcl_als {
+
+/// Standard deviations of a trajectory at a time; NaN where a file does not state one.
+struct TrajectoryAccuracy {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  double time = 0.0;                                               ///< seconds
+  Eigen::Vector3d position = Eigen::Vector3d::Constant(kUnknown);  ///< east, north, up, metres
+  Eigen::Vector3d angles = Eigen::Vector3d::Constant(kUnknown);    ///< roll, pitch, heading, rad
+};
+
+/// What the coordinates of a trajectory file are.
+enum class TrajectoryCoordinates {
+  map,         ///< easting, northing, height
+  geographic,  ///< latitude, longitude, height
+  geocentric,  ///< X, Y, Z from the centre of the Earth
+};
+
+/// Unit of angles whose column states none.
+enum class AngleUnit { stated, degrees, radians, gon };
+
+/// Meaning of roll, pitch and heading.
+enum class AttitudeAxes {
+  ned,  ///< roll right wing down, pitch nose up, heading clockwise from north
+  enu,  ///< body forward-left-up: pitch nose down, yaw counter-clockwise from east
+};
+
+/// The north that headings count from.
+enum class NorthReference {
+  by_coordinates,  ///< grid north for map coordinates, else true north
+  true_north,
+  grid_north,
+};
+
+/// What a caller knows of trajectory files beyond what they state.
+struct TrajectoryReading {
+  std::string crs;      ///< of the points: the frame of the result
+  std::string own_crs;  ///< of the files; default: WGS 84 (ITRF), map coordinates those of \a crs
+  LengthUnit unit;      ///< of map coordinates; the result is in metres
+  /// Names of the columns of text files in their order, as in a header; "skip" for others. Empty:
+  /// by the header of the file.
+  std::vector<std::string> columns;
+  AngleUnit angles = AngleUnit::stated;  ///< degrees where nothing is stated
+  AttitudeAxes axes = AttitudeAxes::ned;
+  NorthReference north = NorthReference::by_coordinates;
+  /// Times are UTC: seconds that are added. Without it a column of UTC is used only where a GPS
+  /// week beside it gives the leap seconds.
+  std::optional<double> leap_seconds;
+  /// Geoid undulation, subtracted from the heights of the files: metres, or the path of a grid that
+  /// PROJ reads. Empty: none.
+  std::string geoid;
+};
+
+/// A trajectory as a file holds it, in the frame of the points.
+struct TrajectoryFile {
+  std::vector<TrajectorySample> samples;  ///< in the order of the file
+  /// The heading's column is called yaw. Some write yaw counter-clockwise from east; the samples
+  /// hold it as a heading, clockwise from north, until the course shows otherwise.
+  bool heading_is_yaw = false;
+  /// "columns: time from GpsTime, heading from Azimuth"; empty where all have their plain names.
+  std::string columns;
+  std::string format;                        ///< "SBET", "text"
+  std::string frame;                         ///< "latitude, longitude and ellipsoidal height, …"
+  std::vector<TrajectoryAccuracy> accuracy;  ///< of the samples; empty where none is stated
+  std::vector<std::string> remarks;          ///< conversions and assumptions, one line each
+};
+
+/// What an InputError on a trajectory could be answered with; a tool adds the name of its option.
+enum class TrajectoryQuestion { columns, own_crs, leap_seconds, geoid };
+
+class TrajectoryQuestionError : public InputError {
+ public:
+  TrajectoryQuestionError(const std::string& message, TrajectoryQuestion question)
+      : InputError(message), question_(question) {}
+  TrajectoryQuestion question() const { return question_; }
+
+ private:
+  TrajectoryQuestion question_;
+};
+
+/** \brief Reads a trajectory: text with a header line, or Applanix SBET (.out, .sbet).
+ *
+ * Text: columns are found by the names in use (the module's README lists them) in any case, below
+ * any number of lines that are no header; separator , ; tab or blanks; a line of units below the
+ * header is read, and so are units in the names ("roll_rad"); seconds, metres and degrees
+ * otherwise. Latitude and longitude may be degrees, minutes and seconds. Coordinates on the map, on
+ * the ellipsoid or geocentric; the latter two are projected to the CRS of the points with PROJ, and
+ * headings from true north turned by the meridian convergence.
+ *
+ * InputError names file, line (or record) and column; TrajectoryQuestionError what has to be
+ * stated. Geographic coordinates without TrajectoryReading::crs are a UsageError.
+ */
+TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,
+                                  const TrajectoryReading& reading);
+
+/** \brief Reads trajectories of one survey and joins them in order of time.
+ *
+ * Each path is a file or a folder, of which all files that may be a trajectory are read in order of
+ * their names. Files may be of different formats. Seconds of the week and absolute times are
+ * brought to one scale. A sample whose time and place (within 5 mm and 2e-5 rad) another file holds
+ * is left out; where files differ at times that both cover, InputError names both, the time and the
+ * distance. The time between files remains a gap of the trajectory.
+ */
+TrajectoryFile readTrajectoryFiles(const std::vector<std::filesystem::path>& paths,
+                                   const TrajectoryReading& reading);
+
+/// What a trajectory file states, without projection.
+struct TrajectoryFacts {
+  std::string format, frame, columns;
+  std::size_t samples = 0;
+  TimeRange times;
+  std::string time_kind;     ///< "seconds of the GPS week"
+  double median_step = 0.0;  ///< seconds
+  bool attitude = false;     ///< of every sample
+  bool standard_deviations = false;
+};
+TrajectoryFacts inspectTrajectory(const std::filesystem::path& path,
+                                  const TrajectoryReading& reading);
+
+/// The trajectory files that paths mean: themselves, or those of a folder. InputError for a folder
+/// without any.
+std::vector<std::filesystem::path> trajectoryPaths(const std::vector<std::filesystem::path>& paths);
+
+}  // namespace pcl_als

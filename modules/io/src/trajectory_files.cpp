@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+//
+// Trajectories of several files as one.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/statistics.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/time_reference.h>
+
+#include "trajectory_records.h"
+
+namespace pcl_als {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Two files of one flight: what rounding and another rate of samples leave between them.
+constexpr double kSamePlace = 0.02;         // metres
+constexpr double kSameAngle = 1e-4;         // radians
+constexpr double kManoeuvre = 0.6;          // m/s^2 eighths: 5 m/s^2 bend a chord by a t^2 / 8
+constexpr double kAngularManoeuvre = 0.12;  // rad/s^2 over 8: 1 rad/s^2
+
+/// A file with its samples in order of time.
+struct Part {
+  fs::path path;
+  TrajectoryFile file;
+  double first = 0.0, last = 0.0, step = 0.0;  ///< seconds
+};
+
+bool isAccuracyFile(const fs::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name.find("smrmsg") != std::string::npos;
+}
+
+double medianStep(const std::vector<TrajectorySample>& samples) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    steps.push_back(samples[i].time - samples[i - 1].time);
+  return steps.empty() ? 0.0 : medianInPlace(steps);
+}
+
+Part sortedPart(const fs::path& path, TrajectoryFile file) {
+  Part part{path, std::move(file)};
+  std::vector<TrajectorySample>& samples = part.file.samples;
+  std::vector<std::size_t> order(samples.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return samples[a].time < samples[b].time; });
+  const std::vector<TrajectorySample> before = samples;
+  const std::vector<TrajectoryAccuracy> accuracy = part.file.accuracy;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    samples[i] = before[order[i]];
+    if (!accuracy.empty()) part.file.accuracy[i] = accuracy[order[i]];
+  }
+  part.first = samples.front().time, part.last = samples.back().time;
+  part.step = medianStep(samples);
+  return part;
+}
+
+bool inWeek(const Part& part) {
+  return part.first >= 0.0 && part.last <= 2.0 * kSecondsPerWeek;
+}
+
+/// Brings files with absolute times to the week of the others.
+void commonTimes(std::vector<Part>& parts) {
+  const auto week = std::find_if(parts.begin(), parts.end(), inWeek);
+  const auto absolute = std::find_if_not(parts.begin(), parts.end(), inWeek);
+  if (week == parts.end() || absolute == parts.end()) return;
+  // Adjusted standard time begins 1e9 s after GPS time.
+  const auto toGps = [](const Part& part) {
+    return part.last < kAdjustedOffset ? kAdjustedOffset : 0.0;
+  };
+  const double number = std::floor((absolute->first + toGps(*absolute)) / kSecondsPerWeek);
+  for (Part& part : parts) {
+    if (inWeek(part)) continue;
+    const double shift = toGps(part) - number * kSecondsPerWeek;
+    part.first += shift, part.last += shift;
+    if (!inWeek(part)) {
+      throw InputError(part.path.string() + ": its times are of another GPS week than those of " +
+                       absolute->path.string() + ", and " + week->path.string() +
+                       " does not state its week; give the files of one week");
+    }
+    for (TrajectorySample& sample : part.file.samples) sample.time += shift;
+    for (TrajectoryAccuracy& accuracy : part.file.accuracy) accuracy.time += shift;
+    part.file.remarks.push_back(part.path.filename().string() + ": times are those of GPS week " +
+                                std::to_string(std::lround(number)) +
+                                ", brought to seconds of the week");
+  }
+}
+
+double turnBetween(double a, double b) {
+  return std::abs(std::remainder(a - b, 2.0 * kPi));
+}
+
+/// What refuses a sample beside the path between two others; empty where it lies on it.
+std::string contradiction(const TrajectorySample& a, const TrajectorySample& b,
+                          const TrajectorySample& sample) {
+  const double step = b.time - a.time, share = step > 0.0 ? (sample.time - a.time) / step : 0.0;
+  const Eigen::Vector3d place = a.position + share * (b.position - a.position);
+  const double apart = (place - sample.position).norm();
+  char text[100];
+  if (!(apart <= kSamePlace + kManoeuvre * step * step)) {
+    std::snprintf(text, sizeof text, "lie %.3f m apart at %.3f s", apart, sample.time);
+    return text;
+  }
+  if (!a.hasAttitude() || !b.hasAttitude() || !sample.hasAttitude()) return {};
+  const auto between = [share](double from, double to) {
+    return from + share * std::remainder(to - from, 2.0 * kPi);
+  };
+  const double turned = std::max({turnBetween(between(a.roll, b.roll), sample.roll),
+                                  turnBetween(between(a.pitch, b.pitch), sample.pitch),
+                                  turnBetween(between(a.heading, b.heading), sample.heading)});
+  if (turned <= kSameAngle + kAngularManoeuvre * step * step) return {};
+  std::snprintf(text, sizeof text, "differ by %.4f degrees in attitude at %.3f s",
+                turned / kRadiansPerDegree, sample.time);
+  return text;
+}
+
+/// Adds the samples of a file at times that the files before it do not cover.
+class Joined {
+ public:
+  void add(const Part& part) {
+    const bool stated = !part.file.accuracy.empty();
+    const double gap = std::max(1.0, 5.0 * std::max(part.step, step_));
+    std::size_t kept = 0;
+    const std::size_t before = samples_.size();
+    std::size_t after = 0;
+    std::vector<TrajectorySample> added;
+    std::vector<TrajectoryAccuracy> added_accuracy;
+    for (std::size_t i = 0; i < part.file.samples.size(); ++i) {
+      const TrajectorySample& sample = part.file.samples[i];
+      while (after < before && samples_[after].time < sample.time) ++after;
+      if (covered(after, before, sample, gap)) {
+        check(after, sample, part);
+        ++kept;
+        continue;
+      }
+      added.push_back(sample);
+      added_accuracy.push_back(stated ? part.file.accuracy[i] : unknownAt(sample.time));
+    }
+    if (kept > 0) {
+      remarks_.push_back(part.path.filename().string() + ": " + std::to_string(kept) +
+                         " samples repeat those of other files and are left out");
+    }
+    any_accuracy_ = any_accuracy_ || stated;
+    insert(added, added_accuracy, part.path);
+    step_ = std::max(step_, part.step);
+  }
+
+  TrajectoryFile result(const std::vector<Part>& parts) {
+    TrajectoryFile file = parts.front().file;
+    file.samples = std::move(samples_);
+    if (!any_accuracy_) accuracy_.clear();
+    file.accuracy = std::move(accuracy_);
+    file.remarks.clear();
+    for (const Part& part : parts) {
+      if (part.file.format != parts.front().file.format) file.format = "several formats";
+      file.heading_is_yaw = file.heading_is_yaw || part.file.heading_is_yaw;
+      for (const std::string& text : part.file.remarks) {
+        if (std::find(file.remarks.begin(), file.remarks.end(), text) == file.remarks.end())
+          file.remarks.push_back(text);
+      }
+    }
+    file.remarks.insert(file.remarks.end(), remarks_.begin(), remarks_.end());
+    return file;
+  }
+
+ private:
+  static TrajectoryAccuracy unknownAt(double time) {
+    TrajectoryAccuracy accuracy;
+    accuracy.time = time;
+    return accuracy;
+  }
+  /// Whether a sample is at or between samples that are no gap apart.
+  bool covered(std::size_t after, std::size_t count, const TrajectorySample& sample,
+               double gap) const {
+    if (after == count) return false;
+    if (samples_[after].time == sample.time) return true;
+    return after > 0 && samples_[after].time - samples_[after - 1].time <= gap;
+  }
+  void check(std::size_t after, const TrajectorySample& sample, const Part& part) const {
+    const TrajectorySample& b = samples_[after];
+    const TrajectorySample& a = b.time == sample.time ? b : samples_[after - 1];
+    const std::string why = contradiction(a, b, sample);
+    if (why.empty()) return;
+    throw InputError(part.path.string() + " and " + sources_[source_[after]].string() + " " + why +
+                     ": they are not one trajectory; leave one of them out, or cut them where they "
+                     "overlap");
+  }
+  void insert(const std::vector<TrajectorySample>& added,
+              const std::vector<TrajectoryAccuracy>& accuracy, const fs::path& path) {
+    sources_.push_back(path);
+    std::vector<TrajectorySample> samples;
+    std::vector<TrajectoryAccuracy> accuracies;
+    std::vector<std::size_t> source;
+    std::size_t old = 0;
+    for (std::size_t i = 0; i <= added.size(); ++i) {
+      while (old < samples_.size() && (i == added.size() || samples_[old].time < added[i].time)) {
+        samples.push_back(samples_[old]);
+        accuracies.push_back(accuracy_[old]);
+        source.push_back(source_[old++]);
+      }
+      if (i == added.size()) break;
+      samples.push_back(added[i]);
+      accuracies.push_back(accuracy[i]);
+      source.push_back(sources_.size() - 1);
+    }
+    samples_ = std::move(samples), accuracy_ = std::move(accuracies), source_ = std::move(source);
+  }
+
+  std::vector<TrajectorySample> samples_;
+  std::vector<TrajectoryAccuracy> accuracy_;
+  std::vector<std::size_t> source_;  ///< of each sample
+  std::vector<fs::path> sources_;
+  std::vector<std::string> remarks_;
+  double step_ = 0.0;
+  bool any_accuracy_ = false;
+};
+
+std::string timeKindOf(const TimeRange& times) {
+  if (times.first >= 0.0 && times.last <= 2.0 * kSecondsPerWeek) return "seconds of the GPS week";
+  return times.last >= kAdjustedOffset ? "GPS seconds" : "adjusted standard GPS time";
+}
+
+}  // namespace
+
+std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
+  static const std::set<std::string> kExtensions = {".csv", ".txt", ".sbet", ".out",
+                                                    ".pos", ".asc", ".trj"};
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+      if (kExtensions.count(lowerExtension(entry.path())) != 0 && !isAccuracyFile(entry.path()))
+        inside.push_back(entry.path());
+    }
+    if (inside.empty()) {
+      throw InputError(path.string() +
+                       ": holds no trajectory (.csv, .txt, .pos, .asc, .sbet, "
+                       ".out, .trj)");
+    }
+    std::sort(inside.begin(), inside.end());
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code error;
+      if (files[i] == files[j] || fs::equivalent(files[i], files[j], error))
+        throw UsageError("trajectory " + files[i].string() + " is given twice");
+    }
+  }
+  return files;
+}
+
+TrajectoryFile readTrajectoryFiles(const std::vector<fs::path>& paths,
+                                   const TrajectoryReading& reading) {
+  const std::vector<fs::path> files = trajectoryPaths(paths);
+  if (files.size() == 1) return readTrajectoryFile(files.front(), reading);
+  std::vector<Part> parts;
+  for (const fs::path& path : files)
+    parts.push_back(sortedPart(path, readTrajectoryFile(path, reading)));
+  commonTimes(parts);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& a, const Part& b) { return a.first < b.first; });
+  Joined joined;
+  for (const Part& part : parts) joined.add(part);
+  return joined.result(parts);
+}
+
+TrajectoryFacts inspectTrajectory(const fs::path& path, const TrajectoryReading& reading) {
+  const detail::TrajectoryRecords records = detail::readTrajectoryRecords(path, reading);
+  TrajectoryFacts facts;
+  facts.format = records.format;
+  facts.frame = detail::frameText(records, reading);
+  facts.columns = records.columns;
+  facts.samples = records.samples.size();
+  facts.attitude = std::all_of(records.samples.begin(), records.samples.end(),
+                               [](const TrajectorySample& s) { return s.hasAttitude(); });
+  facts.standard_deviations = !records.accuracy.empty();
+  std::vector<TrajectorySample> samples = records.samples;
+  std::sort(samples.begin(), samples.end(),
+            [](const TrajectorySample& a, const TrajectorySample& b) { return a.time < b.time; });
+  for (const TrajectorySample& sample : samples) facts.times.add(sample.time);
+  facts.median_step = medianStep(samples);
+  facts.time_kind = timeKindOf(facts.times);
+  return facts;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+//
+// Records of a trajectory file brought to the frame of the points.
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/crs/crs.h>
+#include <pcl_als/crs/map_projection.h>
+
+#include "trajectory_records.h"
+
+namespace pcl_als::detail {
+namespace {
+
+/// An angle in [0, 2 pi).
+double wrapped(double angle) {
+  const double turn = 2.0 * kPi;
+  const double rest = std::fmod(angle, turn);
+  return rest < 0.0 ? rest + turn : rest;
+}
+
+/// Undulations to subtract: a number of metres or a grid.
+class Undulation {
+ public:
+  explicit Undulation(const std::string& text) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), constant_);
+    if (error == std::errc() && end == text.data() + text.size()) return;
+    grid_ = std::make_unique<GeoidGrid>(text);
+  }
+  double at(double latitude, double longitude) const {
+    return grid_ ? grid_->undulation(latitude, longitude) : constant_;
+  }
+  bool isConstant() const { return !grid_; }
+
+ private:
+  double constant_ = 0.0;
+  std::unique_ptr<GeoidGrid> grid_;
+};
+
+/// One file on its way to the frame of the points.
+class FrameChange {
+ public:
+  FrameChange(TrajectoryRecords& records, const std::filesystem::path& path,
+              const TrajectoryReading& reading)
+      : records_(records), path_(path), reading_(reading) {
+    map_ = records.coordinates == TrajectoryCoordinates::map;
+    const bool other_map = map_ && !reading.own_crs.empty() && !reading.crs.empty() &&
+                           !sameGroundFrame(reading.own_crs, reading.crs);
+    if (!reading.geoid.empty()) undulation_ = std::make_unique<Undulation>(reading.geoid);
+    if (!map_ || other_map) projection_ = std::make_unique<MapProjection>(targetCrs(), sourceCrs());
+    const bool geographic = records.coordinates == TrajectoryCoordinates::geographic;
+    if ((!map_ || !headingIsTrue()) && (!needsGeodetic() || geographic)) return;
+    if (reading.crs.empty()) {
+      throw UsageError(path.string() +
+                       ": the CRS of the points is needed for the direction of true north and for "
+                       "a grid of the geoid; give it, such as EPSG:25832");
+    }
+    geodetic_ = std::make_unique<MapProjection>(targetCrs());
+  }
+
+  void apply() {
+    for (std::size_t i = 0; i < records_.samples.size(); ++i) {
+      TrajectorySample& sample = records_.samples[i];
+      changeAxes(sample);
+      const double turn = place(sample);
+      if (!sample.position.allFinite()) {
+        throw InputError(path_.string() + ": record " + std::to_string(i + 1) +
+                         ": the position is outside the CRS");
+      }
+      if (!std::isnan(sample.heading)) {
+        if (turn != 0.0 || projection_) sample.heading = wrapped(sample.heading + turn);
+        largest_turn_ = std::max(largest_turn_, std::abs(turn));
+      }
+    }
+    remark();
+  }
+
+ private:
+  bool headingIsTrue() const {
+    if (reading_.north == NorthReference::by_coordinates) return !map_ || records_.heading_is_true;
+    return reading_.north == NorthReference::true_north;
+  }
+  bool needsGeodetic() const { return undulation_ && !undulation_->isConstant(); }
+
+  /// Orthometric heights are not changed: PROJ is given the horizontal part, which hands them
+  /// through.
+  std::string targetCrs() const {
+    return records_.orthometric || undulation_ ? horizontalCrs(reading_.crs) : reading_.crs;
+  }
+  std::string sourceCrs() const {
+    if (!reading_.own_crs.empty()) return reading_.own_crs;
+    return records_.coordinates == TrajectoryCoordinates::geocentric ? "EPSG:4978" : "";
+  }
+
+  void changeAxes(TrajectorySample& sample) const {
+    if (reading_.axes != AttitudeAxes::enu) return;
+    sample.pitch = -sample.pitch;
+    sample.heading = wrapped(0.5 * kPi - sample.heading);
+  }
+
+  /// Moves a sample into the frame; the return value is what its heading is turned by.
+  double place(TrajectorySample& sample) const {
+    if (map_) sample.position *= reading_.unit.metres;
+    Eigen::Vector3d ground = sample.position, geodetic = sample.position;
+    double turn = 0.0;
+    if (projection_) {
+      // Map coordinates count their headings from their own grid north.
+      const MapProjection::Result mapped = projection_->project(sample.position);
+      ground = mapped.position;
+      turn = map_ || headingIsTrue() ? mapped.north_azimuth : 0.0;
+    }
+    if (geodetic_) {
+      geodetic = geodetic_->unproject(ground);
+      if (map_ && headingIsTrue()) turn = geodetic_->project(geodetic).north_azimuth;
+    }
+    if (undulation_) ground.z() -= undulation_->at(geodetic.x(), geodetic.y());
+    sample.position = ground;
+    return turn;
+  }
+
+  void remark() {
+    char text[200];
+    if (headingIsTrue() && largest_turn_ > 0.0) {
+      std::snprintf(text, sizeof text,
+                    "headings are from true north: turned to grid north, by up to %.3f degrees",
+                    largest_turn_ / kRadiansPerDegree);
+      records_.remarks.emplace_back(text);
+    }
+    if (undulation_) records_.remarks.push_back("geoid undulation subtracted from its heights");
+    if (records_.orthometric)
+      records_.remarks.push_back("its heights are above a geoid by their name: taken as they are");
+  }
+
+  TrajectoryRecords& records_;
+  const std::filesystem::path& path_;
+  const TrajectoryReading& reading_;
+  bool map_ = true;
+  double largest_turn_ = 0.0;
+  std::unique_ptr<MapProjection> projection_, geodetic_;
+  std::unique_ptr<Undulation> undulation_;
+};
+
+}  // namespace
+
+std::string frameText(const TrajectoryRecords& records, const TrajectoryReading& reading) {
+  const std::string own =
+      reading.own_crs.empty() ? std::string() : ", " + shortCrsName(reading.own_crs);
+  const std::string height = records.orthometric ? "height above a geoid" : "ellipsoidal height";
+  switch (records.coordinates) {
+    case TrajectoryCoordinates::geographic:
+      return "latitude, longitude and " + height +
+             (own.empty() ? ", datum not stated: WGS 84 (ITRF) assumed" : own);
+    case TrajectoryCoordinates::geocentric:
+      return "geocentric" + (own.empty() ? ", datum not stated: WGS 84 (ITRF) assumed" : own);
+    case TrajectoryCoordinates::map:
+      break;
+  }
+  return "map coordinates" + (own.empty() ? ", those of the points assumed" : own);
+}
+
+TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::path& path,
+                            const TrajectoryReading& reading) {
+  if (records.coordinates != TrajectoryCoordinates::map) {
+    const std::string what = records.format == "SBET" ? "an SBET is in latitude and longitude"
+                                                      : "its coordinates are not on a map";
+    if (reading.crs.empty()) {
+      throw UsageError(path.string() + ": " + what +
+                       "; give the CRS of the points, such as EPSG:25832");
+    }
+    if (!reading.unit.isMetre()) {
+      throw UsageError(path.string() + ": " + what + " and metres; its unit is not " +
+                       reading.unit.name);
+    }
+  }
+  TrajectoryFile file;
+  file.format = records.format;
+  file.columns = records.columns;
+  file.frame = frameText(records, reading);
+  file.heading_is_yaw = records.heading_is_yaw && reading.axes == AttitudeAxes::ned;
+  FrameChange(records, path, reading).apply();
+  file.samples = std::move(records.samples);
+  file.accuracy = std::move(records.accuracy);
+  file.remarks = std::move(records.remarks);
+  return file;
+}
+
+}  // namespace pcl_als::detail

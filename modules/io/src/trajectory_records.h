@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/io/trajectory_io.h>
+
+namespace pcl_als::detail {
+
+/// The records of a trajectory file before they are brought to the frame of the points.
+struct TrajectoryRecords {
+  std::string format, columns;
+  TrajectoryCoordinates coordinates = TrajectoryCoordinates::map;
+  bool heading_is_yaw = false;
+  bool heading_is_true = false;              ///< stated by the name of the column
+  bool orthometric = false;                  ///< heights are above a geoid
+  std::vector<TrajectorySample> samples;     ///< positions: metres, or latitude, longitude (rad)
+  std::vector<TrajectoryAccuracy> accuracy;  ///< of the samples, or empty
+  std::vector<std::string> remarks;
+};
+
+/// Reads by the extension: .out and .sbet are SBET, all others text.
+TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
+                                        const TrajectoryReading& reading);
+
+TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
+                                     const TrajectoryReading& reading);
+
+/// The records in the frame of the points. \a path: for messages.
+TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::path& path,
+                            const TrajectoryReading& reading);
+
+/// "latitude, longitude and ellipsoidal height, WGS 84 (ITRF) assumed"
+std::string frameText(const TrajectoryRecords& records, const TrajectoryReading& reading);
+
+}  // namespace pcl_als::detail

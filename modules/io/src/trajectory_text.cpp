@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <array>
+#include <cmath>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
+
+#include "csv_table.h"
+#include "trajectory_columns.h"
+#include "trajectory_records.h"
+
+namespace pcl_als::detail {
+namespace {
+
+using Quantity = TrajectoryQuantity;
+
+/// UTC lags GPS time by these seconds from a GPS time on (IERS Bulletin C); the last entry holds
+/// until another leap second is announced.
+double leapSecondsAt(double gps_seconds) {
+  constexpr std::array<std::array<double, 2>, 6> kTable = {{{0.0, 13.0},
+                                                            {820108814.0, 14.0},
+                                                            {914803215.0, 15.0},
+                                                            {1025136016.0, 16.0},
+                                                            {1119744017.0, 17.0},
+                                                            {1167264018.0, 18.0}}};
+  double seconds = kTable[0][1];
+  for (const auto& [from, value] : kTable) {
+    if (gps_seconds >= from) seconds = value;
+  }
+  return seconds;
+}
+
+/// One record after the other, as the columns say.
+class RecordReader {
+ public:
+  RecordReader(const CsvTable& table, const TrajectoryColumns& columns,
+               const TrajectoryReading& reading)
+      : table_(table), columns_(columns), reading_(reading), place_(columns.place()) {
+    if (!columns_[Quantity::time].present() && !reading_.leap_seconds && !hasWeek()) {
+      throw TrajectoryQuestionError(
+          table.at(
+              "its times are UTC, which lags GPS time by leap seconds, and no GPS week says by "
+              "how many (18 since 2017): state them"),
+          TrajectoryQuestion::leap_seconds);
+    }
+  }
+
+  bool hasWeek() const { return columns_[Quantity::week].present(); }
+
+  TrajectorySample sample() const {
+    TrajectorySample sample;
+    sample.time = time();
+    for (int axis = 0; axis < 3; ++axis) {
+      const Quantity quantity = place_[static_cast<std::size_t>(axis)];
+      const TrajectoryColumn& column = columns_[quantity];
+      const bool angle = quantity == Quantity::latitude || quantity == Quantity::longitude;
+      sample.position[axis] =
+          (angle ? table_.sexagesimal(column.index) : table_.number(column.index)) * column.factor;
+    }
+    angle(Quantity::roll, sample.roll);
+    angle(Quantity::pitch, sample.pitch);
+    angle(Quantity::heading, sample.heading);
+    return sample;
+  }
+
+  TrajectoryAccuracy accuracy(double time) const {
+    TrajectoryAccuracy accuracy;
+    accuracy.time = time;
+    angle(Quantity::sd_east, accuracy.position.x());
+    angle(Quantity::sd_north, accuracy.position.y());
+    angle(Quantity::sd_up, accuracy.position.z());
+    angle(Quantity::sd_roll, accuracy.angles.x());
+    angle(Quantity::sd_pitch, accuracy.angles.y());
+    angle(Quantity::sd_heading, accuracy.angles.z());
+    return accuracy;
+  }
+  bool hasAccuracy() const {
+    return columns_[Quantity::sd_east].present() || columns_[Quantity::sd_roll].present();
+  }
+
+ private:
+  double time() const {
+    const bool utc = !columns_[Quantity::time].present();
+    double time = table_.number(columns_[utc ? Quantity::utc_time : Quantity::time].index);
+    // A time beyond two weeks holds its week already.
+    if (hasWeek() && std::abs(time) < 2.0 * kSecondsPerWeek)
+      time += table_.number(columns_[Quantity::week].index) * kSecondsPerWeek;
+    if (reading_.leap_seconds) return time + *reading_.leap_seconds;
+    return utc ? time + leapSecondsAt(time) : time;
+  }
+  void angle(Quantity quantity, double& value) const {
+    const TrajectoryColumn& column = columns_[quantity];
+    if (column.present()) value = table_.numberOrNan(column.index) * column.factor;
+  }
+
+  const CsvTable& table_;
+  const TrajectoryColumns& columns_;
+  const TrajectoryReading& reading_;
+  std::array<Quantity, 3> place_;
+};
+
+}  // namespace
+
+TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
+                                     const TrajectoryReading& reading) {
+  CsvTable table(path,
+                 {&TrajectoryColumns::recognise, &TrajectoryColumns::isGeodetic, reading.columns});
+  const TrajectoryColumns columns(table, reading.angles, !reading.crs.empty());
+  const RecordReader reader(table, columns, reading);
+  TrajectoryRecords records;
+  records.format = "text";
+  records.coordinates = columns.coordinates();
+  records.heading_is_yaw = columns.headingIsYaw();
+  records.heading_is_true = columns.headingIsTrue();
+  records.orthometric = columns.orthometric();
+  records.columns = columns.describe();
+  while (table.next()) {
+    records.samples.push_back(reader.sample());
+    if (reader.hasAccuracy())
+      records.accuracy.push_back(reader.accuracy(records.samples.back().time));
+  }
+  if (records.samples.empty()) throw InputError(path.string() + ": has a header but no records");
+  if (reader.hasWeek()) records.remarks.push_back("times hold the GPS week of the file");
+  return records;
+}
+
+}  // namespace pcl_als::detail
