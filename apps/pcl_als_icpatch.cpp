@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <iostream>
-#include <memory>
-#include <sstream>
+#include <optional>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/file_motion.h>
-#include <pcl_als/processing/strip_positions.h>
-#include <pcl_als/registration/patch_alignment.h>
+#include <pcl_als/processing/pair_alignment.h>
 #include <pcl_als/report/alignment_report.h>
-#include <pcl_als/survey/arranged_files.h>
 
 #include "command_line.h"
 #include "strip_options.h"
@@ -23,7 +16,6 @@ namespace {
 using namespace pcl_als;
 using app::CommandLine;
 using app::Step;
-using Eigen::AlignedBox2d;
 
 CommandLine commandLine() {
   CommandLine line("pcl_als_icpatch",
@@ -55,52 +47,7 @@ CommandLine commandLine() {
   return line;
 }
 
-/// The strips to align, and the arrangement that they refer to, if any.
-struct Request {
-  std::unique_ptr<ArrangedFiles> arranged;
-  ArrangedFiles::Use use;
-  StripFiles source, target;
-};
-
-bool isSourceId(const std::string& text) {
-  constexpr std::size_t kMostDigits = 5;
-  return !text.empty() && text.size() <= kMostDigits &&
-         text.find_first_not_of("0123456789") == std::string::npos;
-}
-
-/// A number that no strip has is input without the strip; another word is no strip's name.
-int indexOf(const ArrangedFiles& arranged, const std::string& strip) {
-  const std::vector<std::string>& names = arranged.arrangement().names();
-  const bool known = std::find(names.begin(), names.end(), strip) != names.end();
-  if (known || !isSourceId(strip)) return static_cast<int>(stripNamed(names, strip, "pair"));
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw InputError("option -pair: no point is of strip " + strip + "; there are " + all);
-}
-
-StripFiles stripOf(const Request& request, const std::string& strip) {
-  const ArrangedFiles& arranged = *request.arranged;
-  StripFiles files;
-  files.strip = strip;
-  files.arrangement = &arranged.arrangement();
-  files.index = indexOf(arranged, strip);
-  files.box = request.use.boxes[static_cast<std::size_t>(files.index)];
-  for (std::size_t file = 0; file < arranged.files().size(); ++file) {
-    files.files.push_back(arranged.files()[file].sources.info.path);
-    files.places.push_back(file);
-  }
-  return files;
-}
-
-StripFiles fileOf(const Request& request, const std::string& path, std::size_t place) {
-  StripFiles files;
-  files.files = {path};
-  if (request.arranged) files.arrangement = &request.arranged->arrangement();
-  files.places = {place};
-  return files;
-}
-
-Request requestOf(const CommandLine& line) {
+StripPair pairOf(const CommandLine& line) {
   if (line.has("pair") && line.has("transformed"))
     throw UsageError("option -transformed: needs SOURCE and TARGET as files, not -pair");
   const std::string pair = line.has("pair") ? line.text("pair") : "";
@@ -108,22 +55,13 @@ Request requestOf(const CommandLine& line) {
   if (line.has("pair") && (colon == std::string::npos || colon == 0 || colon + 1 == pair.size()))
     throw UsageError("option -pair: '" + pair + "' is not A:B");
   const auto& inputs = line.has("pair") ? line.inputs(1, 100000) : line.inputs(2, 2);
-  Request request;
-  if (line.has("pair") || app::choosesStrips(line)) {
-    StripChoice choice = app::stripChoice(line);
-    choice.keep_timeless = true;  // nothing here needs times
-    request.arranged = std::make_unique<ArrangedFiles>(
-        std::vector<std::filesystem::path>(inputs.begin(), inputs.end()), choice);
-    request.use = request.arranged->use();
-  }
+  const std::vector<std::filesystem::path> files(inputs.begin(), inputs.end());
   if (line.has("pair")) {
-    request.source = stripOf(request, pair.substr(0, colon));
-    request.target = stripOf(request, pair.substr(colon + 1));
-  } else {
-    request.source = fileOf(request, inputs[0], 0);
-    request.target = fileOf(request, inputs[1], 1);
+    return namedPair(files, {pair.substr(0, colon), pair.substr(colon + 1)}, app::stripChoice(line),
+                     "option -pair");
   }
-  return request;
+  return filePair(files,
+                  app::choosesStrips(line) ? std::optional(app::stripChoice(line)) : std::nullopt);
 }
 
 PatchAlignmentSettings settingsOf(const CommandLine& line) {
@@ -140,86 +78,28 @@ PatchAlignmentSettings settingsOf(const CommandLine& line) {
   return settings;
 }
 
-std::string boxText(const Eigen::AlignedBox3d& box) {
-  char text[120];
-  std::snprintf(text, sizeof text, "x %.1f to %.1f, y %.1f to %.1f", box.min().x(), box.max().x(),
-                box.min().y(), box.max().y());
-  return text;
-}
-
-/// The box in plan that both strips have points in, with what they may be apart.
-AlignedBox2d commonBox(const Request& request, const StripFileInfo& source,
-                       const StripFileInfo& target, double reach) {
-  const auto wide = [reach](const Eigen::AlignedBox3d& box) {
-    return AlignedBox2d(box.min().head<2>().array() - reach, box.max().head<2>().array() + reach);
-  };
-  AlignedBox2d common;
-  if (!source.box.isEmpty() && !target.box.isEmpty())
-    common = wide(source.box).intersection(wide(target.box));
-  if (common.isEmpty())
-    throw InputError(request.source.name() + " and " + request.target.name() +
-                     " do not overlap: " + boxText(source.box) + " and " + boxText(target.box));
-  return common;
-}
-
-/// The reason for which a result is not reliable, in one line.
-std::string whyNot(const PatchAlignmentResult& result) {
-  if (!result.hasConverged()) return result.message;
-  std::string why;
-  for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
-    if (result.parameters[p].determined) continue;
-    why += (why.empty() ? "" : "; ") + std::string(PatchAlignmentResult::name(p)) +
-           " is not determined (" + result.parameters[p].reason + ")";
-  }
-  return why;
-}
-
 int icpatch(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
-  const Request request = requestOf(line);
-  PatchAlignmentSettings settings = settingsOf(line);
+  const StripPair pair = pairOf(line);
+  const PatchAlignmentSettings settings = settingsOf(line);
   if (!line.has("output")) throw UsageError("option -output is needed");
-  if (line.has("transformed")) checkMovable(request.source.files.front(), line.text("transformed"));
-
-  Step reading("Reading " + request.source.name() + " and " + request.target.name(), line.quiet());
-  const StripFileInfo source_info = stripFileInfo(request.source);
-  const StripFileInfo target_info = stripFileInfo(request.target);
-  std::vector<PointFileInfo> files = source_info.files;
-  files.insert(files.end(), target_info.files.begin(), target_info.files.end());
-  const PointReference reference = commonReference(files);
-  const AlignedBox2d box =
-      commonBox(request, source_info, target_info, settings.search_distance + 10.0);
-  settings.resolution = std::min(source_info.resolution, target_info.resolution);
-  Eigen::Vector3d origin;
-  origin << box.center(), target_info.box.center().z();
-  origin = origin.array().round();
-  const StripPoints source = readStripPoints(request.source, box, origin);
-  const StripPoints target = readStripPoints(request.target, box, origin);
-  reading.done(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
-               " points in common reach");
-  app::remarks(line, reference.remarks);
-  app::remarks(line, describe(request.use.left_out));
-
-  Step aligning("Aligning", line.quiet());
-  const PatchAlignmentResult result = alignPatches(source.view(), target.view(), settings);
-  aligning.done(grouped(result.pairs) + " pairs, " + std::to_string(result.iterations) +
-                " iterations");
-  if (result.status == PatchAlignmentResult::Status::no_overlap)
-    throw InputError(request.source.name() + " and " + request.target.name() + ": " +
-                     result.message);
+  const std::filesystem::path source = pair.source.files.front();
+  if (line.has("transformed")) checkMovable(source, line.text("transformed"));
+  const PairAlignment alignment = alignPair(pair, settings, app::progressOf(line));
+  const PatchAlignmentResult& result = alignment.result;
   writeAlignment(line.text("output"), result,
-                 {request.source.name(), request.target.name(), source.positions.size(),
-                  target.positions.size(), request.use.left_out});
+                 {pair.source.name(), pair.target.name(), alignment.source_points,
+                  alignment.target_points, pair.use.left_out});
   if (!line.quiet()) std::cout << '\n' << alignmentTable(result) << std::endl;
   if (result.hasConverged() && line.has("transformed")) {
     Step writing("Writing " + line.text("transformed"), line.quiet());
-    const auto moved = movePointFile(request.source.files.front(), line.text("transformed"),
-                                     result.motion, line.threads());
+    const auto moved =
+        movePointFile(source, line.text("transformed"), result.motion, line.threads());
     writing.done(grouped(moved) + " points");
   }
   if (result.hasConverged() && result.allDetermined()) return app::kDone;
-  std::cerr << "pcl_als_icpatch: no reliable answer: " << whyNot(result) << std::endl;
+  std::cerr << "pcl_als_icpatch: no reliable answer: " << unreliability(result) << std::endl;
   return app::kNoReliableAnswer;
 }
 

@@ -18,10 +18,10 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/nearest_name.h>
 
 #include "interruption.h"
 #include "option_list.h"
-#include "option_suggestion.h"
 #include "output_check.h"
 #include "standard_streams.h"
 

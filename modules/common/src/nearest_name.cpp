@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include "option_suggestion.h"
-
 #include <algorithm>
 #include <cctype>
 
-namespace pcl_als::app {
+#include <pcl_als/common/nearest_name.h>
+
+namespace pcl_als {
 
 std::size_t editDistance(const std::string& from, const std::string& to) {
   const std::size_t rows = from.size() + 1, columns = to.size() + 1;
@@ -43,4 +43,4 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
   return nearest <= most ? found : std::string();
 }
 
-}  // namespace pcl_als::app
+}  // namespace pcl_als

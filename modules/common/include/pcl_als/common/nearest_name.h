@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl_als::app {
+namespace pcl_als {
 
 /// Single-character edits (insert, delete, replace, swap of neighbours) that turn one word into
 /// another.
@@ -15,4 +15,4 @@ std::size_t editDistance(const std::string& from, const std::string& to);
 /// differ. Empty where none is near, or two are equally near.
 std::string nearestName(const std::string& word, const std::vector<std::string>& names);
 
-}  // namespace pcl_als::app
+}  // namespace pcl_als
