@@ -3,6 +3,7 @@
 
 // The variance components of the shared errors: standard deviations that they give where trajectory
 // errors are no Gauss-Markov process.
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -70,6 +71,131 @@ TEST(VarianceComponents, CoverSmoothErrors) {
   const double rms = std::sqrt(squares / kBlocks);
   EXPECT_GT(rms, 0.7);
   EXPECT_LT(rms, 1.8);
+}
+
+/// Two strips with all components, shifts of areas included, that some of the data support.
+struct AllComponents {
+  SharedErrors errors;
+  std::vector<AreaObservations> areas = oneAfterAnother(simulated(someBiases(), 0.03, 3));
+  std::vector<std::vector<double>> weights = unitWeights(areas);
+  Adjustment adjustment{errors, 2};
+
+  explicit AllComponents(double knot_spacing)
+      : errors({{0.0, 25.0}, {100.0, 125.0}}, modelWith(knot_spacing)) {
+    adjustment.accumulate(areas, weights);
+  }
+  /// Every area within a part of the strips, so that a sparse factor is sparse.
+  static std::vector<AreaObservations> oneAfterAnother(std::vector<AreaObservations> areas) {
+    const auto count = static_cast<double>(areas.size());
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      const auto place = static_cast<double>(i);
+      for (PairObservation& o : areas[i]) {
+        for (double* time : {&o.time_a, &o.time_b}) {
+          const double start = *time < 50.0 ? 0.0 : 100.0;
+          *time = start + (*time - start) / count + 25.0 * place / count;
+        }
+      }
+    }
+    return areas;
+  }
+  static SharedErrorModel modelWith(double knot_spacing) {
+    SharedErrorModel errors_model = model(20.0);
+    errors_model.knot_spacing = knot_spacing;
+    errors_model.local = 0.01;
+    return errors_model;
+  }
+};
+
+using Logarithms = Eigen::Matrix<double, SharedErrorLevels::kCount, 1>;
+SharedErrorLevels levelsOf(const Logarithms& logarithms) {
+  std::array<double, SharedErrorLevels::kCount> values{};
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = std::exp(logarithms[static_cast<Eigen::Index>(k)]);
+  return SharedErrorLevels::of(values);
+}
+
+/// With a dense factor (few knots) and a sparse one.
+class Likelihood : public testing::TestWithParam<double> {};
+
+TEST_P(Likelihood, GradientEqualsCentralDifferences) {
+  // A central difference over 2e-3 is wrong by the third derivative times 2e-7, and by the rounding
+  // of a deviance of about 1e4, 1e-11 of it, over the step.
+  const AllComponents block(GetParam());
+  Logarithms at;
+  at << 0.3, -1.0, 0.2, 0.1, -0.4, 0.8, -2.0, 0.5, 0.1, -0.3;
+  const auto likelihood = block.adjustment.restrictedLikelihood(levelsOf(at), kSix);
+  constexpr double kStep = 1e-3;
+  for (int k = 0; k < SharedErrorLevels::kCount; ++k) {
+    Logarithms more = at, less = at;
+    more[k] += kStep;
+    less[k] -= kStep;
+    const double difference = block.adjustment.restrictedLikelihood(levelsOf(more), kSix).deviance -
+                              block.adjustment.restrictedLikelihood(levelsOf(less), kSix).deviance;
+    EXPECT_NEAR(likelihood.gradient[k], difference / (2.0 * kStep), 1e-4) << "component " << k;
+  }
+}
+
+TEST_P(Likelihood, InformationIsThatOfTheQuadraticForm) {
+  // The part of the deviance that depends on the observations, y'P(v)y, has the second derivatives
+  // 2 y'P V_k P V_l P y, twice the average information over the components. It follows from
+  // observations scaled by two factors, because the determinants do not depend on them.
+  AllComponents block(GetParam());
+  const auto deviance = [&](double factor, const Logarithms& at) {
+    auto areas = block.areas;
+    for (AreaObservations& area : areas) {
+      for (PairObservation& o : area) o.misclosure *= factor;
+    }
+    Adjustment adjustment(block.errors, 2);
+    adjustment.accumulate(areas, block.weights);
+    return adjustment.restrictedLikelihood(levelsOf(at), kSix).deviance;
+  };
+  const auto quadratic = [&](const Logarithms& at) {
+    return (deviance(2.0, at) - deviance(1.0, at)) / 3.0;
+  };
+  const Logarithms at = Logarithms::Constant(0.2);
+  const auto information = block.adjustment.restrictedLikelihood(levelsOf(at), kSix).information;
+  constexpr double kStep = 0.02;
+  for (const auto& [k, l] : {std::pair(0, 3), std::pair(9, 9), std::pair(1, 9)}) {
+    double second = 0.0, first = 0.0;
+    for (const double a : {-kStep, kStep}) {
+      for (const double b : {-kStep, kStep}) {
+        Logarithms there = at;
+        there[k] += a;
+        there[l] += b;
+        second += (a * b > 0.0 ? 1.0 : -1.0) * quadratic(there) / (4.0 * kStep * kStep);
+      }
+      Logarithms there = at;
+      there[k] += a;
+      first += (a > 0.0 ? 1.0 : -1.0) * quadratic(there) / (2.0 * kStep);
+    }
+    // v_k v_l times the derivatives with respect to v, from those with respect to ln v.
+    const double wanted = 0.5 * (second - (k == l ? first : 0.0));
+    EXPECT_NEAR(information(k, l), wanted, 2e-3 * std::abs(wanted) + 2e-3) << k << " " << l;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Factors, Likelihood, testing::Values(1.0, 0.199));
+
+TEST(VarianceComponents, AreMostLikely) {
+  // With the prior of the components. A standard deviation of a component changes -2 ln of the
+  // likelihood by one; the search ends where a further step would change it by 0.01, and leaves
+  // some of these steps where it converges slowly.
+  AllComponents block(1.0);
+  const SharedErrorLevels best = mostLikelyLevels(block.adjustment, kSix);
+  const auto cost = [&](const std::array<double, SharedErrorLevels::kCount>& values) {
+    const SharedErrorLevels levels = SharedErrorLevels::of(values);
+    double sum = block.adjustment.restrictedLikelihood(levels, kSix).deviance;
+    for (const double value : values) sum += 2.0 * std::log1p(std::pow(std::log(value), 2));
+    return sum;
+  };
+  const double lowest = cost(best.values());
+  for (std::size_t k = 0; k < SharedErrorLevels::kCount; ++k) {
+    for (const double factor : {1.0 / 1.2, 1.2}) {
+      auto values = best.values();
+      values[k] *= factor;
+      EXPECT_GT(cost(values), lowest - 0.1) << "component " << k;
+    }
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <pcl_als/calibration/adjustment.h>
@@ -10,7 +9,9 @@
 #include <pcl_als/common/parallel.h>
 
 #include "area_normal.h"
+#include "chosen_parameters.h"
 #include "error_factor.h"
+#include "error_normal.h"
 #include "possibly_absent.h"
 
 namespace pcl_als {
@@ -18,38 +19,6 @@ namespace {
 
 constexpr int kKnot = SharedErrors::kPerKnot;
 constexpr int kGlobal = kSystemParameterCount;
-
-Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParameter>& chosen) {
-  Eigen::MatrixXd part(chosen.size(), chosen.size());
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    for (std::size_t j = 0; j < chosen.size(); ++j)
-      part(i, j) = matrix(indexOf(chosen[i]), indexOf(chosen[j]));
-  }
-  return part;
-}
-
-SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParameter>& chosen) {
-  SystemMatrix matrix = SystemMatrix::Zero();
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    for (std::size_t j = 0; j < chosen.size(); ++j)
-      matrix(indexOf(chosen[i]), indexOf(chosen[j])) = part(i, j);
-  }
-  return matrix;
-}
-
-/// Inverse of a symmetric matrix whose parameters have different units, and the logarithm of its
-/// determinant; false when it is numerically singular.
-bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log_determinant) {
-  if (matrix.size() == 0 || !matrix.allFinite()) return false;
-  if ((matrix.diagonal().array() <= 0.0).any()) return false;
-  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-  const LdltFactor ldlt(scale.asDiagonal() * matrix * scale.asDiagonal());
-  constexpr double kSingular = 1e-11;  // of a matrix with unit diagonal
-  if (!ldlt.succeeded() || ldlt.diagonal().minCoeff() < kSingular) return false;
-  log_determinant = ldlt.diagonal().array().log().sum() - 2.0 * scale.array().log().sum();
-  inverse = scale.asDiagonal() * ldlt.inverse() * scale.asDiagonal();
-  return true;
-}
 
 SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double>& weights) {
   SystemMatrix sum = SystemMatrix::Zero();
@@ -65,38 +34,6 @@ SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double
 }
 
 }  // namespace
-
-/// Sum over the areas, with the shifts of areas eliminated.
-struct Adjustment::Normal {
-  SystemMatrix gg = SystemMatrix::Zero();
-  SystemVector right_g = SystemVector::Zero();
-  Eigen::Matrix<double, Eigen::Dynamic, kGlobal> tg;
-  Eigen::VectorXd right_t;
-  KnotBlocks tt;
-  double log_determinant = 0.0, explained = 0.0;
-
-  explicit Normal(int unknowns) {
-    tg.setZero(unknowns, kGlobal);
-    right_t.setZero(unknowns);
-  }
-
-  void add(const AreaNormal::Reduced& area, const std::vector<int>& knots) {
-    gg += area.matrix.topLeftCorner<kGlobal, kGlobal>();
-    right_g += area.right.head<kGlobal>();
-    log_determinant += area.log_determinant;
-    explained += area.explained;
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-      const auto at_i = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
-      tg.middleRows<kKnot>(knots[i] * kKnot) += area.matrix.block<kKnot, kGlobal>(at_i, 0);
-      right_t.segment<kKnot>(knots[i] * kKnot) += area.right.segment<kKnot>(at_i);
-      for (std::size_t j = 0; j < knots.size(); ++j) {
-        const auto at_j = kGlobal + static_cast<Eigen::Index>(j) * kKnot;
-        tt.try_emplace({knots[i], knots[j]}, KnotBlocks::mapped_type::Zero()).first->second +=
-            area.matrix.block<kKnot, kKnot>(at_i, at_j);
-      }
-    }
-  }
-};
 
 /// Normal equations with all shared errors eliminated.
 struct Adjustment::Reduced {
@@ -127,12 +64,12 @@ void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
   setLevels(levels_);
 }
 
-std::unique_ptr<const Adjustment::Normal> Adjustment::assemble(double shift_variance) const {
+std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) const {
   std::vector<AreaNormal::Reduced> reduced(area_normals_.size());
   parallelFor(area_normals_.size(), threads_, [&](std::size_t area) {
     reduced[area] = area_normals_[area].reduced(shift_variance);
   });
-  auto normal = std::make_unique<Normal>(errors_.unknowns());
+  auto normal = std::make_unique<ErrorNormal>(errors_.unknowns());
   for (std::size_t area = 0; area < reduced.size();
        ++area) {  // in this order for any number of threads
     normal->add(reduced[area], area_normals_[area].knots());
@@ -147,7 +84,7 @@ void Adjustment::setLevels(const SharedErrorLevels& levels) {
   reduced_ = std::make_unique<Reduced>(reduce(*normal_, levels_));
 }
 
-Adjustment::Reduced Adjustment::reduce(const Normal& normal,
+Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
                                        const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
   const ErrorFactor factor(normal.tt, prior, errors_.observedUnknowns());
@@ -161,31 +98,6 @@ Adjustment::Reduced Adjustment::reduce(const Normal& normal,
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
   reduced.prior_share = reduced.elimination.transpose() * (prior * reduced.elimination);
   return reduced;
-}
-
-double Adjustment::deviance(const SharedErrorLevels& levels,
-                            const std::vector<SystemParameter>& estimate) const {
-  const bool same_local = levels.local == levels_.local;
-  const std::unique_ptr<const Normal> other =
-      same_local ? nullptr : assemble(errors_.localVariance(levels));
-  const Normal& normal = same_local ? *normal_ : *other;
-  const ErrorFactor factor(normal.tt, errors_.priorInformation(levels), errors_.observedUnknowns());
-  // with parameters and right-hand side
-  Eigen::MatrixXd couplings(errors_.unknowns(), kGlobal + 1);
-  couplings << normal.tg, normal.right_t;
-  const Eigen::MatrixXd eliminated = factor.quadraticForm(couplings);
-  const SystemMatrix reduced = normal.gg - eliminated.topLeftCorner<kGlobal, kGlobal>();
-  Eigen::MatrixXd inverse;
-  double log_normal = 0.0;
-  if (!invert(sub(reduced, estimate), inverse, log_normal))
-    return std::numeric_limits<double>::infinity();
-  Eigen::VectorXd right(estimate.size());
-  for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const int p = indexOf(estimate[i]);
-    right[static_cast<Eigen::Index>(i)] = normal.right_g[p] - eliminated(p, kGlobal);
-  }
-  return normal.log_determinant + factor.logDeterminant() - errors_.priorLogDeterminant(levels) +
-         log_normal - normal.explained - eliminated(kGlobal, kGlobal) - right.dot(inverse * right);
 }
 
 const SystemMatrix& Adjustment::reducedNormal() const {

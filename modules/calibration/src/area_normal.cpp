@@ -129,4 +129,30 @@ AreaNormal::Reduced AreaNormal::reduced(double shift_variance) const {
   return reduced;
 }
 
+AreaNormal::ShiftTerms AreaNormal::shiftTerms(double shift_variance,
+                                              const Eigen::VectorXd& values) const {
+  const auto shifts = static_cast<Eigen::Index>(strips_.size()) * TouchedRow::kShift;
+  const Eigen::Index kept = matrix_.rows() - shifts;
+  ShiftTerms terms;
+  terms.change.matrix.setZero(kept, kept);
+  terms.change.right.setZero(kept);
+  if (shifts == 0) return terms;
+  const Eigen::MatrixXd own = matrix_.bottomRightCorner(shifts, shifts);
+  const Eigen::MatrixXd coupling = matrix_.bottomLeftCorner(shifts, kept);
+  Eigen::MatrixXd full = own;
+  full.diagonal().array() += 1.0 / shift_variance;
+  const CholeskyFactor cholesky(full);
+  const Eigen::MatrixXd effect = cholesky.solve(coupling);
+  const Eigen::VectorXd shift = cholesky.solve(right_.tail(shifts) - coupling * values);
+  // With the posterior covariance C of the values, the shifts have C_u = full^-1 + effect C
+  // effect'.
+  const Eigen::MatrixXd inverse = cholesky.solve(Eigen::MatrixXd::Identity(shifts, shifts));
+  terms.change.matrix = effect.transpose() * effect / shift_variance;
+  terms.change.right = effect.transpose() * shift / shift_variance;
+  terms.change.log_determinant = inverse.trace() / shift_variance - static_cast<double>(shifts);
+  terms.change.explained = shift.squaredNorm() / shift_variance;
+  terms.information = (own * shift).dot(inverse * shift) / shift_variance;
+  return terms;
+}
+
 }  // namespace pcl_als

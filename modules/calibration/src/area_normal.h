@@ -50,6 +50,16 @@ class AreaNormal {
     double explained = 0.0;        ///< reduction of the weighted sum of squares by the shifts
   };
   Reduced reduced(double shift_variance) const;
+
+  /// What the shifts contribute to the derivatives of the likelihood with respect to the logarithm
+  /// of their variance, at the values of parameters and knots (in the order of Reduced::matrix).
+  struct ShiftTerms {
+    Reduced change;  ///< derivatives of Reduced with the opposite sign: matrix and log_determinant;
+                     ///< right: effect of the shifts on the equations; explained: sum of the
+                     ///< squared shifts over their variance
+    double information = 0.0;  ///< of the shifts' effect, with the shifts eliminated
+  };
+  ShiftTerms shiftTerms(double shift_variance, const Eigen::VectorXd& values) const;
   const std::vector<int>& knots() const { return knots_; }
   /// The equations of the parameters without elimination: noise of points only.
   SystemMatrix parameters() const {

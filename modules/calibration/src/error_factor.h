@@ -16,6 +16,28 @@ namespace pcl_als {
 using KnotBlocks = std::map<std::pair<int, int>,
                             Eigen::Matrix<double, SharedErrors::kPerKnot, SharedErrors::kPerKnot>>;
 
+/** \brief Entries of the inverse of a symmetric matrix: all of a dense matrix, and those of a
+ * sparse one at which its Cholesky factor may differ from zero (Takahashi, Fagan and Chin 1973).
+ */
+class InverseEntries {
+ public:
+  explicit InverseEntries(Eigen::MatrixXd all) : all_(std::move(all)) {}
+  explicit InverseEntries(const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>& factor);
+
+  /// The entry, which is zero outside the pattern of the factor.
+  double operator()(Eigen::Index row, Eigen::Index column) const;
+  /// The trace of the product of the inverse and a symmetric matrix within the pattern.
+  double traceOfProduct(const Eigen::SparseMatrix<double>& matrix) const;
+  double traceOfProduct(const KnotBlocks& blocks) const;
+
+ private:
+  Eigen::MatrixXd all_;
+  // In the order of the sparse factor: the diagonal, and the lower triangle by columns.
+  Eigen::VectorXi place_;
+  Eigen::VectorXd diagonal_;
+  Eigen::SparseMatrix<double> lower_;
+};
+
 /** \brief Cholesky factor of blocks + prior, for the elimination of the shared errors.
  *
  * In small blocks, knots of overlapping strips fill the factor almost entirely, and a dense
@@ -28,8 +50,7 @@ class ErrorFactor {
               Eigen::Index observed);
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  /// right' M^-1 right of the factorised matrix M; \a right is zero from row \a observed on.
-  Eigen::MatrixXd quadraticForm(const Eigen::MatrixXd& right) const;
+  InverseEntries inverse() const;
   double logDeterminant() const;
 
  private:

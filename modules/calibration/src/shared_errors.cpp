@@ -19,6 +19,14 @@ double cubicBSpline(double x) {
   if (u >= 2.0) return 0.0;
   return u < 1.0 ? (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0 : std::pow(2.0 - u, 3) / 6.0;
 }
+
+// Places of the smooth and the constant components in SharedErrorLevels::values(), and the kind of
+// an unknown: position, roll and pitch, heading.
+constexpr int kSmooth = 3, kConstant = 6;
+int kindOf(int unknown) {
+  constexpr std::array<int, SharedErrors::kPerKnot> kKinds{0, 0, 0, 1, 1, 2};
+  return kKinds[static_cast<std::size_t>(unknown % SharedErrors::kPerKnot)];
+}
 constexpr double kMeanSquare = 151.0 / 315.0;  // integral of the square of the cubic B-spline
 
 }  // namespace
@@ -254,33 +262,86 @@ void SharedErrors::setVarianceFactor(int strip, int component, double factor) {
       factor;
 }
 
-Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
+SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const SharedErrorLevels& levels) const {
   const PriorVariances prior = priorVariances(levels);
-  // Per unknown: its own information, and that of a Gauss-Markov component of its strip.
-  Eigen::VectorXd own = Eigen::VectorXd::Zero(unknowns());
-  Eigen::VectorXd gauss_markov = Eigen::VectorXd::Zero(unknowns());
+  PriorDiagonals diagonals{Eigen::VectorXd::Zero(unknowns()), Eigen::VectorXd::Zero(unknowns())};
   const auto add = [](Eigen::VectorXd& information, int block, const Variances& variances,
                       const Variances& factors) {
     for (int i = 0; i < kPerKnot; ++i)
       information[block * kPerKnot + i] = 1.0 / (variances[i] * factors[i]);
   };
-  add(own, instrumentBlock(), prior.instrument, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});
+  add(diagonals.own, instrumentBlock(), prior.instrument, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});
   for (const StripKnots& strip : strips_) {
     const Variances& factors = strip.variance_factors;
     for (std::size_t k = 0; k < strip.at.size(); ++k)
-      add(gauss_markov, strip.first + static_cast<int>(k), prior.gauss_markov, factors);
+      add(diagonals.gauss_markov, strip.first + static_cast<int>(k), prior.gauss_markov, factors);
     for (int node = strip.first_node; node <= strip.constant; ++node) {
-      add(gauss_markov, node, prior.gauss_markov, factors);
-      add(own, node, node < strip.constant ? prior.smooth : prior.constant, factors);
+      add(diagonals.gauss_markov, node, prior.gauss_markov, factors);
+      add(diagonals.own, node, node < strip.constant ? prior.smooth : prior.constant, factors);
     }
   }
+  return diagonals;
+}
+
+Eigen::SparseMatrix<double> SharedErrors::priorInformation(const SharedErrorLevels& levels) const {
+  const PriorDiagonals diagonals = priorDiagonals(levels);
   Eigen::SparseMatrix<double> information = gauss_markov_;
   for (Eigen::Index column = 0; column < information.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(information, column); entry; ++entry)
-      entry.valueRef() =
-          entry.value() * gauss_markov[column] + (entry.row() == column ? own[column] : 0.0);
+      entry.valueRef() = entry.value() * diagonals.gauss_markov[column] +
+                         (entry.row() == column ? diagonals.own[column] : 0.0);
   }
   return information;
+}
+
+std::vector<Eigen::SparseMatrix<double>> SharedErrors::priorParts(
+    const SharedErrorLevels& levels) const {
+  const PriorDiagonals diagonals = priorDiagonals(levels);
+  std::vector<std::vector<Eigen::Triplet<double>>> entries(kTrajectoryComponents);
+  for (int column = 0; column < unknowns(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(gauss_markov_, column); entry; ++entry)
+      entries[kindOf(column)].emplace_back(entry.row(), column,
+                                           entry.value() * diagonals.gauss_markov[column]);
+  }
+  for (const StripKnots& strip : strips_) {
+    for (int i = strip.first_node * kPerKnot; i < (strip.constant + 1) * kPerKnot; ++i) {
+      const int component = kindOf(i) + (i < strip.constant * kPerKnot ? kSmooth : kConstant);
+      entries[component].emplace_back(i, i, diagonals.own[i]);
+    }
+  }
+  std::vector<Eigen::SparseMatrix<double>> parts;
+  for (const auto& part : entries) {
+    parts.emplace_back(unknowns(), unknowns());
+    parts.back().setFromTriplets(part.begin(), part.end());
+  }
+  return parts;
+}
+
+Eigen::VectorXd SharedErrors::priorVariables() const {
+  const auto strips = static_cast<double>(strips_.size());
+  Eigen::VectorXd count(kTrajectoryComponents);
+  const Eigen::Vector3d axes(3.0, 2.0, 1.0);  // position, roll and pitch, heading
+  count << knot_count_ * axes, (coefficient_count_ - strips) * axes, strips * axes;
+  return count;
+}
+
+Eigen::MatrixXd SharedErrors::contributions(const Eigen::VectorXd& solution) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(observedUnknowns(), kTrajectoryComponents);
+  for (const StripKnots& strip : strips_) {
+    for (std::size_t k = 0; k < strip.at.size(); ++k) {
+      const int knot = (strip.first + static_cast<int>(k)) * kPerKnot;
+      for (int i = 0; i < kPerKnot; ++i) sum(knot + i, kindOf(i)) = solution[knot + i];
+      for (const auto& [block, weight] : coefficientsAt(strip, strip.at[k])) {
+        const int component = block < strip.constant ? kSmooth : kConstant;
+        for (int i = 0; i < kPerKnot; ++i) {
+          const double part = weight * solution[block * kPerKnot + i];
+          sum(knot + i, kindOf(i) + component) += part;
+          sum(knot + i, kindOf(i)) -= part;
+        }
+      }
+    }
+  }
+  return sum;
 }
 
 double SharedErrors::priorLogDeterminant(const SharedErrorLevels& levels) const {

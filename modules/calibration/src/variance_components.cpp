@@ -5,103 +5,119 @@
 #include <cmath>
 
 #include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
 namespace {
 
-constexpr int kKinds = SharedErrorLevels::kCount;
-constexpr int kSteps = 4;  // steps of the search per factor of two
-constexpr int kLowest = -12 * kSteps, kHighest = 4 * kSteps;
-// of 2^(1/kSteps); local last, because a change of it costs most
-using Powers = std::array<int, kKinds>;
+constexpr int kComponents = SharedErrorLevels::kCount;
+using Vector = Eigen::Matrix<double, kComponents, 1>;
+using Matrix = Eigen::Matrix<double, kComponents, kComponents>;
 
-// -2 ln of the prior: Cauchy in the logarithm of a component, of scale 1, so that components may
-// vanish for systems that are far more accurate than their data sheet.
-double priorDeviance(double level) {
-  const double factor = std::log(level);
-  return 2.0 * std::log1p(factor * factor);
-}
+// Range of the logarithms of the components: factors of 1/4096 and 16.
+const double kLowest = -12.0 * std::log(2.0), kHighest = 4.0 * std::log(2.0);
 
-double levelOf(int power) {
-  return std::exp2(static_cast<double>(power) / kSteps);
-}
-
-int powerOf(double level) {
-  return static_cast<int>(std::lround(kSteps * std::log2(level)));
-}
-
-SharedErrorLevels levelsOf(const Powers& power) {
-  std::array<double, kKinds> values{};
-  std::transform(power.begin(), power.end(), values.begin(), levelOf);
+SharedErrorLevels levelsOf(const Vector& logarithms) {
+  std::array<double, kComponents> values{};
+  for (int k = 0; k < kComponents; ++k)
+    values[static_cast<std::size_t>(k)] = std::exp(logarithms[k]);
   return SharedErrorLevels::of(values);
 }
 
-/// Coordinate descent over the powers.
-class Search {
- public:
-  Search(Adjustment& adjustment, const std::vector<SystemParameter>& estimate)
-      : adjustment_(adjustment), estimate_(estimate) {
-    const auto now = adjustment.levels().values();
-    std::transform(now.begin(), now.end(), best_.begin(), powerOf);
-    direction_.fill(-1);
-    lowest_ = cost(best_);
-  }
+Vector logarithmsOf(const SharedErrorLevels& levels) {
+  Vector logarithms;
+  const auto values = levels.values();
+  for (int k = 0; k < kComponents; ++k)
+    logarithms[k] = std::log(values[static_cast<std::size_t>(k)]);
+  return logarithms;
+}
 
-  /// Until no component improves by this step.
-  void descend(int step) {
-    int settled = 0;
-    for (int kind = kKinds - 1; settled < kKinds; kind = (kind + kKinds - 1) % kKinds) {
-      const int first = direction_[kind];
-      const bool changed = follow(kind, first * step) || follow(kind, -first * step);
-      settled = changed ? 1 : settled + 1;
-      // Further evaluations use this local component, which is expensive to change.
-      if (changed && kind == kKinds - 1) adjustment_.setLevels(levelsOf(best_));
-    }
-  }
-  SharedErrorLevels result() const { return levelsOf(best_); }
-
- private:
-  double cost(const Powers& power) const {
-    double prior = 0.0;
-    for (const int p : power) prior += priorDeviance(levelOf(p));
-    return adjustment_.deviance(levelsOf(power), estimate_) + prior;
-  }
-
-  bool follow(int kind, int step) {
-    bool changed = false;
-    for (Powers next = best_;; changed = true) {
-      next[kind] += step;
-      if (next[kind] < kLowest || next[kind] > kHighest) return changed;
-      const double value = cost(next);
-      if (!(value < lowest_)) return changed;
-      lowest_ = value;
-      best_ = next;
-      direction_[kind] = step > 0 ? 1 : -1;
-    }
-  }
-
-  Adjustment& adjustment_;
-  const std::vector<SystemParameter>& estimate_;
-  Powers best_{}, direction_{};
-  double lowest_ = 0.0;
+/// Restricted likelihood with the prior of the components, as a quadratic function about a point.
+struct Objective {
+  double value = 0.0;
+  Vector gradient;
+  SymmetricEigen<Eigen::Dynamic> curvature;
 };
+
+/// -2 ln of the prior is 2 ln(1 + x^2) for a logarithm x: Cauchy of scale 1, so that components may
+/// vanish for systems that are far more accurate than their data sheet.
+Objective objectiveAt(const Vector& logarithms, const Adjustment& adjustment,
+                      const std::vector<SystemParameter>& estimate) {
+  constexpr double kLeastCurvature = 0.01;
+  const RestrictedLikelihood likelihood =
+      adjustment.restrictedLikelihood(levelsOf(logarithms), estimate);
+  Objective objective{likelihood.deviance, likelihood.gradient, {}};
+  Matrix curvature = likelihood.information;
+  for (int k = 0; k < kComponents; ++k) {
+    const double x = logarithms[k], weight = 4.0 / (1.0 + x * x);
+    objective.value += 2.0 * std::log1p(x * x);
+    objective.gradient[k] += weight * x;
+    // Second derivatives with respect to the logarithm contain the gradient as well. Without its
+    // positive values, a component that is far too large decreases in one step. The prior's
+    // curvature is that of the parabola that touches it.
+    curvature(k, k) += std::min(0.0, likelihood.gradient[k]) + weight;
+  }
+  // A component at a limit that would go beyond it stays there.
+  for (int k = 0; k < kComponents; ++k) {
+    const bool beyond =
+        objective.gradient[k] > 0.0 ? logarithms[k] <= kLowest : logarithms[k] >= kHighest;
+    if (!beyond) continue;
+    objective.gradient[k] = 0.0;
+    curvature.row(k).setZero();
+    curvature.col(k).setZero();
+  }
+  objective.curvature = symmetricEigen(0.5 * (curvature + curvature.transpose()));
+  objective.curvature.values = objective.curvature.values.cwiseMax(kLeastCurvature);
+  return objective;
+}
+
+/// The step to the minimum of the quadratic function within \a radius.
+Vector stepOf(const Objective& at, double radius) {
+  const Eigen::VectorXd slope = at.curvature.vectors.transpose() * at.gradient;
+  const auto stepWith = [&](double damping) -> Eigen::VectorXd {
+    return -(slope.array() / (at.curvature.values.array() + damping)).matrix();
+  };
+  double low = 0.0, high = slope.norm() / radius;  // this damping is enough
+  if (stepWith(0.0).norm() > radius) {
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (stepWith(middle).norm() > radius ? low : high) = middle;
+    }
+    low = high;
+  }
+  return at.curvature.vectors * stepWith(low);
+}
+
+double predictedChange(const Objective& at, const Vector& step) {
+  const Eigen::VectorXd along = at.curvature.vectors.transpose() * step;
+  return at.gradient.dot(step) + 0.5 * along.cwiseAbs2().dot(at.curvature.values);
+}
 
 }  // namespace
 
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate) {
-  Search search(adjustment, estimate);
-  // Large steps first: components that are absent end far from the model's variance. Small ones
-  // refine an earlier estimate, because the parameters change with the variance components.
-  const auto start = adjustment.levels().values();
-  if (std::all_of(start.begin(), start.end(), [](double level) { return level == 1.0; })) {
-    search.descend(4 * kSteps);
-    search.descend(kSteps);
-  } else {
-    search.descend(1);
+  constexpr double kNegligible = 0.01;  // of -2 ln likelihood; a standard deviation changes it by 1
+  constexpr double kLargestRadius = 4.0;
+  constexpr int kMostEvaluations = 40;
+  Vector best = logarithmsOf(adjustment.levels());
+  Objective at = objectiveAt(best, adjustment, estimate);
+  double radius = kLargestRadius;
+  for (int i = 1; i < kMostEvaluations && std::isfinite(at.value); ++i) {
+    const Vector next = (best + stepOf(at, radius)).cwiseMax(kLowest).cwiseMin(kHighest);
+    const Vector step = next - best;
+    const double predicted = predictedChange(at, step);
+    if (predicted > -kNegligible) break;
+    const Objective there = objectiveAt(next, adjustment, estimate);
+    const double ratio = (there.value - at.value) / predicted;
+    if (!(ratio > 0.25)) radius = 0.5 * step.norm();
+    if (ratio > 0.75) radius = std::min(kLargestRadius, 2.0 * radius);
+    if (!(ratio > 0.0)) continue;
+    best = next;
+    at = there;
   }
-  adjustment.setLevels(search.result());
-  return search.result();
+  adjustment.setLevels(levelsOf(best));
+  return adjustment.levels();
 }
 
 }  // namespace pcl_als

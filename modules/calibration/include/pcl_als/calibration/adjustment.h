@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,7 +22,22 @@ struct AdjustmentSolution {
   Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
 };
 
-class AreaNormal;  // normal equations of one area
+class AreaNormal;    // normal equations of one area
+struct ErrorNormal;  // their sum
+
+/// Restricted likelihood of variance components, with its derivatives with respect to their
+/// logarithms, in the order of SharedErrorLevels::values().
+struct RestrictedLikelihood {
+  static constexpr int kCount = SharedErrorLevels::kCount;
+  /// -2 ln of the likelihood, without a constant; infinite where the parameters cannot be solved
+  /// for, and then there are no derivatives.
+  double deviance = std::numeric_limits<double>::infinity();
+  Eigen::Matrix<double, kCount, 1> gradient = Eigen::Matrix<double, kCount, 1>::Zero();
+  /// Average information: the mean of the observed and the expected second derivatives of the
+  /// deviance with respect to the components, times the components (Gilmour, Thompson and Cullis
+  /// 1995, Biometrics 51).
+  Eigen::Matrix<double, kCount, kCount> information = Eigen::Matrix<double, kCount, kCount>::Zero();
+};
 
 /** \brief Modified least squares adjustment (Habib et al. 2011, Eqs. (25), (26)) with shared errors
  * as nuisance parameters.
@@ -54,10 +70,11 @@ class Adjustment {
   void setLevels(const SharedErrorLevels& levels);
   const SharedErrorLevels& levels() const { return levels_; }
 
-  /// -2 ln of the restricted likelihood of these variance components (the parameters in \a estimate
-  /// are integrated out), without a constant. Infinite where the parameters cannot be solved for.
-  double deviance(const SharedErrorLevels& levels,
-                  const std::vector<SystemParameter>& estimate) const;
+  /// Likelihood of variance components after accumulate(); the parameters in \a estimate are
+  /// integrated out. Computes a factor of the normal matrix and the entries of its inverse where
+  /// the prior or an area couple unknowns: the cost of about three solutions.
+  RestrictedLikelihood restrictedLikelihood(const SharedErrorLevels& levels,
+                                            const std::vector<SystemParameter>& estimate) const;
 
   /// Solves for the parameters in \a estimate; the others are held at their values in \a held.
   AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
@@ -87,11 +104,10 @@ class Adjustment {
   double residual(const PairObservation& observation, const AdjustmentSolution& solution) const;
 
  private:
-  struct Normal;   // all unknowns
-  struct Reduced;  // with the shared errors eliminated
+  struct Reduced;  // normal equations with the shared errors eliminated
 
-  std::unique_ptr<const Normal> assemble(double shift_variance) const;
-  Reduced reduce(const Normal& normal, const SharedErrorLevels& levels) const;
+  std::unique_ptr<const ErrorNormal> assemble(double shift_variance) const;
+  Reduced reduce(const ErrorNormal& normal, const SharedErrorLevels& levels) const;
   /// Contribution of one area to the reduced equations at a solution.
   struct Share {
     SystemVector score;
@@ -114,7 +130,7 @@ class Adjustment {
   const std::vector<std::vector<double>>* weights_ = nullptr;
   std::vector<AreaNormal> area_normals_;
   SystemMatrix slope_noise_ = SystemMatrix::Zero();  ///< information that may stem from noise
-  std::unique_ptr<const Normal> normal_;
+  std::unique_ptr<const ErrorNormal> normal_;
   std::unique_ptr<Reduced> reduced_;
 };
 
@@ -124,8 +140,8 @@ class Adjustment {
  * Each is the variance of the model times a factor between 1/4096 and 16, with a Cauchy prior on
  * the logarithm of the factor (scale: a factor of e): a component that the observations do not
  * determine keeps the model's variance, and one that they do determine is hardly affected by the
- * prior. The minimum is found by coordinate descent, from the model's variances with factors of 16,
- * then of two; from an earlier estimate with factors of 2^(1/4).
+ * prior. The minimum is found by Newton's method within a trust region, with the average
+ * information as the curvature, in the logarithms of the factors.
  */
 SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
                                    const std::vector<SystemParameter>& estimate);

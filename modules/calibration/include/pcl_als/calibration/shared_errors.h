@@ -129,6 +129,17 @@ class SharedErrors {
   /// Logarithm of its determinant.
   double priorLogDeterminant(const SharedErrorLevels& levels = SharedErrorLevels()) const;
 
+  /// Variance components of the trajectory errors: SharedErrorLevels::values() without the last.
+  static constexpr int kTrajectoryComponents = SharedErrorLevels::kCount - 1;
+  /// The part of priorInformation() that is inversely proportional to each of them. The sum is
+  /// priorInformation() without the instrument's.
+  std::vector<Eigen::SparseMatrix<double>> priorParts(const SharedErrorLevels& levels) const;
+  /// The number of independent variables of each component.
+  Eigen::VectorXd priorVariables() const;
+  /// The contributions of the components to the errors at the knots according to a solution:
+  /// observedUnknowns() x kTrajectoryComponents.
+  Eigen::MatrixXd contributions(const Eigen::VectorXd& solution) const;
+
  private:
   struct StripKnots {
     double start = 0.0, spacing = 1.0;  ///< seconds
@@ -158,6 +169,11 @@ class SharedErrors {
     Variances gauss_markov, smooth, constant, instrument;
   };
   PriorVariances priorVariances(const SharedErrorLevels& levels) const;
+  /// Information of every unknown: of a Gauss-Markov component of its strip, and its own.
+  struct PriorDiagonals {
+    Eigen::VectorXd gauss_markov, own;
+  };
+  PriorDiagonals priorDiagonals(const SharedErrorLevels& levels) const;
 
   std::vector<StripKnots> strips_;
   int knot_count_ = 0, coefficient_count_ = 0;

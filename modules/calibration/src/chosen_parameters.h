@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <pcl_als/common/system_parameters.h>
+
+namespace pcl_als {
+
+/// Rows and columns of the chosen parameters.
+Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParameter>& chosen);
+
+/// The inverse of sub(): zero for the other parameters.
+SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParameter>& chosen);
+
+/// Inverse of a symmetric matrix whose parameters have different units, and the logarithm of its
+/// determinant; false when it is numerically singular.
+bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log_determinant);
+
+}  // namespace pcl_als
