@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <system_error>
 
@@ -11,7 +10,6 @@
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
-#include <pcl_als/simulation/simulator.h>
 
 #include "command_line.h"
 
@@ -21,7 +19,6 @@ using namespace pcl_als;
 using namespace pcl_als::app;
 using simulation::NoiseOptions;
 using simulation::SimulationOptions;
-using simulation::Simulator;
 
 void declareScene(CommandLine& line) {
   line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
@@ -162,22 +159,6 @@ std::filesystem::path outputFolder(const CommandLine& line) {
                    (error ? ": " + error.message() : std::string()));
 }
 
-/// Strips of another block beside ours would be taken for part of it.
-void refuseForeignStrips(const SimulationOptions& options, const StripFileOptions& files) {
-  std::set<std::string> ours;
-  for (const simulation::PlannedLine& line : options.lines) ours.insert(files.nameOf(line.id));
-  for (const auto& entry : std::filesystem::directory_iterator(files.folder)) {
-    const std::string name = entry.path().filename().string();
-    const std::string extension = entry.path().extension().string();
-    if (name.rfind("strip", 0) != 0 || (extension != ".las" && extension != ".laz")) continue;
-    if (ours.count(name) == 0)
-      throw UsageError("option -output: " + entry.path().string() +
-                       " is a strip of another block; delete it or name another folder");
-  }
-  // Until all is written there is no truth.
-  std::filesystem::remove(files.folder / "truth.json");
-}
-
 int simulate(int argc, const char* const* argv) {
   CommandLine line = declare();
   if (!line.parse(argc, argv)) return kDone;
@@ -188,23 +169,7 @@ int simulate(int argc, const char* const* argv) {
   files.compressed = isSecond(line, "format", "las", "laz");
   files.bias_columns = line.has("truth_points");
   files.folder = outputFolder(line);
-  refuseForeignStrips(options, files);
-
-  Step building("Building the scene", line.quiet());
-  const Simulator simulator(options);
-  building.done(grouped(simulator.scene().buildings().size()) + " houses, " +
-                grouped(simulator.scene().treeCount()) + " trees");
-  Step survey("Writing trajectory and control", line.quiet());
-  survey.done(writeSurveyFiles(simulator, files.folder));
-  std::vector<StripSummary> strips;
-  for (std::size_t i = 0; i < simulator.stripCount(); ++i) {
-    const std::string name = files.nameOf(options.lines[i].id);
-    Step step("Simulating " + name, line.quiet());
-    strips.push_back(writeStrip(simulator, i, files, line.threads(),
-                                [&step](double share) { step.progress(share); }));
-    step.done(grouped(strips.back().points) + " points");
-  }
-  writeTruth(simulator, line.text("noise"), files, strips);
+  simulateSurvey(options, line.text("noise"), files, line.threads(), progressOf(line));
   return kDone;
 }
 

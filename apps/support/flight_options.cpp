@@ -9,7 +9,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
-#include <pcl_als/io/trajectory_io.h>
+#include <pcl_als/io/trajectory_writer.h>
 
 namespace pcl_als::app {
 namespace {
@@ -19,6 +19,16 @@ constexpr double kLongestWindow = 60.0;  // seconds, half of it
 }  // namespace
 
 void addFlightOptions(CommandLine& line, const char* use) {
+  addTrajectoryOptions(line, use);
+  line.addOptional(
+      "gps_week",
+      "GPS week of times that are seconds of the week (default: determined from the data)");
+  line.addOptional(
+      "line_fit",
+      "half width of the trajectory window, seconds (default: the calibration's, else 0.5)");
+}
+
+void addTrajectoryOptions(CommandLine& line, const char* use) {
   const std::string help =
       std::string(
           "trajectory: text (.csv, .txt, .pos, ...) or SBET (.out, .sbet); several files or a "
@@ -49,12 +59,6 @@ void addFlightOptions(CommandLine& line, const char* use) {
   line.addOptional("geoid",
                    "geoid undulation that is subtracted from the trajectory's heights: metres, or "
                    "a grid file that PROJ reads");
-  line.addOptional(
-      "gps_week",
-      "GPS week of times that are seconds of the week (default: determined from the data)");
-  line.addOptional(
-      "line_fit",
-      "half width of the trajectory window, seconds (default: the calibration's, else 0.5)");
 }
 
 SystemParameter parameterNamed(const std::string& name, const std::string& what) {
@@ -140,12 +144,6 @@ std::string optionFor(TrajectoryQuestion question) {
   return {};
 }
 
-std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line) {
-  if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
-  const std::vector<std::string> names = line.list("trajectory");
-  return {names.begin(), names.end()};
-}
-
 }  // namespace
 
 TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs) {
@@ -168,12 +166,30 @@ TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& 
   return reading;
 }
 
-FlightFile readFlightFile(const CommandLine& line, const FlightFileOptions& options) {
+std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line) {
+  if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
+  const std::vector<std::string> names = line.list("trajectory");
+  return {names.begin(), names.end()};
+}
+
+void withTrajectoryRemedies(const std::function<void()>& body) {
   try {
-    return pcl_als::readFlight(trajectoryFiles(line), options);
+    body();
   } catch (const TrajectoryQuestionError& error) {
     throw InputError(error.what() + optionFor(error.question()));
   }
+}
+
+void addAccuracyOption(CommandLine& line, const char* use) {
+  const std::string help =
+      std::string("standard deviations of the trajectory over time, an Applanix smrmsg file: ") +
+      use + " (default: those of the trajectory's own columns)";
+  line.addOptional("accuracy", help.c_str());
+}
+
+std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
+  return line.has("accuracy") ? readAccuracies(line.text("accuracy"))
+                              : std::vector<TrajectoryAccuracy>();
 }
 
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
@@ -183,10 +199,11 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   options.line_fit_half_width = halfWidthOf(line, half_width);
   options.attitude = attitude;
   const std::vector<std::filesystem::path> files = trajectoryFiles(line);
-  Step step("Reading " +
-                (files.size() == 1 ? files.front().string() : counted(files.size(), "trajectory file")),
+  Step step("Reading " + (files.size() == 1 ? files.front().string()
+                                            : counted(files.size(), "trajectory file")),
             line.quiet());
-  const FlightFile file = readFlightFile(line, options);
+  FlightFile file;
+  withTrajectoryRemedies([&] { file = pcl_als::readFlight(files, options); });
   const Trajectory& flight = *file.trajectory;
   step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +
             (flight.attitudeIsNominal() ? ", nominal attitude"

@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/processing/flight_file.h>
@@ -26,6 +29,19 @@ void addForceOption(CommandLine& line, const std::string& reason = "inputs do no
 /// -model auto, quasi_rigorous, rigorous or nominal.
 void addModelOption(CommandLine& line);
 AttitudeUse attitudeUse(const CommandLine& line);
+
+/// Those of them that state what is known of the files.
+void addTrajectoryOptions(CommandLine& line, const char* use = "needed");
+
+/// The values of -trajectory. UsageError without any.
+std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line);
+/// Runs \a body and adds the option to use to messages of TrajectoryQuestionError.
+void withTrajectoryRemedies(const std::function<void()>& body);
+
+/// Declares -accuracy; \a use: what standard deviations are for.
+void addAccuracyOption(CommandLine& line, const char* use);
+/// The records of its file; empty without it.
+std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line);
 
 /// What the options state of the files of -trajectory.
 TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs);

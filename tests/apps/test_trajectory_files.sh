@@ -57,4 +57,34 @@ same "axes of east, north, up" -trajectory enu.csv -trajectory_axes enu
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR == 1 { $1 = "UTCTime" } NR > 1 { $1 -= 18 } { print }' "$csv" >utc.csv
 expect 2 'leap seconds* -leap_seconds' "${apply[@]}" -trajectory utc.csv
 same "times in UTC" -trajectory utc.csv -leap_seconds 18
+
+# Conversion: CSV to SBET and back; the points are the same with either.
+if "$bin/pcl_als_trajectory" -trajectory "$csv" -crs EPSG:32611 -output flight.sbet >out.txt 2>err.txt; then
+  rm -f out.las
+  expect 0 'SBET: latitude, longitude and ellipsoidal height, datum not stated' "${apply[@]}" -trajectory flight.sbet
+  check "an SBET that was written" cmp out.las plain.las
+  expect 0 'turned to grid north' trajectory -trajectory flight.sbet -crs EPSG:32611 -output back.csv
+  check "CSV to SBET to CSV" cmp back.csv "$csv"
+  # Parts of both kinds.
+  mkdir both
+  "$bin/pcl_als_trajectory" -trajectory parts/b.csv -crs EPSG:32611 -output both/b.sbet -quiet
+  cp parts/a.csv both
+  same "a CSV and an SBET" -trajectory both
+else
+  check "a build without PROJ says so" grep -q 'needs PROJ' err.txt
+fi
+expect 1 'a trajectory is written as' trajectory -trajectory "$csv" -output x.txt
+expect 1 'give the CRS' trajectory -trajectory "$csv" -output x.sbet
+expect 1 'option -output: *' trajectory -trajectory "$csv" -output "$csv"
+absent x.txt x.sbet
+
+# Points corrected by a calibration, and a trajectory corrected by it: only the scanner is left.
+expect 0 '' calibrate "$block"/strip?.las -trajectory "$csv" -control "$block/control.csv" -output c.json
+expect 0 'lever arm and strip corrections taken out' trajectory -trajectory "$csv" -calibration c.json \
+  -output corrected.csv
+expect 0 'lever arm taken out' trajectory -trajectory "$csv" -calibration c.json -lever_arm_only -output lever.csv
+check "strip corrections differ" test "$(cksum <lever.csv)" != "$(cksum <corrected.csv)"
+sed '0,/"usable"/s//"not_converged"/' c.json >bad.json
+expect 1 'should not be applied' trajectory -trajectory "$csv" -calibration bad.json -output x.csv
+absent x.csv
 finish

@@ -64,6 +64,7 @@ FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
   use.use_attitude = complete && (options.attitude == AttitudeUse::where_given ||
                                   options.attitude == AttitudeUse::needed);
   FlightFile flight;
+  if (options.keep_samples) flight.samples = file.samples;
   flight.trajectory = std::make_shared<const Trajectory>(std::move(file.samples), use);
   flight.format = file.format;
   flight.frame = file.frame;

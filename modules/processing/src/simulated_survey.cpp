@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/las_writer.h>
 #include <pcl_als/processing/simulated_survey.h>
@@ -246,6 +248,44 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
   json["scene"] = sceneJson(simulator);
   json["tool_version"] = PCL_ALS_VERSION;
   writeFile(options.folder / "truth.json", json.dump(1) + "\n");
+}
+
+namespace {
+
+void refuseForeignStrips(const SimulationOptions& options, const StripFileOptions& files) {
+  std::set<std::string> ours;
+  for (const simulation::PlannedLine& line : options.lines) ours.insert(files.nameOf(line.id));
+  for (const auto& entry : std::filesystem::directory_iterator(files.folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::string extension = entry.path().extension().string();
+    if (name.rfind("strip", 0) != 0 || (extension != ".las" && extension != ".laz")) continue;
+    if (ours.count(name) == 0)
+      throw UsageError(entry.path().string() +
+                       ": is a strip of another block; delete it or name another folder");
+  }
+}
+
+}  // namespace
+
+void simulateSurvey(const SimulationOptions& options, const std::string& noise_name,
+                    const StripFileOptions& files, int threads, const ProgressCallback& callback) {
+  refuseForeignStrips(options, files);
+  std::filesystem::remove(files.folder / "truth.json");  // until all is written there is no truth
+  ProgressReport progress(callback);
+  progress.begin("Building the scene");
+  const Simulator simulator(options);
+  progress.end(grouped(simulator.scene().buildings().size()) + " houses, " +
+               grouped(simulator.scene().treeCount()) + " trees");
+  progress.begin("Writing trajectory and control");
+  progress.end(writeSurveyFiles(simulator, files.folder));
+  std::vector<StripSummary> strips;
+  for (std::size_t i = 0; i < simulator.stripCount(); ++i) {
+    progress.begin("Simulating " + files.nameOf(options.lines[i].id));
+    strips.push_back(writeStrip(simulator, i, files, threads,
+                                [&progress](double share) { progress.advance(share); }));
+    progress.end(grouped(strips.back().points) + " points");
+  }
+  writeTruth(simulator, noise_name, files, strips);
 }
 
 }  // namespace pcl_als

@@ -25,6 +25,7 @@ enum class AttitudeUse {
 struct FlightFileOptions : TrajectoryReading {
   double line_fit_half_width = 0.0;  ///< seconds; 0: Trajectory's default
   AttitudeUse attitude = AttitudeUse::where_given;
+  bool keep_samples = false;  ///< FlightFile::samples
 };
 
 /// Options for reading the flight for a calibration that is applied (by SystemCorrection).
@@ -36,6 +37,8 @@ struct FlightFile {
   std::string frame;                 ///< coordinates and datum of the file
   std::vector<std::string> remarks;  ///< remarks for the user on columns, angles and repairs
   std::vector<TrajectoryAccuracy> accuracy;  ///< that the files state; may be empty
+  /// In the order of the files, with attitude where they have it.
+  std::vector<TrajectorySample> samples;
 };
 
 /// Reads a trajectory from files or folders of any format (readTrajectoryFiles()). Whether a column

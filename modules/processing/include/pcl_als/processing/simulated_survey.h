@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/progress.h>
 #include <pcl_als/simulation/simulator.h>
 
 namespace pcl_als {
@@ -45,5 +46,14 @@ std::string writeSurveyFiles(const simulation::Simulator& simulator,
 /// truth.json: biases, noise, pairs, strips, scene.
 void writeTruth(const simulation::Simulator& simulator, const std::string& noise_name,
                 const StripFileOptions& options, const std::vector<StripSummary>& strips);
+
+/** \brief Simulates a block into a folder: the strips, the files of writeSurveyFiles(), and last
+ * truth.json.
+ *
+ * UsageError where the folder holds strips of another block, which would be taken for part of it.
+ */
+void simulateSurvey(const simulation::SimulationOptions& options, const std::string& noise_name,
+                    const StripFileOptions& files, int threads,
+                    const ProgressCallback& progress = {});
 
 }  // namespace pcl_als

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/io/trajectory_writer.h>
+#include <pcl_als/processing/trajectory_conversion.h>
+#include <pcl_als/trajectory/trajectory_correction.h>
+
+namespace pcl_als {
+namespace {
+
+namespace fs = std::filesystem;
+using Options = TrajectoryConversionOptions;
+
+bool isSbet(const fs::path& output) {
+  const std::string extension = lowerExtension(output);
+  return extension == ".sbet" || extension == ".out";
+}
+
+void checkOutput(const fs::path& output, const Options& options) {
+  if (isSbet(output) && options.reading.crs.empty()) {
+    throw UsageError(output.string() +
+                     ": an SBET is in latitude and longitude; give the CRS of the "
+                     "coordinates, such as EPSG:25832");
+  }
+  if (isSbet(output) || lowerExtension(output) == ".csv") return;
+  throw UsageError(output.string() + ": a trajectory is written as .csv, .sbet or .out");
+}
+
+FlightFile flightOf(const std::vector<fs::path>& paths, const Options& options) {
+  FlightFileOptions reading;
+  if (options.calibration != nullptr) reading = flightFileOptions(*options.calibration);
+  static_cast<TrajectoryReading&>(reading) = options.reading;
+  reading.keep_samples = true;
+  return readFlight(paths, reading);
+}
+
+std::vector<TrajectoryAccuracy> accuraciesOf(const std::vector<TrajectorySample>& samples,
+                                             std::vector<TrajectoryAccuracy> known) {
+  std::vector<TrajectoryAccuracy> accuracies;
+  if (known.empty()) return accuracies;
+  std::stable_sort(known.begin(), known.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+  for (const TrajectorySample& sample : samples)
+    accuracies.push_back(accuracyAt(known, sample.time));
+  return accuracies;
+}
+
+/// Corrects samples and the standard deviations of their positions.
+void correct(const Options& options, const FlightFile& flight,
+             std::vector<TrajectorySample>& samples, std::vector<TrajectoryAccuracy>& accuracies,
+             const std::vector<TrajectoryAccuracy>& known, ProgressReport& progress) {
+  SystemCorrection::Options how;
+  how.force = options.force;
+  how.strip_corrections = options.strip_corrections && !options.calibration->strip_errors.empty();
+  const CorrectedTrajectory corrected =
+      correctTrajectory(samples, *options.calibration, flight.trajectory, how);
+  samples = corrected.samples;
+  accuracies = accuraciesOf(samples, known);
+  for (std::size_t i = 0; i < accuracies.size(); ++i) {
+    Eigen::Vector3d& position = accuracies[i].position;
+    position = (position.cwiseAbs2() + corrected.lever_arm_variance[i]).cwiseSqrt();
+  }
+  progress.remark(std::string("lever arm ") +
+                  (how.strip_corrections ? "and strip corrections " : "") +
+                  "taken out; boresight, range bias and scan angle scale are parameters of the "
+                  "scanner and not part of a trajectory");
+  if (corrected.left_out > 0) {
+    progress.remark("left out: " + grouped(corrected.left_out) +
+                    " samples at times that the calibration does not cover");
+  }
+  if (corrected.angles_left_out) {
+    progress.remark(
+        "the corrections of pitch, roll and heading are not applied: the trajectory "
+        "has no attitude");
+  }
+  if (samples.empty()) throw InputError("trajectory: no sample is covered by the calibration");
+}
+
+fs::path accuracyPath(fs::path output) {
+  const std::string stem = output.stem().string();
+  return output.replace_filename(stem + "_smrmsg.out");
+}
+
+}  // namespace
+
+TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const fs::path& output,
+                                       const Options& options, const ProgressCallback& callback) {
+  checkOutput(output, options);
+  ProgressReport progress(callback);
+  progress.begin("Reading " + counted(paths.size(), "trajectory file"));
+  FlightFile flight = flightOf(paths, options);
+  progress.end(grouped(flight.samples.size()) + " samples");
+  progress.remark(flight.format + ": " + flight.frame);
+  for (const std::string& text : flight.remarks) progress.remark(text);
+  std::vector<TrajectorySample> samples = std::move(flight.samples);
+  const std::vector<TrajectoryAccuracy>& known =
+      options.accuracy.empty() ? flight.accuracy : options.accuracy;
+  std::vector<TrajectoryAccuracy> accuracies = accuraciesOf(samples, known);
+  if (options.calibration != nullptr)
+    correct(options, flight, samples, accuracies, known, progress);
+  if (known.empty())
+    progress.remark("no standard deviations are written: the trajectory states none");
+  progress.begin("Writing " + output.string());
+  TrajectoryConversion conversion{samples.size(), {output}};
+  if (!isSbet(output)) {
+    writeTrajectoryCsv(output, samples, accuracies);
+  } else {
+    writeSbet(output, samples, options.reading.crs);
+    if (!accuracies.empty()) {
+      conversion.written.push_back(accuracyPath(output));
+      writeAccuracies(conversion.written.back(), accuracies);
+    }
+  }
+  progress.end(grouped(samples.size()) + " samples");
+  return conversion;
+}
+
+}  // namespace pcl_als
