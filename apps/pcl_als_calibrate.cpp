@@ -18,6 +18,7 @@
 #include "output_check.h"
 #include "report_options.h"
 #include "strip_options.h"
+#include "window_options.h"
 
 namespace {
 
@@ -37,6 +38,7 @@ CommandLine commandLine() {
   app::addFlightOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   app::addUnitsOption(line, "control", "the control file");
+  app::addWindowOptions(line);
   app::addStripOptions(line);
   line.addOptional("pairs",
                    "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
@@ -50,7 +52,7 @@ CommandLine commandLine() {
                "with quasi_rigorous: assume a vertical sensor aligned with the flight line, as "
                "published, instead of recovering pitch and crab from the points");
   line.addOptional("output", "calibration.json to write (needed)");
-  line.addOptional("corrected", "folder for corrected copies of all strips");
+  line.addOptional("corrected", "folder for corrected copies of all strips, with all their points");
   line.addFlag("strip_corrections",
                "with -corrected: also correct the estimated trajectory errors of each strip");
   line.addOptional("report",
@@ -204,9 +206,10 @@ int calibrate(int argc, char** argv) {
   refuseExcluded(options);
   options.gps_week = app::gpsWeek(line);
   const AttitudeUse attitude = attitudeToUse(line);
+  const PointWindow window = app::windowOf(line);
   checkOutputs(line);
   Step step("Reading " + counted(files.size(), "point file"), line.quiet());
-  SurveyReader survey(files, line.threads());
+  SurveyReader survey(files, line.threads(), window);
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude);

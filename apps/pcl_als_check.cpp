@@ -21,6 +21,7 @@
 #include "output_check.h"
 #include "report_options.h"
 #include "strip_options.h"
+#include "window_options.h"
 
 namespace {
 
@@ -44,6 +45,7 @@ CommandLine commandLine() {
   line.addOptional("before",
                    "the same strips before the correction: a folder, or files separated by commas; "
                    "both are reported side by side");
+  app::addWindowOptions(line);
   app::addStripOptions(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   app::addUnitsOption(line, "control", "the control file");
@@ -147,7 +149,7 @@ std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
 SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& files,
                        SurveyCheckOptions options, const std::string& image) {
   Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
-  SurveyReader survey(files, line.threads());
+  SurveyReader survey(files, line.threads(), app::windowOf(line));
   reading.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   std::shared_ptr<const Trajectory> trajectory;

@@ -12,6 +12,7 @@
 
 #include "command_line.h"
 #include "strip_options.h"
+#include "window_options.h"
 
 namespace pcl_als::app {
 namespace {
@@ -22,9 +23,11 @@ int info(int argc, char** argv) {
                    "FILE… [-json FILE]", "pcl_als_info strip1.las strip2.las -json survey.json");
   line.add<double>("cell", "cell size for density and overlaps, m; 0: by density", 0.0);
   line.addOptional("json", "also write the facts as JSON");
+  addWindowOptions(line);
   addStripOptions(line);
   if (!line.parse(argc, argv)) return kDone;
 
+  const PointWindow window = windowOf(line);
   const double cell = line.number("cell", 0.0, 10000.0, "m");
   const auto& inputs = line.inputs(1, std::numeric_limits<std::size_t>::max());
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
@@ -35,11 +38,11 @@ int info(int argc, char** argv) {
   if (choosesStrips(line)) {
     StripChoice choice = stripChoice(line);
     choice.keep_timeless = true;  // nothing here needs times
-    arranged.emplace(paths, choice);
+    arranged.emplace(paths, choice, window);
     strips = arranged->censusStrips(labels);
   }
   const SurveyCensus survey = takeCensus(
-      paths, cell, [&](double fraction) { step.progress(fraction); }, strips);
+      paths, cell, [&](double fraction) { step.progress(fraction); }, strips, window);
   const std::vector<LeftOutPoints> left_out =
       arranged ? arranged->arrangement().leftOut(labels) : std::vector<LeftOutPoints>();
   std::uint64_t points = 0;

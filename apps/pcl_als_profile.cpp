@@ -42,6 +42,7 @@ CommandLine commandLine() {
   line.addOptional("after",
                    "the corrected strips, drawn below: a folder with files of the same names, or "
                    "files separated by commas");
+  app::addWindowOptions(line);
   app::addStripOptions(line);
   line.addOptional("output", "PNG to write, with -auto a folder for profile1.png, … (needed)");
   app::addSizeOption(line);
@@ -157,6 +158,7 @@ int profile(int argc, char** argv) {
   if (!line.parse(argc, argv)) return app::kDone;
   const auto& inputs = line.inputs(1, 100000);
   const PictureSize size = app::sizeOf(line);
+  const PointWindow window = app::windowOf(line);
   const double width = line.number("width", 0.0, 1000.0, "m");
   if (!line.has("output")) throw UsageError("option -output is needed");
   const bool automatic = line.has("auto");
@@ -170,13 +172,13 @@ int profile(int argc, char** argv) {
   }
 
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
-  const PictureSource source(inputs, line.has("split"));
+  const PictureSource source(inputs, line.has("split"), window);
   const std::vector<bool> chosen = chosenStrips(app::stripChoice(line), source.strips());
   if (automatic) places = search(source, chosen, count, width);
   const auto before = collect(source, places, source.strips(), chosen);
   std::vector<SectionPoints> after;
   if (line.has("after")) {
-    after = collect(PictureSource(filesAfter(line, inputs), line.has("split")), places,
+    after = collect(PictureSource(filesAfter(line, inputs), line.has("split"), window), places,
                     source.strips(), chosen);
   }
   step.done(grouped(source.pointCount()) + " points");

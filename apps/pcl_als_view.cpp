@@ -36,6 +36,7 @@ CommandLine commandLine() {
   line.addOptional("map", "colour map: viridis, cividis, diverging, gray (default: by attribute)");
   line.addOptional("range",
                    "LOW:HIGH of the colours (default: 1st to 99th percentile of the points drawn)");
+  app::addWindowOptions(line);
   app::addStripOptions(line);
   line.add("azimuth", "viewing direction of the camera, degrees clockwise from north", 0.0);
   line.add("elevation", "height of the camera above the horizon, degrees; 90: top view", 90.0);
@@ -70,6 +71,7 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   options.attribute = line.text("color");
   if (line.has("reference")) options.reference = line.text("reference");
   options.difference_cell = line.number("cell", 0.0, 1000.0, "m");
+  options.window = app::windowOf(line);
   options.strips = app::stripChoice(line);
   options.azimuth = line.number("azimuth", -360.0, 360.0, "degrees");
   options.elevation = line.get<double>("elevation");

@@ -44,12 +44,18 @@ Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option) {
 
 void addWindowOptions(CommandLine& line) {
   line.addOptional("bounds",
-                   "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges");
+                   "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges; "
+                   "of COPC files only this part is read");
+  line.addOptional("resolution",
+                   "of COPC files: read the octree up to the level whose points are so far apart, "
+                   "m (default: all points)");
 }
 
 PointWindow windowOf(const CommandLine& line) {
   PointWindow window;
   if (line.has("bounds")) window.bounds = rectangleOf(line, "bounds");
+  if (line.has("resolution"))
+    window.resolution = numberIn(line.text("resolution"), "option -resolution", 1e-6, 1e6);
   return window;
 }
 

@@ -25,9 +25,9 @@ std::vector<double> numbersOf(const CommandLine& line, const char* option, char 
 /// XMIN,YMIN,XMAX,YMAX of an option, metres; UsageError otherwise.
 Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option);
 
-/// Adds -bounds, which means the same in every tool that reads parts of files.
+/// Adds -bounds and -resolution, which mean the same in every tool that reads parts of files.
 void addWindowOptions(CommandLine& line);
-/// Its value.
+/// Their values.
 PointWindow windowOf(const CommandLine& line);
 
 }  // namespace pcl_als::app

@@ -56,7 +56,12 @@ part extent 0,0,@,9 "${classify[@]}"
 part priors tree=@ "${classify[@]}"
 part ground_classes 2,@ "${classify[@]}"
 numbers "search_distance determined_std points pairs iterations" icpatch "${strips[@]}" -output x.json
-numbers cell info "$one"
+numbers "cell resolution" info "$one"
+part bounds 0,0,@,9 info "$one"
+part bounds 0,0,@,9 check "${strips[@]}" -output x.json
+part bounds 0,0,@,9 calibrate "${strips[@]}" -trajectory "$flight" -output x.json
+part bounds 0,0,@,9 convert "$one" x.las
+numbers resolution convert "$one" x.las
 intensity=(intensity "$one" x.las -trajectory "$flight")
 numbers "gps_week line_fit reference_range range_exponent incidence_exponent largest_incidence
   visibility temperature pressure humidity wavelength attenuation saturation surface_radius

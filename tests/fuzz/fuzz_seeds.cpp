@@ -10,6 +10,7 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/las/las_extra.h>
 
+#include "copc_bytes.h"
 #include "las_bytes.h"
 
 namespace pcl_als::fuzz {
@@ -103,6 +104,13 @@ std::vector<std::string> lazSeeds() {
   std::vector<std::string> seeds;
   for (const auto& path : paths) seeds.push_back(test::readBytes(path));
   return seeds;
+}
+
+std::vector<std::string> copcSeeds() {
+  test::CopcBytes::Frame shallow;
+  shallow.deepest = 1;
+  return {test::CopcBytes(test::copcPoints(50), shallow).str(),
+          test::CopcBytes(test::copcPoints(2000), {}).str()};
 }
 
 std::vector<std::string> pcdSeeds() {

@@ -10,6 +10,7 @@ namespace pcl_als::fuzz {
 // Small valid files of every kind, to begin from.
 std::vector<std::string> lasSeeds();
 std::vector<std::string> lazSeeds();
+std::vector<std::string> copcSeeds();
 std::vector<std::string> pcdSeeds();
 std::vector<std::string> trajectorySeeds();
 std::vector<std::string> sbetSeeds();

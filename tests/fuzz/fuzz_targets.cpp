@@ -13,6 +13,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/class_io.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/survey_io.h>
@@ -68,6 +69,26 @@ void readLas(const std::filesystem::path& path) {
   takeCensus({path});
 }
 
+/// Windows and levels of an octree. A small file may hold many equal points: some are enough.
+void readCopc(const std::filesystem::path& path) {
+  const LasFile file(path);
+  LasWindow coarse;
+  coarse.resolution = 10.0;
+  file.recordsWithin(coarse);
+  for (const double size : {20.0, 400.0, 1e9}) {
+    PointWindow window;
+    window.bounds.emplace(Eigen::Vector2d(-size, -size), Eigen::Vector2d(size, size));
+    if (file.header().point_count > std::uint64_t{1} << 20U) {
+      file.recordsWithin({window.bounds, 0.0});
+      continue;
+    }
+    const auto reader = PointReader::open(path, window);
+    PointChunk chunk;
+    for (int i = 0; i < 4 && reader->read(chunk); ++i) {
+    }
+  }
+}
+
 void readPcd(const std::filesystem::path& path) {
   loadPcd(path);
   takeCensus({path});
@@ -120,6 +141,9 @@ bool las(const std::uint8_t* data, std::size_t size) {
 bool laz(const std::uint8_t* data, std::size_t size) {
   return readAs(".laz", data, size, readLas);
 }
+bool copc(const std::uint8_t* data, std::size_t size) {
+  return readAs(".laz", data, size, readCopc);
+}
 bool pcd(const std::uint8_t* data, std::size_t size) {
   return readAs(".pcd", data, size, readPcd);
 }
@@ -162,6 +186,7 @@ const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
       {"las", las, lasSeeds},
       {"laz", laz, lazSeeds},
+      {"copc", copc, copcSeeds},
       {"pcd", pcd, pcdSeeds},
       {"trajectory_csv", trajectoryCsv, trajectorySeeds},
       {"sbet", sbet, sbetSeeds},

@@ -117,19 +117,19 @@ void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
                     "grid north");
 }
 
-void remarkFile(FileCensus& file) {
+void remarkFile(FileCensus& file, bool whole) {
   const PointStatistics& s = file.statistics;
   auto& remarks = file.remarks;
   if (s.points == 0) {
-    remarks.emplace_back("the file holds no points");
+    remarks.emplace_back(whole ? "the file holds no points" : "no point of the file was read");
     return;
   }
   remarkTimes(file.info, s, remarks);
-  remarkBox(file.info, s, remarks);
+  if (whole) remarkBox(file.info, s, remarks);
   const std::string extension = lowerExtension(file.info.path);
   if (extension == ".las" || extension == ".laz") {
     const LasFile las(file.info.path);
-    remarkHeader(las.header(), s, remarks);
+    if (whole) remarkHeader(las.header(), s, remarks);
     remarkPose(las, remarks);
   }
   remarkCount(remarks, s.invalid_coordinates, s.points, "has coordinates that are no place",
@@ -178,7 +178,9 @@ void remarkStrip(StripCensus& strip, bool has_time) {
 }  // namespace
 
 void addRemarks(SurveyCensus& survey) {
-  for (FileCensus& file : survey.files) remarkFile(file);
+  const bool whole = survey.window.everything();
+  for (FileCensus& file : survey.files) remarkFile(file, whole);
+  if (!whole) survey.remarks.push_back("a part of the files was read: " + describe(survey.window));
   const bool has_time = std::any_of(survey.files.begin(), survey.files.end(), [](const auto& f) {
     return f.info.time_kind != TimeKind::none;
   });

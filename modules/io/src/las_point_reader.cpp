@@ -10,16 +10,27 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
+constexpr std::size_t kMostNodes = 64;  ///< read at once; each may be decoded by a thread
 
 }  // namespace
 
 LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWindow& window,
                                OtherCoordinates other, unsigned fields)
-    : file_(path, fields), window_(window), info_(within(window, file_.info())) {
+    : file_(path, fields), window_(window), info_(file_.info()) {
   if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
   const Eigen::Vector3d metres = info_.units.metres();
   scaling_ = {file_.header().scale.cwiseProduct(metres),
               file_.header().offset.cwiseProduct(metres)};
+  LasWindow part;
+  part.resolution = window.resolution / metres.x();
+  if (window.bounds)
+    part.bounds.emplace(window.bounds->min() / metres.x(), window.bounds->max() / metres.x());
+  ranges_ = file_.recordsWithin(part);
+  whole_ = window.everything() || !file_.isCopc();
+  info_ = within(window, info_);
+  std::uint64_t candidates = 0;
+  for (const LasRecordRange& range : ranges_) candidates += range.count;
+  info_.point_count = std::min(info_.point_count, candidates);
 }
 
 /// Moves the records inside the bounds to the front of the buffer; returns their number.
@@ -39,21 +50,57 @@ std::size_t LasPointReader::keepInside(std::size_t count) {
   return kept;
 }
 
-bool LasPointReader::read(PointChunk& chunk) {
+/// The next records of a file that is read as a whole.
+std::size_t LasPointReader::readBlock() {
   const LasHeader& header = file_.header();
-  // Records may have up to 64 kB; a chunk of those is shorter.
+  // Records may have up to 64 kB; a block of those is shorter.
   const std::size_t most = std::min(kChunk, kMostBytes / header.record_length);
-  std::size_t kept = 0;
-  do {
-    const std::size_t count = std::min<std::uint64_t>(most, header.point_count - position_);
-    buffer_.resize(count * header.record_length);
-    file_.readRecords(position_, count, buffer_.data());
-    position_ += count;
-    kept = window_.bounds ? keepInside(count) : count;
-  } while (kept == 0 && position_ < header.point_count);
-  decodeLasRecords(buffer_.data(), kept, header.record_length, file_.layout(), scaling_.scale,
-                   scaling_.offset, chunk);
-  return kept > 0;
+  const std::size_t count = std::min<std::uint64_t>(most, header.point_count - position_);
+  buffer_.resize(count * header.record_length);
+  file_.readRecords(position_, count, buffer_.data());
+  position_ += count;
+  return count;
+}
+
+/// The next nodes of an octree, enough of them for several threads.
+std::size_t LasPointReader::readNodes() {
+  const std::size_t length = file_.header().record_length;
+  std::vector<LasRecordRange> nodes;
+  std::size_t count = 0;
+  const std::size_t most = kMostBytes / length;
+  while (range_ < ranges_.size() && nodes.size() < kMostNodes) {
+    LasRecordRange& next = ranges_[range_];
+    if (count > 0 && next.count > most - count) break;
+    // A node that is too large for the memory is read in pieces.
+    const std::uint64_t part = std::min<std::uint64_t>(next.count, most);
+    nodes.push_back({next.first, part});
+    count += part;
+    next = {next.first + part, next.count - part};
+    if (next.count == 0) ++range_;
+  }
+  buffer_.resize(count * length);
+  file_.readRanges(nodes, buffer_.data());
+  return count;
+}
+
+/// Reads until there are records inside; false at the end.
+bool LasPointReader::fetch() {
+  held_ = next_ = 0;
+  while (held_ == 0) {
+    const std::size_t count = whole_ ? readBlock() : readNodes();
+    if (count == 0) return false;
+    held_ = window_.bounds ? keepInside(count) : count;
+  }
+  return true;
+}
+
+bool LasPointReader::read(PointChunk& chunk) {
+  const bool more = next_ < held_ || fetch();
+  given_ = next_;
+  next_ = more ? std::min(held_, given_ + kChunk) : given_;
+  decodeLasRecords(records(), next_ - given_, file_.header().record_length, file_.layout(),
+                   scaling_.scale, scaling_.offset, chunk);
+  return more;
 }
 
 }  // namespace pcl_als

@@ -60,6 +60,9 @@ std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path
   if (extension == ".las" || extension == ".laz")
     return std::make_unique<LasPointReader>(path, window, other);
   if (extension == ".pcd") {
+    if (window.resolution > 0.0)
+      throw InputError(path.string() +
+                       ": is no COPC file; only these can be read at a lower resolution");
     auto reader = std::make_unique<PcdPointReader>(path);
     if (window.everything()) return reader;
     return std::make_unique<BoundedReader>(std::move(reader), window);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_window.h>
 
 namespace pcl_als {
@@ -13,7 +16,28 @@ void keepRows(const std::vector<std::size_t>& rows, std::vector<T>& column) {
   for (std::size_t i = 0; i < rows.size(); ++i) column[i] = column[rows[i]];
 }
 
+/// "x 84900 to 84950 m, y 447500 to 447600 m"
+std::string placeText(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  return "x " + shortText(low.x()) + " to " + shortText(high.x()) + " m, y " + shortText(low.y()) +
+         " to " + shortText(high.y()) + " m";
+}
+
 }  // namespace
+
+std::string describe(const PointWindow& window) {
+  std::string text = "all points";
+  if (window.bounds)
+    text = "the points at " + placeText(window.bounds->min(), window.bounds->max());
+  if (window.resolution > 0.0) text += ", " + shortText(window.resolution) + " m apart";
+  return text;
+}
+
+void refuseEmptyWindow(const std::vector<std::filesystem::path>& files) {
+  const auto reader = PointReader::open(files.at(0), PointReader::OtherCoordinates::as_stored);
+  const PointFileInfo& info = reader->info();
+  throw InputError("no point lies within the bounds; " + files[0].string() + " covers " +
+                   placeText(info.minimum.head<2>(), info.maximum.head<2>()));
+}
 
 void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk) {
   std::vector<std::size_t> rows;

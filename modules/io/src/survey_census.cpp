@@ -29,10 +29,12 @@ constexpr auto kAnyCoordinates = PointReader::OtherCoordinates::as_stored;
 class Census {
  public:
   Census(const std::vector<std::filesystem::path>& paths, double cell,
-         const std::function<void(double)>& progress, const CensusStrips& strips)
+         const std::function<void(double)>& progress, const CensusStrips& strips,
+         const PointWindow& window)
       : progress_(progress), given_(strips) {
+    survey_.window = window;
     for (const auto& path : paths) {
-      survey_.files.push_back({PointReader::open(path, kAnyCoordinates)->info(), {}, {}});
+      survey_.files.push_back({PointReader::open(path, window, kAnyCoordinates)->info(), {}, {}});
       total_ += survey_.files.back().info.point_count;
     }
     survey_.cell = cell > 0.0 ? cell : usualCell();
@@ -40,6 +42,7 @@ class Census {
 
   SurveyCensus take() {
     for (std::size_t f = 0; f < survey_.files.size(); ++f) readFile(f);
+    if (done_ == 0 && !survey_.window.everything()) refuseNothingRead();
     survey_.duplicates = duplicates_.count();
     survey_.duplicates_estimated = duplicates_.estimated();
     joinStrips();
@@ -64,14 +67,23 @@ class Census {
     return 10.0;
   }
 
+  [[noreturn]] void refuseNothingRead() const {
+    std::vector<std::filesystem::path> paths;
+    for (const FileCensus& file : survey_.files) paths.push_back(file.info.path);
+    refuseEmptyWindow(paths);
+  }
+
   void readFile(std::size_t f) {
-    const auto reader = PointReader::open(survey_.files[f].info.path, kAnyCoordinates);
+    const auto reader =
+        PointReader::open(survey_.files[f].info.path, survey_.window, kAnyCoordinates);
     PointChunk chunk;
     while (reader->read(chunk)) {
       addChunk(f, chunk);
       duplicates_.add(chunk);
       done_ += chunk.size();
-      if (progress_) progress_(static_cast<double>(done_) / static_cast<double>(total_));
+      // Of a part of a file the number of points is only estimated before.
+      if (progress_)
+        progress_(std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_)));
     }
     for (const auto& [key, tally] : sources_)
       if (key.first == f) detail::mergeStatistics(survey_.files[f].statistics, tally.statistics());
@@ -215,9 +227,10 @@ class Census {
 }  // namespace
 
 SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell,
-                        const std::function<void(double)>& progress, const CensusStrips& strips) {
+                        const std::function<void(double)>& progress, const CensusStrips& strips,
+                        const PointWindow& window) {
   if (!(std::isfinite(cell) && cell >= 0.0)) throw UsageError("cell size must be positive, metres");
-  return Census(files, cell, progress, strips).take();
+  return Census(files, cell, progress, strips, window).take();
 }
 
 }  // namespace pcl_als

@@ -8,6 +8,7 @@
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/las_file.h>
 
+#include "copc.h"
 #include "las_bytes.h"
 #include "las_crs.h"
 #include "laz.h"
@@ -22,6 +23,7 @@ struct LasFile::State {
   std::vector<LasVlrEntry> vlrs;
   std::vector<LasExtraField> extra_fields;
   std::unique_ptr<LazPointReader> laz;
+  const LasVlrEntry* copc = nullptr;  ///< the record "copc" 1 among vlrs
   detail::LasReference reference;
 
   explicit State(std::filesystem::path p) : path(std::move(p)), file(path) {}
@@ -99,6 +101,30 @@ std::vector<std::byte> lazPayload(const LasFile& file) {
       "missing");
 }
 
+/// The chunk of each node, in file order.
+std::vector<LasRecordRange> chunksOf(const std::vector<detail::CopcNode>& nodes,
+                                     LazPointReader& laz, const LasFile& file) {
+  const auto refuse = [&](const detail::CopcNode& node, const char* what) {
+    throw InputError(file.path().string() + ": the node of " + std::to_string(node.points) +
+                     " points at byte " + std::to_string(node.offset) + ' ' + what +
+                     " (damaged COPC hierarchy; a conversion without bounds makes a file without)");
+  };
+  std::vector<LasRecordRange> ranges;
+  for (const detail::CopcNode& node : nodes) {
+    const LasRecordRange chunk = laz.chunkAt(node.offset, node.offset + node.bytes);
+    if (chunk.count != node.points || chunk.first > file.header().point_count ||
+        chunk.count > file.header().point_count - chunk.first)
+      refuse(node, "is no chunk of the chunk table");
+    ranges.push_back(chunk);
+  }
+  std::sort(ranges.begin(), ranges.end(),
+            [](const LasRecordRange& a, const LasRecordRange& b) { return a.first < b.first; });
+  for (std::size_t i = 1; i < ranges.size(); ++i)
+    if (ranges[i].first == ranges[i - 1].first)
+      throw InputError(file.path().string() + ": two nodes of its COPC hierarchy are one chunk");
+  return ranges;
+}
+
 }  // namespace
 
 LasFile::LasFile(std::filesystem::path path, unsigned laz_fields)
@@ -109,8 +135,11 @@ LasFile::LasFile(std::filesystem::path path, unsigned laz_fields)
   readEntries(s.file, false, s.header.header_size, s.header.vlr_count, s.header.offset_to_points,
               s.vlrs);
   readExtendedEntries(s.file, s.header, s.vlrs);
-  if (s.header.compressed)
+  if (s.header.compressed) {
     s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields);
+    for (const LasVlrEntry& entry : s.vlrs)
+      if (!entry.extended && isRecord(entry, kCopcUser, detail::kCopcInfoRecord)) s.copc = &entry;
+  }
   s.reference = detail::readLasReference(*this);
   const auto extra = std::find_if(s.vlrs.begin(), s.vlrs.end(), [](const LasVlrEntry& entry) {
     return isRecord(entry, "LASF_Spec", 4) && entry.length <= kLargestExtraRecord;
@@ -175,7 +204,7 @@ PointFileInfo LasFile::info() const {
     info.time_kind = (h.global_encoding & kLasAdjustedStandardTime) != 0
                          ? TimeKind::adjusted_standard
                          : TimeKind::week_seconds;
-  info.format = h.describe();
+  info.format = h.describe() + (isCopc() ? ", COPC" : "");
   return info;
 }
 
@@ -191,6 +220,38 @@ std::vector<std::byte> LasFile::payload(const LasVlrEntry& vlr, std::size_t limi
 
 void LasFile::readBytes(std::uint64_t position, std::size_t bytes, std::byte* out) const {
   state_->file.read(position, bytes, out);
+}
+
+bool LasFile::isCopc() const {
+  return state_->copc != nullptr;
+}
+
+std::vector<LasRecordRange> LasFile::recordsWithin(const LasWindow& window) const {
+  const State& s = *state_;
+  if (!isCopc()) {
+    if (window.resolution > 0.0)
+      throw InputError(s.file.name() +
+                       ": is no COPC file; only these can be read at a lower resolution");
+    return {{0, s.header.point_count}};
+  }
+  if (!window.bounds && !(window.resolution > 0.0)) return {{0, s.header.point_count}};
+  detail::CopcFile file;
+  file.name = s.file.name();
+  file.size = s.file.size();
+  file.step = s.header.scale.head<2>().maxCoeff();
+  file.read = [this](std::uint64_t position, std::size_t bytes, std::byte* out) {
+    readBytes(position, bytes, out);
+  };
+  const detail::CopcInfo info = detail::parseCopcInfo(payload(*s.copc), file);
+  return chunksOf(detail::copcNodes(info, file, window), *s.laz, *this);
+}
+
+void LasFile::readRanges(const std::vector<LasRecordRange>& ranges, std::byte* out) const {
+  if (state_->laz) return state_->laz->read(ranges, out);
+  for (const LasRecordRange& range : ranges) {
+    readRecords(range.first, range.count, out);
+    out += range.count * state_->header.record_length;
+  }
 }
 
 void LasFile::readRecords(std::uint64_t first, std::size_t count, std::byte* out) const {

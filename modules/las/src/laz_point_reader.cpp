@@ -64,6 +64,8 @@ struct LazPointReader::State {
   void decodeFrom(std::uint64_t point, std::uint64_t wanted_end, bool in_sequence);
   void readDecoded(std::uint64_t first, std::size_t count, std::uint8_t* out);
   void readInOrder(std::uint64_t first, std::size_t count, std::uint8_t* out);
+  void readRanges(const std::vector<LasRecordRange>& ranges, std::uint8_t* out);
+  void checkRange(std::uint64_t first, std::uint64_t count) const;
   void placeCursor(std::uint64_t point);
   void openNextChunk();
   void advance(std::size_t count, std::uint8_t* out);
@@ -246,6 +248,47 @@ void LazPointReader::State::readInOrder(std::uint64_t first, std::size_t count, 
   }
 }
 
+void LazPointReader::State::checkRange(std::uint64_t first, std::uint64_t count) const {
+  if (first > points.point_count || count > points.point_count - first)
+    throw UsageError(name + ": point records past the end were asked for");
+}
+
+/// Whole chunks are decoded where their records are to be, on several threads; parts of chunks one
+/// after the other.
+void LazPointReader::State::readRanges(const std::vector<LasRecordRange>& ranges,
+                                       std::uint8_t* out) {
+  struct Part {
+    std::size_t chunk;
+    std::uint8_t* out;
+  };
+  std::vector<Part> whole;
+  for (const LasRecordRange& range : ranges) {
+    checkRange(range.first, range.count);
+    if (in_order) {
+      readInOrder(range.first, range.count, out);
+      out += range.count * record_length;
+      continue;
+    }
+    for (std::uint64_t at = range.first, end = range.first + range.count; at < end;) {
+      const std::size_t index = chunkOf(at);
+      const Chunk& chunk = table.chunks[index];
+      const std::uint64_t count = std::min(end, chunk.first + chunk.points) - at;
+      if (count == chunk.points)
+        whole.push_back({index, out});
+      else
+        readDecoded(at, count, out);
+      out += count * record_length;
+      at += count;
+    }
+  }
+  parallelFor(whole.size(), points.threads, [&](std::size_t i) {
+    auto decoder = takeDecoder();
+    decodeChunk(*decoder, whole[i].chunk, whole[i].out);
+    const std::lock_guard<std::mutex> lock(pool_mutex);
+    pool.push_back(std::move(decoder));
+  });
+}
+
 LazPointReader::LazPointReader(LazSchema schema, LazReadAt read, const LazPoints& points,
                                std::string name)
     : state_(std::make_unique<State>()) {
@@ -260,8 +303,7 @@ LazPointReader::~LazPointReader() = default;
 
 void LazPointReader::read(std::uint64_t first, std::size_t count, void* out) {
   State& s = *state_;
-  if (first > s.points.point_count || count > s.points.point_count - first)
-    throw UsageError(s.name + ": point records past the end were asked for");
+  s.checkRange(first, count);
   if (count == 0) return;
   const std::lock_guard<std::mutex> lock(s.mutex);
   auto* to = static_cast<std::uint8_t*>(out);
@@ -269,6 +311,21 @@ void LazPointReader::read(std::uint64_t first, std::size_t count, void* out) {
     s.readInOrder(first, count, to);
   else
     s.readDecoded(first, count, to);
+}
+
+void LazPointReader::read(const std::vector<LasRecordRange>& ranges, void* out) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->readRanges(ranges, static_cast<std::uint8_t*>(out));
+}
+
+LasRecordRange LazPointReader::chunkAt(std::uint64_t begin, std::uint64_t end) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  const std::vector<Chunk>& chunks = state_->table.chunks;
+  const auto found =
+      std::lower_bound(chunks.begin(), chunks.end(), begin,
+                       [](const Chunk& chunk, std::uint64_t at) { return chunk.begin < at; });
+  if (found == chunks.end() || found->begin != begin || found->end != end) return {};
+  return {found->first, found->points};
 }
 
 }  // namespace pcl_als

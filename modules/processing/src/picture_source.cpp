@@ -5,6 +5,8 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/io/las_point_reader.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/las/las_file.h>
@@ -23,33 +25,37 @@ const LasExtraField* findField(const LasFile& file, const std::string& name) {
   return nullptr;
 }
 
-/// The extra-bytes field of a file, read in step with its points.
-class ExtraValues {
+/// The points of a file, with the values of an extra-bytes field where it has that.
+class PictureReader {
  public:
-  ExtraValues(const std::filesystem::path& path, const std::string& name) {
-    const std::string extension = path.extension().string();
-    if (name.empty() || extension == ".pcd" || extension == ".PCD") return;
-    file_.emplace(path);
-    field_ = findField(*file_, name);
-    if (field_ == nullptr) file_.reset();
+  PictureReader(const std::filesystem::path& path, const PointWindow& window,
+                const std::string& field) {
+    const std::string extension = lowerExtension(path);
+    if (field.empty() || (extension != ".las" && extension != ".laz")) {
+      reader_ = PointReader::open(path, window);
+      return;
+    }
+    auto las = std::make_unique<LasPointReader>(path, window, PointReader::OtherCoordinates::refuse,
+                                                LasPointReader::kColumns | kLazExtraBytes);
+    field_ = findField(las->file(), field);
+    las_ = las.get();
+    reader_ = std::move(las);
   }
-  bool found() const { return field_ != nullptr; }
-  void read(std::size_t count) {
-    values_.assign(count, std::numeric_limits<double>::quiet_NaN());
-    if (!found()) return;
-    const std::size_t length = file_->header().record_length;
-    records_.resize(count * length);
-    file_->readRecords(position_, count, records_.data());
-    decodeLasExtraField(records_.data(), count, length, *field_, values_);
-    position_ += count;
+
+  bool read(PointChunk& chunk) {
+    const bool more = reader_->read(chunk);
+    values_.assign(chunk.size(), std::numeric_limits<double>::quiet_NaN());
+    if (field_ != nullptr)
+      decodeLasExtraField(las_->records(), chunk.size(), las_->file().header().record_length,
+                          *field_, values_);
+    return more;
   }
-  double operator[](std::size_t i) const { return values_[i]; }
+  double extra(std::size_t i) const { return values_[i]; }
 
  private:
-  std::optional<LasFile> file_;
+  std::unique_ptr<PointReader> reader_;
+  LasPointReader* las_ = nullptr;
   const LasExtraField* field_ = nullptr;
-  std::uint64_t position_ = 0;
-  std::vector<std::byte> records_;
   std::vector<double> values_;
 };
 
@@ -74,13 +80,15 @@ enum ReturnKind { kSingle, kFirst, kMiddle, kLast };
 
 }  // namespace
 
-PictureSource::PictureSource(const std::vector<std::string>& paths, bool split) {
+PictureSource::PictureSource(const std::vector<std::string>& paths, bool split,
+                             const PointWindow& window)
+    : window_(window) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   minimum_.setConstant(infinity);
   maximum_.setConstant(-infinity);
   first_time_ = infinity;
   for (const std::string& path : paths) {
-    const SurveyedFile& file = files_.emplace_back(surveyFile(path));
+    const SurveyedFile& file = files_.emplace_back(surveyFile(SurveyInput::ofFile(path, window)));
     for (const PointSource& source : file.sources.sources) {
       if (!source.minimum.allFinite() || !source.maximum.allFinite()) continue;
       minimum_ = minimum_.cwiseMin(source.minimum);
@@ -92,6 +100,7 @@ PictureSource::PictureSource(const std::vector<std::string>& paths, bool split) 
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
   remarks_ = commonReference(infos).remarks;
   arrangement_.emplace(files_, StripChoice{{}, {}, split, true}, FlownTimes());
+  if (pointCount() == 0 && !window.everything()) refuseEmptyWindow({paths.begin(), paths.end()});
   if (!minimum_.allFinite()) {
     throw InputError(paths.front() + (paths.size() > 1 ? " and the other files hold" : ": holds") +
                      " no point to draw");
@@ -116,11 +125,9 @@ void PictureSource::read(const std::function<void(const Point&)>& sink,
                          const std::string& extra_field) const {
   for (std::size_t file = 0; file < files_.size(); ++file) {
     StripArrangement::Sorter sorter(*arrangement_, file);
-    ExtraValues extra(files_[file].sources.info.path, extra_field);
-    const auto reader = PointReader::open(files_[file].sources.info.path);
+    PictureReader reader(files_[file].sources.info.path, window_, extra_field);
     PointChunk chunk;
-    while (reader->read(chunk)) {
-      if (!extra_field.empty()) extra.read(chunk.size());
+    while (reader.read(chunk)) {
       Point point{{}, 0, 0, &chunk, 0.0};
       for (std::size_t i = 0; i < chunk.size(); ++i) {
         const std::size_t label = sorter.label(chunk.point_source_id[i], chunk.gps_time[i]);
@@ -128,7 +135,7 @@ void PictureSource::read(const std::function<void(const Point&)>& sink,
         if (point.strip < 0) continue;
         point.position = {chunk.x[i], chunk.y[i], chunk.z[i]};
         point.index = i;
-        if (!extra_field.empty()) point.extra = extra[i];
+        point.extra = reader.extra(i);
         sink(point);
       }
     }

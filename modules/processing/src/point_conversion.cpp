@@ -4,7 +4,6 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <tuple>
 
 #include <pcl_als/common/count_text.h>
@@ -98,13 +97,7 @@ class Conversion {
 
   [[noreturn]] void refuseNothing() const {
     if (!options_.window.bounds) throw InputError("no point is left, the files have none");
-    std::ostringstream text;
-    text.precision(10);
-    text << "no point lies within the bounds; " << inputs_[0].string() << " covers ";
-    const PointFileInfo info = PointReader::open(inputs_[0])->info();
-    text << "x " << info.minimum.x() << " to " << info.maximum.x() << " m, y " << info.minimum.y()
-         << " to " << info.maximum.y() << " m";
-    throw InputError(text.str());
+    refuseEmptyWindow(inputs_);
   }
 
   bool copiesWholeFile(const fs::path& input, const fs::path& output) const {

@@ -37,7 +37,7 @@ SurveyPicture::SurveyPicture(const std::vector<std::string>& files,
     : options_(options),
       picture_(pictureOf(options)),
       camera_(options.azimuth, options.elevation),
-      source_(files, options.strips.split),
+      source_(files, options.strips.split, options.window),
       attribute_(options.attribute, source_, options.reference) {
   ProgressReport progress(callback);
   progress.begin("Reading " + counted(files.size(), "file"));

@@ -13,16 +13,20 @@
 namespace pcl_als {
 namespace {
 
-std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths) {
+std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths,
+                                  const PointWindow& window) {
   std::vector<SurveyInput> inputs;
-  for (const std::string& path : paths) inputs.push_back(SurveyInput::ofFile(path));
+  for (const std::string& path : paths) inputs.push_back(SurveyInput::ofFile(path, window));
   return inputs;
 }
 
 }  // namespace
 
-SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads)
-    : SurveyReader(threads, inputsOf(paths)) {}
+SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads,
+                           const PointWindow& window)
+    : SurveyReader(threads, inputsOf(paths, window)) {
+  if (!window.everything() && pointCount() == 0) refuseEmptyWindow({paths.begin(), paths.end()});
+}
 
 SurveyReader SurveyReader::ofInputs(std::vector<SurveyInput> inputs, int threads) {
   return {threads, std::move(inputs)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <memory>
 #include <numeric>
 
@@ -25,6 +26,10 @@ ArrangedFiles::ArrangedFiles(const std::vector<std::filesystem::path>& paths,
     : window_(window),
       files_(surveyAll(paths, window)),
       arrangement_(files_, choice, FlownTimes()) {
+  const bool any = std::any_of(files_.begin(), files_.end(), [](const SurveyedFile& file) {
+    return file.sources.info.point_count > 0;
+  });
+  if (!any && !window.everything()) refuseEmptyWindow(paths);
   if (arrangement_.names().empty())
     throw InputError("no strip is left: all are excluded or have no times");
 }

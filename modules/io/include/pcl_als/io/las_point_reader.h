@@ -32,17 +32,25 @@ class LasPointReader : public PointReader {
 
   const LasFile& file() const { return file_; }
   /// The raw records of the points that read() gave last; they may be changed.
-  std::byte* records() { return buffer_.data(); }
+  std::byte* records() { return buffer_.data() + given_ * file_.header().record_length; }
 
  private:
+  bool fetch();
+  std::size_t readBlock();
+  std::size_t readNodes();
   std::size_t keepInside(std::size_t count);
 
   LasFile file_;
   PointWindow window_;
   PointFileInfo info_;
   LasScaling scaling_;
-  std::uint64_t position_ = 0;
-  std::vector<std::byte> buffer_;
+  std::vector<LasRecordRange> ranges_;  ///< to be read: the whole file, or nodes of an octree
+  bool whole_ = true;                   ///< ranges_ is the whole file
+  std::size_t range_ = 0;               ///< of those, the next one
+  std::uint64_t position_ = 0;          ///< of a whole file, the next record
+  std::vector<std::byte> buffer_;       ///< records that were read and lie inside
+  std::size_t held_ = 0;                ///< their number
+  std::size_t given_ = 0, next_ = 0;    ///< rows that read() gave last begin and end here
 };
 
 }  // namespace pcl_als

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,9 +20,19 @@ namespace pcl_als {
 struct PointWindow {
   /// Rectangle in plan, ground frame, metres; points on its edges are inside. Default: all points.
   std::optional<Eigen::AlignedBox2d> bounds;
+  /// Distance between points that suffices, metres: of COPC files only the levels of the octree up
+  /// to the first one with this spacing are read, other files are refused; 0: all points.
+  double resolution = 0.0;
 
-  bool everything() const { return !bounds; }
+  bool everything() const { return !bounds && !(resolution > 0.0); }
 };
+
+/// "the points at x 84900 to 84950 m, y 447500 to 447600 m", "…, 2 m apart".
+std::string describe(const PointWindow& window);
+
+/// Ends a job where no file has a point in the window: InputError that states what the first one
+/// covers.
+[[noreturn]] void refuseEmptyWindow(const std::vector<std::filesystem::path>& files);
 
 /// Keeps the points inside; the others are removed.
 void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk);

@@ -66,6 +66,7 @@ struct StripOverlap {
 struct SurveyCensus {
   static constexpr double kGap = 1.0;  ///< seconds
 
+  PointWindow window;  ///< the part of the files that was read
   std::vector<FileCensus> files;
   std::vector<StripCensus> strips;  ///< named and joined by StripNaming
   std::vector<StripOverlap> overlaps;
@@ -96,9 +97,10 @@ struct CensusStrips {
  * \param cell metres; 0: 1, 2, 5 or 10 by the density that the headers declare
  * \param progress called with the fraction of points read
  * \param strips whose names are listed, one entry each
+ * \param window the part of the files that is read
  */
 SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell = 0.0,
                         const std::function<void(double)>& progress = {},
-                        const CensusStrips& strips = {});
+                        const CensusStrips& strips = {}, const PointWindow& window = {});
 
 }  // namespace pcl_als

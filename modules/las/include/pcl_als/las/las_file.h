@@ -14,6 +14,7 @@
 #include <pcl_als/las/las_extra.h>
 #include <pcl_als/las/las_header.h>
 #include <pcl_als/las/las_record.h>
+#include <pcl_als/las/las_window.h>
 #include <pcl_als/las/laz_io.h>
 
 namespace pcl_als {
@@ -67,7 +68,20 @@ class LasFile {
   /// Raw records [first, first + count). Several threads may call it at once; for a .laz they wait
   /// for each other, because each call decodes on several threads. Fast in the order of the file.
   void readRecords(std::uint64_t first, std::size_t count, std::byte* out) const;
+  /// The records of several ranges, one behind the other; faster where these are whole chunks.
+  void readRanges(const std::vector<LasRecordRange>& ranges, std::byte* out) const;
   int descriptor() const;
+
+  /// Whether the chunks of a .laz are the nodes of an octree (COPC specification 1.0).
+  bool isCopc() const;
+  /** The records that may lie in a part of the file, in file order: of a COPC file those of the
+   * nodes that meet the window, of which only the necessary pages of the hierarchy are read; of
+   * another file all.
+   *
+   * InputError where the hierarchy of a COPC file contradicts the file or its chunks, and for a
+   * resolution of a file that is not COPC.
+   */
+  std::vector<LasRecordRange> recordsWithin(const LasWindow& window) const;
 
  private:
   struct State;

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include <pcl_als/las/las_window.h>
 #include <pcl_als/las/laz_io.h>
 #include <pcl_als/las/laz_schema.h>
 
@@ -43,6 +45,11 @@ class LazPointReader {
    * once. InputError, which names the chunk, where the compressed data are damaged or cut off.
    */
   void read(std::uint64_t first, std::size_t count, void* out);
+  /// The records of several ranges, one behind the other; nothing is decoded ahead.
+  void read(const std::vector<LasRecordRange>& ranges, void* out);
+  /// The records of the chunk in the bytes [begin, end) of the file; no records where the file has
+  /// no such chunk.
+  LasRecordRange chunkAt(std::uint64_t begin, std::uint64_t end);
 
  private:
   struct State;

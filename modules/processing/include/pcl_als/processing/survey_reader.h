@@ -52,7 +52,9 @@ class SurveyReader {
   /// Reads all files once (ids, times, extents). InputError for a file that cannot be read,
   /// or that commonReference() refuses.
   /// \a threads: 0: all cores; results do not depend on it.
-  explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0);
+  /// \a window: the part of the files that is read; InputError where it has no points.
+  explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0,
+                        const PointWindow& window = {});
   /// The same from other sources than files.
   static SurveyReader ofInputs(std::vector<SurveyInput> inputs, int threads = 0);
 

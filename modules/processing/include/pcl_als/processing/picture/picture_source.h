@@ -26,8 +26,10 @@ class PictureSource {
  public:
   /// Reads all files once. InputError for a file that cannot be read and where no file has a
   /// point.
-  /// \a split: divide into flight lines, as StripChoice.
-  explicit PictureSource(const std::vector<std::string>& paths, bool split = false);
+  /// \a split: divide into flight lines, as StripChoice. \a window: the part of the files that is
+  /// read.
+  explicit PictureSource(const std::vector<std::string>& paths, bool split = false,
+                         const PointWindow& window = {});
 
   const std::vector<std::string>& strips() const { return arrangement_->names(); }
   std::uint64_t pointCount() const;
@@ -57,6 +59,7 @@ class PictureSource {
             const std::string& extra_field = {}) const;
 
  private:
+  PointWindow window_;
   std::vector<SurveyedFile> files_;
   std::optional<StripArrangement> arrangement_;
   std::vector<std::string> remarks_;

@@ -26,6 +26,7 @@ struct SurveyPictureOptions {
   /// metres, cell size of the planes of the reference strip; 0: by density
   double difference_cell = 0.0;
   StripChoice strips;
+  PointWindow window;                      ///< the part of the files that is read
   double azimuth = 0.0, elevation = 90.0;  ///< of the camera, degrees, see OrthographicCamera
   double zoom = 1.0;
   std::optional<Eigen::AlignedBox2d> extent;  ///< metres: draw this part only
