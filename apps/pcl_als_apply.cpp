@@ -144,7 +144,7 @@ int apply(int argc, char** argv) {
   const FileCorrectionResult result =
       correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(line));
   app::remark(line, result.time_remark);
-  for (const std::string& warning : result.warnings) app::remark(line, "warning: " + warning);
+  for (const Warning& warning : result.warnings) app::remark(line, "warning: " + warning.text);
   if (calibration.attitude == AttitudeSource::points && result.attitude_remark.empty())
     app::remark(line, "pitch and crab: recovered from the points by the calibration");
   if (!result.attitude_remark.empty()) {

@@ -16,6 +16,7 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "remedy_options.h"
 #include "report_options.h"
 #include "strip_options.h"
 #include "window_options.h"
@@ -204,6 +205,7 @@ int calibrate(int argc, char** argv) {
   options.pairs = stripPairs(line);
   options.strips = app::stripChoice(line);
   refuseExcluded(options);
+  app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
   const AttitudeUse attitude = attitudeToUse(line);
   const PointWindow window = app::windowOf(line);
@@ -219,6 +221,7 @@ int calibrate(int argc, char** argv) {
   options.observer = page.observer();
   SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
   CalibrationResult& result = calibration.result;
+  app::nameOptions(line, result.warnings);
   for (const std::string& file : line.list("trajectory")) result.inputs.push_back(file);
   if (line.has("control")) result.inputs.push_back(line.text("control"));
   writeCalibration(line.text("output"), result);

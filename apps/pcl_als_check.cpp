@@ -19,6 +19,7 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "remedy_options.h"
 #include "report_options.h"
 #include "strip_options.h"
 #include "window_options.h"
@@ -157,7 +158,9 @@ SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& 
     trajectory = app::readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given);
   }
   options.separation = separationOf(line, image);
-  return checkSurvey(survey, trajectory, options, app::progressOf(line));
+  SurveyCheck checked = checkSurvey(survey, trajectory, options, app::progressOf(line));
+  app::nameOptions(line, checked.block.warnings);
+  return checked;
 }
 
 /// The reason for which there is no reliable result, in one line.
@@ -193,6 +196,7 @@ int check(int argc, char** argv) {
   SurveyCheckOptions options;
   options.settings = settingsOf(line);
   options.strips = app::stripChoice(line);
+  app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
   QualityReport report;
   report.quality_level = qualityLevel(line);

@@ -14,6 +14,7 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "remedy_options.h"
 
 namespace {
 
@@ -141,7 +142,8 @@ int plan(int argc, char** argv) {
   settings.adjustment.pairs.surface = surfaceOf(line);
   const FlightPlan flight(std::move(lines), settings);
   Step step("Adjusting the plan", line.quiet());
-  const FlightPlanResult result = flight.evaluate();
+  FlightPlanResult result = flight.evaluate();
+  app::nameOptions(line, result.expected.warnings);
   step.done(std::to_string(result.overlaps.size()) + " overlapping pairs, " +
             std::to_string(result.control_points) + " control points");
   if (line.has("output")) {

@@ -49,10 +49,8 @@ int trajectory(int argc, char** argv) {
   options.strip_corrections = !line.has("lever_arm_only");
   options.force = line.has("force");
   options.accuracy = app::accuracies(line);
-  app::withTrajectoryRemedies([&] {
-    convertTrajectory(app::trajectoryFiles(line), line.text("output"), options,
-                      app::progressOf(line));
-  });
+  convertTrajectory(app::trajectoryFiles(line), line.text("output"), options,
+                    app::progressOf(line));
   return app::kDone;
 }
 

@@ -23,6 +23,7 @@
 #include "interruption.h"
 #include "option_list.h"
 #include "output_check.h"
+#include "remedy_options.h"
 #include "standard_streams.h"
 
 namespace po = boost::program_options;
@@ -186,6 +187,10 @@ bool CommandLine::has(const char* name) const {
   return parser_->values.count(name) != 0;
 }
 
+bool CommandLine::declares(const char* name) const {
+  return parser_->options.find_nothrow(name, false) != nullptr;
+}
+
 double CommandLine::number(const char* name, double low, double high, const char* unit) const {
   const double value = get<double>(name);
   if (std::isfinite(value) && value >= low && value <= high) return value;
@@ -297,36 +302,6 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) remark(line, text);
 }
 
-namespace {
-
-/// The option of a tool with which it would continue.
-std::string optionFor(Remedy remedy) {
-  switch (remedy) {
-    case Remedy::none:
-      break;
-    case Remedy::force:
-      return "; use -force to continue";
-    case Remedy::force_level:
-      return "; -force takes the sensor as level";
-    case Remedy::keep_uncovered:
-      return "; -keep_uncovered leaves them as they are";
-    case Remedy::nominal_model:
-      return "; or use -model nominal, which takes the sensor as level with its heading along the "
-             "course";
-    case Remedy::crs:
-      return "; give one with -crs";
-    case Remedy::max_distance:
-      return "; -max_distance compares surfaces further apart";
-    case Remedy::extent:
-      return "; see -extent";
-    case Remedy::ground:
-      return "; see -ground and -ground_classes";
-  }
-  return {};
-}
-
-}  // namespace
-
 int run(const char* tool, const std::function<int()>& body) {
   const auto failed = [tool](const char* message, int status) {
     std::cerr << tool << ": " << message << std::endl;
@@ -342,9 +317,9 @@ int run(const char* tool, const std::function<int()>& body) {
     return failed((std::string("cannot write to standard output: ") + reason).c_str(),
                   kUnusableInput);
   } catch (const UsageError& error) {
-    return failed(error.what(), kWrongUsage);
+    return failed(withOption(error).c_str(), kWrongUsage);
   } catch (const InputError& error) {
-    return failed((error.what() + optionFor(error.remedy())).c_str(), kUnusableInput);
+    return failed(withOption(error).c_str(), kUnusableInput);
   } catch (const std::bad_alloc&) {
     return failed("not enough memory", kUnusableInput);
   } catch (const std::exception& error) {

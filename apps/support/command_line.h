@@ -60,6 +60,8 @@ class CommandLine {
   /// Positional arguments; UsageError unless their number is in [low, high], and for one that is
   /// given twice in a list of any length.
   const std::vector<std::string>& inputs(std::size_t low, std::size_t high) const;
+  /// Whether the tool has an option of this name.
+  bool declares(const char* name) const;
   bool quiet() const { return has("quiet"); }
   int threads() const;
   /// "pcl_als_info 0.1.0"

@@ -129,21 +129,6 @@ void choose(const CommandLine& line, const char* option, T& value,
                    names);
 }
 
-/// The option that answers what has to be stated.
-std::string optionFor(TrajectoryQuestion question) {
-  switch (question) {
-    case TrajectoryQuestion::columns:
-      return "; or name the columns with -columns";
-    case TrajectoryQuestion::own_crs:
-      return "; give it with -trajectory_crs";
-    case TrajectoryQuestion::leap_seconds:
-      return " with -leap_seconds";
-    case TrajectoryQuestion::geoid:
-      return "; give it with -geoid";
-  }
-  return {};
-}
-
 }  // namespace
 
 TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs) {
@@ -172,12 +157,10 @@ std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line) {
   return {names.begin(), names.end()};
 }
 
-void withTrajectoryRemedies(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const TrajectoryQuestionError& error) {
-    throw InputError(error.what() + optionFor(error.question()));
-  }
+void checkFlightOptions(const CommandLine& line) {
+  gpsWeek(line);
+  halfWidthOf(line, 0.0);
+  trajectoryReading(line, {});
 }
 
 void addAccuracyOption(CommandLine& line, const char* use) {
@@ -202,8 +185,7 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   Step step("Reading " + (files.size() == 1 ? files.front().string()
                                             : counted(files.size(), "trajectory file")),
             line.quiet());
-  FlightFile file;
-  withTrajectoryRemedies([&] { file = pcl_als::readFlight(files, options); });
+  const FlightFile file = pcl_als::readFlight(files, options);
   const Trajectory& flight = *file.trajectory;
   step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +
             (flight.attitudeIsNominal() ? ", nominal attitude"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +19,10 @@ namespace pcl_als::app {
 /// trajectory is for.
 void addFlightOptions(CommandLine& line, const char* use = "needed");
 
+/// UsageError for a value of one of these options that no trajectory can be read with, also where
+/// none is read.
+void checkFlightOptions(const CommandLine& line);
+
 /// -gps_week; empty when it is to be found from the data.
 std::optional<int> gpsWeek(const CommandLine& line);
 
@@ -35,8 +38,6 @@ void addTrajectoryOptions(CommandLine& line, const char* use = "needed");
 
 /// The values of -trajectory. UsageError without any.
 std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line);
-/// Runs \a body and adds the option to use to messages of TrajectoryQuestionError.
-void withTrajectoryRemedies(const std::function<void()>& body);
 
 /// Declares -accuracy; \a use: what standard deviations are for.
 void addAccuracyOption(CommandLine& line, const char* use);

@@ -155,6 +155,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
   settings.statistics = line.has("json") || line.has("report");
   settings.find_surfaces = model.incidence_exponent != 0.0 || settings.statistics ||
                            !line.has("no_fields") || line.has("estimate") || line.has("targets");
+  checkFlightOptions(line);
   settings.gps_week = gpsWeek(line);
   settings.force = line.has("force");
   settings.threads = line.threads();

@@ -5,12 +5,14 @@
 //   set FIELD VALUE   a field of the header, see kFields
 //   zero_times        the GPS time of every point (formats 6-10)
 //   some_times        the GPS time of every tenth point (formats 6-10)
+//   whole_seconds     the GPS time of every point rounded down (formats 6-10)
 //   append FILE       the points of another file of the same layout (no lie; formats 6-10)
 //   source_id BYTE    both bytes of the point source id of every point (formats 6-10)
 //   class CODE        of every point
 //   keep BYTES        only the first bytes
 //   crop_y FROM TO    only the points in that range of northings (no lie; LAS 1.2, 1.3)
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -67,6 +69,16 @@ void fillRecords(std::vector<char>& bytes, std::size_t at, std::size_t size, int
   const auto count = load<std::uint64_t>(bytes, 247);
   for (std::size_t i = 0; i < count; i += every)
     std::memset(bytes.data() + load<std::uint32_t>(bytes, 96) + i * length + at, value, size);
+}
+
+void cutTimes(std::vector<char>& bytes) {
+  const std::size_t length = load<std::uint16_t>(bytes, 105);
+  const auto count = load<std::uint64_t>(bytes, 247);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = load<std::uint32_t>(bytes, 96) + i * length + 22;
+    const double time = std::floor(load<double>(bytes, at));
+    std::memcpy(bytes.data() + at, &time, sizeof(time));
+  }
 }
 
 /// Sets the class of every record, of any point format.
@@ -126,6 +138,8 @@ int main(int argc, char** argv) {
       fillRecords(bytes, 22, 8, 0, 10);
     } else if (words[i] == "append" && i + 1 < words.size()) {
       append(bytes, readAll(words[++i]));
+    } else if (words[i] == "whole_seconds") {
+      cutTimes(bytes);
     } else if (words[i] == "source_id" && i + 1 < words.size()) {
       fillRecords(bytes, 20, 2, std::stoi(words[++i]));
     } else if (words[i] == "crop_y" && i + 2 < words.size()) {

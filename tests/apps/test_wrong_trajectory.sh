@@ -68,8 +68,36 @@ awk -F, -v OFS=, 'NR > 1 { $5 = 0; $6 = 0 } { print }' long/trajectory.csv >long
 expect 0 'warning: the pitch of the trajectory is the same at all times' \
   apply long/strip2.las out.las -trajectory long/level.csv -biases boresight_roll=100
 rm -rf out.las long/*.las
+# Heights in feet: scan angles that are recorded show it. The calibration judges the parameters.
+awk -F, -v OFS=, 'NR > 1 { $4 /= 0.3048 } { print }' "$block/trajectory.csv" >tall.csv
+for tool in check apply intensity; do
+  declare -n command=$tool
+  expect 2 'm too high by the recorded scan angles' "${command[@]}" -trajectory tall.csv
+done
+expect 3 'm too high by the recorded scan angles' "${calibrate[@]}" -trajectory tall.csv -quiet
+# 50 m at one flying height may also be a factor of the angles: standard deviations include it.
+awk -F, -v OFS=, 'NR > 1 { $4 += 50 } { print }' "$block/trajectory.csv" >high.csv
+expect 0 'the standard deviations of lever_arm_x* include that the height of the trajectory may be wrong' \
+  calibrate "$block"/strip[12].las -control "$block/control.csv" -output c.json -trajectory high.csv
+# Times of one strip in whole seconds: the calibration leaves it out, the check goes without its path.
+"$damage" "$block/strip3.las" whole.las whole_seconds || failed damage
+others=("$block"/strip[1245].las)
+expect 0 'strip is left out' calibrate "${others[@]}" whole.las -control "$block/control.csv" -output c.json \
+  -trajectory "$block/trajectory.csv"
+check "it is counted" grep -q '"reason": "rounded_times"' c.json
+expect 0 "its scan angles are the file's" check "${others[@]}" whole.las -output q.json \
+  -trajectory "$block/trajectory.csv"
+expect 2 'its times are whole seconds' apply whole.las out.las -biases boresight_roll=100 \
+  -trajectory "$block/trajectory.csv"
 # What is refused can be forced; a warning stays.
 expect 0 'warning: the heading' "${apply[@]}" -trajectory tail.csv -force
+# Options of a trajectory are checked where none is read, too.
+expect 1 "option -crs: 'nonsense' is not known to PROJ" check "${strips[@]}" -output q.json -crs nonsense
+expect 1 "option -line_fit, seconds: 'long' is not a number" check "${strips[@]}" -output q.json -line_fit long
+expect 1 "option -trajectory_units: 'miles'" check "${strips[@]}" -output q.json -trajectory_units miles
+# Warnings with a remedy name the options of the tool in every output.
+expect 0 'is not checked; see -control' calibrate "${strips[@]}" -trajectory "$block/trajectory.csv" -output c.json
+check "the option is in the result" grep -q 'is not checked; see -control' c.json
 # An output without any intensity left is no answer, but it is written.
 rm -f out.las
 expect 3 'intensities are beyond 65535' "${intensity[@]}" -trajectory xz.csv -force

@@ -123,10 +123,10 @@ TEST(CalibrationJudgement, ABiasThatReducesNoMisfitIsRemarkedOn) {
     judgeCalibration({}, "", result);
     return result.warnings;
   };
-  const std::vector<std::string> warnings = warningsOf(1.2e-4, kUnchanged);
+  const Warnings warnings = warningsOf(1.2e-4, kUnchanged);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("boresight_roll by 12.0 standard deviations"), std::string::npos)
-      << warnings[0];
+  EXPECT_NE(warnings[0].text.find("boresight_roll by 12.0 standard deviations"), std::string::npos)
+      << warnings[0].text;
   EXPECT_TRUE(warningsOf(3e-5, kUnchanged).empty());
   EXPECT_TRUE(warningsOf(1.2e-4, kSmaller).empty());
 }

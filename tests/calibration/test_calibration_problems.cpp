@@ -26,9 +26,9 @@ SimulatedSurvey smallBlock() {
   return SimulatedSurvey(options);
 }
 
-std::string allOf(const std::vector<std::string>& warnings) {
+std::string allOf(const Warnings& warnings) {
   std::string text;
-  for (const std::string& warning : warnings) text += warning + '\n';
+  for (const Warning& warning : warnings) text += warning.text + '\n';
   return text;
 }
 
@@ -96,8 +96,8 @@ TEST(CalibrationProblems, ALiftedStripIsNamedWithItsHeight) {
   for (CalibrationPoint& point : survey.strips[2]) point.position.z() += 50.0;
   const std::string warnings = allOf(survey.calibrate().warnings);
   EXPECT_NE(warnings.find("strip 3 has no pairs"), std::string::npos) << warnings;
-  // Means of 10 m cells of biased strips: decimetres.
-  EXPECT_NEAR(numberAfter("it lies ", warnings), 50.0, 0.3) << warnings;
+  // Lowest points of 10 m cells of biased strips: decimetres.
+  EXPECT_NEAR(numberAfter("strip 3 lies ", warnings), 50.0, 0.3) << warnings;
 }
 
 TEST(CalibrationProblems, ControlThatContradictsItselfIsSaidAndAllowedFor) {

@@ -60,21 +60,22 @@ TEST(ControlConsistency, HalfOfThePointsTooHighIsSaidAndAllowedFor) {
   const CalibrationResult result = resultWith(fits);
   EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("higher above 6 of them"), std::string::npos)
-      << result.warnings[0];
+  EXPECT_NE(result.warnings[0].text.find("higher above 6 of them"), std::string::npos)
+      << result.warnings[0].text;
   const ControlConsistency control(fits);
   EXPECT_NEAR(control.separation, 0.2, 0.02);
   for (const std::string& id : control.lower) EXPECT_LT(std::stoi(id), 6);
   EXPECT_NEAR(result[SystemParameter::range_bias].std, 0.1, 0.02);
-  EXPECT_NE(result.warnings[0].find("standard deviations of range_bias allow"), std::string::npos)
-      << result.warnings[0];
+  EXPECT_NE(result.warnings[0].text.find("standard deviations of range_bias allow"),
+            std::string::npos)
+      << result.warnings[0].text;
   EXPECT_EQ(result[SystemParameter::boresight_roll].std, 1e-5) << "does not depend on it";
 }
 
 TEST(ControlConsistency, AScatterFarBeyondTheStatedSigmaIsSaid) {
   const CalibrationResult result = resultWith(points(30, 0.1, 0.02, 3));
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("check the control points"), std::string::npos);
+  EXPECT_NE(result.warnings[0].text.find("check the control points"), std::string::npos);
   EXPECT_TRUE(result.verdict.usable());
 }
 
@@ -84,7 +85,8 @@ TEST(ControlConsistency, RejectedPointsAreNamedWithTheirResiduals) {
   fits[7].used = false;
   const CalibrationResult result = resultWith(fits);
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("7 (+1.250 m)"), std::string::npos) << result.warnings[0];
+  EXPECT_NE(result.warnings[0].text.find("7 (+1.250 m)"), std::string::npos)
+      << result.warnings[0].text;
   EXPECT_TRUE(result.verdict.usable());
 }
 

@@ -131,8 +131,8 @@ TEST_F(Robustness, ControlOutsideTheBlockSaysNothing) {
   const CalibrationResult result = calibrated(survey);
   EXPECT_EQ(result[P::range_bias].status, ParameterStatus::not_estimable);
   EXPECT_FALSE(result[P::range_bias].reason.empty());
-  const auto about_control = [](const std::string& text) {
-    return text.find("control") != std::string::npos;
+  const auto about_control = [](const Warning& warning) {
+    return warning.text.find("control") != std::string::npos;
   };
   EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), about_control));
   EXPECT_NEAR(result[P::boresight_roll].bias, clean->bias[indexOf(P::boresight_roll)],

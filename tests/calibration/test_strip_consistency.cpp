@@ -71,8 +71,8 @@ TEST(StripConsistency, AStripThatDoesNotFitIsNamed) {
   const Block block({0.003, -0.004, 0.002, 0.063, -0.001, 0.004});
   const StripConsistency found = block.consistency();
   ASSERT_EQ(found.warnings().size(), 1U);
-  EXPECT_NE(found.warnings()[0].find("strip 4 lies +0.06"), std::string::npos)
-      << found.warnings()[0];
+  EXPECT_NE(found.warnings()[0].text.find("strip 4 lies +0.06"), std::string::npos)
+      << found.warnings()[0].text;
   EXPECT_FALSE(found.offsets()[3].consistent);
   EXPECT_TRUE(found.offsets()[2].consistent);
 }
@@ -83,15 +83,17 @@ TEST(StripConsistency, ASessionOfAnotherDayIsNamedWithItsHeight) {
     block.strips[i].start += 86400.0, block.strips[i].end += 86400.0;
   StripConsistency found = block.consistency();
   ASSERT_FALSE(found.warnings().empty());
-  EXPECT_NE(found.warnings()[0].find("strips 4, 5, 6 were measured 24.1 hours after the others"),
-            std::string::npos)
-      << found.warnings()[0];
-  EXPECT_NE(found.warnings()[0].find("+0.050 m"), std::string::npos) << found.warnings()[0];
+  EXPECT_NE(
+      found.warnings()[0].text.find("strips 4, 5, 6 were measured 24.1 hours after the others"),
+      std::string::npos)
+      << found.warnings()[0].text;
+  EXPECT_NE(found.warnings()[0].text.find("+0.050 m"), std::string::npos)
+      << found.warnings()[0].text;
   // Without a difference in height the session is still named.
   for (std::size_t i = 3; i < 6; ++i) block.heights[i] -= 0.05;
   found = block.consistency();
   ASSERT_EQ(found.warnings().size(), 1U);
-  EXPECT_NE(found.warnings()[0].find("another session"), std::string::npos);
+  EXPECT_NE(found.warnings()[0].text.find("another session"), std::string::npos);
 }
 
 TEST(StripConsistency, StripsOfAnotherFlyingHeightThatDoNotFitAreNamed) {
@@ -99,8 +101,8 @@ TEST(StripConsistency, StripsOfAnotherFlyingHeightThatDoNotFitAreNamed) {
   for (std::size_t i = 3; i < 6; ++i) block.strips[i].height = 1600.0;
   const StripConsistency found = block.consistency();
   ASSERT_FALSE(found.warnings().empty());
-  EXPECT_NE(found.warnings()[0].find("strips 4, 5, 6, flown at 1600 m"), std::string::npos)
-      << found.warnings()[0];
+  EXPECT_NE(found.warnings()[0].text.find("strips 4, 5, 6, flown at 1600 m"), std::string::npos)
+      << found.warnings()[0].text;
 }
 
 TEST(StripConsistency, TwoStripsCannotBeJudged) {

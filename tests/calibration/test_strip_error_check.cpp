@@ -45,10 +45,11 @@ TEST(StripErrorCheck, WarnsBeyondThreeDeviations) {
   CalibrationResult result = resultWith(0.0, -32.0 * kRadiansPerArcsec);
   assess(result);
   ASSERT_EQ(result.warnings.size(), 2U);  // the correction, and the parameters
-  EXPECT_NE(result.warnings[0].find("strip 8: trajectory correction in roll of 32 arcsec"),
+  EXPECT_NE(result.warnings[0].text.find("strip 8: trajectory correction in roll of 32 arcsec"),
             std::string::npos)
-      << result.warnings[0];
-  EXPECT_NE(result.warnings[0].find("4.0 times"), std::string::npos) << result.warnings[0];
+      << result.warnings[0].text;
+  EXPECT_NE(result.warnings[0].text.find("4.0 times"), std::string::npos)
+      << result.warnings[0].text;
   EXPECT_TRUE(result.verdict.usable());
 }
 
@@ -128,6 +129,51 @@ TEST(StripErrorCheck, ReportsThatOnlyCorrectionsMakeStripsAgree) {
   assess(large);
   EXPECT_TRUE(large.verdict.usable());
   EXPECT_EQ(large.warnings.size(), 2U);
+}
+
+/// A block that was calibrated with a trajectory 50 m too high, or with angles of another factor.
+CalibrationResult calibratedFrom1150Metres(HeightError::Kind kind, bool with_arm = true) {
+  using P = SystemParameter;
+  CalibrationResult result;
+  const auto set = [&result](P parameter, double bias, double std) {
+    result[parameter].status = ParameterStatus::estimated;
+    result[parameter].bias = bias;
+    result[parameter].std = std;
+  };
+  if (with_arm) set(P::lever_arm_x, 0.03, 0.01);
+  set(P::boresight_roll, 4e-4, 1e-6);
+  set(P::boresight_heading, 2e-4, 1e-5);
+  HeightError error;
+  error.kind = kind;
+  error.metres = 50.0;
+  error.slope = 1150.0 / 1100.0;
+  assessHeight(error, result);
+  return result;
+}
+
+// 2026-11: at one flying height, lever_arm_x was 4.8 standard deviations wrong with a warning only.
+TEST(StripErrorCheck, AHeightThatMayBeWrongIsInTheStandardDeviations) {
+  using P = SystemParameter;
+  const CalibrationResult result = calibratedFrom1150Metres(HeightError::Kind::scale);
+  EXPECT_TRUE(result.verdict.usable());
+  EXPECT_NEAR(result[P::lever_arm_x].std, std::hypot(0.01, 50.0 * 4e-4), 1e-12);
+  EXPECT_EQ(result[P::boresight_roll].std, 1e-6);
+  EXPECT_EQ(result[P::boresight_heading].std, 1e-5);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].text.find("standard deviations of lever_arm_x include"),
+            std::string::npos)
+      << result.warnings[0].text;
+  const CalibrationResult fixed = calibratedFrom1150Metres(HeightError::Kind::scale, false);
+  EXPECT_NEAR(fixed[P::boresight_roll].std, 4e-4 * 50.0 / 1150.0, 1e-6);
+}
+
+TEST(StripErrorCheck, AHeightThatIsWrongIsAnObjection) {
+  using P = SystemParameter;
+  const CalibrationResult result = calibratedFrom1150Metres(HeightError::Kind::offset);
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
+  EXPECT_EQ(result[P::lever_arm_x].std, 0.01);
+  EXPECT_FALSE(result[P::lever_arm_x].reason.empty());
+  EXPECT_TRUE(calibratedFrom1150Metres(HeightError::Kind::none).verdict.usable());
 }
 
 }  // namespace

@@ -269,7 +269,8 @@ TEST(Sbet, WithoutACrsTheRemedyIsNamed) {
     readTrajectory(file({record(1.0)}));
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("give the CRS of the points"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("name no CRS"), std::string::npos) << error.what();
+    EXPECT_EQ(error.remedy(), Remedy::crs);
   }
 }
 

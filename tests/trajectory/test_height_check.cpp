@@ -53,6 +53,12 @@ TEST(HeightCheck, HeightsInFeetAreNoConvention) {
   EXPECT_EQ(found.kind, HeightError::Kind::gross);
 }
 
+// Angles of a mirror are half of those of its pulses.
+TEST(HeightCheck, HalfAndTwiceTheAngleAreConventions) {
+  EXPECT_EQ(heightError({seen(600.0, 0.0, 0.5)}).kind, HeightError::Kind::scale);
+  EXPECT_NE(heightError({seen(600.0, 0.0, 2.0)}).kind, HeightError::Kind::gross);
+}
+
 // Strips that contradict each other, as pieces of reconstructed flight lines do.
 TEST(HeightCheck, ContradictionsAreNotJudged) {
   EXPECT_EQ(heightError({seen(600.0, 30.0), seen(600.0, -30.0)}).kind, HeightError::Kind::none);

@@ -64,8 +64,9 @@ std::string said(const Flight& flight, const std::function<void(TrajectorySample
     }
   }
   const auto findings = check.findings();
-  return findings.empty() ? ""
-                          : (findings[0].refuse ? "refused: " : "warning: ") + findings[0].text;
+  return findings.empty()
+             ? ""
+             : (findings[0].refuse ? "refused: " : "warning: ") + findings[0].warning.text;
 }
 
 void negate(TrajectorySample& sample) {

@@ -4,7 +4,6 @@
 // Diagnosis of the strips of a block after the adjustment (SystemCalibrationEngine).
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
 
@@ -38,12 +37,10 @@ std::string SystemCalibrationEngine::reasonWithoutPairs(int strip) const {
   if (std::abs(best.offset) < settings_.max_normal_distance) {
     return start + "no smooth surface in common was found";
   }
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "it lies %+.2f m above strip %s (median of %zu cells of 10 m); check its heights "
-                "(unit, height reference, trajectory), or leave it out",
-                best.offset, ids_[static_cast<std::size_t>(partner)].c_str(), best.cells);
-  return start + text;
+  return start +
+         describe(best, ids_[static_cast<std::size_t>(strip)],
+                  ids_[static_cast<std::size_t>(partner)]) +
+         "; check its heights (unit, height reference, trajectory)";
 }
 
 void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& errors,
@@ -68,7 +65,7 @@ void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {
     const int strip = static_cast<int>(i);
     if (!hasPairs(strip, result)) {
       const std::string reason = reasonWithoutPairs(strip);
-      if (!reason.empty()) result.warnings.push_back(reason);
+      if (!reason.empty()) result.warnings.push_back({reason, Remedy::strips});
     }
     strips.push_back(
         {ids_[i], map_.startTime(strip), map_.endTime(strip), plausibility_.meanHeight(strip)});

@@ -95,11 +95,12 @@ void warnOfIneffectiveBiases(CalibrationResult& result) {
   }
   if (names.empty()) return;
   result.warnings.push_back(
-      "biases that differ from zero, but do not reduce the misfit between the strips "
-      "significantly: " +
-      names +
-      "; they may describe deformations of the strips or the ground instead of the system: "
-      "compare the calibrations of parts of the block before they are applied elsewhere");
+      {"biases that differ from zero, but do not reduce the misfit between the strips "
+       "significantly: " +
+           names +
+           "; they may describe deformations of the strips or the ground instead of the system: "
+           "compare the calibrations of parts of the block before they are applied elsewhere",
+       Remedy::strips});
 }
 
 }  // namespace

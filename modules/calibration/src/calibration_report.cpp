@@ -178,7 +178,8 @@ void CalibrationReport::addParameters(const ParameterChoice& choice,
                                       CalibrationResult& result) const {
   reportParameters(choice, requested, result);
   if (without_control_)
-    result.warnings.push_back("without control the absolute height of the block is not checked");
+    result.warnings.push_back(
+        {"without control the absolute height of the block is not checked", Remedy::control});
 }
 
 }  // namespace pcl_als

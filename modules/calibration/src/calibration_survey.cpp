@@ -19,19 +19,6 @@ constexpr double kControlAreaSize = 4.0;  // metres: contains the patch at a con
 // estimated with the vertical model is one arc-second.
 constexpr double kVertical = 0.0087;
 
-constexpr std::size_t kEveryChecked = 32;  // every so many points are compared with the trajectory
-
-/// Attitude is visible at the edges of the swath: points in each tenth of a second are needed.
-std::size_t everyForAttitude(const CalibrationPoint* points, std::size_t count) {
-  constexpr double kPointsPerSecond = 1e4;
-  if (count < 2) return 1;
-  const double duration = std::abs(points[count - 1].time - points[0].time);
-  const double every = static_cast<double>(count) / (kPointsPerSecond * duration);
-  return every < static_cast<double>(kEveryChecked)
-             ? std::max<std::size_t>(1, static_cast<std::size_t>(every))
-             : kEveryChecked;
-}
-
 std::string seconds(double from, double to) {
   std::ostringstream text;
   text.precision(3);
@@ -45,18 +32,15 @@ int SystemCalibrationEngine::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
   plausibility_.addStrip(id);
-  times_.emplace_back();
   if (attitude_ == AttitudeSource::none) recoveries_.emplace_back(trajectory_);
   return map_.addStrip();
 }
 
 void SystemCalibrationEngine::survey(int strip, const CalibrationPoint* points, std::size_t count) {
   map_.add(strip, points, count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::isfinite(points[i].time)) times_[static_cast<std::size_t>(strip)].add(points[i].time);
-  }
-  const std::size_t every =
-      attitude_ == AttitudeSource::trajectory ? everyForAttitude(points, count) : kEveryChecked;
+  for (std::size_t i = 0; i < count; ++i) plausibility_.addTime(strip, points[i].time);
+  const double duration = count > 0 ? points[count - 1].time - points[0].time : 0.0;
+  const std::size_t every = plausibility_.spacing(count, duration);
   for (std::size_t i = 0; i < count; i += every) {
     plausibility_.add(strip, points[i].time, points[i].position, points[i].scan_angle);
   }
@@ -108,10 +92,11 @@ void SystemCalibrationEngine::recoverAttitude() {
   }
   if (!settings_.recover_attitude) {
     if (outcome.found && outcome.size > kVertical) {
-      warnings_.push_back(
+      warnings_.emplace_back(
           "the sensor is taken as vertical and aligned with the flight line, "
           "it was not: " +
-          outcome.remark + "; deviations do not count that");
+              outcome.remark + "; standard deviations do not include that",
+          Remedy::recover_attitude);
     }
     return;
   }
@@ -133,36 +118,33 @@ void SystemCalibrationEngine::leaveOutSmallStrips() {
                           " points with a time or coordinate that is not finite were ignored");
     }
     if (count >= settings_.minimum_points || !used_[strip]) continue;
-    used_[strip] = false;
+    leaveOut(static_cast<int>(strip), LeftOutReason::too_few_points);
     warnings_.push_back("strip " + ids_[strip] + " has only " + std::to_string(count) +
                         " points and is left out");
   }
 }
 
+void SystemCalibrationEngine::leaveOut(int strip, LeftOutReason reason) {
+  const auto index = static_cast<std::size_t>(strip);
+  used_[index] = false;
+  left_out_.push_back({ids_[index], reason, map_.pointCount(strip), map_.pointCount(strip)});
+}
+
+/// Strips whose firing points are less certain than the trajectory, because their times are
+/// rounded.
 void SystemCalibrationEngine::leaveOutRoundedTimes() {
   std::string last;
-  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    const double step = times_[strip].step();
-    if (!used_[strip] || step == 0.0) continue;
-    SensorPose from, to;
-    std::size_t cursor = 0;
-    const double start = map_.startTime(static_cast<int>(strip)),
-                 end = map_.endTime(static_cast<int>(strip));
-    // Strips beyond the trajectory are reported by checkTrajectory().
-    if (!trajectory_->poseAt(start, from, cursor) || !trajectory_->poseAt(end, to, cursor))
-      continue;
-    const double speed = end > start ? (to.position - from.position).norm() / (end - start) : 0.0;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const int strip = static_cast<int>(i);
+    const double distance = plausibility_.distancePerStep(strip);
     // Rounding errors are uniformly distributed within a step.
-    const double along = speed * std::min(step, std::max(1.0, end - start)) / std::sqrt(12.0);
-    if (end > start && along < settings_.shared_errors.position) continue;
-    std::ostringstream text;
-    text.precision(3);
-    text << "strip " << ids_[strip] << ": its GPS times are rounded (" << times_[strip].distinct()
-         << " distinct values in " << times_[strip].points() << " points";
-    if (std::isfinite(step)) text << ", a step of " << step << " s, " << along << " m of flight";
-    text << "); lever_arm_y and boresight_pitch would be wrong";
-    last = text.str();
-    used_[strip] = false;
+    const double std = distance / std::sqrt(12.0);
+    if (!used_[i] || std < settings_.shared_errors.position) continue;
+    char along[80];
+    std::snprintf(along, sizeof along, "standard deviation along the flight %.3g m", std);
+    last = "strip " + ids_[i] + ": its GPS times are rounded to " + plausibility_.timeSteps(strip) +
+           ", " + along + "; lever_arm_y and boresight_pitch would be wrong";
+    leaveOut(strip, LeftOutReason::rounded_times);
     warnings_.push_back(last + ": the strip is left out; give files with the original times");
   }
   if (last.empty() || std::count(used_.begin(), used_.end(), true) > 1) return;
@@ -187,7 +169,7 @@ void SystemCalibrationEngine::checkTrajectory() {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
     if (!used_[strip]) plausibility_.leaveOut(static_cast<int>(strip));
   }
-  for (const std::string& warning : plausibility_.check(settings_.force)) {
+  for (const Warning& warning : plausibility_.check(settings_.force, true)) {
     warnings_.push_back(warning);
   }
   height_error_ = plausibility_.heightError();

@@ -159,11 +159,12 @@ void judgeControl(const ControlConsistency& control, const SystemVector& spread,
   } else if (control.scatter > kScatter) {
     char times[32];
     std::snprintf(times, sizeof times, "%.1f", control.scatter);
-    result.warnings.push_back("control fits with an RMS of " + inMetres(control.rms, "%.3f m") +
-                              ", " + times +
-                              " times what its stated standard deviations and those of the points "
-                              "and the trajectory explain: check the control points and state a "
-                              "realistic sigma");
+    result.warnings.push_back(
+        {"control fits with an RMS of " + inMetres(control.rms, "%.3f m") + ", " + times +
+             " times what its stated standard deviations and those of the points "
+             "and the trajectory explain: check the control points and state a "
+             "realistic sigma",
+         Remedy::control_sigma});
   }
 }
 

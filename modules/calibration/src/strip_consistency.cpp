@@ -141,7 +141,7 @@ void StripConsistency::compareSessions(double alpha) {
                        : "; their heights agree with the others to " +
                              text("%.3f m", std::abs(found.difference)) +
                              ", but the mounting may have changed";
-    warnings_.push_back(warning);
+    warnings_.push_back({warning, Remedy::strips});
   }
 }
 
@@ -157,11 +157,13 @@ void StripConsistency::compareHeights(double alpha) {
     const Comparison found = compare(higher);
     if (found.probability >= alpha || std::abs(found.difference) <= kLeast) continue;
     warnings_.push_back(
-        "strips " + names(higher) + ", flown at " + text("%.0f m", heights[k]) + " and more, lie " +
-        text("%+.3f m", found.difference) + " above the others, flown at " +
-        text("%.0f m", heights[k - 1]) +
-        " and less, after the calibration: a range bias or scale, or another session; control at "
-        "both heights or a separate calibration of these strips separates these causes");
+        {"strips " + names(higher) + ", flown at " + text("%.0f m", heights[k]) +
+             " and more, lie " + text("%+.3f m", found.difference) +
+             " above the others, flown at " + text("%.0f m", heights[k - 1]) +
+             " and less, after the calibration: a range bias or scale, or another session; control "
+             "at "
+             "both heights or a separate calibration of these strips separates these causes",
+         Remedy::strips});
   }
 }
 
@@ -172,11 +174,12 @@ void StripConsistency::compareStrips(double alpha) {
     const Comparison found = compare(alone);
     if (found.probability >= alpha || std::abs(found.difference) <= kLeast) continue;
     offsets_[i].consistent = false;
-    warnings_.push_back("strip " + offsets_[i].strip + " lies " +
-                        text("%+.3f m", found.difference) +
-                        " above the others after the calibration, more than the scatter of the "
-                        "strips explains" +
-                        kAdvice);
+    warnings_.push_back(
+        {"strip " + offsets_[i].strip + " lies " + text("%+.3f m", found.difference) +
+             " above the others after the calibration, more than the scatter of the "
+             "strips explains" +
+             kAdvice,
+         Remedy::strips});
   }
 }
 

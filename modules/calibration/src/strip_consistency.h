@@ -42,7 +42,7 @@ class StripConsistency {
   /// By strip in the order given; only strips of pairs.
   const std::vector<StripOffset>& offsets() const { return offsets_; }
   /// One sentence for every strip or group that does not fit, and one for sessions that do.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Warnings& warnings() const { return warnings_; }
 
  private:
   void findOffsets(const std::vector<StripFacts>& strips, const std::vector<PairFit>& pairs);
@@ -58,7 +58,7 @@ class StripConsistency {
   StripErrorPrior prior_;
   std::vector<StripFacts> strips_;  ///< of offsets_
   std::vector<StripOffset> offsets_;
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
 };
 
 }  // namespace pcl_als

@@ -6,11 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace pcl_als {
 namespace {
 
 constexpr std::size_t kListed = 5;
+constexpr double kSwath = 0.15;  // square of the scan angle at the edge of a swath of 45 degrees
+constexpr double kNoticeableChange = 0.1;  // of a standard deviation: it grows by half a percent
 
 struct Component {
   const char* name;
@@ -48,7 +51,7 @@ std::string describe(const StripErrorSize& error) {
   return "strip " + error.strip + ": trajectory correction in " + component.name + " of " +
          sizeText(error.rms, component.angle) + " (RMS over the strip), " + ratio +
          " times its a priori standard deviation of " + sizeText(error.sigma, component.angle) +
-         "; check the " + component.causes + ", or give a larger standard deviation of its " +
+         "; check the " + component.causes + ", or state a larger standard deviation of its " +
          component.measured;
 }
 
@@ -145,7 +148,7 @@ void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEff
   const std::vector<StripErrorSize> large =
       largeStripErrors(result.strip_errors, model, kNoticeableCorrection);
   for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
-    result.warnings.push_back(describe(large[i]));
+    result.warnings.push_back({describe(large[i]), Remedy::flight_sigmas});
   if (large.size() > kListed) {
     result.warnings.push_back(std::to_string(large.size() - kListed) +
                               " further trajectory corrections exceed three a priori standard "
@@ -160,18 +163,57 @@ void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEff
   assessNeed(!affected.empty(), result);
 }
 
-void assessHeight(const std::string& finding, CalibrationResult& result) {
-  result.verdict.object(CalibrationStatus::parameters_affected, finding);
-  for (const SystemParameter parameter :
-       {SystemParameter::lever_arm_x, SystemParameter::lever_arm_y, SystemParameter::range_bias,
-        SystemParameter::scan_angle_scale}) {
-    ParameterEstimate& p = result[parameter];
-    if (p.status != ParameterStatus::estimated) continue;
-    p.reason += (p.reason.empty() ? "" : "; ") +
-                std::string(
-                    "affected by the height of the trajectory, which is wrong: the "
-                    "standard deviation does not include this");
+namespace {
+
+/// Parameters that depend on the height of the trajectory, with what they may be wrong by.
+std::vector<std::pair<SystemParameter, double>> heightEffects(const HeightError& error,
+                                                              const CalibrationResult& result) {
+  using P = SystemParameter;
+  const double share = std::abs(1.0 - 1.0 / error.slope);
+  const auto estimated = [&](P p) { return result[p].status == ParameterStatus::estimated; };
+  std::vector<std::pair<P, double>> effects;
+  for (const auto& [arm, angle] : {std::pair(P::lever_arm_x, P::boresight_roll),
+                                   std::pair(P::lever_arm_y, P::boresight_pitch)}) {
+    const double bias = std::abs(result[angle].bias);
+    if (estimated(arm)) {
+      effects.emplace_back(arm, std::abs(error.metres) * bias);
+    } else if (estimated(angle)) {
+      effects.emplace_back(angle, share * bias);
+    }
   }
+  const double range = std::abs(result[P::range_bias].bias);
+  const double height = std::abs(error.metres) / share;
+  if (estimated(P::range_bias)) effects.emplace_back(P::range_bias, share * kSwath * range);
+  if (estimated(P::scan_angle_scale)) {
+    const double scale = std::abs(result[P::scan_angle_scale].bias);
+    effects.emplace_back(P::scan_angle_scale, share * (scale + range / height));
+  }
+  return effects;
+}
+
+}  // namespace
+
+void assessHeight(const HeightError& error, CalibrationResult& result) {
+  if (error.kind == HeightError::Kind::none) return;
+  const bool certain = error.kind != HeightError::Kind::scale;
+  if (certain) result.verdict.object(CalibrationStatus::parameters_affected, error.text);
+  std::string names;
+  for (const auto& [parameter, change] : heightEffects(error, result)) {
+    ParameterEstimate& p = result[parameter];
+    if (!certain && !(change > kNoticeableChange * p.std)) continue;
+    p.reason += p.reason.empty() ? "" : "; ";
+    p.reason += certain
+                    ? "affected by the height of the trajectory, which is wrong: the standard "
+                      "deviation does not include this"
+                    : "the standard deviation includes that the height of the trajectory may be "
+                      "wrong";
+    names += (names.empty() ? "" : ", ") + std::string(infoOf(parameter).name);
+    if (!certain) p.std = std::hypot(p.std, change);
+  }
+  if (certain || names.empty()) return;
+  result.warnings.push_back("the standard deviations of " + names +
+                            " include that the height of the trajectory may be wrong by " +
+                            sizeText(std::abs(error.metres), false));
 }
 
 }  // namespace pcl_als

@@ -8,6 +8,7 @@
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/trajectory/height_check.h>
 
 namespace pcl_als {
 
@@ -66,9 +67,16 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
 void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEffect>& effects,
                        CalibrationResult& result);
 
-/// Objects to the result of a trajectory whose height is wrong (\a finding), and states so for each
-/// parameter that is estimated from heights above ground: the effects of the biases that are
-/// proportional to the height are then attributed to those that are not, and the reverse.
-void assessHeight(const std::string& finding, CalibrationResult& result);
+/** \brief Assesses the effect of a wrong height of the trajectory on the parameters.
+ *
+ * With a trajectory that is too high by h, z of Eq. (8) is too low by h, and z dphi + dX stays the
+ * same where lever_arm_x changes by -h boresight_roll; lever_arm_y likewise with boresight_pitch.
+ * Where the lever arm is not estimated, the boresight angle changes instead, by up to its share
+ * h / H of the flying height H. Through the scan angle, which appears too small, scan_angle_scale
+ * changes by that share of itself and of range_bias / H, and range_bias through the cosine. An
+ * error that is certain is an objection; one that may also be of the recorded angles is included in
+ * the standard deviations.
+ */
+void assessHeight(const HeightError& error, CalibrationResult& result);
 
 }  // namespace pcl_als

@@ -220,6 +220,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.sigma0 = state.weights.sigma0();
   result.redundancy = state.redundancy();
   result.warnings = warnings_;
+  result.left_out = left_out_;
   result.attitude = attitude_;
   result.recovered_attitude = recovered_attitude_;
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
@@ -244,7 +245,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   diagnose(result);
   assessControl(state, errors, result);
   assessStripErrors(settings_.shared_errors, effects, result);
-  if (!height_error_.empty()) assessHeight(height_error_, result);
+  assessHeight(height_error_, result);
   judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
   return result;
 }

@@ -24,6 +24,10 @@ const char* sentence(LeftOutReason reason) {
       return "the trajectory covers hardly anything of the strip";
     case LeftOutReason::in_turn:
       return "measured in a turn between strips";
+    case LeftOutReason::rounded_times:
+      return "their GPS times are rounded";
+    case LeftOutReason::too_few_points:
+      return "the strip has too few points";
   }
   return "";
 }
@@ -46,6 +50,10 @@ std::string_view toString(LeftOutReason reason) {
       return "strip_uncovered";
     case LeftOutReason::in_turn:
       return "in_turn";
+    case LeftOutReason::rounded_times:
+      return "rounded_times";
+    case LeftOutReason::too_few_points:
+      return "too_few_points";
   }
   return "";
 }

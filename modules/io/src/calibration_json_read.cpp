@@ -351,7 +351,9 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
     readRecoveredAttitude(root["recovered_attitude"], result);
   }
   if (root.has("observability")) result.observability = textsOf(root["observability"]);
-  if (root.has("warnings")) result.warnings = textsOf(root["warnings"]);
+  if (root.has("warnings")) {
+    for (const std::string& text : textsOf(root["warnings"])) result.warnings.emplace_back(text);
+  }
   if (root.has("inputs")) result.inputs = textsOf(root["inputs"]);
   return result;
 }

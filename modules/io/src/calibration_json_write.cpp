@@ -217,7 +217,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
     root["recovered_attitude"] = recoveredAttitudeOf(result);
   }
   root["observability"] = result.observability;
-  root["warnings"] = result.warnings;
+  root["warnings"] = textsOf(result.warnings);
   root["left_out"] = leftOutOf(result);
   root["inputs"] = result.inputs;
   root["tool_version"] = PCL_ALS_VERSION;

@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kLastWeekSecond = 2.0 * 604800.0;  // some count on past the end of the week
 constexpr std::uint64_t kFewPoints = 1000;
-constexpr std::uint64_t kPointsPerTime = 10;  // fewer with the same time are returns of few pulses
-constexpr float kLargeScanAngle = 60.0F;      // degrees; line scanners for mapping stay below 40
+constexpr float kLargeScanAngle = 60.0F;  // degrees; line scanners for mapping stay below 40
 
 std::string percentOf(std::uint64_t part, std::uint64_t whole) {
   std::ostringstream text;
@@ -144,13 +143,10 @@ void remarkFile(FileCensus& file, bool whole) {
 }
 
 /// Rounded times: an aircraft is metres to tens of metres further when they change.
-void remarkWholeSeconds(StripCensus& strip) {
-  const PointStatistics& s = strip.statistics;
-  const bool timed = s.zero_times + s.invalid_times < s.points;
-  if (!timed || s.fractional_times > 0 || s.points < kPointsPerTime * strip.half_seconds) return;
-  strip.remarks.push_back("has times in whole seconds only (" +
-                          counted(strip.half_seconds, "distinct value") + " in " +
-                          counted(s.points, "point") + "): too coarse for a trajectory");
+void remarkRoundedTimes(StripCensus& strip) {
+  const std::string rounded = strip.times.describe();
+  if (rounded.empty()) return;
+  strip.remarks.push_back("has times in " + rounded + ": too coarse for a trajectory");
 }
 
 void remarkScanAngles(const PointStatistics& s, std::vector<std::string>& remarks) {
@@ -171,7 +167,7 @@ void remarkStrip(StripCensus& strip, bool has_time) {
   if (has_time && !strip.gaps.empty())
     strip.remarks.push_back("has " + counted(strip.gaps.size(), "gap") +
                             " in time of more than 1 s");
-  if (has_time) remarkWholeSeconds(strip);
+  if (has_time) remarkRoundedTimes(strip);
   remarkScanAngles(s, strip.remarks);
 }
 

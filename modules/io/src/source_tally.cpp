@@ -98,8 +98,10 @@ void SourceTally::addTime(double time) {
     ++statistics_.invalid_times;
     return;
   }
-  if (time == 0.0) ++statistics_.zero_times;
-  if (time != std::floor(time)) ++statistics_.fractional_times;
+  if (time == 0.0)
+    ++statistics_.zero_times;
+  else
+    resolution_.add(time);
   if (timesIn(statistics_) == 0)
     statistics_.first_time = statistics_.last_time = previous_time_ = time;
   statistics_.first_time = std::min(statistics_.first_time, time);
@@ -133,6 +135,7 @@ void SourceTally::addAttributes(const PointChunk& chunk, std::size_t i) {
 void SourceTally::add(const SourceTally& other) {
   mergeStatistics(statistics_, other.statistics_);
   times_.add(other.times_);
+  resolution_.add(other.resolution_);
   cells_.add(other.cells_);
 }
 
@@ -150,9 +153,9 @@ void mergeStatistics(PointStatistics& into, const PointStatistics& other) {
   for (auto count :
        {&PointStatistics::points, &PointStatistics::single_returns, &PointStatistics::first_returns,
         &PointStatistics::unsorted_times, &PointStatistics::zero_times,
-        &PointStatistics::invalid_times, &PointStatistics::fractional_times,
-        &PointStatistics::invalid_coordinates, &PointStatistics::wrong_returns,
-        &PointStatistics::withheld, &PointStatistics::synthetic, &PointStatistics::overlap_flags})
+        &PointStatistics::invalid_times, &PointStatistics::invalid_coordinates,
+        &PointStatistics::wrong_returns, &PointStatistics::withheld, &PointStatistics::synthetic,
+        &PointStatistics::overlap_flags})
     into.*count += other.*count;
   for (std::size_t i = 0; i < into.classes.size(); ++i) into.classes[i] += other.classes[i];
   for (std::size_t i = 0; i < into.returns.size(); ++i) into.returns[i] += other.returns[i];

@@ -19,7 +19,6 @@ class TimeBins {
   void add(double time);
   void add(const TimeBins& other);
   std::vector<TimeGap> gaps(double longer_than) const;
-  std::size_t count() const { return bins_.size(); }
 
  private:
   static constexpr double kBin = 0.5;
@@ -39,6 +38,7 @@ class SourceTally {
 
   const PointStatistics& statistics() const { return statistics_; }
   const TimeBins& times() const { return times_; }
+  const TimeResolution& resolution() const { return resolution_; }
   const CellCounts& cells() const { return cells_; }
   CellCounts& cells() { return cells_; }
 
@@ -50,6 +50,7 @@ class SourceTally {
   PointStatistics statistics_;
   double previous_time_ = 0.0;
   TimeBins times_;
+  TimeResolution resolution_;
   CellCounts cells_;
 };
 

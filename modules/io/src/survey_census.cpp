@@ -174,7 +174,7 @@ class Census {
       strip.id = name;
       strip.statistics = tally.statistics();
       strip.gaps = tally.times().gaps(SurveyCensus::kGap);
-      strip.half_seconds = tally.times().count();
+      strip.times = tally.resolution();
       strip.area = static_cast<double>(tally.cells().occupied()) * cell_area;
       strip.density = tally.cells().typicalCount() / cell_area;
       survey_.strips.push_back(std::move(strip));

@@ -241,10 +241,10 @@ void TrajectoryColumns::chooseCoordinates(const CsvTable& table, bool projects) 
 
 void TrajectoryColumns::refuseIncomplete(const CsvTable& table, TrajectoryQuantity missing) const {
   const QuantityInfo& info = quantities()[static_cast<std::size_t>(missing)];
-  throw TrajectoryQuestionError(
+  throw InputError(
       table.at(std::string("no column '") + info.name + "' in the header '" + table.headerText() +
                "'; accepted names (in any case): " + listOf(info.accepted)),
-      TrajectoryQuestion::columns);
+      Remedy::columns);
 }
 
 std::string TrajectoryColumns::describe() const {

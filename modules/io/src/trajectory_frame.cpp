@@ -56,9 +56,11 @@ class FrameChange {
     const bool geographic = records.coordinates == TrajectoryCoordinates::geographic;
     if ((!map_ || !headingIsTrue()) && (!needsGeodetic() || geographic)) return;
     if (reading.crs.empty()) {
-      throw UsageError(path.string() +
-                       ": the CRS of the points is needed for the direction of true north and for "
-                       "a grid of the geoid; give it, such as EPSG:25832");
+      throw UsageError(
+          path.string() +
+              ": the CRS of the points is needed for the direction of true north and for "
+              "a grid of the geoid, such as EPSG:25832",
+          Remedy::crs);
     }
     geodetic_ = std::make_unique<MapProjection>(targetCrs());
   }
@@ -170,7 +172,8 @@ TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::pa
                                                       : "its coordinates are not on a map";
     if (reading.crs.empty()) {
       throw UsageError(path.string() + ": " + what +
-                       "; give the CRS of the points, such as EPSG:25832");
+                           ", and the points name no CRS to project it to, such as EPSG:25832",
+                       Remedy::crs);
     }
     if (!reading.unit.isMetre()) {
       throw UsageError(path.string() + ": " + what + " and metres; its unit is not " +

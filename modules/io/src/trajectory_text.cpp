@@ -38,11 +38,11 @@ class RecordReader {
                const TrajectoryReading& reading)
       : table_(table), columns_(columns), reading_(reading), place_(columns.place()) {
     if (!columns_[Quantity::time].present() && !reading_.leap_seconds && !hasWeek()) {
-      throw TrajectoryQuestionError(
+      throw InputError(
           table.at(
               "its times are UTC, which lags GPS time by leap seconds, and no GPS week says by "
-              "how many (18 since 2017): state them"),
-          TrajectoryQuestion::leap_seconds);
+              "how many (18 since 2017)"),
+          Remedy::leap_seconds);
     }
   }
 

@@ -32,7 +32,7 @@ std::vector<FlightPlanResult::Overlap> overlapsOf(const ObservedBlock& block) {
 
 /// Warnings of a plan, in place of those of a calibration.
 void warn(FlightPlanResult& result) {
-  std::vector<std::string>& warnings = result.expected.warnings;
+  Warnings& warnings = result.expected.warnings;
   warnings.clear();
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result.expected[info.parameter];
@@ -40,7 +40,8 @@ void warn(FlightPlanResult& result) {
     warnings.push_back(std::string(info.name) + " will not be determined: " + estimate.reason);
   }
   if (result.control_points == 0) {
-    warnings.push_back("without control the absolute height of the block will not be checked");
+    warnings.push_back(
+        {"without control the absolute height of the block will not be checked", Remedy::control});
   }
 }
 

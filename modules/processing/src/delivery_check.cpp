@@ -9,7 +9,6 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/processing/delivery_check.h>
-#include <pcl_als/quality/height_gap.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
@@ -17,7 +16,6 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kCourseEvery = 64;     // of the points show the course
-constexpr std::size_t kFlightEvery = 16;     // of the points are compared with the trajectory
 constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
 constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
 constexpr double kLeastRoughness = 0.02;     // metres
@@ -56,7 +54,8 @@ BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
       trajectory_(std::move(trajectory)),
       map_(survey.corner()),
       courses_(survey.strips().size()),
-      used_(survey.strips().size(), true) {
+      used_(survey.strips().size(), true),
+      untimed_(survey.strips().size(), false) {
   if (trajectory_) plausibility_.emplace(trajectory_);
   for (const std::string& id : survey.strips()) {
     map_.addStrip();
@@ -64,7 +63,7 @@ BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
   }
 }
 
-SwathPoint BlockCheck::swathPoint(const SurveyReader::Run& run, std::size_t row,
+SwathPoint BlockCheck::swathPoint(int strip, const SurveyReader::Run& run, std::size_t row,
                                   std::size_t& cursor) const {
   const PointChunk& chunk = run.chunk;
   SwathPoint point;
@@ -77,13 +76,24 @@ SwathPoint BlockCheck::swathPoint(const SurveyReader::Run& run, std::size_t row,
   point.classification = chunk.classification[row];
   point.flags = chunk.flags[row];
   SensorPose pose;
-  if (!trajectory_) return point;
+  if (!trajectory_ || untimed_[static_cast<std::size_t>(strip)]) return point;
   if (trajectory_->poseAt(point.time, pose, cursor)) {
     point.scan_angle = lookAngle(scanGeometry(pose, point.position));
   } else {
     ++uncovered_;
   }
   return point;
+}
+
+void BlockCheck::compareWithFlight(int strip, const std::vector<CalibrationPoint>& points) {
+  if (!plausibility_ || points.empty()) return;
+  const double duration = points.back().time - points.front().time;
+  const std::size_t every = plausibility_->spacing(points.size(), duration);
+  for (std::size_t row = 0; row < points.size(); ++row) {
+    const CalibrationPoint& point = points[row];
+    plausibility_->addTime(strip, point.time);
+    if (row % every == 0) plausibility_->add(strip, point.time, point.position, point.scan_angle);
+  }
 }
 
 void BlockCheck::surveyBlock() {
@@ -94,12 +104,10 @@ void BlockCheck::surveyBlock() {
     map_.add(strip, points.data(), points.size());
     std::size_t cursor = 0;
     for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
-      const SwathPoint point = swathPoint(run, row, cursor);
+      const SwathPoint point = swathPoint(strip, run, row, cursor);
       if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
     }
-    for (std::size_t row = 0; plausibility_ && row < points.size(); row += kFlightEvery) {
-      plausibility_->add(strip, points[row].time, points[row].position, points[row].scan_angle);
-    }
+    compareWithFlight(strip, points);
   });
   for (std::size_t strip = 0; strip < used_.size(); ++strip) {
     const int index = static_cast<int>(strip);
@@ -108,9 +116,11 @@ void BlockCheck::surveyBlock() {
       warnings_.push_back("strip " + id + ": " + counted(map_.invalidCount(index), "point") +
                           " with a time or coordinate that is not finite left out");
     used_[strip] = map_.pointCount(index) >= settings_.minimum_points;
-    if (!used_[strip])
-      warnings_.push_back("strip " + id + " has only " + counted(map_.pointCount(index), "point") +
-                          " and is left out");
+    if (used_[strip]) continue;
+    const std::size_t count = map_.pointCount(index);
+    left_out_.push_back({id, LeftOutReason::too_few_points, count, count});
+    warnings_.push_back("strip " + id + " has only " + counted(count, "point") +
+                        " and is left out");
   }
   checkTrajectory();
   for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
@@ -125,11 +135,21 @@ void BlockCheck::surveyBlock() {
 
 void BlockCheck::checkTrajectory() {
   if (!plausibility_) return;
-  for (std::size_t strip = 0; strip < used_.size(); ++strip) {
-    if (!used_[strip]) plausibility_->leaveOut(static_cast<int>(strip));
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    const int strip = static_cast<int>(i);
+    untimed_[i] = plausibility_->timesTooCoarse(strip);
+    if (!used_[i] || untimed_[i]) plausibility_->leaveOut(strip);
+    if (!used_[i] || !untimed_[i]) continue;
+    warnings_.push_back("strip " + survey_.strips()[i] + ": its GPS times are rounded to " +
+                        plausibility_->timeSteps(strip) +
+                        ", too coarse for the trajectory: its scan angles are the file's");
   }
-  for (const std::string& warning : plausibility_->check(settings_.force)) {
-    warnings_.push_back(warning);
+  try {
+    for (const Warning& warning : plausibility_->check(settings_.force)) {
+      warnings_.push_back(warning.text);
+    }
+  } catch (const InputError& error) {
+    throw InputError(error.what());  // there is no model without attitude here
   }
 }
 
@@ -183,7 +203,7 @@ void BlockCheck::load(const PointSink& also) {
       if (!position.allFinite()) continue;
       const std::vector<int>& holding = index.candidates(position);
       if (holding.empty() && !also) continue;
-      const SwathPoint point = swathPoint(run, row, cursor);
+      const SwathPoint point = swathPoint(strip, run, row, cursor);
       for (const int area : holding) targets[static_cast<std::size_t>(area)]->add(strip, point);
       if (also) also(strip, point);
     }
@@ -286,13 +306,16 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   }
   pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
                                courses_[static_cast<std::size_t>(b)].direction());
-  if (const auto gap = heightGap(offsets_, a, b)) {
-    const std::string text = describeGap(*gap, pair.a, pair.b, settings_.limits.maximum_distance);
-    if (!text.empty()) {
-      warnings_.push_back("strips " + pair.a + " and " + pair.b + " overlap, but " + text);
-      if (pair.assessment.status == PairAssessment::Status::too_little)
-        pair.assessment.reason += "; " + text;
-    }
+  const SurveyMap::HeightOffset height = map_.heightOffset(overlaps_[k].strips);
+  if (std::abs(height.offset) > settings_.limits.maximum_distance) {
+    const std::string text =
+        describe(height, pair.a, pair.b) +
+        ", further than surfaces are compared: a height offset of one strip (unit or vertical "
+        "datum of its heights, trajectory)";
+    warnings_.push_back(
+        {"strips " + pair.a + " and " + pair.b + " overlap, but " + text, Remedy::max_distance});
+    if (pair.assessment.status == PairAssessment::Status::too_little)
+      pair.assessment.reason += "; " + text;
   }
   cells = cellMeans(samples);
   if (pair.overlap_area >= settings_.minimum_overlap &&
@@ -339,6 +362,7 @@ CheckedBlock BlockCheck::assess(const std::function<void(double)>& progress) {
                           " % of its points lie on others of its own: is a file given twice?");
   }
   block.warnings = warnings_;
+  block.left_out = left_out_;
   return block;
 }
 

@@ -19,28 +19,37 @@ class FlightCheck {
   explicit FlightCheck(std::shared_ptr<const Trajectory> flight) : check_(std::move(flight)) {}
 
   void add(std::uint16_t source, double time, const Eigen::Vector3d& point, float scan_angle) {
-    const auto [at, fresh] = strips_.try_emplace(source, 0);
-    if (fresh) at->second = check_.addStrip(std::to_string(source));
-    check_.add(at->second, time, point, scan_angle);
+    check_.add(stripOf(source), time, point, scan_angle);
+    addTime(source, time);
   }
-  /// Warnings; a refusal is an InputError that names the file.
-  std::vector<std::string> result(const std::string& name, bool force) const {
+  void addTime(std::uint16_t source, double time) { check_.addTime(stripOf(source), time); }
+  /// Warnings; a refusal is an InputError that names the file. The model is that of the biases: a
+  /// wrong attitude has no remedy here.
+  Warnings result(const std::string& name, bool force) const {
     try {
-      return check_.check(force);
+      Warnings warnings = check_.check(force);
+      for (Warning& warning : warnings) warning.remedy = Remedy::none;
+      return warnings;
     } catch (const InputError& error) {
       throw InputError(name + ": " + error.what());
     }
   }
 
  private:
+  int stripOf(std::uint16_t source) {
+    const auto [at, fresh] = strips_.try_emplace(source, 0);
+    if (fresh) at->second = check_.addStrip(std::to_string(source));
+    return at->second;
+  }
+
   TrajectoryPlausibility check_;
   std::map<std::uint16_t, int> strips_;
 };
 
 }  // namespace
 
-std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& alignment,
-                                     const std::shared_ptr<const Trajectory>& flight, bool force) {
+Warnings checkFlight(const LasFile& file, const TimeAlignment& alignment,
+                     const std::shared_ptr<const Trajectory>& flight, bool force) {
   FlightCheck check(flight);
   const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   samplePoints(file, size, [&](const PointChunk& chunk) {
@@ -52,14 +61,18 @@ std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& a
   return check.result(file.path().string(), force);
 }
 
-std::vector<std::string> checkFlight(const std::string& name, const Strip<PointLidar>& strip,
-                                     const TimeAlignment& alignment,
-                                     const std::shared_ptr<const Trajectory>& flight, bool force) {
+Warnings checkFlight(const std::string& name, const Strip<PointLidar>& strip,
+                     const TimeAlignment& alignment,
+                     const std::shared_ptr<const Trajectory>& flight, bool force) {
   FlightCheck check(flight);
   const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / size.points());
-  for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
+  for (std::size_t i = 0; i < strip.cloud->size(); ++i) {
     const PointLidar& point = (*strip.cloud)[i];
+    if (i % every != 0) {
+      check.addTime(point.point_source_id, alignment(point.gps_time));
+      continue;
+    }
     check.add(point.point_source_id, alignment(point.gps_time),
               strip.frame.origin + point.getVector3fMap().cast<double>(), point.scan_angle);
   }

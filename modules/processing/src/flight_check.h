@@ -4,11 +4,11 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
 #include <pcl_als/common/time_alignment.h>
+#include <pcl_als/common/warning.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -16,10 +16,10 @@ namespace pcl_als::detail {
 
 /// Whether the points of a file can have been measured from the flight: warnings; InputError naming
 /// the file where they cannot, unless \a force.
-std::vector<std::string> checkFlight(const LasFile& file, const TimeAlignment& alignment,
-                                     const std::shared_ptr<const Trajectory>& flight, bool force);
-std::vector<std::string> checkFlight(const std::string& name, const Strip<PointLidar>& strip,
-                                     const TimeAlignment& alignment,
-                                     const std::shared_ptr<const Trajectory>& flight, bool force);
+Warnings checkFlight(const LasFile& file, const TimeAlignment& alignment,
+                     const std::shared_ptr<const Trajectory>& flight, bool force);
+Warnings checkFlight(const std::string& name, const Strip<PointLidar>& strip,
+                     const TimeAlignment& alignment,
+                     const std::shared_ptr<const Trajectory>& flight, bool force);
 
 }  // namespace pcl_als::detail

@@ -31,7 +31,7 @@ class IntensityJob {
   }
   void warn(const std::string& text) {
     result_.warnings.push_back(text);
-    progress_.remark(text);
+    progress_.remark("warning: " + text);
   }
   std::string whyUnreliable(const LostIntensities& lost) const;
 
@@ -97,8 +97,7 @@ void IntensityJob::judge() {
   for (const std::string& text : describe(result_.left_out)) warn(text);
   const LostIntensities lost = lostIntensities(all);
   if (lost.share > LostIntensities::kMany) {
-    result_.warnings.push_back(lost.text);
-    progress_.remark("warning: " + lost.text);
+    warn(lost.text);
   }
   result_.unreliable = whyUnreliable(lost);
 }
@@ -156,7 +155,7 @@ IntensityResult correctIntensity(const std::vector<std::string>& paths,
   result.outcome = IntensityOutcome(run->strips().size());
   if (options.observe) result.outcome.seen = options.observe(*run);
   result.warnings = run->warnings();
-  for (const std::string& warning : result.warnings) progress.remark(warning);
+  for (const Warning& warning : result.warnings) progress.remark("warning: " + warning.text);
   IntensityJob job(options, *run, result, progress);
   if (options.stored) job.useStored(*options.stored);
   job.compareStrips();

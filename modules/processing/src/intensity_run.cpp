@@ -141,7 +141,9 @@ void IntensityRun::checkTrajectory() {
     const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point,
                          float scan_angle) {
       const int strip = arrangement_->labels()[sorter.label(source, time)].index;
-      if (strip >= 0) check.add(strip, times_[file](time), point, scan_angle);
+      if (strip < 0) return;
+      check.add(strip, times_[file](time), point, scan_angle);
+      check.addTime(strip, times_[file](time));
     };
     if (const LasFile* las = inputs_[file]->las()) {
       samplePoints(*las, size, [&add](const PointChunk& chunk) {

@@ -25,8 +25,7 @@ const StripArrangement::Label* labelOfMissing(const SurveyReader& survey, const 
 }
 
 /// Without the pairs of strips that have no usable points; those are named in \a warnings.
-StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey,
-                       std::vector<std::string>& warnings) {
+StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey, Warnings& warnings) {
   StripNames usable;
   for (const auto& [a, b] : pairs) {
     const StripArrangement::Label* label = labelOfMissing(survey, a);
@@ -40,7 +39,7 @@ StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey,
     warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
   }
   if (usable.empty() && !pairs.empty())
-    throw InputError("pairs: no pair is left; " + warnings.back());
+    throw InputError("pairs: no pair is left; " + warnings.back().text);
   return usable;
 }
 
@@ -108,16 +107,17 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   CalibrationSettings settings = options.settings;
   settings.resolution = survey.resolution();
   SystemCalibrationEngine calibration(flight, settings, survey.corner());
-  std::vector<std::string> warnings;
+  Warnings warnings;
   calibration.setPairs(usablePairs(options.pairs, survey, warnings));
   calibration.setControl(options.control);
   surveyBlock(survey, options.observer, calibration, progress);
   loadAreas(survey, calibration, progress);
   SurveyCalibration made;
   made.result = adjusted(calibration, progress);
-  made.result.left_out = survey.leftOut();
-  for (const std::string& text : describe(made.result.left_out))
-    made.result.warnings.push_back(text);
+  for (const LeftOutPoints& part : survey.leftOut()) {
+    made.result.left_out.push_back(part);
+    made.result.warnings.push_back(describe(part));
+  }
   made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
   for (const SurveyedFile& file : survey.files())
     made.result.inputs.push_back(file.sources.info.path.string());

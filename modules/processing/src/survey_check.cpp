@@ -89,9 +89,10 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
   checked.block = check.assess([&](double fraction) { progress.advance(fraction); });
   for (const SurveyedFile& file : survey.files())
     checked.block.files.push_back(file.sources.info.path.string());
-  checked.block.left_out = survey.leftOut();
-  for (const std::string& text : describe(checked.block.left_out))
-    checked.block.warnings.push_back(text);
+  for (const LeftOutPoints& part : survey.leftOut()) {
+    checked.block.left_out.push_back(part);
+    checked.block.warnings.push_back(describe(part));
+  }
   progress.end(counted(checked.block.pairs.size(), "pair"));
   if (separation) {
     writeImages(*options.separation, *separation, options.settings.threads, checked.block,

@@ -147,7 +147,7 @@ std::string calibrationTables(const CalibrationResult& result) {
       << result.redundancy << ", " << result.iterations.size() << " iterations, "
       << (result.converged ? "converged" : "NOT converged")
       << "\nverdict: " << result.verdict.text() << '\n';
-  for (const std::string& warning : result.warnings) out << "\nwarning: " << warning << '\n';
+  for (const Warning& warning : result.warnings) out << "\nwarning: " << warning.text << '\n';
   return out.str();
 }
 

@@ -234,7 +234,7 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
   json["saturation"] = report.result->run->saturation();
   json["files"] = filesJson(report);
   json["left_out"] = leftOutJson(report.result->left_out);
-  json["warnings"] = report.result->warnings;
+  json["warnings"] = textsOf(report.result->warnings);
   json["report"] = reportJson(report);
   writeFile(path, json.dump(1) + "\n");
 }

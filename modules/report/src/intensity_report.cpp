@@ -194,7 +194,7 @@ std::string markdownOf(const IntensityReport& report, const Table& slopes, const
     page << "\n"
          << report.result->run->input(i).path() << "\n```\n"
          << countsText(report.result->outcome.counts[i], *report.result->run) << "```\n";
-  for (const std::string& warning : report.result->warnings) page << "\n- " << warning;
+  for (const Warning& warning : report.result->warnings) page << "\n- " << warning.text;
   return page.str() + "\n";
 }
 

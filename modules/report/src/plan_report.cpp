@@ -140,7 +140,7 @@ std::string planTables(const FlightPlanResult& result) {
   std::ostringstream out;
   lineTable(result, out);
   parameterTable(result, out);
-  for (const std::string& warning : result.expected.warnings) out << "\nwarning: " << warning;
+  for (const Warning& warning : result.expected.warnings) out << "\nwarning: " << warning.text;
   out << (result.expected.warnings.empty() ? "\n" : "\n\n");
   for (const std::string& text : result.observability.text()) out << text << '\n';
   if (const Advice* cheapest = result.observability.cheapestLine()) {
@@ -168,7 +168,7 @@ void writePlan(const std::filesystem::path& path, const FlightPlanResult& result
   }
   root["control_points"] = result.control_points;
   root["observability"] = observabilityJson(result.observability);
-  root["warnings"] = result.expected.warnings;
+  root["warnings"] = textsOf(result.expected.warnings);
   root["inputs"] = inputs;
   root["tool_version"] = PCL_ALS_VERSION;
   writeFile(path, root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -216,7 +216,7 @@ Json blockJson(const CheckedBlock& block) {
         {"files", s.files}};
   }
   json["smooth_roughness_m"] = block.roughness_limit;
-  json["warnings"] = block.warnings;
+  json["warnings"] = textsOf(block.warnings);
   json["left_out"] = leftOutJson(block.left_out);
   return json;
 }

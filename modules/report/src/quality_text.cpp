@@ -274,7 +274,7 @@ std::string qualityText(const QualityReport& report) {
   }
   text += format("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n", kept, all,
                  report.quality_level, limits.swath_overlap_rmsdz, kSwathSpecification);
-  for (const std::string& warning : report.block.warnings) text += "\nwarning: " + warning + '\n';
+  for (const Warning& warning : report.block.warnings) text += "\nwarning: " + warning.text + '\n';
   return text;
 }
 

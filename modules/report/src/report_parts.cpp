@@ -41,10 +41,10 @@ void addMap(const std::vector<ControlPoint>& control, const StripCoverage& cover
   report.addPicture(map.draw(coverage, strips, size).image(), caption + ".");
 }
 
-void addWarnings(const std::vector<std::string>& warnings, HtmlReport& report) {
+void addWarnings(const Warnings& warnings, HtmlReport& report) {
   if (warnings.empty()) return;
   report.addSection("Warnings");
-  report.addList(warnings);
+  report.addList(textsOf(warnings));
 }
 
 void addOrigin(const ReportOrigin& origin, const std::vector<std::string>& inputs,

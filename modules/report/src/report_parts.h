@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/common/warning.h>
 #include <pcl_als/report/report_origin.h>
 #include <pcl_als/visualization/block_map.h>
 #include <pcl_als/visualization/html_report.h>
@@ -27,7 +28,7 @@ void addVerdict(const Verdict& verdict, HtmlReport& report);
 void addMap(const std::vector<ControlPoint>& control, const StripCoverage& coverage,
             const std::vector<std::string>& strips, const std::vector<SurveyArea>& areas,
             HtmlReport& report);
-void addWarnings(const std::vector<std::string>& warnings, HtmlReport& report);
+void addWarnings(const Warnings& warnings, HtmlReport& report);
 /// Inputs (points, then those of the origin) with sizes and times, and all settings.
 void addOrigin(const ReportOrigin& origin, const std::vector<std::string>& inputs,
                HtmlReport& report);

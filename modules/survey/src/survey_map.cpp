@@ -2,10 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <set>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/statistics.h>
@@ -85,7 +87,8 @@ void SurveyMap::add(int index, const CalibrationPoint* points, std::size_t count
     ++cell->points;
     if (!p->isSingle()) ++cell->multiple;
     if (!isSurfacePoint(*p)) continue;
-    if (cell->last_returns++ == 0) cell->z_reference = p->position.z();
+    if (cell->last_returns++ == 0) cell->z_reference = cell->lowest = p->position.z();
+    cell->lowest = std::min(cell->lowest, p->position.z());
     const double z = p->position.z() - cell->z_reference;
     cell->z_sum += z;
     cell->z_sq_sum += z * z;
@@ -119,6 +122,7 @@ std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
 
 SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
   constexpr std::uint32_t kEnough = 5;
+  constexpr std::size_t kFewestCells = 20;
   std::vector<double> differences;
   const auto& others = strips_[static_cast<std::size_t>(pair.second)].cells;
   for (const auto& [key, cell] : strips_[static_cast<std::size_t>(pair.first)].cells) {
@@ -127,12 +131,20 @@ SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
         other->second.last_returns < kEnough) {
       continue;
     }
-    const auto height = [](const Cell& c) { return c.z_reference + c.z_sum / c.last_returns; };
-    differences.push_back(height(cell) - height(other->second));
+    differences.push_back(cell.lowest - other->second.lowest);
   }
-  if (differences.empty()) return {};
   const std::size_t count = differences.size();
+  if (count < kFewestCells) return {};
   return {medianInPlace(differences), count};
+}
+
+std::string describe(const SurveyMap::HeightOffset& height, const std::string& a,
+                     const std::string& b) {
+  char offset[48];
+  std::snprintf(offset, sizeof offset, " lies %.2f m %s strip ", std::abs(height.offset),
+                height.offset > 0.0 ? "above" : "below");
+  return "strip " + a + offset + b + " (median of " + counted(height.cells, "cell") + " of " +
+         shortText(SurveyMap::kCell) + " m)";
 }
 
 double SurveyMap::score(const Cell& a, const Cell& b) const {

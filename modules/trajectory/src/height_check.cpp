@@ -19,8 +19,17 @@ constexpr double kLargestAngle = 75.0 * kRadiansPerDegree;
 // Of real trajectories that are right to a metre or two at 400 m the slopes are 0.996 to 1.006.
 constexpr double kAccepted = 0.015;
 constexpr double kGross = 0.25;
+// Slopes of angles of the mirror, which are half of those of the pulses, or the reverse, in swaths
+// of up to 40 degrees: another convention of angles.
+constexpr double kHalfLeast = 0.42, kHalfMost = 0.52, kTwiceLeast = 1.95, kTwiceMost = 2.4;
 // ratio of flying heights: errors of heights and of angles are separable
 constexpr double kTwoHeights = 1.3;
+
+bool isGross(double slope) {
+  const bool half = slope > kHalfLeast && slope < kHalfMost;
+  const bool twice = slope > kTwiceLeast && slope < kTwiceMost;
+  return std::abs(slope - 1.0) > kGross && !half && !twice;
+}
 
 }  // namespace
 
@@ -80,9 +89,9 @@ HeightError heightError(const std::vector<HeightCheck>& strips) {
   const bool offset = heights_differ && spreadOf(errors) < 0.5 * spreadOf(scales);
   found.slope = medianInPlace(slopes);
   found.metres = medianInPlace(errors);
-  found.kind = std::abs(found.slope - 1.0) > kGross ? HeightError::Kind::gross
-               : offset                             ? HeightError::Kind::offset
-                                                    : HeightError::Kind::scale;
+  found.kind = isGross(found.slope) ? HeightError::Kind::gross
+               : offset             ? HeightError::Kind::offset
+                                    : HeightError::Kind::scale;
   char text[400];
   std::snprintf(
       text, sizeof text,

@@ -18,10 +18,9 @@ namespace {
 // fore and aft planes of a multi-look scanner, the skew of a slanted mirror) with attitude motion
 // on top.
 constexpr double kWidest = 75.0 * kRadiansPerDegree, kFarthestAhead = 35.0 * kRadiansPerDegree;
-constexpr double kHighest = 20e3;         // metres above the ground: beyond what aircraft reach
-constexpr double kSlowest = 1.0;          // m/s: below it the course is that of the noise
-constexpr std::size_t kFewestTimes = 50;  // points by which the step of times is judged
-constexpr double kCoarseStep = 0.01;      // seconds: no scanner measures 100 points per second
+constexpr double kHighest = 20e3;     // metres above the ground: beyond what aircraft reach
+constexpr double kSlowest = 1.0;      // m/s: below it the course is that of the noise
+constexpr double kLongestStep = 1.0;  // seconds: of a strip with one time, which has no step
 // The firing point is wrong by up to half the way flown in a step; as a share of the height that
 // is an angle of the pulse. A hundredth is 0.6 degrees, as much as AttitudeRecovery corrects.
 constexpr double kCoarseRefused = 0.01, kCoarseSuspicious = 0.001;
@@ -51,6 +50,14 @@ int TrajectoryPlausibility::addStrip(const std::string& name) {
   return static_cast<int>(strips_.size()) - 1;
 }
 
+std::size_t TrajectoryPlausibility::spacing(std::size_t count, double duration) const {
+  constexpr double kMost = 32.0, kPointsPerSecond = 1e4;
+  if (!path_) return static_cast<std::size_t>(kMost);
+  const double every = static_cast<double>(count) / (kPointsPerSecond * std::abs(duration));
+  return every < kMost ? std::max<std::size_t>(1, static_cast<std::size_t>(every))
+                       : static_cast<std::size_t>(kMost);
+}
+
 void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& point,
                                  double scan_angle) {
   Strip& s = strips_[static_cast<std::size_t>(strip)];
@@ -62,9 +69,6 @@ void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& 
   }
   ++s.count;
   if (s.recovery) s.recovery->add(time, point, scan_angle * kRadiansPerDegree);
-  const double step = std::abs(time - s.last_time);
-  if (step > 0.0) s.shortest_step = std::min(s.shortest_step, step);
-  s.last_time = time;
   const double speed = path.velocity.head<2>().norm();
   s.speed_sum += speed;
   const Eigen::Vector3d forward = pose.rotation.col(1);
@@ -127,21 +131,30 @@ void TrajectoryPlausibility::checkStrips(std::vector<Finding>& findings) const {
   }
 }
 
+double TrajectoryPlausibility::distancePerStep(int strip) const {
+  const Strip& s = strips_[static_cast<std::size_t>(strip)];
+  const double step = s.times.step();
+  if (s.count == 0 || step == 0.0) return 0.0;
+  return std::min(step, kLongestStep) * s.speed_sum / static_cast<double>(s.count);
+}
+
+bool TrajectoryPlausibility::timesTooCoarse(int strip) const {
+  return 0.5 * distancePerStep(strip) > kCoarseRefused * meanHeight(strip);
+}
+
 void TrajectoryPlausibility::checkTimes(std::vector<Finding>& findings) const {
-  for (const Strip& s : strips_) {
-    const auto below = static_cast<double>(s.count - s.above);
-    if (!s.used || s.count < kFewestTimes || below == 0.0) continue;
-    if (!(s.shortest_step >= kCoarseStep) || std::isinf(s.shortest_step)) continue;
-    const double away = 0.5 * s.shortest_step * s.speed_sum / static_cast<double>(s.count);
-    const double share = away / (s.height_sum / below);
-    if (share < kCoarseSuspicious) continue;
-    char text[300];
-    std::snprintf(text, sizeof text,
-                  "strip %s: its times have steps of %.3g s, in which the sensor moves %.2g m: "
-                  "the place each point was measured from is not known well enough; use the "
-                  "points with their full times",
-                  s.name.c_str(), s.shortest_step, 2.0 * away);
-    findings.push_back({share > kCoarseRefused, text});
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    const Strip& s = strips_[i];
+    const double height = meanHeight(static_cast<int>(i));
+    const double distance = distancePerStep(static_cast<int>(i));
+    if (!s.used || height == 0.0 || 0.5 * distance < kCoarseSuspicious * height) continue;
+    char moved[32];
+    std::snprintf(moved, sizeof moved, "%.2g m", distance);
+    findings.push_back({timesTooCoarse(static_cast<int>(i)),
+                        "strip " + s.name + ": its times are " + s.times.describe() +
+                            ", in a step of which the sensor moves " + moved +
+                            ": the place each point was measured from is not known well enough; "
+                            "use the points with their original times"});
   }
 }
 
@@ -206,21 +219,24 @@ void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
                                 "coordinates of the points"});
 }
 
-void TrajectoryPlausibility::checkHeight(std::vector<Finding>& findings) const {
+HeightError TrajectoryPlausibility::heightOfStrips() const {
   std::vector<HeightCheck> strips;
   for (const Strip& strip : strips_) {
     if (strip.used) strips.push_back(strip.angles);
   }
-  const HeightError error = pcl_als::heightError(strips);
-  if (error.kind == HeightError::Kind::none) return;
-  findings.push_back({false, error.text, error.kind != HeightError::Kind::scale});
+  return pcl_als::heightError(strips);
 }
 
-std::string TrajectoryPlausibility::heightError() const {
-  for (const Finding& finding : findings()) {
-    if (finding.height) return finding.text;
-  }
-  return {};
+void TrajectoryPlausibility::checkHeight(std::vector<Finding>& findings) const {
+  const HeightError error = heightOfStrips();
+  if (error.kind == HeightError::Kind::none) return;
+  findings.push_back({error.kind == HeightError::Kind::gross, error.text, true});
+}
+
+HeightError TrajectoryPlausibility::heightError() const {
+  const std::vector<Finding> all = findings();
+  const bool found = std::any_of(all.begin(), all.end(), [](const auto& f) { return f.height; });
+  return found ? heightOfStrips() : HeightError();
 }
 
 void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const {
@@ -235,13 +251,12 @@ void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const 
     std::snprintf(text, sizeof text,
                   "the heading of the trajectory does not follow its course (%.0f degrees away), "
                   "but would as %s: give roll, pitch and heading in degrees, heading clockwise "
-                  "from grid north, or use the quasi-rigorous model, which needs no attitude",
+                  "from grid north",
                   all.deviation(HeadingReading::heading), std::string(describe(best)).c_str());
   } else {
     std::snprintf(text, sizeof text,
                   "the heading of the trajectory does not follow its course (%.0f degrees away)%s: "
-                  "give the attitude of this flight in degrees, heading clockwise from grid "
-                  "north, or use the quasi-rigorous model, which needs no attitude",
+                  "give the attitude of this flight in degrees, heading clockwise from grid north",
                   all.deviation(HeadingReading::heading),
                   all.constant() ? "; it is the same at all times, a column without values" : "");
   }
@@ -250,7 +265,7 @@ void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const 
 
 TrajectoryPlausibility::Finding TrajectoryPlausibility::ofAttitude(bool wrong,
                                                                    const std::string& text) const {
-  if (attitude_ == Attitude::used) return {wrong, text};
+  if (attitude_ == Attitude::used) return {wrong, {text, Remedy::positions_only}};
   return {false, text + "; only positions are used here: check that they are those of this flight"};
 }
 
@@ -277,11 +292,12 @@ std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() 
   return findings;
 }
 
-std::vector<std::string> TrajectoryPlausibility::check(bool force) const {
-  std::vector<std::string> warnings;
+Warnings TrajectoryPlausibility::check(bool force, bool force_height) const {
+  Warnings warnings;
   for (const Finding& finding : findings()) {
-    if (finding.refuse && !force) throw InputError(finding.text);
-    warnings.push_back(finding.text);
+    if (finding.refuse && !force && !(finding.height && force_height))
+      throw InputError(finding.warning.text, finding.warning.remedy);
+    warnings.push_back(finding.warning);
   }
   return warnings;
 }

@@ -15,7 +15,6 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/survey_map.h>
-#include <pcl_als/survey/time_resolution.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
@@ -156,6 +155,8 @@ class SystemCalibrationEngine {
   void closeConverged(State& state) const;
   /// The reason for which the iteration did not converge, for the verdict.
   std::string reasonNotConverged(const State& state, const CalibrationResult& result) const;
+  /// Excludes a strip from the calibration.
+  void leaveOut(int strip, LeftOutReason reason);
   bool hasPairs(int strip, const CalibrationResult& result) const;
   /// Reason why a strip that overlaps others has no pairs, for a warning; empty without overlap.
   std::string reasonWithoutPairs(int strip) const;
@@ -172,7 +173,6 @@ class SystemCalibrationEngine {
   RecoveredAttitude recovered_attitude_;
   SurveyMap map_;
   TrajectoryPlausibility plausibility_;
-  std::deque<TimeResolution> times_;         ///< by strip
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is needed
   std::vector<std::string> ids_;
   std::vector<bool> used_;
@@ -186,8 +186,10 @@ class SystemCalibrationEngine {
   std::vector<AreaMatcher> matchers_;
   std::vector<double> information_;  ///< by area
   AdjustedSurvey adjusted_;
-  std::vector<std::string> warnings_, attitude_remarks_;
-  std::string height_error_;  ///< of the trajectory, from recorded scan angles
+  Warnings warnings_;
+  std::vector<std::string> attitude_remarks_;
+  std::vector<LeftOutPoints> left_out_;
+  HeightError height_error_;  ///< of the trajectory, from recorded scan angles
   std::function<void(const CalibrationIteration&)> progress_;
 };
 

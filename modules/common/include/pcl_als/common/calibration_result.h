@@ -13,6 +13,7 @@
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/common/warning.h>
 
 namespace pcl_als {
 
@@ -119,7 +120,7 @@ struct CalibrationResult {
   std::vector<StripOffset> strip_offsets;       ///< of the strips that have pairs
   std::vector<StripErrors> strip_errors;        ///< of the strips that were calibrated with
   std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help
-  std::vector<std::string> warnings;
+  Warnings warnings;
   std::vector<LeftOutPoints> left_out;  ///< points that took no part
   std::vector<std::string> inputs;
 

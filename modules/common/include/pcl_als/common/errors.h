@@ -7,11 +7,38 @@
 
 namespace pcl_als {
 
+/// What a caller may set to go on where an input is refused, or to follow a warning. Messages do
+/// not name options: a tool adds the name of its own.
+enum class Remedy {
+  none,
+  force,             ///< to go on all the same, with a warning
+  force_level,       ///< force, which takes the sensor as level
+  keep_uncovered,    ///< to leave points without trajectory as they are
+  nominal_model,     ///< the model with a level sensor whose heading is the course
+  positions_only,    ///< the model that uses the positions of the trajectory only
+  recover_attitude,  ///< to recover pitch and crab instead of taking the sensor as vertical
+  crs,               ///< to state the CRS of the points
+  columns,           ///< to name the columns of a trajectory
+  leap_seconds,      ///< to state the leap seconds of a trajectory in UTC
+  max_distance,      ///< to compare surfaces that are further apart
+  extent,            ///< another extent of the rasters
+  ground,            ///< other points as ground
+  control,           ///< to give control points
+  control_sigma,     ///< to state the standard deviation of control points
+  flight_sigmas,     ///< to state the standard deviations of the trajectory
+  strips,            ///< to leave strips out, or to use some only
+};
+
 /// Base of every exception of this library. what() is one line that names the file, record or
 /// option and what to do.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message, Remedy remedy = Remedy::none)
+      : std::runtime_error(message), remedy_(remedy) {}
+  Remedy remedy() const { return remedy_; }
+
+ private:
+  Remedy remedy_;
 };
 
 /// A wrong argument, option or parameter value. Tools end with exit status 1.
@@ -20,30 +47,11 @@ class UsageError : public Error {
   using Error::Error;
 };
 
-/// What a caller may set to go on where an input is refused. Messages do not name options: a tool
-/// adds the name of its own.
-enum class Remedy {
-  none,
-  force,           ///< to go on all the same, with a warning
-  force_level,     ///< force, which takes the sensor as level
-  keep_uncovered,  ///< to leave points without trajectory as they are
-  nominal_model,   ///< the model with a level sensor whose heading is the course
-  crs,             ///< to state the CRS of the points
-  max_distance,    ///< to compare surfaces that are further apart
-  extent,          ///< another extent of the rasters
-  ground,          ///< other points as ground
-};
-
 /// Input that cannot be used: missing, corrupt, without time, without overlap. Tools end with exit
 /// status 2.
 class InputError : public Error {
  public:
-  explicit InputError(const std::string& message, Remedy remedy = Remedy::none)
-      : Error(message), remedy_(remedy) {}
-  Remedy remedy() const { return remedy_; }
-
- private:
-  Remedy remedy_;
+  using Error::Error;
 };
 
 // A numerical outcome (too few pairs, rank deficiency, no convergence) is not an exception: it is a

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/time_resolution.h>
 #include <pcl_als/io/point_reader.h>
 
 namespace pcl_als {
@@ -31,7 +32,6 @@ struct PointStatistics {
   float least_intensity = 0.0F, largest_intensity = 0.0F;
   std::uint64_t unsorted_times = 0;  ///< points that are earlier than the one before
   std::uint64_t zero_times = 0, invalid_times = 0;
-  std::uint64_t fractional_times = 0;     ///< points whose time is not a whole second
   std::uint64_t invalid_coordinates = 0;  ///< not finite, or past a million kilometres
   std::uint64_t wrong_returns = 0;        ///< return number 0 or above the number of returns
   std::uint64_t withheld = 0, synthetic = 0, overlap_flags = 0;
@@ -48,10 +48,9 @@ struct FileCensus {
 struct StripCensus {
   std::string id;
   PointStatistics statistics;
-  std::vector<TimeGap> gaps;       ///< longer than SurveyCensus::kGap
-  std::uint64_t half_seconds = 0;  ///< in which points were measured: the distinct times where all
-                                   ///< are whole seconds
-  double area = 0.0;               ///< m2: cells that hold a point
+  std::vector<TimeGap> gaps;  ///< longer than SurveyCensus::kGap
+  TimeResolution times;       ///< of the points with a time
+  double area = 0.0;          ///< m2: cells that hold a point
   double density =
       0.0;  ///< points per m2: median over cells whose eight neighbours hold points too
   std::vector<std::string> remarks;

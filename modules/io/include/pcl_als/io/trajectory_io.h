@@ -82,19 +82,6 @@ struct TrajectoryFile {
   std::vector<std::string> remarks;          ///< conversions and assumptions, one line each
 };
 
-/// What an InputError on a trajectory could be answered with; a tool adds the name of its option.
-enum class TrajectoryQuestion { columns, own_crs, leap_seconds, geoid };
-
-class TrajectoryQuestionError : public InputError {
- public:
-  TrajectoryQuestionError(const std::string& message, TrajectoryQuestion question)
-      : InputError(message), question_(question) {}
-  TrajectoryQuestion question() const { return question_; }
-
- private:
-  TrajectoryQuestion question_;
-};
-
 /** \brief Reads a trajectory: text with a header line, or Applanix SBET (.out, .sbet).
  *
  * Text: columns are found by the names in use (the module's README lists them) in any case, below
@@ -104,7 +91,7 @@ class TrajectoryQuestionError : public InputError {
  * the ellipsoid or geocentric; the latter two are projected to the CRS of the points with PROJ, and
  * headings from true north turned by the meridian convergence.
  *
- * InputError names file, line (or record) and column; TrajectoryQuestionError what has to be
+ * InputError names file, line (or record) and column, and has the remedy where something may be
  * stated. Geographic coordinates without TrajectoryReading::crs are a UsageError.
  */
 TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,

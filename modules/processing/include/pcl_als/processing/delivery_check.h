@@ -70,7 +70,7 @@ struct CheckedBlock {
   std::optional<ControlAssessment> control;
   std::optional<SeparationSummary> separation;  ///< of the images that were written
   double roughness_limit = 0.0;                 ///< metres: limit of smooth surfaces
-  std::vector<std::string> warnings;
+  Warnings warnings;
   std::vector<LeftOutPoints> left_out;  ///< points that were left out
 };
 
@@ -100,7 +100,9 @@ class BlockCheck {
   CheckedBlock assess(const std::function<void(double)>& progress);
 
  private:
-  SwathPoint swathPoint(const SurveyReader::Run& run, std::size_t row, std::size_t& cursor) const;
+  SwathPoint swathPoint(int strip, const SurveyReader::Run& run, std::size_t row,
+                        std::size_t& cursor) const;
+  void compareWithFlight(int strip, const std::vector<CalibrationPoint>& points);
   void checkTrajectory();
   void findRoughness();
   void measureAreas();
@@ -114,6 +116,7 @@ class BlockCheck {
   SurveyMap map_;
   std::vector<StripCourse> courses_;
   std::vector<bool> used_;
+  std::vector<bool> untimed_;  ///< times are too coarse for the trajectory
   std::vector<SurveyMap::Overlap> overlaps_;
   std::vector<SurveyArea> areas_;
   std::vector<AreaOffsets> offsets_;                             ///< of the areas
@@ -121,7 +124,8 @@ class BlockCheck {
   std::vector<std::vector<std::vector<OffsetSample>>> samples_;  ///< by area, then by overlap
   std::vector<std::vector<double>> milliseconds_;                ///< the same
   std::vector<double> repeated_;                                 ///< by strip
-  std::vector<std::string> warnings_;
+  Warnings warnings_;
+  std::vector<LeftOutPoints> left_out_;
   mutable std::atomic<std::uint64_t> uncovered_{0};  ///< points that the trajectory does not cover
 };
 

@@ -34,7 +34,7 @@ struct FileCorrectionResult {
   CoverageCount coverage;
   /// how point times were reconciled with those of the flight; may be empty
   std::string time_remark;
-  std::vector<std::string> warnings;  ///< from the check of the trajectory
+  Warnings warnings;  ///< from the check of the trajectory
   /// Result of the recovery of attitude from this file, where the calibration has none for its
   /// times; otherwise empty.
   std::string attitude_remark;

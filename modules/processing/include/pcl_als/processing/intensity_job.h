@@ -49,7 +49,7 @@ struct IntensityResult {
   std::optional<OverlapResult> overlaps;     ///< where strips were compared
   std::optional<ReferenceResult> reference;  ///< where there are targets
   std::vector<LeftOutPoints> left_out;       ///< points that stay as they are
-  std::vector<std::string> warnings;
+  Warnings warnings;
   /// The reason for which the result is not reliable, in one line; empty where it is.
   std::string unreliable;
 

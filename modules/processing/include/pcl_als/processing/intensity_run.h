@@ -93,7 +93,7 @@ class IntensityRun {
   const IntensitySettings& settings() const { return settings_; }
   const std::vector<std::string>& remarks() const { return remarks_; }
   /// Warnings of the check of the trajectory.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Warnings& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
   const StripArrangement& arrangement() const { return *arrangement_; }
@@ -149,7 +149,8 @@ class IntensityRun {
   std::vector<SurveyedFile> surveyed_;  ///< with tracks only where strips are split
   std::optional<StripArrangement> arrangement_;
   std::vector<double> radii_, known_gains_, estimated_gains_;
-  std::vector<std::string> remarks_, warnings_;
+  std::vector<std::string> remarks_;
+  Warnings warnings_;
   RadiometricModel model_;
   double saturation_ = 65535.0, cell_size_ = 2.0, constant_ = 0.0;
   std::uint32_t one_cell_in_ = 1;

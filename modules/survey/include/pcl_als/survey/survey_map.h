@@ -23,7 +23,7 @@ using StripPair = std::pair<int, int>;
  * calibration.
  *
  * Points are added in any order, strip by strip (different strips may be added from different
- * threads). Sums for every 10 m cell of a strip are stored (48 bytes), not the points.
+ * threads). Sums for every 10 m cell of a strip are stored (56 bytes), not the points.
  */
 class SurveyMap {
  public:
@@ -53,9 +53,9 @@ class SurveyMap {
   /// Every pair of strips with at least \a minimum_area in common, in order.
   std::vector<Overlap> overlaps(double minimum_area) const;
 
-  /// Height of the first strip above the second: the median over common cells of the difference of
-  /// the mean heights of surface points. Because of vegetation and slopes it is accurate to
-  /// decimetres only.
+  /// Height of the first strip above the second, however far apart they are: the median over common
+  /// cells of the difference of the lowest surface points. Because of slopes it is accurate to
+  /// decimetres only. Zero where fewer than 20 cells are common.
   struct HeightOffset {
     double offset = 0.0;  ///< metres
     std::size_t cells = 0;
@@ -81,7 +81,7 @@ class SurveyMap {
  private:
   struct Cell {
     std::uint32_t points = 0, last_returns = 0, multiple = 0;
-    double z_sum = 0.0, z_sq_sum = 0.0, z_reference = 0.0;
+    double z_sum = 0.0, z_sq_sum = 0.0, z_reference = 0.0, lowest = 0.0;
   };
   struct StripCells {
     std::unordered_map<std::int64_t, Cell> cells;
@@ -95,5 +95,9 @@ class SurveyMap {
   Eigen::Vector2d anchor_;
   std::deque<StripCells> strips_;
 };
+
+/// "strip 3 lies 50.12 m above strip 2 (median of 4100 cells of 10 m)"
+std::string describe(const SurveyMap::HeightOffset& height, const std::string& a,
+                     const std::string& b);
 
 }  // namespace pcl_als

@@ -55,7 +55,7 @@ struct HeightError {
     none,
     scale,   ///< recorded angles or heights wrong by one factor: not separable
     offset,  ///< heights wrong by the same number of metres at several flying heights
-    gross,   ///< by more than a quarter: no convention of angles explains it
+    gross,   ///< by more than a quarter, and not by two: no convention of angles explains it
   } kind = Kind::none;
   double metres = 0.0;  ///< metres by which the trajectory is too high
   double slope = 1.0;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <limits>
@@ -12,6 +13,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/time_resolution.h>
+#include <pcl_als/common/warning.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/heading_check.h>
 #include <pcl_als/trajectory/height_check.h>
@@ -53,6 +56,14 @@ class TrajectoryPlausibility {
   /// \a scan_angle as recorded, degrees; NaN: none
   void add(int strip, double time, const Eigen::Vector3d& point,
            double scan_angle = std::numeric_limits<double>::quiet_NaN());
+  /// Every so many of \a count points from \a duration seconds are sufficient for add(): roll is
+  /// seen at the edges of the swath, for which points of each tenth of a second are needed.
+  std::size_t spacing(std::size_t count, double duration) const;
+  /// The time of a point, for the resolution of the times: of all points, or of runs of consecutive
+  /// ones.
+  void addTime(int strip, double time) {
+    if (std::isfinite(time)) strips_[static_cast<std::size_t>(strip)].times.add(time);
+  }
   /// Excludes a strip that is not used from findings().
   void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
 
@@ -63,18 +74,29 @@ class TrajectoryPlausibility {
     return below > 0.0 ? s.height_sum / below : 0.0;
   }
 
+  /// Metres that the sensor moves within a step of the strip's times; zero where these are not
+  /// rounded or no point was added.
+  double distancePerStep(int strip) const;
+  /// Whether the places that a strip was measured from are not known well enough, because its times
+  /// are rounded.
+  bool timesTooCoarse(int strip) const;
+  /// TimeResolution::describe()
+  std::string timeSteps(int strip) const {
+    return strips_[static_cast<std::size_t>(strip)].times.describe();
+  }
+
   struct Finding {
     bool refuse = false;  ///< results would be wrong; otherwise only suspicious
-    std::string text;     ///< what is wrong, the likely cause and the remedy
-    /// the height of the trajectory is wrong, and parameters that depend on it
-    bool height = false;
+    Warning warning;      ///< what is wrong, the likely cause and the remedy
+    bool height = false;  ///< of the height of the trajectory
   };
   std::vector<Finding> findings() const;
   /// The first finding that refuses the trajectory is thrown as an InputError; with \a force all
-  /// findings are returned, as are those that only warn.
-  std::vector<std::string> check(bool force) const;
-  /// The finding of a wrong height of the trajectory that affects the results; empty without one.
-  std::string heightError() const;
+  /// findings are returned, as are those that only warn, and with \a force_height those of a wrong
+  /// height, of which the caller judges the effect by heightError().
+  Warnings check(bool force, bool force_height = false) const;
+  /// The error of the trajectory's height; none where another finding comes first.
+  HeightError heightError() const;
 
  private:
   struct Strip {
@@ -87,8 +109,7 @@ class TrajectoryPlausibility {
     double mean_ahead_sum = 0.0, height_sum = 0.0;  ///< metres, of those below the sensor
     double slope_sum = 0.0, slope_sum_sq = 0.0;     ///< of ahead / height
     double speed_sum = 0.0;                         ///< metres per second
-    double last_time = std::numeric_limits<double>::quiet_NaN();
-    double shortest_step = std::numeric_limits<double>::infinity();  ///< seconds
+    TimeResolution times;
     std::size_t path_cursor = 0;
     HeadingCheck heading;
     HeightCheck angles;
@@ -111,6 +132,7 @@ class TrajectoryPlausibility {
   void checkHeading(std::vector<Finding>& findings) const;
   void checkRollAndPitch(std::vector<Finding>& findings) const;
   Finding ofAttitude(bool wrong, const std::string& text) const;
+  HeightError heightOfStrips() const;
   Eigen::Vector2d offset(const std::vector<View>& views) const;
 
   std::shared_ptr<const Trajectory> flight_;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "remedy_options.h"
+
+namespace pcl_als::app {
+namespace {
+
+/// The option of a tool that serves a remedy, and what it does there.
+struct RemedyOption {
+  Remedy remedy;
+  const char* option;
+  const char* text;
+};
+constexpr RemedyOption kRemedyOptions[] = {
+    {Remedy::force, "force", "use -force to continue"},
+    {Remedy::force_level, "force", "-force takes the sensor as level"},
+    {Remedy::keep_uncovered, "keep_uncovered", "-keep_uncovered leaves them as they are"},
+    {Remedy::nominal_model, "model",
+     "or use -model nominal, which takes the sensor as level with its heading along the course"},
+    {Remedy::positions_only, "model", "or use -model quasi_rigorous, which needs no attitude"},
+    {Remedy::recover_attitude, "vertical", "without -vertical they are recovered from the points"},
+    {Remedy::crs, "crs", "give one with -crs"},
+    {Remedy::columns, "columns", "or name the columns with -columns"},
+    {Remedy::leap_seconds, "leap_seconds", "state them with -leap_seconds"},
+    {Remedy::max_distance, "max_distance", "-max_distance compares surfaces further apart"},
+    {Remedy::extent, "extent", "see -extent"},
+    {Remedy::ground, "ground", "see -ground and -ground_classes"},
+    {Remedy::control, "control", "see -control"},
+    {Remedy::control_sigma, "control_sigma",
+     "see -control_sigma and the column sigma of the control file"},
+    {Remedy::flight_sigmas, "position_sigma",
+     "see -position_sigma, -roll_pitch_sigma and -heading_sigma"},
+    {Remedy::strips, "without", "-strips and -without choose strips"},
+};
+
+const RemedyOption* optionFor(Remedy remedy) {
+  for (const RemedyOption& option : kRemedyOptions) {
+    if (option.remedy == remedy) return &option;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string withOption(const Error& error) {
+  const RemedyOption* option = optionFor(error.remedy());
+  return option == nullptr ? error.what() : std::string(error.what()) + "; " + option->text;
+}
+
+void nameOptions(const CommandLine& line, Warnings& warnings) {
+  for (Warning& warning : warnings) {
+    const RemedyOption* option = optionFor(warning.remedy);
+    if (option != nullptr && line.declares(option->option)) {
+      warning.text.append("; ").append(option->text);
+    }
+    warning.remedy = Remedy::none;
+  }
+}
+
+}  // namespace pcl_als::app
