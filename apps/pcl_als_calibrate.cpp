@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -85,21 +84,6 @@ std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& l
   }
   if (pairs.empty()) throw UsageError("option -pairs: names no pair");
   return pairs;
-}
-
-/// Refuses pairs with a strip that other options leave out.
-void refuseExcluded(const SurveyCalibrationOptions& options) {
-  const auto holds = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  for (const auto& [a, b] : options.pairs) {
-    for (const std::string& name : {a, b}) {
-      const StripChoice& strips = options.strips;
-      if (holds(strips.without, name) || (!strips.only.empty() && !holds(strips.only, name)))
-        throw UsageError("option -pairs: names strip '" + name +
-                         "', which -strips or -without leaves out");
-    }
-  }
 }
 
 /// The attitude that is used: -vertical ignores the attitude that -model rigorous needs.
@@ -204,7 +188,6 @@ int calibrate(int argc, char** argv) {
   options.settings = settingsOf(line);
   options.pairs = stripPairs(line);
   options.strips = app::stripChoice(line);
-  refuseExcluded(options);
   app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
   const AttitudeUse attitude = attitudeToUse(line);

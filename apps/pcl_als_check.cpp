@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <set>
 
 #include <sys/resource.h>
 
@@ -86,47 +84,6 @@ int qualityLevel(const CommandLine& line) {
   return level;
 }
 
-bool isPointFile(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".las" || extension == ".laz" || extension == ".pcd";
-}
-
-/// The files of -before: a list, or those of a folder; in the order of the files of that name in
-/// \a others, for strips are named, and pairs turned, by it.
-std::vector<std::string> filesBefore(const CommandLine& line,
-                                     const std::vector<std::string>& others) {
-  std::vector<std::string> files;
-  const std::string text = line.text("before");
-  if (!fs::is_directory(text)) {
-    files = app::splitList(text);
-  } else {
-    for (const auto& entry : fs::directory_iterator(text))
-      if (entry.is_regular_file() && isPointFile(entry.path()))
-        files.push_back(entry.path().string());
-    std::sort(files.begin(), files.end());
-  }
-  if (files.empty()) throw InputError("option -before: " + text + " holds no point files");
-  const auto place = [&](const std::string& file) {
-    return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
-      return fs::path(other).filename() == fs::path(file).filename();
-    });
-  };
-  std::stable_sort(files.begin(), files.end(),
-                   [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
-  return files;
-}
-
-/// A file that is given twice would be a strip that fits itself.
-void refuseRepeated(const std::vector<std::string>& files) {
-  std::set<fs::path> seen;
-  for (const std::string& file : files) {
-    std::error_code error;
-    fs::path path = fs::canonical(file, error);
-    if (error) path = file;
-    if (!seen.insert(path).second) throw UsageError(file + " is given twice");
-  }
-}
-
 /// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
@@ -201,11 +158,10 @@ int check(int argc, char** argv) {
   QualityReport report;
   report.quality_level = qualityLevel(line);
   checkOutputs(line);
-  refuseRepeated(files);
   std::vector<std::string> before;
   if (line.has("before")) {
-    before = filesBefore(line, files);
-    refuseRepeated(before);
+    before = filesLike(files, app::splitList(line.text("before")));
+    app::refuseRepeated(before);
   }
   QualityPage page(line.has("report"));
   options.observer = page.observer();

@@ -153,9 +153,9 @@ std::string CommandLine::suggestionFor(const std::string& option) const {
   return name.empty() ? std::string() : "; did you mean -" + name + "?";
 }
 
-void CommandLine::refuseRepeated() const {
+void refuseRepeated(const std::vector<std::string>& inputs) {
   std::set<std::filesystem::path> seen;
-  for (const std::string& input : inputs_) {
+  for (const std::string& input : inputs) {
     std::error_code error;
     std::filesystem::path path = std::filesystem::canonical(input, error);
     if (error) path = input;
@@ -203,7 +203,7 @@ double CommandLine::number(const char* name, double low, double high, const char
 const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t high) const {
   if (inputs_.size() >= low && inputs_.size() <= high) {
     // Of a list; where each input has a part of its own, the tool says what may be the same.
-    if (high > 2) refuseRepeated();
+    if (high > 2) refuseRepeated(inputs_);
     return inputs_;
   }
   throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");

@@ -73,8 +73,6 @@ class CommandLine {
   std::string help() const;
   /// "; did you mean -trajectory?" for a misspelt option; empty where none is near.
   std::string suggestionFor(const std::string& option) const;
-  /// UsageError where an input is given twice: its points would be counted twice.
-  void refuseRepeated() const;
   /// UsageError where a file to write is one that is read.
   void refuseToOverwrite() const;
 
@@ -113,6 +111,9 @@ ProgressCallback progressOf(const CommandLine& line);
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what);
 /// The unit that -OF_units gives; metre without it. UsageError for another word.
 LengthUnit unitOption(const CommandLine& line, const std::string& of);
+
+/// UsageError where a file is given twice: its points would be counted twice.
+void refuseRepeated(const std::vector<std::string>& inputs);
 
 /// Prints an indented line of explanation, unless -quiet or empty.
 void remark(const CommandLine& line, const std::string& text);

@@ -34,7 +34,7 @@ calibrate_with 2 "no pair is left" -trajectory second.csv -pairs 1:2
 calibrate_with 1 "option -without: there is no strip '9'; there are 1, 2, 3, 4" -trajectory "$good" -without 9
 calibrate_with 1 "both name strip '1'" -trajectory "$good" -strips 1,2 -without 1
 calibrate_with 1 "option -strips: names no strip" -trajectory "$good" -strips ,
-calibrate_with 1 "names strip '4', which -strips or -without leaves out" \
+calibrate_with 1 "pairs: strip '4' is left out of the strips in use; -strips and -without" \
   -trajectory "$good" -pairs 3:4 -without 4
 calibrate_with 2 "not chosen" -trajectory "$good" -strips 1
 

@@ -35,7 +35,8 @@ StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey, Warn
       continue;
     }
     if (label->reason == LeftOutReason::excluded)
-      throw UsageError("pairs: strip '" + label->strip + "' is excluded from the strips in use");
+      throw UsageError("pairs: strip '" + label->strip + "' is left out of the strips in use",
+                       Remedy::strips);
     warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
   }
   if (usable.empty() && !pairs.empty())

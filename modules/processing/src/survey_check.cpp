@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/quality/accuracy_standards.h>
@@ -100,6 +103,31 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
   }
   checked.areas = check.areas();
   return checked;
+}
+
+std::vector<std::string> filesLike(const std::vector<std::string>& others,
+                                   const std::vector<std::string>& given) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files = given;
+  if (given.size() == 1 && fs::is_directory(given.front())) {
+    files.clear();
+    for (const auto& entry : fs::directory_iterator(given.front())) {
+      const std::string extension = lowerExtension(entry.path());
+      const bool points = extension == ".las" || extension == ".laz" || extension == ".pcd";
+      if (entry.is_regular_file() && points) files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    if (files.empty()) throw InputError(given.front() + " holds no point files");
+  }
+  if (files.empty()) throw InputError("no point files to compare with");
+  const auto place = [&](const std::string& file) {
+    return std::find_if(others.begin(), others.end(), [&](const std::string& other) {
+      return fs::path(other).filename() == fs::path(file).filename();
+    });
+  };
+  std::stable_sort(files.begin(), files.end(),
+                   [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+  return files;
 }
 
 }  // namespace pcl_als

@@ -51,4 +51,10 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
                         const SurveyCheckOptions& options = {},
                         const ProgressCallback& progress = {});
 
+/// Another set of the files \a others: \a given, or the point files of the one folder in it, in the
+/// order of the files of that name in \a others, because strips are named, and pairs turned, by it.
+/// InputError where there are none.
+std::vector<std::string> filesLike(const std::vector<std::string>& others,
+                                   const std::vector<std::string>& given);
+
 }  // namespace pcl_als
