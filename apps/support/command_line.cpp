@@ -3,6 +3,7 @@
 #include "command_line.h"
 
 #include <algorithm>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -303,7 +304,10 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
 }
 
 int run(const char* tool, const std::function<int()>& body) {
-  const auto failed = [tool](const char* message, int status) {
+  const auto failed = [tool](std::string message, int status) {
+    // What a file holds in place of text must not reach the terminal.
+    const auto control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+    std::replace_if(message.begin(), message.end(), control, '?');
     std::cerr << tool << ": " << message << std::endl;
     return status;
   };
@@ -314,12 +318,11 @@ int run(const char* tool, const std::function<int()>& body) {
     const int status = body();
     const char* reason = "";
     if (flushStandardOutput(reason) || status != kDone) return status;
-    return failed((std::string("cannot write to standard output: ") + reason).c_str(),
-                  kUnusableInput);
+    return failed(std::string("cannot write to standard output: ") + reason, kUnusableInput);
   } catch (const UsageError& error) {
-    return failed(withOption(error).c_str(), kWrongUsage);
+    return failed(withOption(error), kWrongUsage);
   } catch (const InputError& error) {
-    return failed(withOption(error).c_str(), kUnusableInput);
+    return failed(withOption(error), kUnusableInput);
   } catch (const std::bad_alloc&) {
     return failed("not enough memory", kUnusableInput);
   } catch (const std::exception& error) {

@@ -22,6 +22,7 @@ for tool in apply calibrate info; do expect 1 "usage: pcl_als_$tool" "$tool"; do
 
 # A misspelt option is answered with the nearest one, where there is one.
 expect 1 "trajctory'; did you mean -trajectory?" calibrate -trajctory x
+expect 1 "did you mean -trajectory?" apply -traject x  # not -trajectory_units, which continues it
 expect 1 "did you mean -strip_corrections?" calibrate -strip-corrections
 expect 1 "did you mean -output?" calibrate -outptu x.json
 expect 1 "did you mean -quality_level?" check --qualitylevel=2

@@ -59,6 +59,9 @@ expect 2 'leap seconds* -leap_seconds' "${apply[@]}" -trajectory utc.csv
 same "times in UTC" -trajectory utc.csv -leap_seconds 18
 
 # Conversion: CSV to SBET and back; the points are the same with either.
+expect 1 'is not known; give one with -crs' trajectory -trajectory "$csv" -output flight.sbet
+printf 'time,\033[31m,y\n1,2,3\n' >control.csv  # a control character is no part of a message
+expect 2 "header 'time,?" trajectory -trajectory control.csv -output flight.csv
 if "$bin/pcl_als_trajectory" -trajectory "$csv" -crs EPSG:32611 -output flight.sbet >out.txt 2>err.txt; then
   rm -f out.las
   expect 0 'SBET: latitude, longitude and ellipsoidal height, datum not stated' "${apply[@]}" -trajectory flight.sbet
@@ -74,7 +77,7 @@ else
   check "a build without PROJ says so" grep -q 'needs PROJ' err.txt
 fi
 expect 1 'a trajectory is written as' trajectory -trajectory "$csv" -output x.txt
-expect 1 'give the CRS' trajectory -trajectory "$csv" -output x.sbet
+expect 1 'give one with -crs' trajectory -trajectory "$csv" -output x.sbet
 expect 1 'option -output: *' trajectory -trajectory "$csv" -output "$csv"
 absent x.txt x.sbet
 

@@ -37,7 +37,13 @@ std::string nearestName(const std::string& word, const std::vector<std::string>&
     const bool begins = lower.size() >= 3 && name.rfind(lower, 0) == 0;
     const std::size_t distance = begins ? 1 : editDistance(lower, name);
     if (distance > nearest) continue;
-    found = distance == nearest ? std::string() : name;
+    // Of "trajectory" and "trajectory_units", the former is meant.
+    const bool continued = begins && !found.empty();
+    if (distance < nearest || (continued && found.rfind(name, 0) == 0)) {
+      found = name;
+    } else if (!continued || name.rfind(found, 0) != 0) {
+      found.clear();
+    }
     nearest = distance;
   }
   return nearest <= most ? found : std::string();

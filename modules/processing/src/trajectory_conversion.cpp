@@ -22,9 +22,11 @@ bool isSbet(const fs::path& output) {
 
 void checkOutput(const fs::path& output, const Options& options) {
   if (isSbet(output) && options.reading.crs.empty()) {
-    throw UsageError(output.string() +
-                     ": an SBET is in latitude and longitude; give the CRS of the "
-                     "coordinates, such as EPSG:25832");
+    throw UsageError(
+        output.string() +
+            ": an SBET is in latitude and longitude, and the CRS of the coordinates, such as "
+            "EPSG:25832, is not known",
+        Remedy::crs);
   }
   if (isSbet(output) || lowerExtension(output) == ".csv") return;
   throw UsageError(output.string() + ": a trajectory is written as .csv, .sbet or .out");
