@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
-#include <set>
 #include <sstream>
 
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/survey_io.h>
@@ -42,24 +42,14 @@ CommandLine commandLine() {
 }
 
 SystemVector parseBiases(const std::string& list) {
+  if (app::splitList(list).empty()) throw UsageError("option -biases: names no parameter");
   SystemVector biases = SystemVector::Zero();
-  std::set<SystemParameter> given;
-  for (const std::string& part : app::splitList(list)) {
-    const std::size_t equals = part.find('=');
-    if (equals == std::string::npos) {
-      throw UsageError("option -biases: '" + part + "' is not NAME=VALUE");
-    }
-    const SystemParameter parameter = app::parameterNamed(part.substr(0, equals), "option -biases");
-    if (!given.insert(parameter).second) {
-      throw UsageError("option -biases: " + part.substr(0, equals) + " is given twice");
-    }
-    const double value = app::numberIn(part.substr(equals + 1), "option -biases");
-    biases[indexOf(parameter)] = value * infoOf(parameter).internal_per_unit;
-    const std::string refused = refusedBias(parameter, biases[indexOf(parameter)]);
+  setBiases(list, biases);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const std::string refused = refusedBias(info.parameter, biases[indexOf(info.parameter)]);
     if (!refused.empty())
-      throw UsageError("option -biases: " + part.substr(0, equals) + ": " + refused);
+      throw UsageError("option -biases: " + std::string(info.name) + ": " + refused);
   }
-  if (given.empty()) throw UsageError("option -biases: names no parameter");
   return biases;
 }
 

@@ -58,6 +58,9 @@ CommandLine commandLine() {
   line.addOptional("report",
                    "folder for report.html (pictures inside), report.md and tables as CSV");
   app::addErrorOptions(line);
+  app::addAccuracyOption(line,
+                         "their root mean squares over the strips are the prior standard "
+                         "deviations of trajectory errors that no option gives");
   line.add("max_distance", "largest normal distance of a pair at the start, m",
            defaults.max_normal_distance);
   line.add("points", "largest number of points that are used, millions",
@@ -190,6 +193,10 @@ int calibrate(int argc, char** argv) {
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
+  options.accuracy = app::accuracies(line);
+  options.keep_position = line.given("position_sigma");
+  options.keep_roll_pitch = line.given("roll_pitch_sigma");
+  options.keep_heading = line.given("heading_sigma");
   const AttitudeUse attitude = attitudeToUse(line);
   const PointWindow window = app::windowOf(line);
   checkOutputs(line);

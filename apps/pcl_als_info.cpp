@@ -6,30 +6,50 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/report/census_report.h>
 #include <pcl_als/survey/arranged_files.h>
 
 #include "command_line.h"
+#include "flight_options.h"
 #include "strip_options.h"
 #include "window_options.h"
 
 namespace pcl_als::app {
 namespace {
 
+void listFlight(const CommandLine& line) {
+  std::string text;
+  if (line.has("trajectory")) {
+    const TrajectoryReading reading = trajectoryReading(line, {});
+    for (const std::filesystem::path& file : trajectoryPaths(trajectoryFiles(line)))
+      text += trajectoryText(file.string(), inspectTrajectory(file, reading));
+  }
+  if (line.has("accuracy")) text += accuracyText(line.text("accuracy"), accuracies(line));
+  if (!line.quiet()) std::cout << text;
+}
+
 int info(int argc, char** argv) {
   CommandLine line("pcl_als_info",
                    "lists the contents of point files: strips, times, density, returns, overlaps",
-                   "FILE… [-json FILE]", "pcl_als_info strip1.las strip2.las -json survey.json");
+                   "FILE… [-trajectory T] [-json FILE]",
+                   "pcl_als_info strip1.las strip2.las -json survey.json");
   line.add<double>("cell", "cell size for density and overlaps, m; 0: by density", 0.0);
   line.addOptional("json", "also write the facts as JSON");
   addWindowOptions(line);
   addStripOptions(line);
+  addTrajectoryOptions(line, "listed: format, datum, times, attitude");
+  addAccuracyOption(line, "listed");
   if (!line.parse(argc, argv)) return kDone;
 
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell", 0.0, 10000.0, "m");
-  const auto& inputs = line.inputs(1, std::numeric_limits<std::size_t>::max());
+  const bool flight = line.has("trajectory") || line.has("accuracy");
+  const auto& inputs = line.inputs(flight ? 0 : 1, std::numeric_limits<std::size_t>::max());
+  listFlight(line);
+  if (inputs.empty() && line.has("json")) throw UsageError("option -json: needs point files");
+  if (inputs.empty()) return kDone;
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const std::vector<std::filesystem::path> paths(inputs.begin(), inputs.end());
   std::optional<ArrangedFiles> arranged;

@@ -7,6 +7,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/picture/picture_source.h>
+#include <pcl_als/processing/picture/section_files.h>
 #include <pcl_als/processing/picture/section_places.h>
 #include <pcl_als/processing/picture/survey_picture.h>
 #include <pcl_als/visualization/section.h>
@@ -85,74 +86,6 @@ std::size_t countOf(const CommandLine& line) {
   return static_cast<std::size_t>(count);
 }
 
-/// Points that a search for places uses: classes may exclude what is no surface.
-enum class Searched { surfaces, ground };
-
-bool isSearched(const PictureSource::Point& point, Searched searched) {
-  constexpr std::uint8_t kGround = 2, kLowNoise = 7, kWater = 9, kHighNoise = 18;
-  if (point.chunk->number_of_returns[point.index] > 1) return false;
-  const std::uint8_t code = point.chunk->classification[point.index];
-  if (searched == Searched::ground) return code == kGround;
-  const bool vegetation = code >= 3 && code <= 5, wires = code >= 13 && code <= 16;
-  return !vegetation && !wires && code != kWater && code != kLowNoise && code != kHighNoise;
-}
-
-std::vector<SectionSearch::Place> placesAmong(const PictureSource& source,
-                                              const std::vector<bool>& chosen, std::size_t count,
-                                              Searched searched) {
-  SectionSearch search(source.minimum().head<2>(), source.maximum().head<2>(),
-                       source.sectionCell(chosen), chosen.size());
-  source.read([&](const PictureSource::Point& point) {
-    const auto strip = static_cast<std::size_t>(point.strip);
-    if (chosen[strip] && isSearched(point, searched)) search.add(point.position, strip);
-  });
-  return search.find(count);
-}
-
-std::vector<SectionSearch::Place> search(const PictureSource& source,
-                                         const std::vector<bool>& chosen, std::size_t count,
-                                         double width) {
-  auto places = placesAmong(source, chosen, count, Searched::surfaces);
-  if (places.empty()) {
-    // In a forest without numbers of returns only the ground is smooth. It has no roofs.
-    places = placesAmong(source, chosen, count, Searched::ground);
-    for (auto& place : places) {
-      if (place.kind == SectionSearch::Place::Kind::gable)
-        place.kind = SectionSearch::Place::Kind::opposite_slopes;
-    }
-  }
-  for (auto& place : places) {
-    if (width > 0.0) place.line.half_width = 0.5 * width;
-  }
-  if (places.empty()) {
-    throw InputError("no gable roof or slope that two strips cover: give -from and -to");
-  }
-  return places;
-}
-
-/// Points of all sections from one reading of the files. Strips are those of \a names.
-std::vector<SectionPoints> collect(const PictureSource& source,
-                                   const std::vector<SectionSearch::Place>& places,
-                                   const std::vector<std::string>& names,
-                                   const std::vector<bool>& chosen) {
-  std::vector<int> strip_of;
-  for (const std::string& name : source.strips()) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      throw InputError("option -after: strip " + name + " is not among the strips before");
-    }
-    strip_of.push_back(static_cast<int>(found - names.begin()));
-  }
-  std::vector<SectionPoints> sections;
-  for (const SectionSearch::Place& place : places) sections.emplace_back(place.line);
-  source.read([&](const PictureSource::Point& point) {
-    const int strip = strip_of[static_cast<std::size_t>(point.strip)];
-    if (!chosen[static_cast<std::size_t>(strip)]) return;
-    for (SectionPoints& section : sections) section.add(point.position, strip);
-  });
-  return sections;
-}
-
 int profile(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
@@ -174,12 +107,14 @@ int profile(int argc, char** argv) {
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const PictureSource source(inputs, line.has("split"), window);
   const std::vector<bool> chosen = chosenStrips(app::stripChoice(line), source.strips());
-  if (automatic) places = search(source, chosen, count, width);
-  const auto before = collect(source, places, source.strips(), chosen);
+  if (automatic) places = findSections(source, chosen, count, width);
+  if (places.empty())
+    throw InputError("no gable roof or slope that two strips cover: give -from and -to");
+  const auto before = collectSections(source, places, source.strips(), chosen);
   std::vector<SectionPoints> after;
   if (line.has("after")) {
-    after = collect(PictureSource(filesAfter(line, inputs), line.has("split"), window), places,
-                    source.strips(), chosen);
+    after = collectSections(PictureSource(filesAfter(line, inputs), line.has("split"), window),
+                            places, source.strips(), chosen);
   }
   step.done(grouped(source.pointCount()) + " points");
   app::remarks(line, source.remarks());

@@ -23,7 +23,8 @@ CommandLine commandLine() {
                    "pcl_als_trajectory -trajectory flight.sbet -crs EPSG:32611 -calibration "
                    "calibration.json -output corrected.sbet");
   app::addTrajectoryOptions(line);
-  app::addAccuracyOption(line, "standard deviations that are written");
+  app::addAccuracyOption(
+      line, "standard deviations to write (default: those of the trajectory's own columns)");
   line.addOptional("calibration", "calibration.json that is applied");
   line.addFlag("lever_arm_only", "do not apply the strip corrections of the calibration");
   line.addOptional("output",

@@ -89,7 +89,7 @@ std::vector<std::string> CommandLine::list(const char* name) const {
 }
 
 std::string CommandLine::text(const char* name) const {
-  if (std::find(lists_.begin(), lists_.end(), name) == lists_.end()) return get<std::string>(name);
+  if (!isList(name)) return get<std::string>(name);
   std::string joined;
   for (const std::string& value : list(name)) joined += (joined.empty() ? "" : ",") + value;
   return joined;
@@ -171,9 +171,8 @@ void CommandLine::refuseToOverwrite() const {
   std::vector<std::filesystem::path> inputs(inputs_.begin(), inputs_.end());
   std::vector<std::pair<std::string, std::string>> written;
   for (const auto& [name, value] : parser_->values) {
-    if (std::find(lists_.begin(), lists_.end(), name) != lists_.end()) {
+    if (isList(name))
       for (const std::string& path : list(name.c_str())) inputs.emplace_back(path);
-    }
     const auto* text = boost::any_cast<std::string>(&value.value());
     if (text == nullptr) continue;
     if (outputs.count(name) != 0)
@@ -190,6 +189,10 @@ bool CommandLine::has(const char* name) const {
 
 bool CommandLine::declares(const char* name) const {
   return parser_->options.find_nothrow(name, false) != nullptr;
+}
+
+bool CommandLine::given(const char* name) const {
+  return has(name) && !parser_->values[name].defaulted();
 }
 
 double CommandLine::number(const char* name, double low, double high, const char* unit) const {
@@ -228,8 +231,7 @@ std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
     if (const auto* word = boost::any_cast<std::string>(&value.value())) {
       text << (word->empty() ? "yes" : *word);
     }
-    if (std::find(lists_.begin(), lists_.end(), name) != lists_.end())
-      text << this->text(name.c_str());
+    if (isList(name)) text << this->text(name.c_str());
     settings.emplace_back(name, text.str());
   }
   return settings;

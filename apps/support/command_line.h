@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,7 @@ class CommandLine {
   template <typename T>
   T get(const char* name) const;
   bool has(const char* name) const;
+  bool given(const char* name) const;        ///< and not the default
   std::string text(const char* name) const;  ///< of a list: separated by commas
   std::vector<std::string> list(const char* name) const;
   /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
@@ -71,6 +73,9 @@ class CommandLine {
 
  private:
   std::string help() const;
+  bool isList(const std::string& name) const {
+    return std::find(lists_.begin(), lists_.end(), name) != lists_.end();
+  }
   /// "; did you mean -trajectory?" for a misspelt option; empty where none is near.
   std::string suggestionFor(const std::string& option) const;
   /// UsageError where a file to write is one that is read.

@@ -165,8 +165,7 @@ void checkFlightOptions(const CommandLine& line) {
 
 void addAccuracyOption(CommandLine& line, const char* use) {
   const std::string help =
-      std::string("standard deviations of the trajectory over time, an Applanix smrmsg file: ") +
-      use + " (default: those of the trajectory's own columns)";
+      std::string("accuracies of the trajectory over time, an Applanix smrmsg file: ") + use;
   line.addOptional("accuracy", help.c_str());
 }
 

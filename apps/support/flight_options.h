@@ -39,7 +39,7 @@ void addTrajectoryOptions(CommandLine& line, const char* use = "needed");
 /// The values of -trajectory. UsageError without any.
 std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line);
 
-/// Declares -accuracy; \a use: what standard deviations are for.
+/// Declares -accuracy; \a use: what the accuracies are for.
 void addAccuracyOption(CommandLine& line, const char* use);
 /// The records of its file; empty without it.
 std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line);

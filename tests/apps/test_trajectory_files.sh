@@ -58,6 +58,27 @@ awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR == 1 { $1 = "UTCTime" } NR > 1
 expect 2 'leap seconds* -leap_seconds' "${apply[@]}" -trajectory utc.csv
 same "times in UTC" -trajectory utc.csv -leap_seconds 18
 
+# Accuracies: 2, 2 and 3 cm, 12 and 30 arc-seconds while points are measured, more between the lines.
+perl -e 'for ($t = 400990; $t < 402190; $t++) { $k = ($t - 400990) % 250 < 30 ? 1 : 50;
+  print pack "d<*", $t, 0.02 * $k, 0.02 * $k, 0.03 * $k, 0, 0, 0, 0.2 * $k, 0.2 * $k, 0.5 * $k }' >smrmsg_1.out
+calibrate=(calibrate "$block"/strip?.las -trajectory "$csv" -control "$block/control.csv" -output a.json)
+expect 0 'over the strips: position 0.024 m, roll and pitch 12.0 arcsec, heading 30.0 arcsec' \
+  "${calibrate[@]}" -accuracy smrmsg_1.out
+expect 0 'over the strips: position 0.024 m, heading 30.0 arcsec' \
+  "${calibrate[@]}" -accuracy smrmsg_1.out -roll_pitch_sigma 8
+expect 0 '' "${calibrate[@]}" -position_sigma 0.0238048 -roll_pitch_sigma 12 -heading_sigma 30
+mv a.json given.json
+expect 0 '' "${calibrate[@]}" -accuracy smrmsg_1.out
+check "the same as the options" diff <(grep -A2 lever_arm_x given.json | cut -c1-17) \
+  <(grep -A2 lever_arm_x a.json | cut -c1-17)
+perl -e 'print pack "d<*", 100000, (0.02) x 9' >other.out
+expect 2 'are not those of the strips' "${calibrate[@]}" -accuracy other.out
+expect 0 'accuracies of a trajectory (smrmsg), 1 200 records' info -accuracy smrmsg_1.out
+expect 2 'not a multiple of the 80' info -accuracy "$csv"
+expect 0 'heading within 2 degrees of the course' info -trajectory parts
+expect 0 '401000.000 to 401255.740 s, seconds of the GPS week' info "$block/strip1.las" -trajectory parts/a.csv
+expect 0 'it would follow it as an angle counter-clockwise from east' info -trajectory enu.csv
+
 # Conversion: CSV to SBET and back; the points are the same with either.
 expect 1 'is not known; give one with -crs' trajectory -trajectory "$csv" -output flight.sbet
 printf 'time,\033[31m,y\n1,2,3\n' >control.csv  # a control character is no part of a message

@@ -78,6 +78,22 @@ TEST(Smrmsg, RefusesWhatIsNoStandardDeviation) {
   EXPECT_EQ(readAccuracies(smrmsg({first, second, third}))[2].time, 604801.5);
 }
 
+TEST(Smrmsg, RootMeanSquareOverSomeTimes) {
+  const auto read = readAccuracies(smrmsg({{100.0, 0.01, 0.02, 0.02, 0, 0, 0, 0.3, 0.4, 1.0},
+                                           {101.0, 0.01, 0.02, 0.02, 0, 0, 0, 0.3, 0.4, 1.0},
+                                           {500.0, 9.0, 9.0, 9.0, 0, 0, 0, 9.0, 9.0, 9.0}}));
+  TimeRange span;
+  span.add(90.0), span.add(110.0);
+  const AccuracySummary summary = summarize(read, {span});
+  EXPECT_EQ(summary.records, 2U);
+  EXPECT_NEAR(summary.position, std::sqrt((1.0 + 4.0 + 4.0) / 3.0) * 0.01, 1e-12);
+  EXPECT_NEAR(summary.roll_pitch, std::sqrt((0.09 + 0.16) / 2.0) * kArcmin, 1e-12);
+  EXPECT_NEAR(summary.heading, kArcmin, 1e-12);
+  EXPECT_EQ(describe(summary), "position 0.017 m, roll and pitch 21.2 arcsec, heading 60.0 arcsec");
+  EXPECT_EQ(summarize(read).records, 3U);
+  EXPECT_EQ(summarize({}).records, 0U);
+}
+
 TEST(Smrmsg, IsReadAsWritten) {
   const auto read = readAccuracies(smrmsg({{1.0, 0.02, 0.03, 0.05, 0, 0, 0, 0.5, 0.6, 1.5}}));
   const auto path = test::scratch("trajectory_writer") / "again.out";

@@ -289,13 +289,26 @@ TrajectoryFacts inspectTrajectory(const fs::path& path, const TrajectoryReading&
   facts.samples = records.samples.size();
   facts.attitude = std::all_of(records.samples.begin(), records.samples.end(),
                                [](const TrajectorySample& s) { return s.hasAttitude(); });
-  facts.standard_deviations = !records.accuracy.empty();
-  std::vector<TrajectorySample> samples = records.samples;
+  facts.accuracy = records.accuracy;
+  std::vector<TrajectorySample>& samples = facts.local;
+  samples = records.samples;
   std::sort(samples.begin(), samples.end(),
             [](const TrajectorySample& a, const TrajectorySample& b) { return a.time < b.time; });
   for (const TrajectorySample& sample : samples) facts.times.add(sample.time);
   facts.median_step = medianStep(samples);
   facts.time_kind = timeKindOf(facts.times);
+  const Eigen::Vector3d first = samples.front().position;
+  for (TrajectorySample& sample : samples) {
+    const Eigen::Vector3d d = sample.position - first;
+    if (records.coordinates == TrajectoryCoordinates::geographic) {
+      constexpr double kRadius = 6371000.0;  // metres
+      sample.position = {kRadius * d.y() * std::cos(first.x()), kRadius * d.x(), d.z()};
+    } else {
+      sample.position = records.coordinates == TrajectoryCoordinates::map
+                            ? d
+                            : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    }
+  }
   return facts;
 }
 

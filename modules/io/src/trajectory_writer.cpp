@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
@@ -12,14 +11,8 @@
 #include <pcl_als/crs/map_projection.h>
 #include <pcl_als/io/trajectory_writer.h>
 
-#include "csv_table.h"
-#include "week_rollover.h"
-
 namespace pcl_als {
 namespace {
-
-using AccuracyRecord = std::array<double, 10>;
-constexpr double kRadiansPerArcmin = kRadiansPerDegree / 60.0;
 
 template <std::size_t N>
 void appendRecord(std::string& bytes, const std::array<double, N>& record) {
@@ -42,16 +35,6 @@ Eigen::Vector3d velocityAt(const std::vector<TrajectorySample>& samples, std::si
   const double step = after.time - before.time;
   if (!(step > 0.0) || step > kLongestStep) return Eigen::Vector3d::Zero();
   return (after.position - before.position) / step;
-}
-
-const char* accuracyFault(const AccuracyRecord& record) {
-  constexpr double kLargest = 1000.0, kWidest = 180.0 * 60.0;  // metres, arc-minutes
-  for (std::size_t i = 0; i < record.size(); ++i) {
-    const double largest = i == 0 ? 1e12 : i < 7 ? kLargest : kWidest;
-    if (!(std::abs(record[i]) <= largest)) return "a value is not a standard deviation";
-    if (i > 0 && record[i] < 0.0) return "a standard deviation is negative";
-  }
-  return nullptr;
 }
 
 }  // namespace
@@ -125,72 +108,6 @@ void writeSbet(const std::filesystem::path& path, const std::vector<TrajectorySa
   }
   file.write(bytes);
   file.commit();
-}
-
-void writeAccuracies(const std::filesystem::path& path,
-                     const std::vector<TrajectoryAccuracy>& accuracy) {
-  const auto known = [](double value) { return std::isfinite(value) ? value : 0.0; };
-  std::string bytes;
-  for (const TrajectoryAccuracy& a : accuracy) {
-    const Eigen::Vector3d angles = a.angles / kRadiansPerArcmin;
-    appendRecord(bytes, AccuracyRecord{a.time, known(a.position.y()), known(a.position.x()),
-                                       known(a.position.z()), 0.0, 0.0, 0.0, known(angles.x()),
-                                       known(angles.y()), known(angles.z())});
-  }
-  writeFile(path, bytes);
-}
-
-TrajectoryAccuracy accuracyAt(const std::vector<TrajectoryAccuracy>& accuracies, double time) {
-  constexpr double kReach = 1.0;  // seconds: smrmsg files have one record a second
-  TrajectoryAccuracy result;
-  result.time = time;
-  const auto after =
-      std::lower_bound(accuracies.begin(), accuracies.end(), time,
-                       [](const TrajectoryAccuracy& a, double value) { return a.time < value; });
-  if (after == accuracies.end() || after == accuracies.begin()) {
-    const auto& end = after == accuracies.end() ? accuracies.end() - 1 : after;
-    if (accuracies.empty() || std::abs(end->time - time) > kReach) return result;
-    result.position = end->position, result.angles = end->angles;
-    return result;
-  }
-  const TrajectoryAccuracy &a = *(after - 1), &b = *after;
-  if (time - a.time > kReach && b.time - time > kReach) return result;
-  const double share = (time - a.time) / (b.time - a.time);
-  result.position = a.position + share * (b.position - a.position);
-  result.angles = a.angles + share * (b.angles - a.angles);
-  return result;
-}
-
-std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path) {
-  constexpr std::size_t kBytes = sizeof(AccuracyRecord);
-  const std::string content = detail::readWholeFile(path);
-  if (content.empty()) throw InputError(path.string() + ": is empty");
-  if (content.size() % kBytes != 0) {
-    throw InputError(path.string() + ": its size, " + std::to_string(content.size()) +
-                     " bytes, is not a multiple of the 80 of an accuracy record (smrmsg)");
-  }
-  std::vector<TrajectoryAccuracy> accuracies;
-  double weeks = 0.0;  // seconds that run on past the end of the week
-  for (std::size_t at = 0; at < content.size(); at += kBytes) {
-    const auto refuse = [&](const char* why) {
-      throw InputError(path.string() + ": record " + std::to_string(at / kBytes + 1) + ": " + why);
-    };
-    AccuracyRecord record;
-    std::memcpy(record.data(), content.data() + at, kBytes);
-    if (const char* why = accuracyFault(record)) refuse(why);
-    TrajectoryAccuracy accuracy;
-    accuracy.time = record[0] + weeks;
-    accuracy.position = {record[2], record[1], record[3]};
-    accuracy.angles = kRadiansPerArcmin * Eigen::Vector3d(record[7], record[8], record[9]);
-    if (!accuracies.empty() && accuracy.time < accuracies.back().time) {
-      if (weeks > 0.0 || !detail::isWeekRollover(accuracies.back().time, accuracy.time))
-        refuse("the time runs backwards");
-      weeks = kSecondsPerWeek;
-      accuracy.time += weeks;
-    }
-    accuracies.push_back(accuracy);
-  }
-  return accuracies;
 }
 
 }  // namespace pcl_als

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/planning/block_advice.h>
 #include <pcl_als/processing/survey_calibration.h>
 
@@ -93,6 +96,32 @@ CalibrationResult adjusted(SystemCalibrationEngine& calibration, ProgressReport&
   return result;
 }
 
+/// The errors of a strip's trajectory are those of the whole flight solution: what its accuracy
+/// says of single times holds for their sum of constant, smooth and random components.
+std::string setPriors(const SurveyCalibrationOptions& options, const SurveyReader& survey,
+                      SharedErrorModel& errors) {
+  if (options.accuracy.empty()) return {};
+  AccuracySummary summary = summarize(options.accuracy, survey.observedTimes());
+  if (summary.records == 0) {
+    char times[160];
+    std::snprintf(times, sizeof times,
+                  "accuracies of the trajectory: their times, %.3f to %.3f s, are not those of the "
+                  "strips; give those of this flight",
+                  options.accuracy.front().time, options.accuracy.back().time);
+    throw InputError(times);
+  }
+  const auto set = [](bool keep, double& known, double& prior) {
+    if (keep || !(known > 0.0)) known = TrajectoryAccuracy::kUnknown;
+    if (std::isfinite(known)) prior = known;
+  };
+  set(options.keep_position, summary.position, errors.position);
+  set(options.keep_roll_pitch, summary.roll_pitch, errors.roll_pitch);
+  set(options.keep_heading, summary.heading, errors.heading);
+  return "a priori standard deviations of trajectory errors, from its accuracies over the "
+         "strips: " +
+         describe(summary);
+}
+
 }  // namespace
 
 SurveyCalibration calibrateSurvey(SurveyReader& survey,
@@ -107,6 +136,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   }
   CalibrationSettings settings = options.settings;
   settings.resolution = survey.resolution();
+  progress.remark(setPriors(options, survey, settings.shared_errors));
   SystemCalibrationEngine calibration(flight, settings, survey.corner());
   Warnings warnings;
   calibration.setPairs(usablePairs(options.pairs, survey, warnings));

@@ -79,6 +79,20 @@ Eigen::Vector2d SurveyReader::farCorner() const {
   return corner.allFinite() ? corner : Eigen::Vector2d(Eigen::Vector2d::Zero());
 }
 
+std::vector<TimeRange> SurveyReader::observedTimes() const {
+  std::vector<TimeRange> times;
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const PointSource& source : files_[file].sources.sources) {
+      if (!source.hasTimes() || arrangement_->stripsOf(file, source.id).empty()) continue;
+      TimeRange range;
+      range.add(times_[file](source.first_time));
+      range.add(times_[file](source.last_time));
+      times.push_back(range);
+    }
+  }
+  return times;
+}
+
 double SurveyReader::resolution() const {
   double finest = std::numeric_limits<double>::infinity();
   for (const SurveyedFile& file : files_) {

@@ -113,10 +113,13 @@ struct TrajectoryFacts {
   std::string format, frame, columns;
   std::size_t samples = 0;
   TimeRange times;
-  std::string time_kind;     ///< "seconds of the GPS week"
-  double median_step = 0.0;  ///< seconds
-  bool attitude = false;     ///< of every sample
-  bool standard_deviations = false;
+  std::string time_kind;                     ///< "seconds of the GPS week"
+  double median_step = 0.0;                  ///< seconds
+  bool attitude = false;                     ///< of every sample
+  std::vector<TrajectoryAccuracy> accuracy;  ///< empty where none is stated
+  /// In order of time, positions east, north and up of the first sample, metres; of geographic
+  /// coordinates on a sphere, of geocentric ones zero.
+  std::vector<TrajectorySample> local;
 };
 TrajectoryFacts inspectTrajectory(const std::filesystem::path& path,
                                   const TrajectoryReading& reading);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/io/trajectory_io.h>
 
 namespace pcl_als {
@@ -29,23 +30,5 @@ void writeTrajectoryCsv(const std::filesystem::path& path,
  */
 void writeSbet(const std::filesystem::path& path, const std::vector<TrajectorySample>& samples,
                const std::string& crs);
-
-/// Writes standard deviations as an Applanix smrmsg file (readAccuracies()); unknown ones as zero.
-/// The standard deviations of velocities are zero.
-void writeAccuracies(const std::filesystem::path& path,
-                     const std::vector<TrajectoryAccuracy>& accuracy);
-
-/** \brief Reads standard deviations over time from an Applanix smrmsg file.
- *
- * Records of 10 little-endian doubles: time (s, as the SBET's), standard deviations of north, east
- * and down (m), of three velocities (m/s), of roll, pitch and heading (arc-minutes). InputError
- * names file and record for values that are negative, not finite or larger than 1 km or 180
- * degrees, and for times that run backwards.
- */
-std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path);
-
-/// Standard deviations at a time, linear between records in order of time; NaN at times more than a
-/// second from any record.
-TrajectoryAccuracy accuracyAt(const std::vector<TrajectoryAccuracy>& accuracies, double time);
 
 }  // namespace pcl_als

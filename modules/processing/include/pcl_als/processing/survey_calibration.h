@@ -11,6 +11,7 @@
 #include <pcl_als/calibration/calibration_settings.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/survey/strip_arrangement.h>
@@ -25,6 +26,11 @@ struct SurveyCalibrationOptions {
   std::vector<ControlPoint> control;
   std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
   SurveyObserver observer;      ///< called during the first reading
+  /// Standard deviations of the trajectory over time: their root mean squares over the times of the
+  /// strips replace those of settings.shared_errors, except those that are kept. InputError where
+  /// they cover none of the strips.
+  std::vector<TrajectoryAccuracy> accuracy;
+  bool keep_position = false, keep_roll_pitch = false, keep_heading = false;
 };
 
 struct SurveyCalibration {

@@ -80,6 +80,10 @@ class SurveyReader {
   /// Finest coordinate step of the files, metres.
   double resolution() const;
 
+  /// Times of the points of the strips in use, by file and point source id, on the clock of the
+  /// trajectory.
+  std::vector<TimeRange> observedTimes() const;
+
   const std::vector<SurveyedFile>& files() const { return files_; }
   const StripArrangement& arrangement() const { return *arrangement_; }
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/simulation/error_process.h>
 
@@ -112,9 +113,6 @@ struct SimulationOptions {
   void check() const;
 };
 
-/// Sets biases from "boresight_roll=-90,range_bias=0.1" in interface units (m, arcsec, 1); a
-/// leading "none" sets all to zero first. UsageError for an unknown name or a value that is no
-/// number.
-void setBiases(std::string_view text, SystemVector& bias);
+using pcl_als::setBiases;
 
 }  // namespace pcl_als::simulation
