@@ -49,11 +49,15 @@ void addWindowOptions(CommandLine& line) {
   line.addOptional("resolution",
                    "of COPC files: read the octree up to the level whose points are so far apart, "
                    "m (default: all points)");
+  line.addFlag(
+      "keep_readable",
+      "read what is intact of damaged or truncated LAS and LAZ files, and report how much");
 }
 
 PointWindow windowOf(const CommandLine& line) {
   PointWindow window;
   if (line.has("bounds")) window.bounds = rectangleOf(line, "bounds");
+  window.keep_readable = line.has("keep_readable");
   if (line.has("resolution"))
     window.resolution = numberIn(line.text("resolution"), "option -resolution", 1e-6, 1e6);
   return window;

@@ -25,7 +25,8 @@ std::vector<double> numbersOf(const CommandLine& line, const char* option, char 
 /// XMIN,YMIN,XMAX,YMAX of an option, metres; UsageError otherwise.
 Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option);
 
-/// Adds -bounds and -resolution, which mean the same in every tool that reads parts of files.
+/// Adds -bounds, -resolution and -keep_readable, which mean the same in every tool that reads parts
+/// of files.
 void addWindowOptions(CommandLine& line);
 /// Their values.
 PointWindow windowOf(const CommandLine& line);

@@ -53,5 +53,19 @@ check "the input is as it was" cmp "$strip" own.las
 expect 2 "there is no such file" convert missing.las out.las
 head -c 100000 packed.laz >cut.laz
 expect 2 "cut.laz: " convert cut.laz out.las
+
+# What is intact of a truncated or damaged file.
+expect 2 "cut.laz: none of its points can be read: " convert cut.laz out.las -keep_readable
+expect 0 "points" convert "$strip" whole.las -keep_readable
+check "an undamaged file is the same" cmp whole.las "$strip"
+head -c 200000 "$strip" >cut.las
+expect 2 "cut.las: the header declares" convert cut.las out.las
+expect 0 "cut.las: 5 8?? of 17 206 points" convert cut.las kept.laz -keep_readable
+expect 0 "5 8" info kept.laz
+expect 0 "cut.las: 5 8?? of 17 206 points" info cut.las -keep_readable
+expect 2 "cut.las: the header declares" info cut.las
+expect 0 "cut.las: 5 8?? of 17 206 points" view cut.las -keep_readable -output cut.png
+run check cut.las "$block/strip2.las" -keep_readable -output kept.json
+check "the check warns of it" grep -q 'cut.las: 5 8.. of 17 206 points' kept.json
 absent out.las points.txt out.copc.laz folder
 finish

@@ -55,6 +55,18 @@ void readLaz(const LasFile& file) {
     file.readRecords(first, std::min<std::uint64_t>(1000, count - first), records.data());
 }
 
+/// What is intact of a damaged file; a small one may announce very many points.
+void readIntact(const std::filesystem::path& path) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 20U;
+  const LasFile file(path, kLazAllFields, LasDamage::keep_intact);
+  if (file.header().point_count > most || file.header().record_length > 1000) return;
+  std::vector<std::byte> records;
+  for (const LasRecordRange& range : file.intact().records) {
+    records.resize(range.count * file.header().record_length);
+    file.readRanges({range}, records.data());
+  }
+}
+
 void readLas(const std::filesystem::path& path) {
   const LasFile file(path);
   for (const LasVlrEntry& vlr : file.vlrs()) file.payload(vlr);
@@ -141,6 +153,9 @@ bool las(const std::uint8_t* data, std::size_t size) {
 bool laz(const std::uint8_t* data, std::size_t size) {
   return readAs(".laz", data, size, readLas);
 }
+bool damagedLaz(const std::uint8_t* data, std::size_t size) {
+  return readAs(".laz", data, size, readIntact);
+}
 bool copc(const std::uint8_t* data, std::size_t size) {
   return readAs(".laz", data, size, readCopc);
 }
@@ -186,6 +201,7 @@ const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
       {"las", las, lasSeeds},
       {"laz", laz, lazSeeds},
+      {"damaged_laz", damagedLaz, lazSeeds},
       {"copc", copc, copcSeeds},
       {"pcd", pcd, pcdSeeds},
       {"trajectory_csv", trajectoryCsv, trajectorySeeds},

@@ -20,7 +20,7 @@ struct Target {
   std::vector<std::string> (*seeds)();
 };
 
-/// las, laz, copc, pcd, trajectory_csv, sbet, control, calibration; geojson, class_sites,
+/// las, laz, damaged_laz, copc, pcd, trajectory_csv, sbet, control, calibration; geojson, class_sites,
 /// confusion_matrix, checked_sites, class_model, geotiff
 const std::vector<Target>& targets();
 const Target& targetNamed(const std::string& name);

@@ -192,6 +192,29 @@ TEST(PointConversion, SeveralFilesIntoAFolder) {
   EXPECT_THROW(convertPointFiles({a, same}, folder / "out"), UsageError);
 }
 
+TEST(PointConversion, KeepsWhatIsIntactOfATruncatedFile) {
+  const auto folder = test::scratch("convert_truncated");
+  LasBytes las = test::fullFile(4, 6, 230000);
+  written(folder / "in.las", las);
+  convertPointFiles({folder / "in.las"}, folder / "in.laz");
+  const std::string bytes = test::readBytes(folder / "in.laz");
+  test::writeBytes(folder / "cut.laz", bytes.substr(0, bytes.size() * 7 / 10));
+  EXPECT_THROW(convertPointFiles({folder / "cut.laz"}, folder / "out.las"), InputError);
+  PointConversionOptions options;
+  options.window.keep_readable = true;
+  const auto result = convertPointFiles({folder / "cut.laz"}, folder / "out.las", options);
+  EXPECT_EQ(result.outputs[0].points, 150000U);  // three chunks of 50,000
+  ASSERT_EQ(result.remarks.size(), 1U);
+  EXPECT_NE(result.remarks[0].find("3 chunks can be decoded, with 150 000 of 230 000 points"),
+            std::string::npos)
+      << result.remarks[0];
+  const PointChunk kept = pointsOf(folder / "out.las"), whole = pointsOf(folder / "in.las");
+  EXPECT_TRUE(std::equal(kept.x.begin(), kept.x.end(), whole.x.begin()));
+  options.window.bounds = boxOf(las, 149000, 151000);
+  EXPECT_EQ(convertPointFiles({folder / "cut.laz"}, folder / "part.las", options).outputs[0].points,
+            1000U);
+}
+
 TEST(PointConversion, OneThreadEqualsEight) {
   const auto folder = test::scratch("convert_threads");
   LasBytes las = test::fullFile(4, 6, 130000);

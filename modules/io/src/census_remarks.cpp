@@ -116,7 +116,8 @@ void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
                     "grid north");
 }
 
-void remarkFile(FileCensus& file, bool whole) {
+void remarkFile(FileCensus& file, const PointWindow& window) {
+  const bool whole = window.everything();
   const PointStatistics& s = file.statistics;
   auto& remarks = file.remarks;
   if (s.points == 0) {
@@ -127,7 +128,8 @@ void remarkFile(FileCensus& file, bool whole) {
   if (whole) remarkBox(file.info, s, remarks);
   const std::string extension = lowerExtension(file.info.path);
   if (extension == ".las" || extension == ".laz") {
-    const LasFile las(file.info.path);
+    const LasFile las(file.info.path, kLazAllFields,
+                      window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse);
     if (whole) remarkHeader(las.header(), s, remarks);
     remarkPose(las, remarks);
   }
@@ -174,9 +176,9 @@ void remarkStrip(StripCensus& strip, bool has_time) {
 }  // namespace
 
 void addRemarks(SurveyCensus& survey) {
-  const bool whole = survey.window.everything();
-  for (FileCensus& file : survey.files) remarkFile(file, whole);
-  if (!whole) survey.remarks.push_back("a part of the files was read: " + describe(survey.window));
+  for (FileCensus& file : survey.files) remarkFile(file, survey.window);
+  if (!survey.window.everything())
+    survey.remarks.push_back("a part of the files was read: " + describe(survey.window));
   const bool has_time = std::any_of(survey.files.begin(), survey.files.end(), [](const auto& f) {
     return f.info.time_kind != TimeKind::none;
   });

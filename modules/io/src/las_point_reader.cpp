@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/las_point_reader.h>
 
@@ -16,7 +17,9 @@ constexpr std::size_t kMostNodes = 64;  ///< read at once; each may be decoded b
 
 LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWindow& window,
                                OtherCoordinates other, unsigned fields)
-    : file_(path, fields), window_(window), info_(file_.info()) {
+    : file_(path, fields, window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
+      window_(window),
+      info_(file_.info()) {
   if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
   const Eigen::Vector3d metres = info_.units.metres();
   scaling_ = {file_.header().scale.cwiseProduct(metres),
@@ -26,11 +29,19 @@ LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWin
   if (window.bounds)
     part.bounds.emplace(window.bounds->min() / metres.x(), window.bounds->max() / metres.x());
   ranges_ = file_.recordsWithin(part);
-  whole_ = window.everything() || !file_.isCopc();
+  whole_ = window.everything() || (!file_.isCopc() && !window.keep_readable);
+  if (window.keep_readable && ranges_.empty() && file_.header().point_count > 0)
+    throw InputError(path.string() +
+                     ": none of its points can be read: " + file_.intact().describe());
   info_ = within(window, info_);
   std::uint64_t candidates = 0;
   for (const LasRecordRange& range : ranges_) candidates += range.count;
   info_.point_count = std::min(info_.point_count, candidates);
+}
+
+std::string LasPointReader::damage() const {
+  if (!window_.keep_readable || file_.intact().complete()) return {};
+  return file_.path().string() + ": " + file_.intact().describe();
 }
 
 /// Moves the records inside the bounds to the front of the buffer; returns their number.

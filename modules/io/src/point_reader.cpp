@@ -64,7 +64,7 @@ std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path
       throw InputError(path.string() +
                        ": is no COPC file; only these can be read at a lower resolution");
     auto reader = std::make_unique<PcdPointReader>(path);
-    if (window.everything()) return reader;
+    if (!window.bounds) return reader;
     return std::make_unique<BoundedReader>(std::move(reader), window);
   }
   throw InputError(path.string() + ": is no point file by its name (.las, .laz or .pcd)");

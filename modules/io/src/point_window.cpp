@@ -29,12 +29,17 @@ std::string describe(const PointWindow& window) {
   if (window.bounds)
     text = "the points at " + placeText(window.bounds->min(), window.bounds->max());
   if (window.resolution > 0.0) text += ", " + shortText(window.resolution) + " m apart";
+  if (window.keep_readable) text += ", of damaged files what is intact";
   return text;
 }
 
-void refuseEmptyWindow(const std::vector<std::filesystem::path>& files) {
-  const auto reader = PointReader::open(files.at(0), PointReader::OtherCoordinates::as_stored);
+void refuseEmptyWindow(const std::vector<std::filesystem::path>& files, const PointWindow& window) {
+  PointWindow whole;
+  whole.keep_readable = window.keep_readable;
+  const auto reader =
+      PointReader::open(files.at(0), whole, PointReader::OtherCoordinates::as_stored);
   const PointFileInfo& info = reader->info();
+  if (!window.bounds) throw InputError(files[0].string() + ": no point can be read");
   throw InputError("no point lies within the bounds; " + files[0].string() + " covers " +
                    placeText(info.minimum.head<2>(), info.maximum.head<2>()));
 }

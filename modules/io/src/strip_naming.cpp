@@ -86,7 +86,7 @@ PointFileSources surveySources(const std::filesystem::path& path,
 
 PointFileSources surveySources(PointReader& reader,
                                const std::function<void(const PointChunk&)>& also) {
-  PointFileSources file{reader.info(), {}};
+  PointFileSources file{reader.info(), {}, reader.damage()};
   file.info.point_count = 0;  // of a part of a file only an estimate is known before
   std::map<std::uint16_t, PointSource> sources;
   PointChunk chunk;

@@ -70,12 +70,13 @@ class Census {
   [[noreturn]] void refuseNothingRead() const {
     std::vector<std::filesystem::path> paths;
     for (const FileCensus& file : survey_.files) paths.push_back(file.info.path);
-    refuseEmptyWindow(paths);
+    refuseEmptyWindow(paths, survey_.window);
   }
 
   void readFile(std::size_t f) {
     const auto reader =
         PointReader::open(survey_.files[f].info.path, survey_.window, kAnyCoordinates);
+    if (!reader->damage().empty()) survey_.files[f].remarks.push_back(reader->damage());
     PointChunk chunk;
     while (reader->read(chunk)) {
       addChunk(f, chunk);

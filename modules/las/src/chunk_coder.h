@@ -21,6 +21,9 @@ class ChunkDecoder {
   virtual void decode(std::size_t records, std::uint8_t* out) = 0;
   /// Where the chunk ends in the file, after its last record was decoded.
   virtual std::uint64_t end() const = 0;
+  /// Whether the records that were decoded took all bytes of the chunk: not so in nearly all
+  /// damaged chunks that can be decoded at all.
+  virtual bool exhausted() const = 0;
 };
 
 /// Encodes one chunk after the other.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
 #include "chunk_items.h"
 
 namespace pcl_als::laz {
@@ -27,6 +29,7 @@ class PointwiseDecoder : public ChunkDecoder {
   }
 
   std::uint64_t end() const override { return coder_.source().position(); }
+  bool exhausted() const override { return coder_.source().left() == 0; }
 
  private:
   void begin(std::uint8_t* out) {
@@ -94,6 +97,11 @@ class LayeredDecoder : public ChunkDecoder {
   }
 
   std::uint64_t end() const override { return end_; }
+  bool exhausted() const override {
+    return left_ == 0 && std::all_of(layers_.begin(), layers_.end(), [](const auto* layer) {
+             return !layer->present || layer->coder.source().left() == 0;
+           });
+  }
 
  private:
   void begin(std::uint8_t* out) {

@@ -34,12 +34,6 @@ std::uint64_t findTable(const LazReadAt& read, const PointExtent& extent) {
   return inside ? table : 0;
 }
 
-void checkDensity(const Chunk& chunk) {
-  if (chunk.points / kMostPointsPerByte > chunk.end - chunk.begin)
-    throw Damage("a chunk of " + std::to_string(chunk.end - chunk.begin) + " bytes cannot hold " +
-                 std::to_string(chunk.points) + " points");
-}
-
 void checkPoints(const ChunkTable& table, const PointExtent& extent) {
   const std::uint64_t points =
       table.chunks.empty() ? 0 : table.chunks.back().first + table.chunks.back().points;
@@ -61,6 +55,7 @@ ChunkTable readTable(const LazSchema& schema, const LazReadAt& read, const Point
   if (count > (position - next.end) / schema.recordLength())
     throw Damage("its chunk table announces more chunks than fit into the file");
   ChunkTable table;
+  table.from_table = true;
   if (count == 0) return table;
   coder.start();
   IntegerPredictor<EntropyDecoder> numbers(32, 2);
@@ -141,12 +136,19 @@ ChunkTable findChunks(const LazSchema& schema, const LazReadAt& read, const Poin
 
 }  // namespace
 
-ChunkTable readChunkTable(const LazSchema& schema, const LazReadAt& read,
-                          const PointExtent& extent) {
+void checkDensity(const Chunk& chunk) {
+  if (chunk.points / kMostPointsPerByte > chunk.end - chunk.begin)
+    throw Damage("a chunk of " + std::to_string(chunk.end - chunk.begin) + " bytes cannot hold " +
+                 std::to_string(chunk.points) + " points");
+}
+
+ChunkTable readChunkTable(const LazSchema& schema, const LazReadAt& read, const PointExtent& extent,
+                          bool incomplete) {
   if (extent.point_count == 0) return ChunkTable();
   ChunkTable table = findChunks(schema, read, extent);
-  if (table.complete) checkPoints(table, extent);
+  if (table.complete && !incomplete) checkPoints(table, extent);
   limitPoints(table, schema, extent);
+  if (incomplete) return table;
   for (const Chunk& chunk : table.chunks) checkDensity(chunk);
   return table;
 }

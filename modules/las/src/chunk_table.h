@@ -31,11 +31,15 @@ struct PointExtent {
 struct ChunkTable {
   std::vector<Chunk> chunks;
   bool complete = true;
+  bool from_table = false;  ///< the chunks are those of the chunk table of the file
 };
 
 /// Damage where the chunks cannot hold the announced points.
-ChunkTable readChunkTable(const LazSchema& schema, const LazReadAt& read,
-                          const PointExtent& extent);
+/// \param incomplete accepts chunks that hold fewer, and chunks that cannot hold their points
+ChunkTable readChunkTable(const LazSchema& schema, const LazReadAt& read, const PointExtent& extent,
+                          bool incomplete = false);
+/// Damage where so few bytes cannot hold the points of a chunk.
+void checkDensity(const Chunk& chunk);
 
 /// Bytes of the chunk table. \param points per chunk, used where their number varies.
 std::vector<std::uint8_t> serialiseChunkTable(const LazSchema& schema,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <cerrno>
+#include <mutex>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/crs/crs.h>
@@ -23,21 +24,26 @@ struct LasFile::State {
   std::vector<LasVlrEntry> vlrs;
   std::vector<LasExtraField> extra_fields;
   std::unique_ptr<LazPointReader> laz;
+  LasDamage damage = LasDamage::refuse;
+  LasIntact intact;
+  std::once_flag intact_found;
   const LasVlrEntry* copc = nullptr;  ///< the record "copc" 1 among vlrs
   detail::LasReference reference;
 
   explicit State(std::filesystem::path p) : path(std::move(p)), file(path) {}
+  void keepIntact();
 };
 
 namespace {
 
 constexpr std::size_t kLargestExtraRecord = std::size_t{1} << 20;
 
-LasHeader readHeader(const InputFile& file) {
+LasHeader readHeader(const InputFile& file, LasDamage damage) {
   std::array<std::byte, 375> block{};
   const std::size_t available = std::min<std::uint64_t>(block.size(), file.size());
   file.read(0, available, block.data());
-  return parseLasHeader(block.data(), available, file.size(), file.name());
+  return parseLasHeader(block.data(), available, file.size(), file.name(),
+                        damage == LasDamage::keep_intact);
 }
 
 LasVlrEntry parseEntry(const std::byte* at, bool extended) {
@@ -88,6 +94,20 @@ void readExtendedEntries(const InputFile& file, const LasHeader& header,
   readEntries(file, true, header.evlr_start, header.evlr_count, file.size(), entries);
 }
 
+/// The extended VLRs up to the first one that is lost; returns the number of those lost.
+std::uint32_t readIntactEntries(const InputFile& file, LasHeader& header,
+                                std::vector<LasVlrEntry>& entries) {
+  const std::size_t before = entries.size();
+  try {
+    readExtendedEntries(file, header, entries);
+  } catch (const InputError&) {
+  }
+  const auto found = static_cast<std::uint32_t>(entries.size() - before);
+  const std::uint32_t lost = header.evlr_count - found;
+  header.evlr_count = found;
+  return lost;
+}
+
 bool isRecord(const LasVlrEntry& entry, const char* user, std::uint16_t id) {
   return entry.user_id == user && entry.record_id == id;
 }
@@ -127,16 +147,30 @@ std::vector<LasRecordRange> chunksOf(const std::vector<detail::CopcNode>& nodes,
 
 }  // namespace
 
-LasFile::LasFile(std::filesystem::path path, unsigned laz_fields)
+/// Limits the header to what a truncated file holds.
+void LasFile::State::keepIntact() {
+  intact.lost_evlrs = readIntactEntries(file, header, vlrs);
+  if (header.compressed) return;
+  const std::uint64_t room = (file.size() - header.offset_to_points) / header.record_length;
+  header.point_count = std::min(header.point_count, room);
+}
+
+LasFile::LasFile(std::filesystem::path path, unsigned laz_fields, LasDamage damage)
     : state_(std::make_unique<State>(std::move(path))) {
   State& s = *state_;
-  s.header = readHeader(s.file);
+  s.damage = damage;
+  s.header = readHeader(s.file, damage);
+  s.intact.announced = s.header.point_count;
   s.layout = LasRecordLayout::of(s.header.point_format);
   readEntries(s.file, false, s.header.header_size, s.header.vlr_count, s.header.offset_to_points,
               s.vlrs);
-  readExtendedEntries(s.file, s.header, s.vlrs);
+  if (damage == LasDamage::keep_intact)
+    s.keepIntact();
+  else
+    readExtendedEntries(s.file, s.header, s.vlrs);
   if (s.header.compressed) {
-    s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields);
+    s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields,
+                                  damage == LasDamage::keep_intact);
     for (const LasVlrEntry& entry : s.vlrs)
       if (!entry.extended && isRecord(entry, kCopcUser, detail::kCopcInfoRecord)) s.copc = &entry;
   }
@@ -222,13 +256,50 @@ void LasFile::readBytes(std::uint64_t position, std::size_t bytes, std::byte* ou
   state_->file.read(position, bytes, out);
 }
 
+const LasIntact& LasFile::intact() const {
+  State& s = *state_;
+  if (s.damage == LasDamage::refuse)
+    throw UsageError(s.file.name() + ": was opened as a file without damage");
+  std::call_once(s.intact_found, [&s] {
+    if (s.laz) {
+      LazIntact found = s.laz->findIntact();
+      s.intact.records = std::move(found.chunks);
+      s.intact.chunks = s.intact.records.size();
+      s.intact.chunk_count = found.chunk_count;
+    } else if (s.header.point_count > 0) {
+      s.intact.records = {{0, s.header.point_count}};
+    }
+    for (const LasRecordRange& range : s.intact.records) s.intact.record_count += range.count;
+  });
+  return s.intact;
+}
+
+bool LasFile::isTruncated() const {
+  const LasIntact& intact = state_->intact;
+  return intact.lost_evlrs > 0 || state_->header.point_count < intact.announced;
+}
+
+std::string LasIntact::describe() const {
+  std::string text;
+  if (chunk_count > 0)
+    text =
+        std::to_string(chunks) + " of " + counted(chunk_count, "chunk") + " can be decoded, with ";
+  else if (chunks > 0)
+    text = "without a chunk table, " + counted(chunks, "chunk") + " can be decoded, with ";
+  text += grouped(record_count) + " of " + grouped(announced) + " points";
+  if (lost_evlrs > 0) text += "; " + counted(lost_evlrs, "extended VLR") + " lost";
+  return text;
+}
+
 bool LasFile::isCopc() const {
   return state_->copc != nullptr;
 }
 
 std::vector<LasRecordRange> LasFile::recordsWithin(const LasWindow& window) const {
   const State& s = *state_;
-  if (!isCopc()) {
+  // The octree of a damaged file may be lost, and refers to chunks that are.
+  if (s.damage == LasDamage::keep_intact && !(window.resolution > 0.0)) return intact().records;
+  if (!isCopc() || s.damage == LasDamage::keep_intact) {
     if (window.resolution > 0.0)
       throw InputError(s.file.name() +
                        ": is no COPC file; only these can be read at a lower resolution");

@@ -83,7 +83,8 @@ void checkNumbers(const LasHeader& h, const std::string& name) {
   }
 }
 
-void checkExtent(const LasHeader& h, std::uint64_t file_size, const std::string& name) {
+void checkExtent(const LasHeader& h, std::uint64_t file_size, const std::string& name,
+                 bool truncated) {
   if (h.offset_to_points < h.header_size)
     fail(name, "the points are said to begin at byte " + std::to_string(h.offset_to_points) +
                    ", inside the header");
@@ -95,7 +96,7 @@ void checkExtent(const LasHeader& h, std::uint64_t file_size, const std::string&
     fail(name, "point records of " + std::to_string(h.record_length) + " bytes are too short for " +
                    "point format " + std::to_string(h.point_format) + " (" +
                    std::to_string(layout.length) + ")");
-  if (h.compressed) return;
+  if (h.compressed || truncated) return;
   const std::uint64_t room = (file_size - h.offset_to_points) / h.record_length;
   if (h.point_count > room)
     fail(name, "the header declares " + std::to_string(h.point_count) +
@@ -133,7 +134,7 @@ std::string LasHeader::describe() const {
 }
 
 LasHeader parseLasHeader(const std::byte* bytes, std::size_t available, std::uint64_t file_size,
-                         const std::string& name) {
+                         const std::string& name, bool truncated) {
   checkSignature(bytes, available, file_size, name);
   LasHeader h;
   const auto major = loadLas<std::uint8_t>(bytes + 24);
@@ -156,7 +157,7 @@ LasHeader parseLasHeader(const std::byte* bytes, std::size_t available, std::uin
     fail(name,
          "point format " + std::to_string(h.point_format) + " is not supported (0 to 10 are)");
   checkNumbers(h, name);
-  checkExtent(h, file_size, name);
+  checkExtent(h, file_size, name, truncated);
   return h;
 }
 

@@ -19,6 +19,7 @@ struct Range {
 /// to can be told from the chunk table.
 std::uint64_t tailOf(const LasFile& input) {
   const LasHeader& h = input.header();
+  if (!h.compressed && input.isTruncated()) return input.fileSize();
   if (!h.compressed) return h.offset_to_points + h.point_count * h.record_length;
   std::uint64_t tail = input.fileSize();
   if (h.evlr_count > 0) tail = std::min(tail, h.evlr_start);
@@ -78,10 +79,10 @@ class Tail {
     const LasHeader& h = input_.header();
     if (h.version_minor >= 3 && h.waveform_start >= from_)
       store(kWaveformStart, moved(h.waveform_start));
-    if (h.version_minor < 4 || h.evlr_count == 0) return;
+    if (h.version_minor < 4 || (h.evlr_count == 0 && !input_.isTruncated())) return;
     const auto left = h.evlr_count - static_cast<std::uint32_t>(dropped_.size());
     store(kEvlrStart, left == 0 ? 0 : moved(h.evlr_start));
-    if (!dropped_.empty()) store(kEvlrCount, left);
+    store(kEvlrCount, left);
   }
 
   template <typename T>

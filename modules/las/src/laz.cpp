@@ -25,7 +25,7 @@ void checkAgainst(const LazSchema& schema, const LasHeader& header, const std::s
 
 std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHeader& header,
                                               const std::vector<std::byte>& payload,
-                                              unsigned fields) {
+                                              unsigned fields, bool keep_intact) {
   LazSchema schema = LazSchema::parse(reinterpret_cast<const std::uint8_t*>(payload.data()),
                                       payload.size(), file.name());
   checkAgainst(schema, header, file.name());
@@ -34,6 +34,7 @@ std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHe
   points.file_size = file.size();
   points.point_count = header.point_count;
   points.fields = fields;
+  points.keep_intact = keep_intact;
   const auto read = [&file](std::uint64_t position, std::size_t bytes, void* out) {
     file.read(position, bytes, out);
   };

@@ -15,9 +15,10 @@ namespace pcl_als::detail {
 
 /// The compressed points of a file that stays open as long as the reader.
 /// \param payload of the record kLazUser, kLazRecord. \param fields LazField bits.
+/// \param keep_intact as in LazPoints
 std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHeader& header,
                                               const std::vector<std::byte>& payload,
-                                              unsigned fields);
+                                              unsigned fields, bool keep_intact);
 
 /// The VLR (header and payload) that a compressed file needs among its others.
 std::vector<std::byte> lazVlr(const LazSchema& schema);

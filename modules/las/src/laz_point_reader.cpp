@@ -10,6 +10,7 @@
 #include "byte_source.h"
 #include "chunk_coder.h"
 #include "chunk_table.h"
+#include "intact_chunks.h"
 
 namespace pcl_als {
 namespace {
@@ -55,6 +56,7 @@ struct LazPointReader::State {
   std::vector<std::unique_ptr<laz::ChunkDecoder>> pool;
 
   void open();
+  bool holdsLargeChunk() const;
   std::size_t chunkOf(std::uint64_t point) const;
   [[noreturn]] void refuse(std::size_t chunk, const char* what) const;
   std::unique_ptr<laz::ChunkDecoder> takeDecoder();
@@ -75,14 +77,18 @@ void LazPointReader::State::open() {
   record_length = schema.recordLength();
   try {
     table = laz::readChunkTable(schema, read_at,
-                                {points.offset_to_points, points.file_size, points.point_count});
+                                {points.offset_to_points, points.file_size, points.point_count},
+                                points.keep_intact);
   } catch (const laz::Damage& damage) {
     throw InputError(name + ": " + damage.what() + " (is the file complete?)");
   }
-  in_order = !table.complete ||
-             std::any_of(table.chunks.begin(), table.chunks.end(), [this](const Chunk& chunk) {
-               return chunk.points > kLargestDecodedChunk / record_length;
-             });
+  in_order = !table.complete || holdsLargeChunk();
+}
+
+bool LazPointReader::State::holdsLargeChunk() const {
+  return std::any_of(table.chunks.begin(), table.chunks.end(), [this](const Chunk& chunk) {
+    return chunk.points > kLargestDecodedChunk / record_length;
+  });
 }
 
 std::size_t LazPointReader::State::chunkOf(std::uint64_t point) const {
@@ -316,6 +322,14 @@ void LazPointReader::read(std::uint64_t first, std::size_t count, void* out) {
 void LazPointReader::read(const std::vector<LasRecordRange>& ranges, void* out) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   state_->readRanges(ranges, static_cast<std::uint8_t*>(out));
+}
+
+LazIntact LazPointReader::findIntact() {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  LazIntact found =
+      laz::findIntactChunks(state_->schema, state_->read_at, state_->points, state_->table);
+  state_->in_order = state_->holdsLargeChunk();
+  return found;
 }
 
 LasRecordRange LazPointReader::chunkAt(std::uint64_t begin, std::uint64_t end) {

@@ -99,8 +99,11 @@ PictureSource::PictureSource(const std::vector<std::string>& paths, bool split,
   std::vector<PointFileInfo> infos;
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
   remarks_ = commonReference(infos).remarks;
+  for (const SurveyedFile& file : files_)
+    if (!file.sources.damage.empty()) remarks_.push_back(file.sources.damage);
   arrangement_.emplace(files_, StripChoice{{}, {}, split, true}, FlownTimes());
-  if (pointCount() == 0 && !window.everything()) refuseEmptyWindow({paths.begin(), paths.end()});
+  if (pointCount() == 0 && !window.everything())
+    refuseEmptyWindow({paths.begin(), paths.end()}, window);
   if (!minimum_.allFinite()) {
     throw InputError(paths.front() + (paths.size() > 1 ? " and the other files hold" : ": holds") +
                      " no point to draw");

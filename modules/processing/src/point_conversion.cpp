@@ -46,6 +46,7 @@ class Source {
     if (las_ == nullptr) return {chunk_};
     return {chunk_, &las_->file(), las_->records()};
   }
+  std::string damage() const { return reader_->damage(); }
   /// What the points lose in a file of that name; empty: nothing.
   std::string lossIn(const fs::path& output) const {
     if (las_ == nullptr || detail::isLas(output)) return {};
@@ -96,8 +97,8 @@ class Conversion {
   };
 
   [[noreturn]] void refuseNothing() const {
-    if (!options_.window.bounds) throw InputError("no point is left, the files have none");
-    refuseEmptyWindow(inputs_);
+    if (options_.window.everything()) throw InputError("no point is left, the files have none");
+    refuseEmptyWindow(inputs_, options_.window);
   }
 
   bool copiesWholeFile(const fs::path& input, const fs::path& output) const {
@@ -191,6 +192,7 @@ class Conversion {
     std::uint64_t done = 0;
     for (const std::size_t file : files) {
       Source source(inputs_[file], options_.window);
+      if (!source.damage().empty()) remarkOnce(source.damage());
       while (source.read()) {
         const PointChunk& chunk = source.chunk();
         for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
@@ -215,8 +217,9 @@ class Conversion {
     if (!target.sink) {
       PointFileInfo info = source.info();
       if (!target.box.isEmpty()) info.minimum = target.box.min(), info.maximum = target.box.max();
-      target.sink = detail::openSink(target.path, inputs_[file], info,
-                                     {records_, target.strip, options_.threads});
+      target.sink = detail::openSink(
+          target.path, inputs_[file], info,
+          {records_, options_.window.keep_readable, target.strip, options_.threads});
       const std::string loss = source.lossIn(target.path);
       if (!loss.empty()) remarkOnce(loss);
     }

@@ -21,8 +21,10 @@ constexpr double kOffsetStep = 1000.0;  ///< offsets of new LAS files are multip
 /// Raw records into a file like that of the first of them.
 class RecordSink : public PointSink {
  public:
-  RecordSink(const fs::path& path, const fs::path& first, int threads)
-      : like_(first), writer_(path, like_, threads) {}
+  RecordSink(const fs::path& path, const fs::path& first, const SinkOptions& options)
+      : like_(first, kLazAllFields,
+              options.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
+        writer_(path, like_, options.threads) {}
 
   void append(const PointBlock& block, std::size_t from, std::size_t to) override {
     const std::size_t length = like_.header().record_length;
@@ -122,7 +124,7 @@ bool isLas(const fs::path& path) {
 std::unique_ptr<PointSink> openSink(const fs::path& path, const fs::path& first,
                                     const PointFileInfo& info, const SinkOptions& options) {
   if (!isLas(path)) return std::make_unique<PcdSink>(path, info, options.strip);
-  if (options.records) return std::make_unique<RecordSink>(path, first, options.threads);
+  if (options.records) return std::make_unique<RecordSink>(path, first, options);
   return std::make_unique<ColumnSink>(path, info);
 }
 

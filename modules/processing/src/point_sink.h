@@ -31,8 +31,9 @@ class PointSink {
 };
 
 struct SinkOptions {
-  bool records = false;  ///< all points come with raw records, which are kept in a LAS file
-  std::string strip;     ///< name of the strip of all points; empty: several, or not known
+  bool records = false;        ///< all points come with raw records, which are kept in a LAS file
+  bool keep_readable = false;  ///< PointWindow::keep_readable
+  std::string strip;           ///< name of the strip of all points; empty: several, or not known
   int threads = 0;
 };
 

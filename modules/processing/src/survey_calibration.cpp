@@ -151,6 +151,8 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   }
   made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
   for (const SurveyedFile& file : survey.files())
+    if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);
+  for (const SurveyedFile& file : survey.files())
     made.result.inputs.push_back(file.sources.info.path.string());
   made.areas = calibration.areas();
   made.information = calibration.informationShares();

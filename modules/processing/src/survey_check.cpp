@@ -90,8 +90,10 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
   progress.begin("Measuring");
   SurveyCheck checked;
   checked.block = check.assess([&](double fraction) { progress.advance(fraction); });
-  for (const SurveyedFile& file : survey.files())
+  for (const SurveyedFile& file : survey.files()) {
     checked.block.files.push_back(file.sources.info.path.string());
+    if (!file.sources.damage.empty()) checked.block.warnings.push_back(file.sources.damage);
+  }
   for (const LeftOutPoints& part : survey.leftOut()) {
     checked.block.left_out.push_back(part);
     checked.block.warnings.push_back(describe(part));

@@ -25,7 +25,8 @@ std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths,
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads,
                            const PointWindow& window)
     : SurveyReader(threads, inputsOf(paths, window)) {
-  if (!window.everything() && pointCount() == 0) refuseEmptyWindow({paths.begin(), paths.end()});
+  if (!window.everything() && pointCount() == 0)
+    refuseEmptyWindow({paths.begin(), paths.end()}, window);
 }
 
 SurveyReader SurveyReader::ofInputs(std::vector<SurveyInput> inputs, int threads) {
@@ -43,6 +44,8 @@ SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs)
   infos.reserve(files_.size());
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
   reference_ = commonReference(infos);
+  for (const SurveyedFile& file : files_)
+    if (!file.sources.damage.empty()) reference_.remarks.push_back(file.sources.damage);
   arrangement_.emplace(files_, StripChoice(), FlownTimes());
 }
 

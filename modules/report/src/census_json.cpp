@@ -44,7 +44,8 @@ Json statistics(const PointStatistics& s) {
 }
 
 Json lasParts(const std::filesystem::path& path) {
-  const LasFile file(path);
+  // The header and VLRs; the census has found what of the rest cannot be read.
+  const LasFile file(path, kLazAllFields, LasDamage::keep_intact);
   Json json;
   json["generating_software"] = file.header().generating_software;
   json["system"] = file.header().system_id;

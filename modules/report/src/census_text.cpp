@@ -82,7 +82,8 @@ std::string typeName(const LasExtraField& field) {
 
 /// Contents of LAS files only: software, extra bytes, variable length records.
 std::string lasText(const std::filesystem::path& path) {
-  const LasFile file(path);
+  // The header and VLRs; the census has found what of the rest cannot be read.
+  const LasFile file(path, kLazAllFields, LasDamage::keep_intact);
   const LasHeader& h = file.header();
   std::string text =
       entry("software", '"' + h.generating_software + "\", system \"" + h.system_id +

@@ -29,7 +29,7 @@ ArrangedFiles::ArrangedFiles(const std::vector<std::filesystem::path>& paths,
   const bool any = std::any_of(files_.begin(), files_.end(), [](const SurveyedFile& file) {
     return file.sources.info.point_count > 0;
   });
-  if (!any && !window.everything()) refuseEmptyWindow(paths);
+  if (!any && !window.everything()) refuseEmptyWindow(paths, window);
   if (arrangement_.names().empty())
     throw InputError("no strip is left: all are excluded or have no times");
 }

@@ -28,6 +28,7 @@ class LasPointReader : public PointReader {
                  OtherCoordinates other, unsigned fields = kColumns);
 
   const PointFileInfo& info() const override { return info_; }
+  std::string damage() const override;
   bool read(PointChunk& chunk) override;
 
   const LasFile& file() const { return file_; }

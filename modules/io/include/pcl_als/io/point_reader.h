@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/point_file_info.h>
@@ -38,6 +39,9 @@ class PointReader {
                                            OtherCoordinates other = OtherCoordinates::refuse);
 
   virtual const PointFileInfo& info() const = 0;
+  /// What of a damaged file cannot be read (PointWindow::keep_readable), as one line with the name
+  /// of the file; empty: nothing.
+  virtual std::string damage() const { return {}; }
   /// The next at most kChunk points; false (and an empty chunk) at the end.
   virtual bool read(PointChunk& chunk) = 0;
 };

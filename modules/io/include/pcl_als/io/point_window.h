@@ -23,8 +23,11 @@ struct PointWindow {
   /// Distance between points that suffices, metres: of COPC files only the levels of the octree up
   /// to the first one with this spacing are read, other files are refused; 0: all points.
   double resolution = 0.0;
+  /// Read what is intact of damaged or truncated .las and .laz files (PointReader::damage()).
+  bool keep_readable = false;
 
-  bool everything() const { return !bounds && !(resolution > 0.0); }
+  /// Whether all points are read and damaged files are refused.
+  bool everything() const { return !bounds && !(resolution > 0.0) && !keep_readable; }
 };
 
 /// "the points at x 84900 to 84950 m, y 447500 to 447600 m", "…, 2 m apart".
@@ -32,7 +35,8 @@ std::string describe(const PointWindow& window);
 
 /// Ends a job where no file has a point in the window: InputError that states what the first one
 /// covers.
-[[noreturn]] void refuseEmptyWindow(const std::vector<std::filesystem::path>& files);
+[[noreturn]] void refuseEmptyWindow(const std::vector<std::filesystem::path>& files,
+                                    const PointWindow& window);
 
 /// Keeps the points inside; the others are removed.
 void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk);

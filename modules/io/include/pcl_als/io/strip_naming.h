@@ -36,6 +36,7 @@ struct PointSource {
 struct PointFileSources {
   PointFileInfo info;
   std::vector<PointSource> sources;
+  std::string damage{};  ///< PointReader::damage()
 };
 
 /// Reads a file once and returns its ids. Constant memory. \a also gets every chunk, too.

@@ -25,6 +25,26 @@ struct LasScaling {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< metres, ground frame
 };
 
+/// What a LasFile does with a file that is damaged or cut off behind its header and VLRs.
+enum class LasDamage {
+  refuse,
+  keep_intact  ///< LasFile::intact() can be read; extended VLRs that are lost are left out
+};
+
+/// The part of a damaged file that can be read.
+struct LasIntact {
+  std::vector<LasRecordRange> records;  ///< in file order
+  std::uint64_t record_count = 0;       ///< of these
+  std::uint64_t announced = 0;          ///< records by the header
+  /// Of a .laz: intact chunks, and all chunks; all is 0 where the chunk table is lost.
+  std::uint64_t chunks = 0, chunk_count = 0;
+  std::uint32_t lost_evlrs = 0;
+
+  bool complete() const { return record_count == announced && lost_evlrs == 0; }
+  /// "12 of 15 chunks are intact, with 600 000 of 750 000 points; 1 extended VLR is lost".
+  std::string describe() const;
+};
+
 /** \brief A .las or .laz file opened for reading its raw point records.
  *
  * The constructor checks header, VLRs, EVLRs and point range against the size of the file; nothing
@@ -41,7 +61,8 @@ struct LasScaling {
 class LasFile {
  public:
   /// \param laz_fields LazField bits: what a caller does not need is not decoded from layers.
-  explicit LasFile(std::filesystem::path path, unsigned laz_fields = kLazAllFields);
+  explicit LasFile(std::filesystem::path path, unsigned laz_fields = kLazAllFields,
+                   LasDamage damage = LasDamage::refuse);
   ~LasFile();
   LasFile(LasFile&&) noexcept;
   LasFile& operator=(LasFile&&) = delete;
@@ -71,6 +92,12 @@ class LasFile {
   /// The records of several ranges, one behind the other; faster where these are whole chunks.
   void readRanges(const std::vector<LasRecordRange>& ranges, std::byte* out) const;
   int descriptor() const;
+
+  /// With LasDamage::keep_intact: the records that can be read. A .laz is decoded for it, once.
+  const LasIntact& intact() const;
+  /// With LasDamage::keep_intact: whether uncompressed points or extended VLRs that the header
+  /// announces lie past the end of the file.
+  bool isTruncated() const;
 
   /// Whether the chunks of a .laz are the nodes of an octree (COPC specification 1.0).
   bool isCopc() const;

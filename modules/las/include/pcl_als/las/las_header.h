@@ -68,9 +68,10 @@ inline constexpr std::size_t kLasBoxPosition = 179;
  * Every contradiction (no LAS signature, unknown version or format, records shorter than the
  * format, scale or offset that are no numbers, points beyond the end of the file, …) is an
  * InputError. Compressed files: the length of the points is not checked.
+ * \param truncated accepts points beyond the end of the file
  */
 LasHeader parseLasHeader(const std::byte* bytes, std::size_t available, std::uint64_t file_size,
-                         const std::string& name);
+                         const std::string& name, bool truncated = false);
 
 /// The header block as bytes, header.header_size of them (zeros past the version's own).
 std::vector<std::byte> serialiseLasHeader(const LasHeader& header);

@@ -21,6 +21,15 @@ struct LazPoints {
   std::uint64_t point_count = 0;
   unsigned fields = kLazAllFields;  ///< LazField bits
   int threads = 0;                  ///< 0: all cores
+  /// Accept a damaged file: only the records of findIntact() can be read.
+  bool keep_intact = false;
+};
+
+/// The chunks of a damaged file that can be decoded.
+struct LazIntact {
+  std::vector<LasRecordRange> chunks;  ///< their records, in file order
+  /// Chunks of the file; 0: not known, because the chunk table is lost.
+  std::uint64_t chunk_count = 0;
 };
 
 /** \brief Decodes the point records of a LAZ file.
@@ -50,6 +59,9 @@ class LazPointReader {
   /// The records of the chunk in the bytes [begin, end) of the file; no records where the file has
   /// no such chunk.
   LasRecordRange chunkAt(std::uint64_t begin, std::uint64_t end);
+  /// Decodes the whole file once, on several threads where its chunk table is intact, in constant
+  /// memory. Without a table, chunks of pointwise files are found up to the first damaged one.
+  LazIntact findIntact();
 
  private:
   struct State;
