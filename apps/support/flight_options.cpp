@@ -31,8 +31,8 @@ void addFlightOptions(CommandLine& line, const char* use) {
 void addTrajectoryOptions(CommandLine& line, const char* use) {
   const std::string help =
       std::string(
-          "trajectory: text (.csv, .txt, .pos, ...) or SBET (.out, .sbet); several files or a "
-          "folder are joined in order of time (") +
+          "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet) or TerraScan (.trj); "
+          "several files or a folder are joined in order of time (") +
       use + ")";
   line.addList("trajectory", help.c_str());
   line.addOptional("crs",

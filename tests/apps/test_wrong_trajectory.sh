@@ -32,6 +32,37 @@ for wrong in feet xy xz far; do
   done
   absent out.las
 done
+# Likely causes are named; a trajectory in metres and points in feet are never used together.
+variant points_in_feet '$2 *= 0.3048; $3 *= 0.3048; $4 *= 0.3048'
+variant heights_in_feet '$4 *= 0.3048'
+variant degrees '$2 = -114 + 1e-6 * $2; $3 = 51 + 1e-7 * $3'
+variant zone '$2 -= 415000'
+while read -r wrong text; do
+  for tool in calibrate check apply intensity; do
+    declare -n command=$tool
+    expect 2 "$text" "${command[@]}" -trajectory "$wrong.csv"
+  done
+  absent out.las
+done <<'CAUSES'
+feet with its coordinates in feet
+points_in_feet with theirs in feet
+heights_in_feet with their heights in feet
+xy with x and y exchanged
+xz with x and z exchanged
+degrees its coordinates look like degrees
+zone a zone 6 degrees away
+CAUSES
+variant datum '$2 += 150'
+expect 2 'as between two geodetic datums' "${calibrate[@]}" -trajectory datum.csv
+expect 2 'as between two geodetic datums' "${check[@]}" -trajectory datum.csv
+# Times of another GPS week or of the day.
+awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 -= 345600 } { print }' "$block/trajectory.csv" >day.csv
+expect 2 'they would overlap 4 day(s) earlier' "${apply[@]}" -trajectory day.csv
+run simulate -output week -preset small -scale 0.3 -density 0.1 -noise range -seed 5 -time adjusted
+awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 += 1543 * 604800 - 1e9 } { print }' \
+  week/trajectory.csv >week.csv
+expect 2 'they would overlap 3 week(s) later: the GPS week of one of them is wrong' \
+  apply week/strip1.las out.las -biases boresight_roll=100 -trajectory week.csv
 for tool in calibrate check apply; do
   declare -n command=$tool
   expect 2 'would as in radians' "${command[@]}" -trajectory radians.csv

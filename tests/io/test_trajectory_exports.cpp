@@ -183,6 +183,20 @@ TEST(TrajectoryFrames, TrueNorthOfMapCoordinatesIsStated) {
   EXPECT_NE(turned.remarks[0].find("headings are from true north"), std::string::npos);
 }
 
+TEST(TrajectoryFrames, SaysHowHeightsAreTaken) {
+  const auto flight = readTrajectoryFile(file("time,lat,lon,h\n1,40,9,5\n"), reading(kUtm32));
+  ASSERT_EQ(flight.remarks.size(), 1U);
+  EXPECT_NE(flight.remarks[0].find("its heights are ellipsoidal; the CRS of the points has no "
+                                   "vertical part"),
+            std::string::npos);
+  TrajectoryReading how = reading(kUtm32);
+  how.geoid = "47.5";
+  const auto lowered = readTrajectoryFile(file("time,lat,lon,h\n1,40,9,5\n"), how);
+  EXPECT_EQ(lowered.samples[0].position.z(), 5.0 - 47.5);
+  how.geoid = "no_such_grid.gtx";
+  EXPECT_THROW(readTrajectoryFile(file("time,lat,lon,h\n1,40,9,5\n"), how), InputError);
+}
+
 TEST(TrajectoryFrames, HeightsAboveAGeoidStayAsTheyAre) {
   const auto flight = readTrajectoryFile(file("time,lat,lon,H-MSL\n1,40,9,5\n"), reading(kUtm32));
   EXPECT_EQ(flight.samples[0].position.z(), 5.0);

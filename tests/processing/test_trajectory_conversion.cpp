@@ -186,7 +186,7 @@ TEST(TrajectoryConversion, RefusesWhatItCannotWrite) {
         [&] { convertTrajectory({block.folder / "trajectory.csv"}, output, {}); });
   };
   EXPECT_NE(refusal("x.txt").find(".csv, .sbet or .out"), std::string::npos);
-  EXPECT_NE(refusal("x.sbet").find("give the CRS"), std::string::npos);
+  EXPECT_NE(refusal("x.sbet").find("an SBET is in latitude and longitude"), std::string::npos);
 }
 
 }  // namespace

@@ -201,5 +201,40 @@ TEST(TrajectoryPlausibility, IgnoresStripsThatAreLeftOut) {
   EXPECT_TRUE(check.check(false).empty());
 }
 
+/// The first finding about samples that were changed.
+template <typename Change>
+std::string findingAfter(const Change& change) {
+  Samples samples = flown();
+  for (TrajectorySample& sample : samples) change(sample);
+  const auto findings = seenFrom(samples).findings();
+  return findings.empty() ? std::string() : findings.front().warning.text;
+}
+
+TEST(TrajectoryPlausibility, NamesTheLikelyCause) {
+  using Sample = TrajectorySample;
+  const struct {
+    void (*change)(Sample&);
+    const char* expected;
+  } cases[] = {
+      {[](Sample& s) { std::swap(s.position.x(), s.position.y()); }, "x and y exchanged"},
+      {[](Sample& s) { std::swap(s.position.x(), s.position.z()); }, "x and z exchanged"},
+      {[](Sample& s) { s.position /= 0.3048; }, "with its coordinates in feet"},
+      {[](Sample& s) { s.position *= 0.3048; }, "with theirs in feet"},
+      // Zone 32 instead of 33 at 52.5 degrees: 668 km times the cosine.
+      {[](Sample& s) { s.position.x() += 406e3; }, "a zone 6 degrees away"},
+      {[](Sample& s) { s.position.x() += 4e6; }, "another number of the zone"},
+      {[](Sample& s) { s.time += 18.0; }, "as if the times of the points were UTC"},
+      {[](Sample& s) { s.time -= 18.0; }, "as if the times of the trajectory were UTC"},
+      {[](Sample& s) { s.position.x() += 150.0; }, "as between two geodetic datums"},
+  };
+  for (const auto& row : cases) {
+    const std::string text = findingAfter(row.change);
+    EXPECT_NE(text.find(row.expected), std::string::npos) << row.expected << " / " << text;
+  }
+  // An offset that no cause explains gets none.
+  const std::string text = findingAfter([](Sample& s) { s.position.y() += 20e3; });
+  EXPECT_NE(text.find("of or behind where they were fired: give"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace pcl_als

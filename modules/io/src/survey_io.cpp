@@ -5,6 +5,7 @@
 #include <pcl_als/io/survey_io.h>
 
 #include "sbet.h"
+#include "terrascan_trj.h"
 #include "trajectory_records.h"
 #include "week_rollover.h"
 
@@ -15,9 +16,14 @@ namespace detail {
 TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
                                         const TrajectoryReading& reading) {
   const std::string extension = lowerExtension(path);
-  TrajectoryRecords records = extension == ".out" || extension == ".sbet"
-                                  ? readSbet(path, reading)
-                                  : readTextTrajectory(path, reading);
+  TrajectoryRecords records;
+  if (extension == ".out" || extension == ".sbet") {
+    records = readSbet(path, reading);
+  } else if (extension == ".trj") {
+    records = readTerrascanTrajectory(path, reading);
+  } else {
+    records = readTextTrajectory(path, reading);
+  }
   unwrapWeek(records.samples);
   for (std::size_t i = 0; i < records.accuracy.size(); ++i)
     records.accuracy[i].time = records.samples[i].time;

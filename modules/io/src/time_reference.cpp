@@ -103,6 +103,23 @@ void refuseUnusable(const std::string& name, const TimeRange& points, const Time
   }
 }
 
+/// Whole days that would bring times together which are both absolute or both of the week: seconds
+/// of the day, or another GPS week.
+std::string shiftText(const TimeRange& points, const TimeRange& trajectory) {
+  constexpr double kDay = 86400.0;
+  const double days = std::round((middle(trajectory) - middle(points)) / kDay);
+  const double shift = days * kDay;
+  if (days == 0.0 || std::abs(days) > 3660.0 || points.last + shift < trajectory.first ||
+      points.first + shift > trajectory.last)
+    return {};
+  const long whole = std::lround(std::abs(days));
+  const bool weeks = whole % 7 == 0;
+  return "; they would overlap " + std::to_string(weeks ? whole / 7 : whole) +
+         (weeks ? " week(s)" : " day(s)") + (days > 0.0 ? " later" : " earlier") +
+         (weeks ? ": the GPS week of one of them is wrong"
+                : ": give both in seconds of the week or in absolute times");
+}
+
 std::string remarkOf(const std::string& name, const Candidate& best) {
   if (best.offset == 0.0) return {};
   std::string text =
@@ -121,7 +138,8 @@ TimeAlignment reconcileTimes(const std::string& name, const TimeRange& points, T
   const std::optional<Candidate> best = firstThatMeets(points, kind, trajectory, gps_week);
   if (!best) {
     throw InputError(rangesText(name, points, trajectory) +
-                     (gps_week ? " in GPS week " + std::to_string(*gps_week) : std::string()));
+                     (gps_week ? " in GPS week " + std::to_string(*gps_week) : std::string()) +
+                     shiftText(points, trajectory));
   }
   TimeAlignment alignment;
   alignment.offset = best->offset;

@@ -133,6 +133,13 @@ class FrameChange {
                     largest_turn_ / kRadiansPerDegree);
       records_.remarks.emplace_back(text);
     }
+    if (!map_ && !records_.orthometric && !undulation_) {
+      records_.remarks.emplace_back(
+          horizontalCrs(reading_.crs) != reading_.crs
+              ? "ellipsoidal heights are brought to the vertical part of the CRS of the points"
+              : "its heights are ellipsoidal; the CRS of the points has no vertical part: where "
+                "theirs are above a geoid, the undulation has to be given");
+    }
     if (undulation_) records_.remarks.push_back("geoid undulation subtracted from its heights");
     if (records_.orthometric)
       records_.remarks.push_back("its heights are above a geoid by their name: taken as they are");

@@ -32,11 +32,14 @@ void checkOptions(const Trajectory::Options& options) {
 
 /// Unit vectors to the right of plan velocities; standing samples take the last (or, at the
 /// beginning, the first) movement's. Returns how many stood still.
-std::size_t rightDirections(std::vector<Eigen::Vector2d>& velocities) {
+std::size_t rightDirections(std::vector<Eigen::Vector2d>& velocities, bool in_degrees) {
   const auto moves = [](const Eigen::Vector2d& v) { return v.norm() > kStandstill; };
   const auto moving = std::find_if(velocities.begin(), velocities.end(), moves);
   if (moving == velocities.end()) {
-    throw InputError("trajectory: it does not move in plan; a flight direction is needed");
+    throw InputError(std::string("trajectory: it does not move in plan; ") +
+                     (in_degrees ? "its coordinates look like degrees: give those of a map, or "
+                                   "columns called latitude and longitude"
+                                 : "a flight direction is needed"));
   }
   Eigen::Vector2d right(moving->y(), -moving->x());
   std::size_t standing = 0;
@@ -136,7 +139,10 @@ void Trajectory::fitDirections(const std::vector<TrajectorySample>& samples) {
     detail::fitVelocities(samples, first, last, half_width_, directions);
     first = last;
   }
-  const std::size_t standing = rightDirections(directions);
+  const bool in_degrees = std::all_of(samples.begin(), samples.end(), [](const auto& sample) {
+    return sample.position.template head<2>().cwiseAbs().maxCoeff() <= 360.0;
+  });
+  const std::size_t standing = rightDirections(directions, in_degrees);
   if (standing > 0) {
     repairs_.push_back("trajectory: the sensor stands still at " + std::to_string(standing) +
                        " sample(s): direction taken from the last movement");

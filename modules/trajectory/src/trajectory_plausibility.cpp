@@ -10,6 +10,7 @@
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
 #include "attitude_comparison.h"
+#include "coordinate_cause.h"
 
 namespace pcl_als {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kLongestStep = 1.0;  // seconds: of a strip with one time, whic
 // is an angle of the pulse. A hundredth is 0.6 degrees, as much as AttitudeRecovery corrects.
 constexpr double kCoarseRefused = 0.01, kCoarseSuspicious = 0.001;
 constexpr std::size_t kFewestHeadings = 50;
+constexpr double kLargestDatumShift = 1000.0;  // metres: most national datums against WGS 84
 
 std::string metres(double value) {
   return std::to_string(std::lround(value)) + " m";
@@ -77,6 +79,8 @@ void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& 
                   std::atan2(forward.x(), forward.y()));
   }
   const Eigen::Vector3d d = point - pose.position;
+  s.point_sum += point, s.sensor_sum += pose.position;
+  if (speed > kSlowest) s.along_sum += path.velocity.head<2>().dot(d.head<2>()) / speed;
   if (d.z() >= 0.0) {
     ++s.above;
     return;
@@ -124,10 +128,19 @@ std::string TrajectoryPlausibility::objection(const Strip& strip) {
   return {};
 }
 
+std::string TrajectoryPlausibility::causeOf(const Strip& strip) {
+  const auto count = static_cast<double>(strip.count);
+  std::string cause = detail::coordinateCause(strip.sensor_sum / count, strip.point_sum / count);
+  if (cause.empty() && strip.speed_sum > kSlowest * count)
+    cause = detail::timeCause(strip.along_sum / strip.speed_sum);
+  return cause.empty() ? cause : "; " + cause;
+}
+
 void TrajectoryPlausibility::checkStrips(std::vector<Finding>& findings) const {
   for (const Strip& strip : strips_) {
     const std::string found = strip.used ? objection(strip) : std::string();
-    if (!found.empty()) findings.push_back({true, "strip " + strip.name + ": " + found + kRemedy});
+    if (found.empty()) continue;
+    findings.push_back({true, "strip " + strip.name + ": " + found + causeOf(strip) + kRemedy});
   }
 }
 
@@ -212,11 +225,13 @@ void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
   const double tolerance = spread > 2.0 * std::tan(angle) ? 2.0 * spread : std::tan(angle);
   const Eigen::Vector2d found = offset(views);
   if (found.norm() <= tolerance * highest) return;
-  findings.push_back({true, "the trajectory lies " + metres(found.norm()) + " (east " +
-                                std::to_string(std::lround(found.x())) + ", north " +
-                                std::to_string(std::lround(found.y())) +
-                                ") beside where its points were measured from: give it in the "
-                                "coordinates of the points"});
+  findings.push_back(
+      {true, "the trajectory lies " + metres(found.norm()) + " (east " +
+                 std::to_string(std::lround(found.x())) + ", north " +
+                 std::to_string(std::lround(found.y())) +
+                 ") beside where its points were measured from" +
+                 (found.norm() < kLargestDatumShift ? ", as between two geodetic datums" : "") +
+                 ": give it in the coordinates of the points"});
 }
 
 HeightError TrajectoryPlausibility::heightOfStrips() const {

@@ -82,7 +82,8 @@ struct TrajectoryFile {
   std::vector<std::string> remarks;          ///< conversions and assumptions, one line each
 };
 
-/** \brief Reads a trajectory: text with a header line, or Applanix SBET (.out, .sbet).
+/** \brief Reads a trajectory: text with a header line, Applanix SBET (.out, .sbet) or TerraScan
+ * (.trj).
  *
  * Text: columns are found by the names in use (the module's README lists them) in any case, below
  * any number of lines that are no header; separator , ; tab or blanks; a line of units below the

@@ -109,6 +109,8 @@ class TrajectoryPlausibility {
     double mean_ahead_sum = 0.0, height_sum = 0.0;  ///< metres, of those below the sensor
     double slope_sum = 0.0, slope_sum_sq = 0.0;     ///< of ahead / height
     double speed_sum = 0.0;                         ///< metres per second
+    double along_sum = 0.0;                         ///< metres ahead, of all points
+    Eigen::Vector3d point_sum = Eigen::Vector3d::Zero(), sensor_sum = point_sum;  ///< metres
     TimeResolution times;
     std::size_t path_cursor = 0;
     HeadingCheck heading;
@@ -124,6 +126,8 @@ class TrajectoryPlausibility {
   };
 
   static std::string objection(const Strip& strip);
+  /// The likely cause of an objection, after a semicolon; empty where none is found.
+  static std::string causeOf(const Strip& strip);
   static bool viewOf(const Strip& strip, View& view);
   void checkStrips(std::vector<Finding>& findings) const;
   void checkTimes(std::vector<Finding>& findings) const;
