@@ -9,6 +9,7 @@
 
 #include "calibration_state.h"
 #include "control_consistency.h"
+#include "part_consistency.h"
 #include "strip_consistency.h"
 
 namespace pcl_als {
@@ -56,6 +57,19 @@ void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& er
     spread = controlSpread(control, adjustment);
   }
   judgeControl(control, spread, result);
+}
+
+void SystemCalibrationEngine::assessParts(State& state, const SharedErrors& errors,
+                                          CalibrationResult& result) const {
+  if (state.choice.estimate.empty()) return;
+  weigh(state);  // the last pairs have no weights yet
+  AreaAdjustment adjustment{
+      errors, state.adjustment.levels(), state.observations, state.weights.weights(),
+      {},     state.choice.estimate,     settings_.threads};
+  for (const SurveyArea& area : areas_) {
+    adjustment.places.emplace_back(area.minimum + Eigen::Vector2d::Constant(0.5 * area.size));
+  }
+  judgeParts(partDifferences(adjustment), result);
 }
 
 void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {

@@ -247,6 +247,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   assessStripErrors(settings_.shared_errors, effects, result);
   assessHeight(height_error_, result);
   judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
+  assessParts(state, errors, result);  // larger standard deviations must not make a result usable
   return result;
 }
 
