@@ -44,7 +44,11 @@ CommandLine commandLine() {
 SystemVector parseBiases(const std::string& list) {
   if (app::splitList(list).empty()) throw UsageError("option -biases: names no parameter");
   SystemVector biases = SystemVector::Zero();
-  setBiases(list, biases);
+  try {
+    setBiases(list, biases);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("option -biases: ") + error.what());
+  }
   for (const SystemParameterInfo& info : systemParameters()) {
     const std::string refused = refusedBias(info.parameter, biases[indexOf(info.parameter)]);
     if (!refused.empty())

@@ -102,7 +102,7 @@ TEST(RollSign, RadiansAndColumnsWithoutValues) {
   EXPECT_EQ(radians.rfind("refused: the roll of the trajectory changes by a 57th", 0), 0)
       << radians;
   const std::string zeros = said(flight, [](auto& s) { s.roll = 0.0; });
-  EXPECT_EQ(zeros.rfind("warning: the roll of the trajectory is the same at all times", 0), 0)
+  EXPECT_EQ(zeros.rfind("refused: the roll of the trajectory is the same at all times", 0), 0)
       << zeros;
 }
 

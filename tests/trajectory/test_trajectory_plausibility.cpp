@@ -118,12 +118,12 @@ TEST(TrajectoryPlausibility, RefusesAHeadingThatIsNone) {
 /// One line with motion in pitch and roll, its points by a forward chain of its own; what the check
 /// says when the attitude is changed before it is given.
 template <typename Change>
-std::string saidOfMotion(const Change& change) {
+std::string saidOfMotion(const Change& change, double motion = 1.0) {
   Samples samples = test::sampled(test::straight(0.0), 0.0, 20.0, 0.005);
   std::vector<std::pair<double, Eigen::Vector3d>> points;
   for (TrajectorySample& sample : samples) {
-    sample.roll = 0.03 * std::sin(0.9 * sample.time);
-    sample.pitch = 0.02 + 0.02 * std::sin(0.7 * sample.time);
+    sample.roll = motion * 0.03 * std::sin(0.9 * sample.time);
+    sample.pitch = 0.02 + motion * 0.02 * std::sin(0.7 * sample.time);
     sample.heading = 0.04;
     const Eigen::Matrix3d body = (Eigen::AngleAxisd(-sample.heading, Eigen::Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(sample.pitch, Eigen::Vector3d::UnitX()) *
@@ -161,8 +161,12 @@ TEST(TrajectoryPlausibility, ComparesRollAndPitchWithThePoints) {
     s.roll *= kRadiansPerDegree, s.pitch *= kRadiansPerDegree, s.heading *= kRadiansPerDegree;
   });
   EXPECT_TRUE(begins(radians, "refused: the pitch of the trajectory changes by")) << radians;
-  const std::string zeros = saidOfMotion([](auto& s) { s.roll = s.pitch = s.heading = 0.0; });
-  EXPECT_TRUE(begins(zeros, "warning: the pitch of the trajectory is the same")) << zeros;
+  // A level model is wrong by a percent of the biases where the motion is a degree.
+  const auto level = [](auto& s) { s.roll = s.pitch = s.heading = 0.0; };
+  const std::string large = saidOfMotion(level);
+  EXPECT_TRUE(begins(large, "refused: the pitch of the trajectory is the same")) << large;
+  const std::string small = saidOfMotion(level, 0.3);
+  EXPECT_TRUE(begins(small, "warning: the pitch of the trajectory is the same")) << small;
 }
 
 TEST(TrajectoryPlausibility, ForceGoesOnWithAWarning) {

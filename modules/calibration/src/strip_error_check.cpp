@@ -213,7 +213,7 @@ void assessHeight(const HeightError& error, CalibrationResult& result) {
   if (certain || names.empty()) return;
   result.warnings.push_back("the standard deviations of " + names +
                             " include that the height of the trajectory may be wrong by " +
-                            sizeText(std::abs(error.metres), false));
+                            std::to_string(std::lround(std::abs(error.metres))) + " m");
 }
 
 }  // namespace pcl_als
