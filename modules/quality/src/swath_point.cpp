@@ -21,7 +21,7 @@ bool isVegetation(const SwathPoint& point) {
 
 std::int64_t cellOf(const SwathPoint& point) {
   const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kCell)); };
-  return (cell(point.position.y()) << 32) + cell(point.position.x());
+  return cell(point.position.y()) * (std::int64_t{1} << 32) + cell(point.position.x());
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr int kFewestNeighbours = 5;  // of nine, for a slope
 constexpr float kShare = 0.5F;        // of the colour over the grey
 
 std::int64_t keyOf(int block_column, int block_row) {
-  return (static_cast<std::int64_t>(block_row) << 32U) | static_cast<std::uint32_t>(block_column);
+  return (block_row * (std::int64_t{1} << 32)) | static_cast<std::uint32_t>(block_column);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ AreaIndex::AreaIndex(const std::vector<SurveyArea>& areas) {
     const Eigen::Vector2d high = area.minimum.array() + area.size + area.margin;
     for (std::int64_t row = cell(low.y()); row <= cell(high.y()); ++row) {
       for (std::int64_t column = cell(low.x()); column <= cell(high.x()); ++column) {
-        cells_[(row << 32) ^ (column & 0xffffffff)].push_back(static_cast<int>(index));
+        cells_[(row * (std::int64_t{1} << 32)) ^ (column & 0xffffffff)].push_back(
+            static_cast<int>(index));
       }
     }
   }
@@ -26,7 +27,7 @@ AreaIndex::AreaIndex(const std::vector<SurveyArea>& areas) {
 const std::vector<int>& AreaIndex::candidates(const Eigen::Vector3d& position) const {
   const auto row = static_cast<std::int64_t>(std::floor(position.y() / SurveyMap::kCell));
   const auto column = static_cast<std::int64_t>(std::floor(position.x() / SurveyMap::kCell));
-  const auto found = cells_.find((row << 32) ^ (column & 0xffffffff));
+  const auto found = cells_.find((row * (std::int64_t{1} << 32)) ^ (column & 0xffffffff));
   return found == cells_.end() ? none_ : found->second;
 }
 

@@ -24,7 +24,7 @@ constexpr double kAside = 0.00037;
 constexpr int kGroup = 4;  // areas per side of the groups that selectAreas spreads over
 
 std::int64_t packed(std::int32_t ix, std::int32_t iy) {
-  return (static_cast<std::int64_t>(iy) << 32) | static_cast<std::uint32_t>(ix);
+  return (iy * (std::int64_t{1} << 32)) | static_cast<std::uint32_t>(ix);
 }
 std::int32_t columnOf(std::int64_t key) {
   return static_cast<std::int32_t>(key & 0xffffffff);

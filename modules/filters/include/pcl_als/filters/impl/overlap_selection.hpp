@@ -41,7 +41,7 @@ std::int64_t OverlapSelection<PointT>::cellOf(const LocalFrame& frame, const Poi
   const Eigen::Vector3d ground = frame.toGround(PointFields<PointT>{point}.position());
   const auto column = static_cast<std::int32_t>(std::floor(ground.x() / cell_));
   const auto row = static_cast<std::int32_t>(std::floor(ground.y() / cell_));
-  return (static_cast<std::int64_t>(row) << 32) | static_cast<std::uint32_t>(column);
+  return (row * (std::int64_t{1} << 32)) | static_cast<std::uint32_t>(column);
 }
 
 template <typename PointT>
