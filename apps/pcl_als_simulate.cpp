@@ -29,16 +29,18 @@ void declareScene(CommandLine& line) {
 CommandLine declare() {
   CommandLine line("pcl_als_simulate",
                    "simulates an airborne laser scanning block with known system biases.",
-                   "-output DIR [-preset paper|small] [-noise none|range|realistic] [-bias …]",
+                   "-output DIR [-preset paper|small|uav] [-noise none|range|realistic] [-bias …]",
                    "pcl_als_simulate -output block -preset small -noise range -seed 3 "
                    "-bias boresight_roll=60,range_bias=0.1");
   line.addOptional("output",
                    "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
                    "checkpoints.csv and truth.json; made if missing (needed)");
-  line.add<std::string>("preset",
-                        "paper: six lines over 1 km x 2 km at 1150 m and 540 m, 11 million points; "
-                        "small: five lines, 0.9 million points",
-                        "paper");
+  line.add<std::string>(
+      "preset",
+      "paper: six lines over 1 km x 2 km at 1150 m and 540 m, 11 million points; "
+      "small: five lines, 0.9 million points; uav: eight lines of a drone 75 m above ground "
+      "at 6 m/s, 1.5 million points",
+      "paper");
   line.add<double>("scale", "factor on the lengths of the lines, 0.05 to 10", 1.0);
   line.add<double>("density", "factor on the pulses per square metre, 0.01 to 50", 1.0);
   line.add<std::string>("seed", "seed of scene, flight and noise", "1");
@@ -132,7 +134,7 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   if (line.has("origin")) options.origin = parseOrigin(line.text("origin"));
   options.crs = line.text("crs");
   requireProjectedCrs(options.crs, "option -crs");
-  options.scene.relief = line.number("relief", 0.0, 1.5, "(factor)");
+  options.scene.relief *= line.number("relief", 0.0, 1.5, "(factor)");
   options.scene.buildings = line.number("buildings", 0.0, 1.0, "(factor)");
   options.scene.trees = line.number("trees", 0.0, 4.0, "(factor)");
   setIntensity(line, options);

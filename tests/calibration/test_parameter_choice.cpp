@@ -71,5 +71,19 @@ TEST(ParameterChoice, WritesValuesInTheirUnit) {
   EXPECT_EQ(inUnit(P::scan_angle_scale, 3e-4), "0.0003");
 }
 
+TEST(ParameterChoice, LimitsOfAnglesFollowTheFlyingHeight) {
+  // 8 cm, the limit of a lever arm, is 60 arcsec at 275 m and 226 arcsec at 73 m.
+  const DeterminationLimits given;
+  EXPECT_EQ(given.atHeight(300.0).roll_pitch, given.roll_pitch);
+  EXPECT_EQ(given.atHeight(0.0).roll_pitch, given.roll_pitch);  // unknown
+  const DeterminationLimits low = given.atHeight(73.0);
+  EXPECT_NEAR(low.roll_pitch, 0.08 / 73.0, 1e-9);
+  EXPECT_NEAR(low.heading / given.heading, low.roll_pitch / given.roll_pitch, 1e-9);
+  EXPECT_NEAR(low.scan_angle_scale / given.scan_angle_scale, low.roll_pitch / given.roll_pitch,
+              1e-9);
+  EXPECT_EQ(low.lever_arm, given.lever_arm);
+  EXPECT_EQ(low.range, given.range);
+}
+
 }  // namespace
 }  // namespace pcl_als

@@ -222,7 +222,15 @@ void SystemCalibrationEngine::choosePairs() {
                : "no two strips overlap and there is no control: nothing to compare");
 }
 
+void SystemCalibrationEngine::adaptLimits() {
+  double highest = 0.0;
+  for (std::size_t i = 0; i < ids_.size(); ++i)
+    highest = std::max(highest, plausibility_.meanHeight(static_cast<int>(i)));
+  settings_.limits = settings_.limits.atHeight(highest);
+}
+
 void SystemCalibrationEngine::chooseAreas() {
+  adaptLimits();
   leaveOutUnpaired();
   leaveOutSmallStrips();
   leaveOutRoundedTimes();

@@ -83,26 +83,45 @@ std::vector<P> tooUncertain(const AdjustmentSolution& solution, const std::vecto
   return candidates;
 }
 
+/// The parameter other than \a p with the strongest correlation; \a p itself where it is alone.
+P mostCorrelated(const SystemMatrix& covariance, const std::vector<P>& estimate, P p) {
+  P partner = p;
+  double strongest = 0.0;
+  for (const P other : estimate) {
+    if (other == p || std::abs(correlation(covariance, p, other)) <= strongest) continue;
+    strongest = std::abs(correlation(covariance, p, other));
+    partner = other;
+  }
+  return partner;
+}
+
 std::string uncertainReason(const AdjustmentSolution& solution, const std::vector<P>& estimate,
                             P dropped, const DeterminationLimits& limits, double factor) {
   const SystemMatrix& covariance = solution.covariance;
-  std::ostringstream text;
-  text << "standard deviation would be "
-       << inUnit(dropped, std::sqrt(covariance(indexOf(dropped), indexOf(dropped))))
-       << ", more than " << inUnit(dropped, factor * limits.of(dropped)) << " is no determination";
-  P partner = dropped;
-  double strongest = 0.0;
-  for (const P other : estimate) {
-    if (other == dropped || std::abs(correlation(covariance, dropped, other)) <= strongest)
-      continue;
-    strongest = std::abs(correlation(covariance, dropped, other));
-    partner = other;
+  const auto std_of = [&](P p) { return std::sqrt(covariance(indexOf(p), indexOf(p))); };
+  const auto too_large = [&](P p) { return std_of(p) > factor * limits.of(p); };
+  // The one that is left out may be well determined and make another one uncertain.
+  P uncertain = dropped;
+  for (const P p : estimate) {
+    if (!too_large(dropped) && too_large(p) &&
+        std::abs(correlation(covariance, dropped, p)) > kInseparable)
+      uncertain = p;
   }
-  if (strongest < 0.5) return text.str();
-  text.precision(2);
-  text << std::fixed << " (correlation " << correlation(covariance, dropped, partner) << " with "
-       << name(partner) << ")";
-  return text.str();
+  const P partner =
+      uncertain == dropped ? mostCorrelated(covariance, estimate, dropped) : uncertain;
+  std::ostringstream coefficient;
+  coefficient.precision(2);
+  coefficient << std::fixed << "correlation " << correlation(covariance, dropped, partner);
+  const std::string size = "would be " + inUnit(uncertain, std_of(uncertain)) +
+                           ", more than the limit of " +
+                           inUnit(uncertain, factor * limits.of(uncertain));
+  if (uncertain != dropped)
+    return "it cannot be separated from " + std::string(name(uncertain)) + " (" +
+           coefficient.str() + "), whose standard deviation " + size;
+  if (std::abs(correlation(covariance, dropped, partner)) < 0.5 || partner == dropped)
+    return "its standard deviation " + size;
+  return "its standard deviation " + size + " (" + coefficient.str() + " with " +
+         std::string(name(partner)) + ")";
 }
 
 /// Adds to the covariance of the others the effect of a parameter that is held and known with the
@@ -148,6 +167,16 @@ double DeterminationLimits::of(SystemParameter p) const {
       return scan_angle_scale;
   }
   return 0.0;
+}
+
+DeterminationLimits DeterminationLimits::atHeight(double height) const {
+  DeterminationLimits limits = *this;
+  if (!(height > 0.0)) return limits;
+  const double factor = std::max(1.0, lever_arm / (roll_pitch * height));
+  limits.roll_pitch *= factor;
+  limits.heading *= factor;
+  limits.scan_angle_scale *= factor;
+  return limits;
 }
 
 double DeterminationLimits::whenHeld(SystemParameter p) const {

@@ -20,6 +20,7 @@ struct LineGroup {
     double overlap;  ///< share of the swath; of the first: unused
   };
   std::vector<Line> lines;
+  double speed = 60.0;
 };
 
 bool isNorthSouth(Course course) {
@@ -45,6 +46,7 @@ void append(const LineGroup& group, SimulationOptions& options) {
     line.end = isNorthSouth(course) ? Eigen::Vector2d(aside, half) : Eigen::Vector2d(half, aside);
     line.height = group.height;
     line.density = group.density;
+    line.speed = group.speed;
     options.lines.push_back(line);
     if (i > 0) options.pairs.emplace_back(line.id - 1, line.id);
   }
@@ -83,8 +85,17 @@ SimulationOptions SimulationOptions::preset(std::string_view name, double scale,
             450.0 * scale,
             {{Course::west, 0.0}, {Course::east, 0.75}, {Course::east, 0.50}}},
            options);
+  } else if (name == "uav") {
+    // Lines 30 m apart, flown alternately in both directions.
+    constexpr double kHeight = 75.0, kSpacing = 30.0;
+    const double overlap = 1.0 - kSpacing / (2.0 * kHeight * std::tan(0.5 * field_of_view));
+    LineGroup group{kHeight, 9.0 * density, 220.0 * scale, {}, 6.0};
+    for (int i = 0; i < 8; ++i)
+      group.lines.push_back({i % 2 == 0 ? Course::west : Course::east, overlap});
+    append(group, options);
+    options.scene.relief = 0.2;  // below the flight
   } else {
-    throw UsageError("preset '" + std::string(name) + "': there are paper and small");
+    throw UsageError("preset '" + std::string(name) + "': there are paper, small and uav");
   }
   setBiases(
       "lever_arm_x=0.05,lever_arm_y=-0.05,boresight_pitch=-30,boresight_roll=-90,"

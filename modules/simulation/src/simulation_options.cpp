@@ -21,8 +21,8 @@ void require(double value, double low, double high, const std::string& what) {
 void checkLine(const PlannedLine& line) {
   const std::string name = "line " + std::to_string(line.id) + ": ";
   require((line.end - line.start).norm(), 1.0, 200000.0, name + "length (m)");
-  require(line.height, 100.0, 6000.0, name + "height (m)");
-  require(line.speed, 10.0, 300.0, name + "speed (m/s)");
+  require(line.height, 40.0, 6000.0, name + "height (m)");
+  require(line.speed, 1.0, 300.0, name + "speed (m/s)");
   require(line.density, 1e-4, 200.0, name + "density (pulses/m2)");
   require(line.gain, 0.01, 100.0, name + "gain");
 }

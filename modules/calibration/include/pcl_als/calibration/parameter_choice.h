@@ -25,6 +25,9 @@ struct DeterminationLimits {
   double range = 0.10;                           ///< metres
   double scan_angle_scale = 3e-4;                ///< unitless
 
+  /// The limits for a flying height (metres above ground): those of angles and of the scale are
+  /// larger below 275 m, where 60 arcsec move points by less than a lever arm's limit does.
+  DeterminationLimits atHeight(double height) const;
   double of(SystemParameter p) const;
   /// Standard deviation of a parameter that is not estimated, which the uncertainty of the others
   /// includes: 5 cm for lever arms, which can be surveyed; twice the limit for the others.

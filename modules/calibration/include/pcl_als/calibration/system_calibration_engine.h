@@ -123,6 +123,8 @@ class SystemCalibrationEngine {
   void describeAttitudes();
   void useNonLinearModel(const std::string& remark);
   void choosePairs();
+  /// Limits of determination for the flying height.
+  void adaptLimits();
   int stripNamed(const std::string& id) const;
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas

@@ -102,7 +102,8 @@ struct SimulationOptions {
   std::vector<std::pair<int, int>> pairs;  ///< ids of the lines planned to overlap
 
   /// "paper" (six lines of Habib et al. 2011 over 1 km x 2 km, 11 million pulses) or "small" (five
-  /// lines, 0.9 million), with the paper's kind of biases and no noise. \a scale multiplies the
+  /// lines, 0.9 million), or "uav" (eight lines of a drone 75 m above ground at 6 m/s, 30 m apart,
+  /// 1.5 million), with the paper's kind of biases and no noise. \a scale multiplies the
   /// lengths of the lines, \a density the pulses per square metre; the lines are spaced so that
   /// their overlaps hold for the \a field_of_view (radians). UsageError for another name or a value
   /// out of range.
