@@ -9,8 +9,8 @@
 #include <pcl_als/common/parallel.h>
 
 #include "area_normal.h"
+#include "block_cholesky.h"
 #include "chosen_parameters.h"
-#include "error_factor.h"
 #include "error_normal.h"
 #include "possibly_absent.h"
 
@@ -87,7 +87,7 @@ void Adjustment::setLevels(const SharedErrorLevels& levels) {
 Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
                                        const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);
-  const ErrorFactor factor(normal.tt, prior, errors_.observedUnknowns());
+  const BlockCholesky factor(normal.tt, prior);
   Reduced reduced;
   reduced.elimination = factor.solve(normal.tg);
   reduced.eliminated_right = factor.solve(normal.right_t);

@@ -7,7 +7,7 @@
 #include <pcl_als/common/system_parameters.h>
 
 #include "area_normal.h"
-#include "error_factor.h"
+#include "block_cholesky.h"
 
 namespace pcl_als {
 

@@ -5,8 +5,8 @@
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/parallel.h>
 
+#include "block_cholesky.h"
 #include "chosen_parameters.h"
-#include "error_factor.h"
 #include "error_normal.h"
 
 namespace pcl_als {
@@ -58,7 +58,7 @@ class LikelihoodEquations {
   const SharedErrorLevels& levels_;
   const ErrorNormal& normal_;
   const std::vector<SystemParameter>& estimate_;
-  ErrorFactor factor_;           ///< of H_tt
+  BlockCholesky factor_;         ///< of H_tt
   Eigen::MatrixXd coupling_;     ///< H_tg
   Eigen::MatrixXd elimination_;  ///< H_tt^-1 H_tg
   Eigen::MatrixXd inverse_gg_;   ///< of H
@@ -75,7 +75,7 @@ LikelihoodEquations::LikelihoodEquations(const SharedErrors& errors,
       levels_(levels),
       normal_(normal),
       estimate_(estimate),
-      factor_(normal.tt, errors.priorInformation(levels), errors.observedUnknowns()),
+      factor_(normal.tt, errors.priorInformation(levels)),
       coupling_(columnsOf(normal.tg, estimate)) {
   Eigen::MatrixXd right(coupling_.rows(), coupling_.cols() + 1);
   right << coupling_, normal.right_t;
