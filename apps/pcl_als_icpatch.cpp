@@ -47,7 +47,7 @@ CommandLine commandLine() {
   return line;
 }
 
-StripPair pairOf(const CommandLine& line) {
+AlignmentPair pairOf(const CommandLine& line) {
   if (line.has("pair") && line.has("transformed"))
     throw UsageError("option -transformed: needs SOURCE and TARGET as files, not -pair");
   const std::string pair = line.has("pair") ? line.text("pair") : "";
@@ -81,7 +81,7 @@ PatchAlignmentSettings settingsOf(const CommandLine& line) {
 int icpatch(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
-  const StripPair pair = pairOf(line);
+  const AlignmentPair pair = pairOf(line);
   const PatchAlignmentSettings settings = settingsOf(line);
   if (!line.has("output")) throw UsageError("option -output is needed");
   const std::filesystem::path source = pair.source.files.front();

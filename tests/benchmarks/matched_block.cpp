@@ -31,7 +31,7 @@ void MatchedBlock::load(const test::SimulatedSurvey& survey, const std::vector<S
   for (const SurveyArea& area : areas) matchers_.emplace_back(area, strips);
   times_.assign(areas.size(), std::vector<std::vector<double>>(strips));
   parallelFor(strips, 0, [&](std::size_t strip) {
-    for (const CalibrationPoint& point : survey.strips[strip]) {
+    for (const LidarReturn& point : survey.strips[strip]) {
       if (!isSurfacePoint(point)) continue;
       for (const int i : index.candidates(point.position)) {
         const auto area = static_cast<std::size_t>(i);

@@ -21,13 +21,13 @@ double height(double x, double y) {
   return std::abs(x - 25.0) < 8.0 && std::abs(y - 25.0) < 12.0 ? ground + roof : ground;
 }
 
-std::vector<CalibrationPoint> sampled(unsigned seed, double from, double to,
-                                      const Eigen::Vector3d& shift) {
+std::vector<LidarReturn> sampled(unsigned seed, double from, double to,
+                                 const Eigen::Vector3d& shift) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> plan(from, to);
-  std::vector<CalibrationPoint> points;
+  std::vector<LidarReturn> points;
   for (int i = 0; i < static_cast<int>((to - from) * (to - from) * 4.0); ++i) {
-    CalibrationPoint p;
+    LidarReturn p;
     const double x = plan(random), y = plan(random);
     p.position = Eigen::Vector3d(x, y, height(x, y)) + shift;
     p.time = 10.0;
@@ -49,17 +49,17 @@ Trajectory flight() {
 
 const SurveyArea kArea{{0.0, 0.0}, 50.0, 8.0};
 
-AreaMatcher matcherOf(const std::vector<CalibrationPoint>& a,
-                      const std::vector<CalibrationPoint>& b, std::size_t candidates = 500) {
+AreaMatcher matcherOf(const std::vector<LidarReturn>& a, const std::vector<LidarReturn>& b,
+                      std::size_t candidates = 500) {
   AreaMatcher matcher(kArea, 2);
-  for (const CalibrationPoint& p : a) matcher.add(0, p);
-  for (const CalibrationPoint& p : b) matcher.add(1, p);
+  for (const LidarReturn& p : a) matcher.add(0, p);
+  for (const LidarReturn& p : b) matcher.add(1, p);
   matcher.prepare(SurfaceCriterion(), candidates, 0.001);
   return matcher;
 }
 
 TEST(SurfacePoint, LeavesOutWhatIsNoSurface) {
-  CalibrationPoint p;
+  LidarReturn p;
   EXPECT_TRUE(isSurfacePoint(p));
   p.number_of_returns = 2;
   EXPECT_FALSE(isSurfacePoint(p));  // first of two
@@ -109,7 +109,7 @@ TEST(AreaMatcher, TakesNothingFromTrees) {
   std::uniform_real_distribution<double> crown(0.0, 8.0);
   auto a = sampled(6, -8.0, 58.0, {0, 0, 0}), b = sampled(7, -8.0, 58.0, {0, 0, 0});
   for (auto* strip : {&a, &b}) {
-    for (CalibrationPoint& p : *strip) {
+    for (LidarReturn& p : *strip) {
       if (p.position.y() > 40.0) p.position.z() += crown(random);
     }
   }
@@ -139,12 +139,12 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   const auto a = sampled(8, -8.0, 58.0, {0, 0, 0}), b = sampled(9, -60.0, 110.0, {0, 0, -0.05});
   const AreaMatcher part = matcherOf(a, b);  // keeps of b what the margin holds
   AreaMatcher whole(SurveyArea{{0.0, 0.0}, 50.0, 60.0}, 2);
-  for (const CalibrationPoint& p : a) whole.add(0, p);
-  for (const CalibrationPoint& p : b) whole.add(1, p);
+  for (const LidarReturn& p : a) whole.add(0, p);
+  for (const LidarReturn& p : b) whole.add(1, p);
   whole.prepare(SurfaceCriterion(), 500, 0.001);
   ASSERT_GT(whole.pointCount(), 2 * part.pointCount());
   const PatchSurface &tin_of_part = part.surfaceOf(1), &tin_of_whole = whole.surfaceOf(1);
-  for (const CalibrationPoint& p : a) {
+  for (const LidarReturn& p : a) {
     if (!kArea.contains(p.position)) continue;
     const auto in_part = tin_of_part.closest(p.position, 0.5),
                in_whole = tin_of_whole.closest(p.position, 0.5);
@@ -177,10 +177,10 @@ struct MeanDistance {
 MeanDistance meanDistance(unsigned draw) {
   std::mt19937_64 random(draw);
   std::normal_distribution<double> noise(0.0, 0.02);
-  std::vector<CalibrationPoint> strips[2] = {sampled(2 * draw, -8.0, 58.0, {0, 0, 0}),
-                                             sampled(2 * draw + 1, -8.0, 58.0, {0, 0, 0})};
+  std::vector<LidarReturn> strips[2] = {sampled(2 * draw, -8.0, 58.0, {0, 0, 0}),
+                                        sampled(2 * draw + 1, -8.0, 58.0, {0, 0, 0})};
   for (auto& strip : strips) {
-    for (CalibrationPoint& p : strip) p.position.z() = 100.0 + noise(random);
+    for (LidarReturn& p : strip) p.position.z() = 100.0 + noise(random);
   }
   const Trajectory trajectory = flight();
   double sum = 0.0, weights = 0.0, pairs = 0.0;

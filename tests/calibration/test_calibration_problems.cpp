@@ -93,7 +93,7 @@ TEST(CalibrationProblems, WhatWasAskedForByNameIsNotLeftOutAtTheLimit) {
 
 TEST(CalibrationProblems, ALiftedStripIsNamedWithItsHeight) {
   SimulatedSurvey survey = smallBlock();
-  for (CalibrationPoint& point : survey.strips[2]) point.position.z() += 50.0;
+  for (LidarReturn& point : survey.strips[2]) point.position.z() += 50.0;
   const std::string warnings = allOf(survey.calibrate().warnings);
   EXPECT_NE(warnings.find("strip 3 has no pairs"), std::string::npos) << warnings;
   // Lowest points of 10 m cells of biased strips: decimetres.

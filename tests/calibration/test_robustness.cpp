@@ -73,7 +73,7 @@ TEST_F(Robustness, ThreeInTenPairsToChangedGround) {
   // higher by 0.2 to 1 m, so that 30 % of all pairs between neighbours are wrong together.
   SimulatedSurvey survey = *clean;
   for (std::size_t strip = 0; strip < survey.strips.size(); strip += 2) {
-    for (CalibrationPoint& point : survey.strips[strip]) {
+    for (LidarReturn& point : survey.strips[strip]) {
       const double draw = chance(point.position, 15.0, strip);
       if (draw < 0.3) point.position.z() += 0.2 + 0.8 * draw / 0.3;
     }
@@ -87,7 +87,7 @@ TEST_F(Robustness, ThreeInTenPointsInVegetation) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform;
   for (std::size_t strip = 0; strip < survey.strips.size(); ++strip) {
-    for (CalibrationPoint& point : survey.strips[strip]) {
+    for (LidarReturn& point : survey.strips[strip]) {
       const bool overgrown = chance(point.position, 20.0, 0) < 0.4;  // the same places in all
       if (overgrown && uniform(random) < 0.75) point.position.z() += 1.5 * uniform(random);
     }
@@ -99,7 +99,7 @@ TEST_F(Robustness, MovingCarsAndWalls) {
   // Boxes of 5 m and 1.6 m height on 8 % of the ground, elsewhere in every strip.
   SimulatedSurvey survey = *clean;
   for (std::size_t strip = 0; strip < survey.strips.size(); ++strip) {
-    for (CalibrationPoint& point : survey.strips[strip]) {
+    for (LidarReturn& point : survey.strips[strip]) {
       if (chance(point.position, 5.0, strip) < 0.08) point.position.z() += 1.6;
     }
   }
@@ -112,8 +112,8 @@ TEST_F(Robustness, WaterWithHolesAndStrayReturns) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> uniform;
   for (auto& strip : survey.strips) {
-    std::vector<CalibrationPoint> kept;
-    for (CalibrationPoint point : strip) {
+    std::vector<LidarReturn> kept;
+    for (LidarReturn point : strip) {
       if (chance(point.position, 40.0, 0) < 1.0 / 6.0) {
         if (uniform(random) > 0.02) continue;
         point.position.z() -= 2.0 * uniform(random);

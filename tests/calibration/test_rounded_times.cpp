@@ -21,7 +21,7 @@ class RoundedTimes : public ::testing::Test {
     return options;
   }
   void round(std::size_t strip) {
-    for (CalibrationPoint& point : survey.strips[strip]) point.time = std::floor(point.time);
+    for (LidarReturn& point : survey.strips[strip]) point.time = std::floor(point.time);
   }
   CalibrationResult calibrate() const {
     CalibrationSettings settings;

@@ -129,7 +129,7 @@ TEST(SystemCalibration, RoundingToFloatsIsWithinTheStandardDeviation) {
   const LocalFrame frame = LocalFrame::around(block().origin);
   for (std::size_t i = 0; i < survey.strips.size(); ++i) {
     pcl::PointCloud<PointLidar>::Ptr cloud(new pcl::PointCloud<PointLidar>);
-    for (const CalibrationPoint& p : survey.strips[i]) {
+    for (const LidarReturn& p : survey.strips[i]) {
       PointLidar& point = cloud->emplace_back();
       point.getVector3fMap() = frame.toLocal(p.position);
       point.gps_time = p.time;

@@ -37,17 +37,17 @@ struct Flight {
 };
 
 /// Points of a strip over [0, 60] x [0, 60], jittered, at UTM-like coordinates.
-inline std::vector<SwathPoint> fly(const std::function<double(double, double)>& surface,
-                                   const Flight& flight, const Eigen::Vector3d& origin) {
+inline std::vector<LidarReturn> fly(const std::function<double(double, double)>& surface,
+                                    const Flight& flight, const Eigen::Vector3d& origin) {
   std::mt19937 random(flight.seed);
   std::uniform_real_distribution<double> jitter(-0.4, 0.4);
   std::normal_distribution<double> noise(0.0, 1.0);
-  std::vector<SwathPoint> points;
+  std::vector<LidarReturn> points;
   for (double y = 0.0; y <= 60.0; y += flight.spacing) {
     for (double x = 0.0; x <= 60.0; x += flight.spacing) {
       const double px = x + flight.spacing * jitter(random),
                    py = y + flight.spacing * jitter(random);
-      SwathPoint point;
+      LidarReturn point;
       const double z = surface(px, py) + flight.tilt * (px - 30.0) + flight.noise * noise(random);
       point.position = origin + Eigen::Vector3d(px, py, z) + flight.shift;
       point.position = (point.position * 1000.0).array().round() / 1000.0;
@@ -62,11 +62,11 @@ inline std::vector<SwathPoint> fly(const std::function<double(double, double)>& 
 inline const Eigen::Vector3d kOrigin{691000.0, 5335000.0, 500.0};
 
 /// An area of 50 m x 50 m in the middle with both strips, built.
-inline AreaOffsets areaOf(const std::vector<SwathPoint>& a, const std::vector<SwathPoint>& b,
+inline AreaOffsets areaOf(const std::vector<LidarReturn>& a, const std::vector<LidarReturn>& b,
                           const SurfaceLimits& limits = {}) {
   AreaOffsets area({kOrigin.head<2>() + Eigen::Vector2d(5.0, 5.0), 50.0, 5.0}, 2);
-  for (const SwathPoint& point : a) area.add(0, point);
-  for (const SwathPoint& point : b) area.add(1, point);
+  for (const LidarReturn& point : a) area.add(0, point);
+  for (const LidarReturn& point : b) area.add(1, point);
   area.build(limits, 0.001);
   return area;
 }

@@ -99,28 +99,28 @@ TEST(AreaOffsets, PlacesAreThoseOfSingleReturns) {
   Flight other;
   other.seed = 2;
   auto a = fly(plane, {}, kOrigin), b = fly(plane, other, kOrigin);
-  for (SwathPoint& point : a) point.number_of_returns = 2, point.return_number = 2;
-  for (SwathPoint& point : b) point.number_of_returns = 2, point.return_number = 2;
+  for (LidarReturn& point : a) point.number_of_returns = 2, point.return_number = 2;
+  for (LidarReturn& point : b) point.number_of_returns = 2, point.return_number = 2;
   EXPECT_TRUE(areaOf(a, b).offsets(0, 1).empty());
-  for (SwathPoint& point : a) point.number_of_returns = 1, point.return_number = 1;
+  for (LidarReturn& point : a) point.number_of_returns = 1, point.return_number = 1;
   EXPECT_FALSE(areaOf(a, b).offsets(0, 1).empty());
 }
 
 /// A filter that found the ground in both strips together: within 2 cm of the lowest point of each
 /// cell of 1 m it is \a ground, what lies higher is \a above.
-void classifyTogether(std::uint8_t ground, std::uint8_t above, std::vector<SwathPoint>& a,
-                      std::vector<SwathPoint>& b) {
-  const auto cell = [](const SwathPoint& point) {
+void classifyTogether(std::uint8_t ground, std::uint8_t above, std::vector<LidarReturn>& a,
+                      std::vector<LidarReturn>& b) {
+  const auto cell = [](const LidarReturn& point) {
     return std::make_pair(std::floor(point.position.x()), std::floor(point.position.y()));
   };
   std::map<std::pair<double, double>, double> lowest;
   for (const auto* strip : {&a, &b})
-    for (const SwathPoint& point : *strip) {
+    for (const LidarReturn& point : *strip) {
       double& z = lowest.emplace(cell(point), point.position.z()).first->second;
       z = std::min(z, point.position.z());
     }
   for (auto* strip : {&a, &b})
-    for (SwathPoint& point : *strip)
+    for (LidarReturn& point : *strip)
       point.classification = point.position.z() < lowest[cell(point)] + 0.02 ? ground : above;
 }
 
@@ -162,7 +162,7 @@ TEST(AreaOffsets, PlacesOfBothStripsShowTheSameOffset) {
   const auto a = fly(flat, first, kOrigin), b = fly(flat, other, kOrigin);
   const AreaOffsets area = areaOf(a, b);
   std::set<std::pair<double, double>> of_a;
-  for (const SwathPoint& point : a) of_a.emplace(point.position.x(), point.position.y());
+  for (const LidarReturn& point : a) of_a.emplace(point.position.x(), point.position.y());
   double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
   for (const OffsetSample& s : area.offsets(0, 1)) {
     if (!s.level) continue;
@@ -178,7 +178,7 @@ TEST(AreaOffsets, PlacesOfBothStripsShowTheSameOffset) {
 
 TEST(AreaOffsets, WithheldNoiseAndWaterAreLeftOut) {
   AreaOffsets area({kOrigin.head<2>(), 50.0, 5.0}, 1);
-  SwathPoint point;
+  LidarReturn point;
   point.position = kOrigin + Eigen::Vector3d(1.0, 1.0, 0.0);
   area.add(0, point);
   for (const int code : {7, 9, 18}) {
@@ -197,7 +197,7 @@ TEST(AreaOffsets, WithheldNoiseAndWaterAreLeftOut) {
 }
 
 TEST(AreaOffsets, VegetationIsLeftOutWhereItIsHigh) {
-  std::vector<SwathPoint> points(5);
+  std::vector<LidarReturn> points(5);
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i].position = kOrigin + Eigen::Vector3d(0.2 * static_cast<double>(i), 0.0, 0.0);
   for (const int i : {1, 2, 3}) points[static_cast<std::size_t>(i)].classification = 5;
@@ -224,7 +224,7 @@ TEST(AreaOffsets, RepeatedAndCopiedPointsAreSeen) {
 TEST(AreaOffsets, HandfulsOfPointsGiveNothing) {
   const auto a = fly(plane, {}, kOrigin);
   for (const std::size_t count : {0, 1, 2, 3, 5, 11}) {
-    const std::vector<SwathPoint> few(a.begin() + 3000, a.begin() + 3000 + count);
+    const std::vector<LidarReturn> few(a.begin() + 3000, a.begin() + 3000 + count);
     EXPECT_TRUE(areaOf(few, a).offsets(0, 1).empty()) << count;
     EXPECT_TRUE(areaOf(few, few).offsets(0, 1).empty()) << count;
   }

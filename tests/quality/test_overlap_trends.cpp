@@ -134,7 +134,7 @@ StripCourse courseOf(double limit, bool angles) {
     for (int k = -20; k <= 20; ++k) {
       const Eigen::Vector2d p = 1e6 * Eigen::Vector2d::Ones() + 2.0 * i * along + 10.0 * k * right;
       if (p.x() > 1e6 + limit) continue;
-      SwathPoint point;
+      LidarReturn point;
       point.position << p, 50.0;
       point.time = 230000.0 + 2.0 * i / 60.0;
       point.scan_angle = angles ? static_cast<float>(0.5 * k) : 0.0F;
@@ -162,7 +162,7 @@ TEST(StripCourse, SaysNothingWithoutTimes) {
   StripCourse course;
   EXPECT_FALSE(course.direction());
   for (int i = 0; i < 100; ++i) {
-    SwathPoint point;
+    LidarReturn point;
     point.position = Eigen::Vector3d(i, 2 * i, 0.0);
     course.add(point);
   }

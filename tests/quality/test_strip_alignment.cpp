@@ -30,8 +30,8 @@ TEST(StripAlignment, MovesAOntoB) {
                        std::size_t{2});
   }
   for (AreaOffsets& area : areas) {
-    for (const SwathPoint& point : a) area.add(0, point);
-    for (const SwathPoint& point : b) area.add(1, point);
+    for (const LidarReturn& point : a) area.add(0, point);
+    for (const LidarReturn& point : b) area.add(1, point);
   }
   const PatchAlignmentResult found = alignStrips(areas, 0, 1, {});
   ASSERT_TRUE(found.hasConverged()) << found.message;
@@ -46,7 +46,7 @@ TEST(StripAlignment, MovesAOntoB) {
 TEST(StripAlignment, NothingInCommonIsAStatus) {
   std::vector<AreaOffsets> areas;
   areas.emplace_back(SurveyArea{kOrigin.head<2>(), 50.0, 5.0}, std::size_t{2});
-  for (const SwathPoint& point : fly(village, {}, kOrigin)) areas[0].add(0, point);
+  for (const LidarReturn& point : fly(village, {}, kOrigin)) areas[0].add(0, point);
   EXPECT_FALSE(alignStrips(areas, 0, 1, {}).hasConverged());
   // Two sparse strips of 1900 m2 in common were said not to overlap.
   EXPECT_NE(alignStrips(areas, 0, 1, {}).message.find("enough points of both strips"),

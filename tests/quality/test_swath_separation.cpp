@@ -21,8 +21,8 @@ SwathSeparation gridOf(std::size_t strips) {
       strips};
 }
 
-void add(SwathSeparation& separation, int strip, const std::vector<SwathPoint>& points) {
-  for (const SwathPoint& point : points) separation.add(strip, point);
+void add(SwathSeparation& separation, int strip, const std::vector<LidarReturn>& points) {
+  for (const LidarReturn& point : points) separation.add(strip, point);
 }
 
 TEST(SwathSeparation, SlopesSeparateNothing) {
@@ -65,7 +65,7 @@ TEST(SwathSeparation, LargestDifferenceOfSeveralStrips) {
 
 TEST(SwathSeparation, LastReturnsOnlyAndNothingThatIsLeftOut) {
   SwathSeparation separation = gridOf(1);
-  SwathPoint point;
+  LidarReturn point;
   point.position = kOrigin + Eigen::Vector3d(30.0, 30.0, 5.0);
   point.intensity = 100.0F;
   separation.add(0, point);

@@ -26,8 +26,8 @@ std::shared_ptr<const Trajectory> flight() {
   return std::make_shared<const Trajectory>(samples);
 }
 
-RadiometryPoint pointAt(double time, double east, double north, double up) {
-  RadiometryPoint point;
+LidarReturn pointAt(double time, double east, double north, double up) {
+  LidarReturn point;
   point.time = time;
   point.position = {kOrigin[0] + east, kOrigin[1] + north, up};
   return point;
@@ -118,7 +118,7 @@ TEST(RadiometricEvaluator, SteepIncidenceIsLimitedAndSaysSo) {
 TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
   const RadiometricEvaluator evaluator(flight(), RadiometricModel());
   RadiometryCursor cursor;
-  const RadiometryPoint point = pointAt(10.0, 500.0, 300.0, 600.0);
+  const LidarReturn point = pointAt(10.0, 500.0, 300.0, 600.0);
   auto found = evaluator.evaluate(point, LocalSurface(), cursor);
   EXPECT_EQ(found.status, RadiometryStatus::no_surface);
   EXPECT_NEAR(found.factor, 0.25, 1e-9);
@@ -126,7 +126,7 @@ TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
   LocalSurface unknown = level();
   unknown.normal.x() = NAN;
   EXPECT_EQ(evaluator.evaluate(point, unknown, cursor).status, RadiometryStatus::no_surface);
-  RadiometryPoint first = point;
+  LidarReturn first = point;
   first.number_of_returns = 2;  // the first of two: part of the energy went on
   found = evaluator.evaluate(first, level(), cursor);
   EXPECT_EQ(found.status, RadiometryStatus::partial);
@@ -136,7 +136,7 @@ TEST(RadiometricEvaluator, WithoutASurfaceOnlyRangeAndAtmosphere) {
 TEST(RadiometricEvaluator, WhatCannotBeServedStaysAsItIs) {
   const RadiometricEvaluator evaluator(flight(), RadiometricModel());
   RadiometryCursor cursor;
-  const auto status = [&](const RadiometryPoint& point) {
+  const auto status = [&](const LidarReturn& point) {
     const PointRadiometry found = evaluator.evaluate(point, level(), cursor);
     EXPECT_EQ(found.factor, 1.0);
     EXPECT_FALSE(found.corrected());

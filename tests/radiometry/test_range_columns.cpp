@@ -66,8 +66,10 @@ void expectSame(const RadiometricModel& model) {
       evaluator.evaluateRanges(points.columns(), kCount, {range.data(), factor.data()}, cursor);
   RangeCounts wanted;
   for (std::size_t i = 0; i < kCount; ++i) {
-    const PointRadiometry found = evaluator.evaluate(
-        {points.time[i], {points.x[i], points.y[i], points.z[i]}, 1, 1}, LocalSurface(), other);
+    LidarReturn point;
+    point.time = points.time[i];
+    point.position = {points.x[i], points.y[i], points.z[i]};
+    const PointRadiometry found = evaluator.evaluate(point, LocalSurface(), other);
     wanted.uncovered += found.status == RadiometryStatus::uncovered ? 1 : 0;
     wanted.above_sensor += found.status == RadiometryStatus::above_sensor ? 1 : 0;
     ASSERT_EQ(std::isnan(range[i]), !found.corrected()) << i;

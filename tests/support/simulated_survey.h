@@ -15,7 +15,7 @@ namespace pcl_als::test {
 
 /// A simulated block as a user would get it: coordinates on whole millimetres, no truth.
 struct SimulatedSurvey {
-  std::vector<std::vector<CalibrationPoint>> strips;
+  std::vector<std::vector<LidarReturn>> strips;
   std::vector<TrajectorySample> trajectory;
   std::vector<ControlPoint> control;
   SystemVector bias;  ///< truth, internal units
@@ -32,8 +32,8 @@ struct SimulatedSurvey {
     }
   }
 
-  static CalibrationPoint pointOf(const simulation::SimulatedPoint& p) {
-    CalibrationPoint point;
+  static LidarReturn pointOf(const simulation::SimulatedPoint& p) {
+    LidarReturn point;
     point.position = (p.position * 1000.0).array().round() / 1000.0;
     point.time = p.time;
     point.scan_angle = p.scan_angle;
@@ -44,7 +44,7 @@ struct SimulatedSurvey {
 
   void move(const Eigen::Vector3d& shift) {
     for (auto& strip : strips) {
-      for (CalibrationPoint& point : strip) point.position += shift;
+      for (LidarReturn& point : strip) point.position += shift;
     }
     for (TrajectorySample& sample : trajectory) sample.position += shift;
     for (ControlPoint& point : control) point.position += shift;
@@ -68,8 +68,7 @@ struct SimulatedSurvey {
   Eigen::Vector2d corner() const {
     Eigen::Vector2d corner = Eigen::Vector2d::Constant(1e18);
     for (const auto& strip : strips) {
-      for (const CalibrationPoint& point : strip)
-        corner = corner.cwiseMin(point.position.head<2>());
+      for (const LidarReturn& point : strip) corner = corner.cwiseMin(point.position.head<2>());
     }
     return corner;
   }

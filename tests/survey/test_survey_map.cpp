@@ -20,13 +20,13 @@ double height(double x, double y) {
   return std::abs(x - 25.0) < 8.0 && std::abs(y - 25.0) < 12.0 ? ground + roof : ground;
 }
 
-std::vector<CalibrationPoint> sampled(unsigned seed, double from, double to,
-                                      const Eigen::Vector3d& shift) {
+std::vector<LidarReturn> sampled(unsigned seed, double from, double to,
+                                 const Eigen::Vector3d& shift) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> plan(from, to);
-  std::vector<CalibrationPoint> points;
+  std::vector<LidarReturn> points;
   for (int i = 0; i < static_cast<int>((to - from) * (to - from) * 4.0); ++i) {
-    CalibrationPoint p;
+    LidarReturn p;
     const double x = plan(random), y = plan(random);
     p.position = Eigen::Vector3d(x, y, height(x, y)) + shift;
     p.time = 10.0;
@@ -71,7 +71,7 @@ TEST(SurveyMap, ChoosesAreasWithinTheBudgetThatBothStripsSee) {
 TEST(SurveyMap, CountsWhatIsNotFiniteAndRefusesTheAbsurd) {
   SurveyMap map(Eigen::Vector2d(0.0, 0.0));
   map.addStrip();
-  CalibrationPoint p;
+  LidarReturn p;
   p.position = Eigen::Vector3d(1.0, NAN, 2.0);
   map.add(0, &p, 1);
   EXPECT_EQ(map.invalidCount(0), 1U);

@@ -19,7 +19,7 @@ constexpr std::size_t kTooFew = 30;
 
 }  // namespace
 
-void AreaMatcher::add(int strip, const CalibrationPoint& point) {
+void AreaMatcher::add(int strip, const LidarReturn& point) {
   if (!area_.covers(point.position) || !isSurfacePoint(point)) return;
   StripPart& part = strips_[static_cast<std::size_t>(strip)];
   part.biased.push_back(point.position);

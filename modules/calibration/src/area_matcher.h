@@ -12,8 +12,9 @@
 
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/survey/calibration_point.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/tin/patch_surface.h>
 #include <pcl_als/tin/surface_criterion.h>
@@ -33,7 +34,7 @@ class AreaMatcher {
  public:
   AreaMatcher(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
 
-  void add(int strip, const CalibrationPoint& point);
+  void add(int strip, const LidarReturn& point);
   const SurveyArea& area() const { return area_; }
   std::size_t pointCount() const;
   std::size_t stripCount() const;  ///< strips with points in the area or its margin

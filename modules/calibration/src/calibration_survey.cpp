@@ -36,7 +36,7 @@ int SystemCalibrationEngine::addStrip(const std::string& id) {
   return map_.addStrip();
 }
 
-void SystemCalibrationEngine::survey(int strip, const CalibrationPoint* points, std::size_t count) {
+void SystemCalibrationEngine::survey(int strip, const LidarReturn* points, std::size_t count) {
   map_.add(strip, points, count);
   for (std::size_t i = 0; i < count; ++i) plausibility_.addTime(strip, points[i].time);
   const double duration = count > 0 ? points[count - 1].time - points[0].time : 0.0;
@@ -250,9 +250,9 @@ void SystemCalibrationEngine::chooseAreas() {
   for (const SurveyArea& area : areas_) matchers_.emplace_back(area, ids_.size());
 }
 
-void SystemCalibrationEngine::load(int strip, const CalibrationPoint* points, std::size_t count) {
+void SystemCalibrationEngine::load(int strip, const LidarReturn* points, std::size_t count) {
   if (!used_[static_cast<std::size_t>(strip)]) return;
-  for (const CalibrationPoint* p = points; p != points + count; ++p) {
+  for (const LidarReturn* p = points; p != points + count; ++p) {
     if (!p->position.allFinite() || !std::isfinite(p->time)) continue;
     for (const int area : index_->candidates(p->position))
       matchers_[static_cast<std::size_t>(area)].add(strip, *p);

@@ -24,7 +24,7 @@ constexpr double kControlArea = 4.0;         // metres: the patch around a point
 // for a pair.
 constexpr std::size_t kAlignmentPoints = 400'000, kAlignmentPairs = 60'000;
 constexpr double kRepeated = 0.2;  // share of repeated points worth a warning
-constexpr double kBytesPerPoint = sizeof(SwathPoint) + 73.0;  // including its part of the TIN
+constexpr double kBytesPerPoint = sizeof(LidarReturn) + 73.0;  // including its part of the TIN
 
 using Clock = std::chrono::steady_clock;
 
@@ -63,18 +63,9 @@ BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
   }
 }
 
-SwathPoint BlockCheck::swathPoint(int strip, const SurveyReader::Run& run, std::size_t row,
-                                  std::size_t& cursor) const {
-  const PointChunk& chunk = run.chunk;
-  SwathPoint point;
-  point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
-  point.time = run.time(chunk.gps_time[row]);
-  point.intensity = chunk.intensity[row];
-  point.scan_angle = chunk.scan_angle[row];
-  point.return_number = chunk.return_number[row];
-  point.number_of_returns = chunk.number_of_returns[row];
-  point.classification = chunk.classification[row];
-  point.flags = chunk.flags[row];
+LidarReturn BlockCheck::pointOf(int strip, const SurveyReader::Run& run, std::size_t row,
+                                std::size_t& cursor) const {
+  LidarReturn point = run.point(row);
   SensorPose pose;
   if (!trajectory_ || untimed_[static_cast<std::size_t>(strip)]) return point;
   if (trajectory_->poseAt(point.time, pose, cursor)) {
@@ -85,12 +76,12 @@ SwathPoint BlockCheck::swathPoint(int strip, const SurveyReader::Run& run, std::
   return point;
 }
 
-void BlockCheck::compareWithFlight(int strip, const std::vector<CalibrationPoint>& points) {
+void BlockCheck::compareWithFlight(int strip, const std::vector<LidarReturn>& points) {
   if (!plausibility_ || points.empty()) return;
   const double duration = points.back().time - points.front().time;
   const std::size_t every = plausibility_->spacing(points.size(), duration);
   for (std::size_t row = 0; row < points.size(); ++row) {
-    const CalibrationPoint& point = points[row];
+    const LidarReturn& point = points[row];
     plausibility_->addTime(strip, point.time);
     if (row % every == 0) plausibility_->add(strip, point.time, point.position, point.scan_angle);
   }
@@ -98,13 +89,13 @@ void BlockCheck::compareWithFlight(int strip, const std::vector<CalibrationPoint
 
 void BlockCheck::surveyBlock() {
   survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
-    thread_local std::vector<CalibrationPoint> points;
+    thread_local std::vector<LidarReturn> points;
     points.clear();
     for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
     map_.add(strip, points.data(), points.size());
     std::size_t cursor = 0;
     for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
-      const SwathPoint point = swathPoint(strip, run, row, cursor);
+      const LidarReturn point = pointOf(strip, run, row, cursor);
       if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
     }
     compareWithFlight(strip, points);
@@ -203,7 +194,7 @@ void BlockCheck::load(const PointSink& also) {
       if (!position.allFinite()) continue;
       const std::vector<int>& holding = index.candidates(position);
       if (holding.empty() && !also) continue;
-      const SwathPoint point = swathPoint(strip, run, row, cursor);
+      const LidarReturn point = pointOf(strip, run, row, cursor);
       for (const int area : holding) targets[static_cast<std::size_t>(area)]->add(strip, point);
       if (also) also(strip, point);
     }

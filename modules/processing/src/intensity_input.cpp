@@ -31,14 +31,14 @@ class SurfacePoints {
   SurfacePoints(const StripArrangement& arrangement, IntensityWindow& window)
       : arrangement_(arrangement), window_(window) {}
   void add(const IntensityPoint& point) {
-    if (point.return_number < point.number_of_returns) return;
+    if (!point.isLast()) return;
     const int strip = arrangement_.labels()[point.label].index;
     if (strip < 0) return;
     if (last_ == nullptr || strip_ != strip) {
       strip_ = strip;
       last_ = &window_.surface_points[strip];
     }
-    last_->push_back(point.position);
+    last_->push_back(window_.relative(point.position));
   }
 
  private:
@@ -103,7 +103,7 @@ class LasInput : public IntensityInput {
     out.points.resize(count);
     StripArrangement::Sorter sorter(*request.arrangement, request.file);
     for (std::size_t i = 0; i < count; ++i) {
-      out.points[i] = pointOf(records + i * step, out.origin);
+      out.points[i] = pointOf(records + i * step);
       out.points[i].label = labelOf(sorter, out.points[i]);
     }
     out.gain_control.clear();
@@ -150,9 +150,9 @@ class LasInput : public IntensityInput {
     return loadLas<std::uint16_t>(record + layout_.point_source_id);
   }
 
-  IntensityPoint pointOf(const std::byte* record, const Eigen::Vector3d& origin) const {
+  IntensityPoint pointOf(const std::byte* record) const {
     IntensityPoint point;
-    point.position = (positionOf(record) - origin).cast<float>();
+    point.position = positionOf(record);
     if (layout_.gps_time >= 0) point.time = loadLas<double>(record + layout_.gps_time);
     point.intensity = loadLas<std::uint16_t>(record + kIntensity);
     point.source = sourceOf(record);
@@ -271,7 +271,7 @@ class LasInput : public IntensityInput {
     if (margins.empty()) return;
     std::map<std::uint16_t, Eigen::AlignedBox2f> reach;
     for (const IntensityPoint& point : out.points)
-      reach[point.source].extend(Eigen::Vector2f(point.position.head<2>()));
+      reach[point.source].extend(Eigen::Vector2f(out.relative(point.position).head<2>()));
     for (auto& [source, box] : reach) {
       const auto margin = margins.find(source);
       const auto metres = static_cast<float>(margin == margins.end() ? 0.0 : margin->second);
@@ -287,8 +287,9 @@ class LasInput : public IntensityInput {
       for (std::size_t i = 0; i < count; ++i) {
         const auto box = reach.find(sourceOf(&records[i * length_]));
         if (box == reach.end()) continue;
-        IntensityPoint point = pointOf(&records[i * length_], out.origin);
-        if (!box->second.contains(Eigen::Vector2f(point.position.head<2>()))) continue;
+        IntensityPoint point = pointOf(&records[i * length_]);
+        if (!box->second.contains(Eigen::Vector2f(out.relative(point.position).head<2>())))
+          continue;
         point.label = labelOf(sorter, point);
         surface_points.add(point);
       }
@@ -327,14 +328,24 @@ class PcdInput : public IntensityInput {
     StripArrangement::Sorter sorter(*request.arrangement, request.file);
     SurfacePoints surface_points(*request.arrangement, out);
     for (const PointLidar& p : *strip_.cloud) {
-      out.points.push_back({p.gps_time, p.getVector3fMap(), p.intensity, p.point_source_id, 0,
-                            p.return_number, p.number_of_returns, p.classification});
-      out.points.back().label = labelOf(sorter, out.points.back());
-      surface_points.add(out.points.back());
+      IntensityPoint& point = out.points.emplace_back(pointOf(p));
+      point.label = labelOf(sorter, point);
+      surface_points.add(point);
     }
   }
 
  private:
+  IntensityPoint pointOf(const PointLidar& p) const {
+    IntensityPoint point;
+    point.position = strip_.frame.toGround(p.getVector3fMap());
+    point.time = p.gps_time;
+    point.intensity = p.intensity;
+    point.return_number = p.return_number;
+    point.number_of_returns = p.number_of_returns;
+    point.classification = p.classification;
+    point.source = p.point_source_id;
+    return point;
+  }
   PointRun runOf(const PointLidar& point) const {
     PointRun run;
     run.source = point.point_source_id;

@@ -106,8 +106,7 @@ class OrderedOutcome {
     const std::lock_guard<std::mutex> lock(mutex_);
     for (std::size_t i = 0; i < after.size(); ++i) {
       const IntensityPoint& point = found.window.points[i];
-      if (outcome_.seen && found.strip[i] >= 0)
-        outcome_.seen(found.strip[i], found.window.origin + point.position.cast<double>());
+      if (outcome_.seen && found.strip[i] >= 0) outcome_.seen(found.strip[i], point.position);
       const float before = point.intensity;
       if (!found.radiometry[i].corrected() || !run.usable(before)) continue;
       IntensityHistogram& histogram = outcome_.histograms[static_cast<std::size_t>(found.strip[i])];

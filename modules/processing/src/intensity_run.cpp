@@ -187,8 +187,7 @@ void IntensityRun::chooseRadii() {
                                         });
         SensorPose pose;
         if (trajectory_->poseAt(times_[file](first->time), pose, cursor)) {
-          const double range =
-              (pose.position - window.origin - first->position.cast<double>()).norm();
+          const double range = (pose.position - first->position).norm();
           radius = std::max(radius, 0.5e-3 * settings_.footprint_mrad * range);
         }
         found[static_cast<std::size_t>(strip)].push_back(radius);
@@ -282,7 +281,8 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
   int strip = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const IntensityPoint& point = points[i];
-    const Eigen::Vector3d place = out.window.origin + point.position.cast<double>();
+    LidarReturn aligned = point;
+    aligned.time = times(point.time);
     if (i == 0 || points[i - 1].label != point.label) {
       strip = arrangement_->labels()[point.label].index;
       const auto at = surfaces.find(strip);
@@ -293,12 +293,10 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
     out.radiometry[i] = PointRadiometry();
     if (strip < 0) continue;
     out.divisor[i] = known_gains_[static_cast<std::size_t>(strip)];
-    if (choice.wanted && !choice.wanted(place.x(), place.y())) continue;
-    const bool on_surface = of_strip != nullptr && point.return_number >= point.number_of_returns;
-    if (on_surface) out.surfaces[i] = of_strip->at(point.position);
-    out.radiometry[i] =
-        evaluator.evaluate({times(point.time), place, point.return_number, point.number_of_returns},
-                           on_surface ? out.surfaces[i] : none, cursor);
+    if (choice.wanted && !choice.wanted(point.position.x(), point.position.y())) continue;
+    const bool on_surface = of_strip != nullptr && point.isLast();
+    if (on_surface) out.surfaces[i] = of_strip->at(out.window.relative(point.position));
+    out.radiometry[i] = evaluator.evaluate(aligned, on_surface ? out.surfaces[i] : none, cursor);
     if (!out.window.gain_control.empty())
       out.divisor[i] *= gainControl(out.window.gain_control[i], inputs_[file]->path());
   }
@@ -323,11 +321,11 @@ OverlapResult IntensityRun::adjust(const std::function<void(double)>& progress) 
         for (std::size_t i = 0; i < found.window.points.size(); ++i) {
           const IntensityPoint& point = found.window.points[i];
           if (found.strip[i] < 0) continue;
-          const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
+          const Eigen::Vector3d& place = point.position;
           parts[part].add(found.strip[i], place.x(), place.y(),
                           static_cast<double>(point.intensity) / found.divisor[i],
-                          usable(point.intensity) && point.number_of_returns <= 1,
-                          found.radiometry[i], found.surfaces[i]);
+                          usable(point.intensity) && point.isSingle(), found.radiometry[i],
+                          found.surfaces[i]);
         }
       });
       for (const RadiometricCells& part : parts) cells.merge(part);
@@ -353,9 +351,9 @@ ReferenceResult IntensityRun::refer(std::vector<ReferenceTarget> targets, double
       for (std::size_t i = 0; i < found.window.points.size(); ++i) {
         const IntensityPoint& point = found.window.points[i];
         if (found.radiometry[i].status != RadiometryStatus::surface || !usable(point.intensity) ||
-            point.number_of_returns > 1)
+            !point.isSingle())
           continue;
-        const Eigen::Vector3d place = found.window.origin + point.position.cast<double>();
+        const Eigen::Vector3d& place = point.position;
         const double divisor =
             found.divisor[i] * estimated_gains_[static_cast<std::size_t>(found.strip[i])];
         calibration.add(

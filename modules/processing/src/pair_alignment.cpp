@@ -13,7 +13,7 @@ namespace {
 using Eigen::AlignedBox2d;
 using Paths = std::vector<std::filesystem::path>;
 
-void arrange(StripPair& pair, const Paths& files, StripChoice choice) {
+void arrange(AlignmentPair& pair, const Paths& files, StripChoice choice) {
   choice.keep_timeless = true;  // nothing here needs times
   pair.arranged = std::make_shared<const ArrangedFiles>(files, choice);
   pair.use = pair.arranged->use();
@@ -35,7 +35,7 @@ int indexOf(const ArrangedFiles& arranged, const std::string& strip, const std::
   throw InputError(what + ": no point is of strip " + strip + "; there are " + all);
 }
 
-StripFiles stripOf(const StripPair& pair, const std::string& strip, const std::string& what) {
+StripFiles stripOf(const AlignmentPair& pair, const std::string& strip, const std::string& what) {
   const ArrangedFiles& arranged = *pair.arranged;
   StripFiles files;
   files.strip = strip;
@@ -49,7 +49,7 @@ StripFiles stripOf(const StripPair& pair, const std::string& strip, const std::s
   return files;
 }
 
-StripFiles fileOf(const StripPair& pair, const std::filesystem::path& path, std::size_t place) {
+StripFiles fileOf(const AlignmentPair& pair, const std::filesystem::path& path, std::size_t place) {
   StripFiles files;
   files.files = {path};
   if (pair.arranged) files.arrangement = &pair.arranged->arrangement();
@@ -65,7 +65,7 @@ std::string boxText(const Eigen::AlignedBox3d& box) {
 }
 
 /// The box in plan that both strips have points in, with what they may be apart.
-AlignedBox2d commonBox(const StripPair& pair, const StripFileInfo& source,
+AlignedBox2d commonBox(const AlignmentPair& pair, const StripFileInfo& source,
                        const StripFileInfo& target, double reach) {
   const auto wide = [reach](const Eigen::AlignedBox3d& box) {
     return AlignedBox2d(box.min().head<2>().array() - reach, box.max().head<2>().array() + reach);
@@ -81,24 +81,24 @@ AlignedBox2d commonBox(const StripPair& pair, const StripFileInfo& source,
 
 }  // namespace
 
-StripPair filePair(const Paths& files, const std::optional<StripChoice>& choice) {
-  StripPair pair;
+AlignmentPair filePair(const Paths& files, const std::optional<StripChoice>& choice) {
+  AlignmentPair pair;
   if (choice) arrange(pair, files, *choice);
   pair.source = fileOf(pair, files.at(0), 0);
   pair.target = fileOf(pair, files.at(1), 1);
   return pair;
 }
 
-StripPair namedPair(const Paths& files, const std::pair<std::string, std::string>& names,
-                    const StripChoice& choice, const std::string& what) {
-  StripPair pair;
+AlignmentPair namedPair(const Paths& files, const std::pair<std::string, std::string>& names,
+                        const StripChoice& choice, const std::string& what) {
+  AlignmentPair pair;
   arrange(pair, files, choice);
   pair.source = stripOf(pair, names.first, what);
   pair.target = stripOf(pair, names.second, what);
   return pair;
 }
 
-PairAlignment alignPair(const StripPair& pair, PatchAlignmentSettings settings,
+PairAlignment alignPair(const AlignmentPair& pair, PatchAlignmentSettings settings,
                         const ProgressCallback& callback) {
   ProgressReport progress(callback);
   progress.begin("Reading " + pair.source.name() + " and " + pair.target.name());

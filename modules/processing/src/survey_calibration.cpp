@@ -58,7 +58,7 @@ void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
   progress.begin("Surveying the block");
   for (const std::string& id : survey.strips()) calibration.addStrip(id);
   if (observer.begin) observer.begin(survey);
-  survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
     calibration.survey(strip, points, count);
     if (observer.points) observer.points(strip, points, count);
   });
@@ -75,7 +75,7 @@ void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
 void loadAreas(const SurveyReader& survey, SystemCalibrationEngine& calibration,
                ProgressReport& progress) {
   progress.begin("Reading the areas");
-  survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
     calibration.load(strip, points, count);
   });
   progress.end(grouped(calibration.loadedPoints()) + " points");

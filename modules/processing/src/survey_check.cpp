@@ -47,12 +47,9 @@ void loadAreas(BlockCheck& check, const SurveyReader& survey, const SurveyObserv
   progress.begin("Reading the areas");
   if (observer.begin) observer.begin(survey);
   if (separation != nullptr || observer.points) {
-    check.load([&](int strip, const SwathPoint& point) {
+    check.load([&](int strip, const LidarReturn& point) {
       if (separation != nullptr) separation->add(strip, point);
-      if (!observer.points) return;
-      CalibrationPoint seen;
-      seen.position = point.position;
-      observer.points(strip, &seen, 1);
+      if (observer.points) observer.points(strip, &point, 1);
     });
   } else {
     check.load({});

@@ -16,7 +16,7 @@ std::vector<SectionSearch::Place> findPlaces(const SurveyReader& survey) {
   SectionSearch search(survey.corner(), survey.farCorner(),
                        sectionCell(stripDensities(survey.files(), survey.arrangement()), all),
                        strips);
-  survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (points[i].isSingle()) search.add(points[i].position, static_cast<std::size_t>(strip));
     }
@@ -29,7 +29,7 @@ struct StripPart {
   std::vector<Eigen::Vector3d> before, after;
 };
 
-Eigen::Vector3d corrected(const CalibrationPoint& point, const BiasEvaluator& correction) {
+Eigen::Vector3d corrected(const LidarReturn& point, const BiasEvaluator& correction) {
   const Eigen::Vector3d& at = point.position;
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
   CoverageCount coverage;
@@ -47,7 +47,7 @@ std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
   const SectionLine& line = places[0].line;
   // By strip: they are read at the same time.
   std::vector<StripPart> parts(survey.strips().size());
-  survey.read([&](int strip, const CalibrationPoint* points, std::size_t count) {
+  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
     StripPart& part = parts[static_cast<std::size_t>(strip)];
     for (std::size_t i = 0; i < count; ++i) {
       if (!line.contains(points[i].position.head<2>(), kLargestShift)) continue;

@@ -200,10 +200,11 @@ std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
   return groups;
 }
 
-CalibrationPoint SurveyReader::Run::point(std::size_t row) const {
-  CalibrationPoint point;
+LidarReturn SurveyReader::Run::point(std::size_t row) const {
+  LidarReturn point;
   point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
   point.time = time(chunk.gps_time[row]);
+  point.intensity = chunk.intensity[row];
   point.scan_angle = chunk.scan_angle[row];
   point.return_number = chunk.return_number[row];
   point.number_of_returns = chunk.number_of_returns[row];
@@ -214,7 +215,7 @@ CalibrationPoint SurveyReader::Run::point(std::size_t row) const {
 
 void SurveyReader::read(const Sink& sink) const {
   readRuns([&](int strip, const Run& run) {
-    thread_local std::vector<CalibrationPoint> points;
+    thread_local std::vector<LidarReturn> points;
     points.clear();
     points.reserve(run.to - run.from);
     for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));

@@ -38,7 +38,7 @@ std::int32_t nearestVertex(const Tin::Triangle& triangle, const Eigen::Vector3d&
 
 }  // namespace
 
-void AreaOffsets::add(int strip, const SwathPoint& point) {
+void AreaOffsets::add(int strip, const LidarReturn& point) {
   if (!area_.covers(point.position) || !isSolid(point)) return;
   strips_[static_cast<std::size_t>(strip)].points.push_back(point);
 }
@@ -57,7 +57,7 @@ void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
     if (part.points.size() < kTooFew) continue;
     std::vector<Eigen::Vector3d> positions;
     positions.reserve(part.points.size());
-    for (const SwathPoint& point : part.points) positions.push_back(point.position);
+    for (const LidarReturn& point : part.points) positions.push_back(point.position);
     part.surface = PatchSurface(Tin(std::move(positions), resolution));
     part.median_edge = medianPlanEdge(part.surface.tin());
     choosePlaces(part);
@@ -78,7 +78,7 @@ std::vector<std::int32_t> AreaOffsets::sampledTriangles(const StripPart& part,
   const auto& all = part.surface.tin().triangles();
   for (std::size_t t = 0; t < all.size(); ++t) {
     const std::int32_t point = all[t].vertex[0];
-    const SwathPoint& p = part.points[point];
+    const LidarReturn& p = part.points[point];
     if (seen[point] || !p.isSingle() || !area_.contains(p.position)) continue;
     seen[point] = true;
     triangles.push_back(static_cast<std::int32_t>(t));
@@ -144,12 +144,12 @@ void AreaOffsets::measure(const StripPart& from, const StripPart& to, double sig
 
 bool AreaOffsets::measureAt(const StripPart& from, const Place& place, const StripPart& to,
                             double sign, OffsetSample& sample) const {
-  const SwathPoint& point = from.points[place.point];
+  const LidarReturn& point = from.points[place.point];
   sample.position = place.position;
   // Height of the surface of the strip above that of the other one around a patch.
   const auto compare = [&](const PatchMatch& match, const PatchQuality& quality) {
     const Tin::Triangle& triangle = to.surface.tin().triangles()[match.triangle];
-    const SwathPoint& other = to.points[nearestVertex(triangle, match.weights)];
+    const LidarReturn& other = to.points[nearestVertex(triangle, match.weights)];
     const bool forward = sign > 0.0;
     sample.normal = (place.normal + quality.plane_normal).normalized();
     sample.slope = static_cast<float>(std::acos(std::min(1.0, sample.normal.z())));

@@ -18,7 +18,7 @@ Points pointsOf(const std::vector<AreaOffsets>& areas, int strip, int other,
   Points points;
   for (const AreaOffsets& area : areas) {
     if (area.points(other).empty()) continue;
-    for (const SwathPoint& point : area.points(strip))
+    for (const LidarReturn& point : area.points(strip))
       if (area.area().contains(point.position))
         points.push_back((point.position - origin).cast<float>());
   }

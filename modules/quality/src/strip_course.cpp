@@ -17,7 +17,7 @@ constexpr double kLeastSpeed = 1.0;  // metres per second
 
 }  // namespace
 
-void StripCourse::add(const SwathPoint& point) {
+void StripCourse::add(const LidarReturn& point) {
   if (count_++ == 0) {
     reference_ = point.position.head<2>();
     time_reference_ = point.time;

@@ -26,7 +26,7 @@ std::int64_t keyOf(int block_column, int block_row) {
 SwathSeparation::SwathSeparation(RasterGrid grid, std::size_t strips)
     : grid_(std::move(grid)), strips_(strips) {}
 
-void SwathSeparation::add(int index, const SwathPoint& point) {
+void SwathSeparation::add(int index, const LidarReturn& point) {
   if (!isCheckable(point) || !point.isLast()) return;
   const long long column = grid_.columnOf(point.position.x());
   const long long row = grid_.rowOf(point.position.y());

@@ -76,7 +76,7 @@ RadiometricEvaluator::RadiometricEvaluator(std::shared_ptr<const Trajectory> tra
   model.check();
 }
 
-PointRadiometry RadiometricEvaluator::evaluate(const RadiometryPoint& point,
+PointRadiometry RadiometricEvaluator::evaluate(const LidarReturn& point,
                                                const LocalSurface& surface,
                                                RadiometryCursor& cursor) const {
   PointRadiometry result;

@@ -93,7 +93,7 @@ SurveyObserver QualityPage::observer() {
     state_->coverage = std::make_unique<StripCoverage>(survey.corner(), survey.farCorner(),
                                                        survey.strips().size());
   };
-  const auto points = [this](int strip, const CalibrationPoint* points, std::size_t count) {
+  const auto points = [this](int strip, const LidarReturn* points, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
       state_->coverage->add(points[i].position, static_cast<std::size_t>(strip));
   };

@@ -41,11 +41,8 @@ std::int64_t coarser(std::int64_t key, int factor) {
 
 }  // namespace
 
-bool isSurfacePoint(const CalibrationPoint& point) {
-  const int code = point.classification;
-  const bool vegetation = code >= 3 && code <= 5;
-  const bool noise = code == 7 || code == 18;
-  return point.isLast() && !vegetation && !noise && (point.flags & kWithheld) == 0;
+bool isSurfacePoint(const LidarReturn& point) {
+  return point.isLast() && !point.isVegetation() && !point.isNoise() && !point.isWithheld();
 }
 
 SurveyMap::SurveyMap(const Eigen::Vector2d& anchor)
@@ -67,11 +64,11 @@ std::int64_t SurveyMap::keyOf(const Eigen::Vector3d& position) const {
   return packed(static_cast<std::int32_t>(column), static_cast<std::int32_t>(row));
 }
 
-void SurveyMap::add(int index, const CalibrationPoint* points, std::size_t count) {
+void SurveyMap::add(int index, const LidarReturn* points, std::size_t count) {
   StripCells& strip = strips_[static_cast<std::size_t>(index)];
   Cell* cell = nullptr;
   std::int64_t cell_key = 0;
-  for (const CalibrationPoint* p = points; p != points + count; ++p) {
+  for (const LidarReturn* p = points; p != points + count; ++p) {
     if (!p->position.allFinite() || !std::isfinite(p->time)) {
       ++strip.invalid;
       continue;

@@ -82,12 +82,12 @@ class SystemCalibrationEngine {
     wanted_pairs_ = std::move(pairs);
   }
 
-  void survey(int strip, const CalibrationPoint* points, std::size_t count);
+  void survey(int strip, const LidarReturn* points, std::size_t count);
   /// InputError when no strips overlap, or when a strip begins before the trajectory or ends after
   /// it: such points are to be left out by the caller. Points in gaps of the trajectory are not
   /// used.
   void chooseAreas();
-  void load(int strip, const CalibrationPoint* points, std::size_t count);
+  void load(int strip, const LidarReturn* points, std::size_t count);
   /// Called after every iteration.
   void setProgress(std::function<void(const CalibrationIteration&)> progress) {
     progress_ = std::move(progress);

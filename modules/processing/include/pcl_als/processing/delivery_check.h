@@ -93,16 +93,16 @@ class BlockCheck {
   const std::vector<SurveyArea>& areas() const { return areas_; }
 
   /// Second pass, point by point; \a also receives every point, strip by strip.
-  using PointSink = std::function<void(int strip, const SwathPoint& point)>;
+  using PointSink = std::function<void(int strip, const LidarReturn& point)>;
   void load(const PointSink& also);
   std::size_t loadedPoints() const;
 
   CheckedBlock assess(const std::function<void(double)>& progress);
 
  private:
-  SwathPoint swathPoint(int strip, const SurveyReader::Run& run, std::size_t row,
-                        std::size_t& cursor) const;
-  void compareWithFlight(int strip, const std::vector<CalibrationPoint>& points);
+  LidarReturn pointOf(int strip, const SurveyReader::Run& run, std::size_t row,
+                      std::size_t& cursor) const;
+  void compareWithFlight(int strip, const std::vector<LidarReturn>& points);
   void checkTrajectory();
   void findRoughness();
   void measureAreas();

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/strip.h>
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/las/las_file.h>
@@ -18,23 +19,24 @@
 
 namespace pcl_als {
 
-/// A point as the radiometric correction needs it; positions relative to IntensityWindow::origin.
-struct IntensityPoint {
-  double time = 0.0;  ///< as stored in the file
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();
-  float intensity = 0.0F;
+/// A point of a file; LidarReturn::time is as stored in the file.
+struct IntensityPoint : LidarReturn {
   std::uint16_t source = 0;
   std::uint32_t label = 0;  ///< among those of WindowRequest::arrangement
-  std::uint8_t return_number = 1, number_of_returns = 1, classification = 0;
 };
 
 /// Points of a file, and the points around them that are needed for their surfaces.
 struct IntensityWindow {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< metres, ground frame
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of surface_points: metres, ground frame
   std::vector<IntensityPoint> points;
   /// By strip in use: single and last returns, of the window and around it.
   std::map<int, std::vector<Eigen::Vector3f>> surface_points;
   std::vector<double> gain_control;  ///< by point; empty where none is read
+
+  /// A position in the frame of surface_points.
+  Eigen::Vector3f relative(const Eigen::Vector3d& position) const {
+    return (position - origin).cast<float>();
+  }
 };
 
 /// Result of a first pass over a file.

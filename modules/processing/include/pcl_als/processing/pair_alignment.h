@@ -18,7 +18,7 @@
 namespace pcl_als {
 
 /// Two strips to align, and the arrangement that they refer to, if any.
-struct StripPair {
+struct AlignmentPair {
   std::shared_ptr<const ArrangedFiles> arranged;
   ArrangedFiles::Use use;
   StripFiles source, target;
@@ -26,13 +26,13 @@ struct StripPair {
 
 /// The source and the target are two files. \a choice: the strips of these that are used; without
 /// it all points.
-StripPair filePair(const std::vector<std::filesystem::path>& files,
-                   const std::optional<StripChoice>& choice);
+AlignmentPair filePair(const std::vector<std::filesystem::path>& files,
+                       const std::optional<StripChoice>& choice);
 /// The source and the target are two strips of the files. UsageError "WHAT: …" for a word that is
 /// no name of a strip, InputError for a number that no strip has.
-StripPair namedPair(const std::vector<std::filesystem::path>& files,
-                    const std::pair<std::string, std::string>& names, const StripChoice& choice,
-                    const std::string& what);
+AlignmentPair namedPair(const std::vector<std::filesystem::path>& files,
+                        const std::pair<std::string, std::string>& names, const StripChoice& choice,
+                        const std::string& what);
 
 struct PairAlignment {
   PatchAlignmentResult result;
@@ -41,7 +41,7 @@ struct PairAlignment {
 
 /// Aligns the source with the target by ICPatch. InputError for strips that do not overlap and for
 /// files that cannot be used together.
-PairAlignment alignPair(const StripPair& pair, PatchAlignmentSettings settings,
+PairAlignment alignPair(const AlignmentPair& pair, PatchAlignmentSettings settings,
                         const ProgressCallback& progress = {});
 
 /// The reason for which an alignment is not reliable, in one line.

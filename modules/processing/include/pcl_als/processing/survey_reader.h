@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/time_reference.h>
-#include <pcl_als/survey/calibration_point.h>
 #include <pcl_als/survey/strip_arrangement.h>
 #include <pcl_als/survey/survey_input.h>
 #include <pcl_als/trajectory/trajectory.h>
@@ -30,14 +30,14 @@ namespace pcl_als {
  */
 class SurveyReader {
  public:
-  using Sink = std::function<void(int strip, const CalibrationPoint* points, std::size_t count)>;
+  using Sink = std::function<void(int strip, const LidarReturn* points, std::size_t count)>;
   /// Points [from, to) of a chunk, all of one strip, with every field.
   struct Run {
     const PointChunk& chunk;
     std::size_t from, to;
     const TimeAlignment& time;  ///< to the time system of the trajectory
 
-    CalibrationPoint point(std::size_t row) const;
+    LidarReturn point(std::size_t row) const;
   };
   using RunSink = std::function<void(int strip, const Run& run)>;
 

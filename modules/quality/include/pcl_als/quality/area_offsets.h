@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/quality/checked_points.h>
 #include <pcl_als/quality/offset_sample.h>
-#include <pcl_als/quality/swath_point.h>
 #include <pcl_als/tin/patch_surface.h>
 #include <pcl_als/tin/surface_criterion.h>
 
@@ -37,9 +37,9 @@ class AreaOffsets {
   AreaOffsets(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
 
   /// Keeps points that may be part of a surface (isSolid) inside the area or its margin.
-  void add(int strip, const SwathPoint& point);
+  void add(int strip, const LidarReturn& point);
   const SurveyArea& area() const { return area_; }
-  const std::vector<SwathPoint>& points(int strip) const { return part(strip).points; }
+  const std::vector<LidarReturn>& points(int strip) const { return part(strip).points; }
   std::size_t pointCount() const;
 
   /// Removes points high in the vegetation (dropHighVegetation()) and builds the TIN of every strip
@@ -80,7 +80,7 @@ class AreaOffsets {
     Eigen::Vector3d normal;    ///< of the surface, unit, upward
   };
   struct StripPart {
-    std::vector<SwathPoint> points;
+    std::vector<LidarReturn> points;
     PatchSurface surface;
     double median_edge = 0.0;  ///< metres, in plan
     std::vector<Place> places;

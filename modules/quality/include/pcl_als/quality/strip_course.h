@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/quality/swath_point.h>
+#include <pcl_als/quality/checked_points.h>
 
 namespace pcl_als {
 
@@ -19,7 +19,7 @@ namespace pcl_als {
  */
 class StripCourse {
  public:
-  void add(const SwathPoint& point);
+  void add(const LidarReturn& point);
   std::size_t count() const { return count_; }
   /// Plan unit vector; empty where times do not determine it (no times, or a very short strip).
   std::optional<Eigen::Vector2d> direction() const;

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/raster.h>
-#include <pcl_als/quality/swath_point.h>
+#include <pcl_als/quality/checked_points.h>
 
 namespace pcl_als {
 
@@ -35,7 +35,7 @@ class SwathSeparation {
   /// \param grid of the image; points outside are ignored
   SwathSeparation(RasterGrid grid, std::size_t strips);
 
-  void add(int strip, const SwathPoint& point);
+  void add(int strip, const LidarReturn& point);
   const RasterGrid& grid() const { return grid_; }
 
   struct Cell {

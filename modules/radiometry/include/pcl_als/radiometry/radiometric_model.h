@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/radiometry/local_surfaces.h>
 #include <pcl_als/trajectory/point_columns.h>
 #include <pcl_als/trajectory/trajectory.h>
@@ -58,13 +59,6 @@ struct PointRadiometry {
   bool corrected() const { return status < RadiometryStatus::uncovered; }
 };
 
-/// A point as RadiometricEvaluator needs it.
-struct RadiometryPoint {
-  double time = 0.0;  ///< seconds, in the time system of the trajectory
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, ground frame
-  std::uint8_t return_number = 1, number_of_returns = 1;
-};
-
 /// Position of the last point on the flight: points in order of time are interpolated once per
 /// piece of flight. Start with an empty one.
 struct RadiometryCursor {
@@ -96,7 +90,7 @@ class RadiometricEvaluator {
 
   const RadiometricModel& model() const { return model_; }
   const Trajectory& trajectory() const { return *trajectory_; }
-  PointRadiometry evaluate(const RadiometryPoint& point, const LocalSurface& surface,
+  PointRadiometry evaluate(const LidarReturn& point, const LocalSurface& surface,
                            RadiometryCursor& cursor) const;
 
   /// As evaluate() for points without surfaces, many at a time; factors agree to 2e-11. Positions

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/survey/calibration_point.h>
+#include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
 

@@ -12,9 +12,14 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/survey/calibration_point.h>
+#include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
+
+/// True for a point that may be part of a solid surface: a last return, not withheld, not noise,
+/// not vegetation.
+bool isSurfacePoint(const LidarReturn& point);
 
 /// Two strips by their index; first < second.
 using StripPair = std::pair<int, int>;
@@ -35,7 +40,7 @@ class SurveyMap {
   int addStrip();  ///< returns its index; not while another thread adds points
 
   /// Adds points to a strip. Points that are not finite are not added and counted.
-  void add(int strip, const CalibrationPoint* points, std::size_t count);
+  void add(int strip, const LidarReturn* points, std::size_t count);
 
   std::size_t pointCount(int strip) const { return strips_[strip].points; }
   std::size_t invalidCount(int strip) const { return strips_[strip].invalid; }

@@ -9,6 +9,7 @@
 #include <pcl/point_types.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/point_fields.h>
 #include <pcl_als/radiometry/local_surfaces.h>
 
@@ -32,6 +33,17 @@ class CloudSurfaces {
   /// Whether a return is single or the last one, which are those on surfaces.
   static bool isLast(const PointFields<PointT>& point) {
     return point.returnNumber() >= point.numberOfReturns();
+  }
+
+  /// The return at a position (ground frame) and a time of the trajectory, as evaluators take it.
+  static LidarReturn returnOf(const PointFields<PointT>& point, const Eigen::Vector3d& position,
+                              double time) {
+    LidarReturn result;
+    result.position = position;
+    result.time = time;
+    result.return_number = point.returnNumber();
+    result.number_of_returns = point.numberOfReturns();
+    return result;
   }
 
   CloudSurfaces(const pcl::PointCloud<PointT>& cloud, NormalsConstPtr normals,

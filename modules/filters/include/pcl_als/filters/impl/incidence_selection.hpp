@@ -44,8 +44,8 @@ std::vector<bool> IncidenceSelection<PointT>::select(const pcl::Indices& points)
       const PointFields<PointT> fields{(*this->input_)[index]};
       const bool last = CloudSurfaces<PointT>::isLast(fields);
       const PointRadiometry found = evaluator.evaluate(
-          {alignment_(fields.gpsTime()), this->frame_.toGround(fields.position()),
-           fields.returnNumber(), fields.numberOfReturns()},
+          CloudSurfaces<PointT>::returnOf(fields, this->frame_.toGround(fields.position()),
+                                          alignment_(fields.gpsTime())),
           last ? surfaces.at(index) : LocalSurface(), cursor);
       covered[i] = found.status != RadiometryStatus::uncovered ? 1 : 0;
       angles_[i] = static_cast<float>(static_cast<double>(found.incidence) / kRadiansPerDegree);

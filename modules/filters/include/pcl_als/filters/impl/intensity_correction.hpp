@@ -36,12 +36,11 @@ void IntensityCorrection<PointT>::applyFilter(PointCloud& output) {
     for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
       const auto index = static_cast<std::size_t>((*this->indices_)[i]);
       const PointT& point = (*this->input_)[index];
-      const Eigen::Vector3f place(point.x, point.y, point.z);
-      const bool has_surface =
-          normals_ || CloudSurfaces<PointT>::isLast(PointFields<PointT>{point});
+      const PointFields<PointT> fields{point};
+      const bool has_surface = normals_ || CloudSurfaces<PointT>::isLast(fields);
       const LocalSurface surface = has_surface ? surfaces.at(index) : LocalSurface();
-      const RadiometryPoint where{alignment_(point.gps_time), frame_.toGround(place),
-                                  point.return_number, point.number_of_returns};
+      const LidarReturn where = CloudSurfaces<PointT>::returnOf(
+          fields, frame_.toGround(fields.position()), alignment_(fields.gpsTime()));
       PointRadiometry& result = radiometry_[index];
       result = evaluator.evaluate(where, surface, cursor);
       if (!result.corrected()) continue;

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include <pcl_als/common/point_flag.h>
-#include <pcl_als/quality/swath_point.h>
+#include <pcl_als/quality/checked_points.h>
 
 namespace pcl_als {
 namespace {
@@ -15,36 +14,32 @@ constexpr int kWater = 9;            // ASPRS class
 constexpr double kCell = 5.0;        // metres: canopies have openings of this size
 constexpr double kVegetation = 1.0;  // metres: much more than noise, much less than a canopy
 
-bool isVegetation(const SwathPoint& point) {
-  return point.classification >= 3 && point.classification <= 5;
-}
-
-std::int64_t cellOf(const SwathPoint& point) {
+std::int64_t cellOf(const LidarReturn& point) {
   const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kCell)); };
   return cell(point.position.y()) * (std::int64_t{1} << 32) + cell(point.position.x());
 }
 
 }  // namespace
 
-bool isCheckable(const SwathPoint& point) {
-  const int code = point.classification;
-  return code != 7 && code != 18 && (point.flags & kWithheld) == 0 && point.position.allFinite() &&
+bool isCheckable(const LidarReturn& point) {
+  return !point.isNoise() && !point.isWithheld() && point.position.allFinite() &&
          std::isfinite(point.time);
 }
 
-bool isSolid(const SwathPoint& point) {
+bool isSolid(const LidarReturn& point) {
   return isCheckable(point) && point.isLast() && point.classification != kWater;
 }
 
-void dropHighVegetation(std::vector<SwathPoint>& points) {
-  if (std::none_of(points.begin(), points.end(), isVegetation)) return;
+void dropHighVegetation(std::vector<LidarReturn>& points) {
+  const auto vegetation = [](const LidarReturn& point) { return point.isVegetation(); };
+  if (std::none_of(points.begin(), points.end(), vegetation)) return;
   std::unordered_map<std::int64_t, double> lowest;
-  for (const SwathPoint& point : points) {
+  for (const LidarReturn& point : points) {
     const auto [place, added] = lowest.try_emplace(cellOf(point), point.position.z());
     if (!added) place->second = std::min(place->second, point.position.z());
   }
-  const auto high = [&](const SwathPoint& point) {
-    return isVegetation(point) && point.position.z() > lowest.at(cellOf(point)) + kVegetation;
+  const auto high = [&](const LidarReturn& point) {
+    return point.isVegetation() && point.position.z() > lowest.at(cellOf(point)) + kVegetation;
   };
   points.erase(std::remove_if(points.begin(), points.end(), high), points.end());
 }
