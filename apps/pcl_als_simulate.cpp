@@ -26,6 +26,19 @@ void declareScene(CommandLine& line) {
   line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
 }
 
+void addNoise(CommandLine& line) {
+  line.add<std::string>("noise",
+                        "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
+                        "control and slowly drifting trajectory errors",
+                        "none");
+  line.add<std::string>(
+      "error_process",
+      "process of the trajectory errors of -noise realistic: gauss_markov (correlation time 20 s), "
+      "band_limited (smooth, periods of 12 to 100 s), random_walk, drift (a constant and a linear "
+      "change in each line), white, jumps",
+      "gauss_markov");
+}
+
 CommandLine declare() {
   CommandLine line("pcl_als_simulate",
                    "simulates an airborne laser scanning block with known system biases.",
@@ -44,16 +57,7 @@ CommandLine declare() {
   line.add<double>("scale", "factor on the lengths of the lines, 0.05 to 10", 1.0);
   line.add<double>("density", "factor on the pulses per square metre, 0.01 to 50", 1.0);
   line.add<std::string>("seed", "seed of scene, flight and noise", "1");
-  line.add<std::string>("noise",
-                        "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
-                        "control and slowly drifting trajectory errors",
-                        "none");
-  line.add<std::string>(
-      "error_process",
-      "process of the trajectory errors of -noise realistic: gauss_markov (correlation time 20 s), "
-      "band_limited (smooth, periods of 12 to 100 s), random_walk, drift (a constant and a linear "
-      "change in each line), white, jumps",
-      "gauss_markov");
+  addNoise(line);
   line.addOptional("bias",
                    "NAME=VALUE,…: assumed - true in m, arcsec or 1, names as in calibration.json; "
                    "replaces the preset's lever_arm_x=0.05, lever_arm_y=-0.05, "
