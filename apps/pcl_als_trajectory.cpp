@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <iostream>
+
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/io/trajectory_writer.h>
+#include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
 
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "strip_options.h"
 
 namespace {
 
@@ -16,12 +20,14 @@ using app::CommandLine;
 
 CommandLine commandLine() {
   CommandLine line("pcl_als_trajectory",
-                   "converts a trajectory and corrects it by a calibration: lever arm and strip "
-                   "corrections are taken out (boresight, range bias and scan angle scale belong "
-                   "to the scanner).",
-                   "-trajectory T [-calibration calibration.json] -output corrected.csv|.sbet",
-                   "pcl_als_trajectory -trajectory flight.sbet -crs EPSG:32611 -calibration "
-                   "calibration.json -output corrected.sbet");
+                   "reconstructs a trajectory, with its standard deviations, from the points of "
+                   "strips: from rays through the first and last returns of pulses and from "
+                   "recorded scan angles. With -trajectory: converts a trajectory and corrects it "
+                   "by a calibration; lever arm and strip corrections are taken out (boresight, "
+                   "range bias and scan angle scale belong to the scanner).",
+                   "STRIP... -output trajectory.csv|.sbet, or -trajectory T [-calibration "
+                   "calibration.json] -output corrected.csv|.sbet",
+                   "pcl_als_trajectory strip*.las -output trajectory.csv");
   app::addTrajectoryOptions(line);
   app::addAccuracyOption(
       line, "standard deviations to write (default: those of the trajectory's own columns)");
@@ -31,15 +37,38 @@ CommandLine commandLine() {
                    "trajectory to write (needed): .csv with columns of standard deviations where "
                    "they are known; .sbet or .out as SBET in WGS 84, with NAME_smrmsg.out");
   app::addForceOption(line, "the calibration's verdict is not \"usable\"");
+  app::addStripOptions(line, false);
+  line.addFlag("positions", "of points: positions only, without recovering the attitude");
   return line;
+}
+
+/// The trajectory of the points of files.
+int reconstruct(const CommandLine& line) {
+  if (line.has("calibration") || line.has("accuracy") || line.has("lever_arm_only"))
+    throw UsageError("-calibration, -accuracy and -lever_arm_only need -trajectory");
+  app::Step step("Reading " + counted(line.inputs(1, 100000).size(), "point file"), line.quiet());
+  SurveyReader survey(line.inputs(1, 100000), line.threads());
+  step.done(grouped(survey.pointCount()) + " points");
+  app::remarks(line, survey.reference().remarks);
+  const std::string crs = app::trajectoryReading(line, survey.reference().crs).crs;
+  checkTrajectoryOutput(line.text("output"), crs);
+  ReconstructionOptions options;
+  options.strips = app::stripChoice(line);
+  options.attitude = !line.has("positions");
+  const ReconstructedFlight flight = reconstructFlight(survey, options, app::progressOf(line));
+  writeReconstruction(flight, line.text("output"), crs);
+  if (flight.incomplete.empty()) return app::kDone;
+  std::cerr << "pcl_als_trajectory: not complete: " << flight.incomplete << std::endl;
+  return app::kNoReliableAnswer;
 }
 
 int trajectory(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
-  line.inputs(0, 0);
   if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
+  if (!line.has("trajectory")) return reconstruct(line);
+  line.inputs(0, 0);
   TrajectoryConversionOptions options;
   options.reading = app::trajectoryReading(line, {});
   CalibrationResult calibration;

@@ -16,7 +16,7 @@ breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 # use visualization. An estimator that used simulation would share its errors: only the writer of
 # simulated surveys does.
 declare -A may=(
-  [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common"
+  [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common adjustment"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
   [calibration]="common adjustment trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
   [filters]="common trajectory tin radiometry"

@@ -20,18 +20,6 @@ bool isSbet(const fs::path& output) {
   return extension == ".sbet" || extension == ".out";
 }
 
-void checkOutput(const fs::path& output, const Options& options) {
-  if (isSbet(output) && options.reading.crs.empty()) {
-    throw UsageError(
-        output.string() +
-            ": an SBET is in latitude and longitude, and the CRS of the coordinates, such as "
-            "EPSG:25832, is not known",
-        Remedy::crs);
-  }
-  if (isSbet(output) || lowerExtension(output) == ".csv") return;
-  throw UsageError(output.string() + ": a trajectory is written as .csv, .sbet or .out");
-}
-
 FlightFile flightOf(const std::vector<fs::path>& paths, const Options& options) {
   FlightFileOptions reading;
   if (options.calibration != nullptr) reading = flightFileOptions(*options.calibration);
@@ -89,9 +77,39 @@ fs::path accuracyPath(fs::path output) {
 
 }  // namespace
 
+void checkTrajectoryOutput(const fs::path& output, const std::string& crs) {
+  if (isSbet(output) && crs.empty()) {
+    throw UsageError(
+        output.string() +
+            ": an SBET is in latitude and longitude, and the CRS of the coordinates, such as "
+            "EPSG:25832, is not known",
+        Remedy::crs);
+  }
+  if (isSbet(output) || lowerExtension(output) == ".csv") return;
+  throw UsageError(output.string() + ": a trajectory is written as .csv, .sbet or .out");
+}
+
+std::vector<fs::path> writeTrajectoryFile(const fs::path& output,
+                                          const std::vector<TrajectorySample>& samples,
+                                          const std::vector<TrajectoryAccuracy>& accuracy,
+                                          const std::string& crs) {
+  checkTrajectoryOutput(output, crs);
+  std::vector<fs::path> written = {output};
+  if (!isSbet(output)) {
+    writeTrajectoryCsv(output, samples, accuracy);
+    return written;
+  }
+  writeSbet(output, samples, crs);
+  if (!accuracy.empty()) {
+    written.push_back(accuracyPath(output));
+    writeAccuracies(written.back(), accuracy);
+  }
+  return written;
+}
+
 TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const fs::path& output,
                                        const Options& options, const ProgressCallback& callback) {
-  checkOutput(output, options);
+  checkTrajectoryOutput(output, options.reading.crs);
   ProgressReport progress(callback);
   progress.begin("Reading " + counted(paths.size(), "trajectory file"));
   FlightFile flight = flightOf(paths, options);
@@ -107,16 +125,8 @@ TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const
   if (known.empty())
     progress.remark("no standard deviations are written: the trajectory states none");
   progress.begin("Writing " + output.string());
-  TrajectoryConversion conversion{samples.size(), {output}};
-  if (!isSbet(output)) {
-    writeTrajectoryCsv(output, samples, accuracies);
-  } else {
-    writeSbet(output, samples, options.reading.crs);
-    if (!accuracies.empty()) {
-      conversion.written.push_back(accuracyPath(output));
-      writeAccuracies(conversion.written.back(), accuracies);
-    }
-  }
+  const TrajectoryConversion conversion{
+      samples.size(), writeTrajectoryFile(output, samples, accuracies, options.reading.crs)};
   progress.end(grouped(samples.size()) + " samples");
   return conversion;
 }

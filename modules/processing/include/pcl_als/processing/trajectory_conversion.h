@@ -26,6 +26,16 @@ struct TrajectoryConversion {
   std::vector<std::filesystem::path> written;
 };
 
+/// UsageError unless the extension is that of a trajectory that can be written: .csv, or .sbet and
+/// .out with a CRS.
+void checkTrajectoryOutput(const std::filesystem::path& output, const std::string& crs);
+
+/// Writes a trajectory as .csv with columns of standard deviations, or as .sbet or .out with
+/// NAME_smrmsg.out where they are known; returns the files.
+std::vector<std::filesystem::path> writeTrajectoryFile(
+    const std::filesystem::path& output, const std::vector<TrajectorySample>& samples,
+    const std::vector<TrajectoryAccuracy>& accuracy, const std::string& crs);
+
 /** \brief Reads trajectory files, corrects them by a calibration (correctTrajectory()) and writes
  * one trajectory: .csv, or .sbet and .out as SBET.
  *

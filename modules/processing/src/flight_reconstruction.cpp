@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/flight_reconstruction.h>
+#include <pcl_als/processing/trajectory_conversion.h>
+
+#include "reconstructed_attitude.h"
+
+namespace pcl_als {
+namespace {
+
+void readPoints(const SurveyReader& survey, TrajectoryReconstruction& reconstruction) {
+  for (const std::string& name : survey.strips()) reconstruction.addStrip(name);
+  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+    reconstruction.add(strip, points, count);
+  });
+}
+
+/// Samples of the paths in order of time; where paths overlap, those of the earlier one.
+void joinSamples(ReconstructedFlight& flight) {
+  for (const ReconstructedPath& path : flight.paths) {
+    if (!path.found) continue;
+    for (const PathSample& point : path.samples) {
+      if (!flight.samples.empty() && point.time <= flight.samples.back().time) continue;
+      TrajectorySample& sample = flight.samples.emplace_back();
+      sample.time = point.time;
+      sample.position = point.position;
+      TrajectoryAccuracy& accuracy = flight.accuracy.emplace_back();
+      accuracy.time = point.time;
+      accuracy.position = point.covariance.diagonal().cwiseSqrt();
+    }
+  }
+}
+
+std::string summaryOf(const ReconstructedPath& path) {
+  char text[240];
+  const Eigen::Vector3d std = path.meanStd();
+  const std::string evidence =
+      path.angles.used ? (path.rays > path.rejected ? "rays and scan angles" : "scan angles")
+                       : "rays";
+  std::snprintf(text, sizeof text,
+                ": %.3f to %.3f s, %.0f m above ground, std %.3f %.3f %.3f m (east north up) from "
+                "%s, %zu rays, %.1f m between returns",
+                path.times.first, path.times.last, path.height, std.x(), std.y(), std.z(),
+                evidence.c_str(), path.rays - path.rejected, path.separation);
+  return "strip " + path.name + text;
+}
+
+/// Warnings of all paths; reasons of those that were not found.
+void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
+  double all = 0.0, found = 0.0;
+  std::string reason;
+  for (const ReconstructedPath& path : flight.paths) {
+    flight.warnings.insert(flight.warnings.end(), path.warnings.begin(), path.warnings.end());
+    all += path.points;
+    if (path.found) {
+      found += path.points;
+      progress.remark(summaryOf(path));
+      continue;
+    }
+    const std::string text = "strip " + path.name + ": no trajectory: " + path.reason;
+    if (reason.empty()) reason = text;
+    flight.warnings.emplace_back(text);
+  }
+  if (flight.samples.size() < 2) throw InputError(reason.empty() ? "no points" : reason);
+  if (found < 0.9 * all) flight.incomplete = reason;
+}
+
+}  // namespace
+
+ReconstructedFlight reconstructFlight(SurveyReader& survey, const ReconstructionOptions& options,
+                                      const ProgressCallback& callback) {
+  ProgressReport progress(callback);
+  for (const std::string& text : survey.choose(options.strips, {nullptr, std::nullopt, false}))
+    progress.remark(text);
+  TrajectoryReconstruction reconstruction(options.settings);
+  progress.begin("Collecting rays and scan angles");
+  readPoints(survey, reconstruction);
+  progress.end(counted(survey.strips().size(), "strip"));
+  progress.begin("Reconstructing the trajectory");
+  ReconstructedFlight flight;
+  flight.paths = reconstruction.reconstruct();
+  joinSamples(flight);
+  progress.end(grouped(flight.samples.size()) + " samples");
+  collectFindings(flight, progress);
+  if (options.attitude) detail::recoverAttitude(survey, flight, progress);
+  for (const Warning& warning : flight.warnings) progress.remark("warning: " + warning.text);
+  return flight;
+}
+
+FlightFile ReconstructedFlight::asFile(const FlightFileOptions& options) const {
+  FlightFile file;
+  Trajectory::Options use;
+  if (options.line_fit_half_width > 0.0) use.line_fit_half_width = options.line_fit_half_width;
+  use.nominal_attitude = options.attitude == AttitudeUse::nominal;
+  if (options.attitude == AttitudeUse::needed)
+    throw InputError("a trajectory reconstructed from points has no attitude of its own");
+  file.trajectory = std::make_shared<const Trajectory>(samples, use);
+  if (options.keep_samples) file.samples = samples;
+  file.format = "reconstructed from the points";
+  file.frame = "coordinates of the points";
+  file.accuracy = accuracy;
+  return file;
+}
+
+std::vector<std::filesystem::path> writeReconstruction(const ReconstructedFlight& flight,
+                                                       const std::filesystem::path& output,
+                                                       const std::string& crs) {
+  return writeTrajectoryFile(output, flight.samples, flight.accuracy, crs);
+}
+
+}  // namespace pcl_als

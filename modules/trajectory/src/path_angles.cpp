@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <pcl_als/adjustment/robust_weight.h>
+
+#include "path_adjustment.h"
+#include "path_constants.h"
+
+namespace pcl_als::detail {
+namespace {
+
+constexpr double kFewestOfClass = 3.0;  // points of a class and of its neighbours
+constexpr double kNadir = 0.36;         // tangent of angles that show the place along the course
+
+Eigen::Vector2d rightOf(const Eigen::Vector2d& course) {
+  return {course.y(), -course.x()};
+}
+
+}  // namespace
+
+/// Classes between two others only: the outermost ones are not complete, and so their mean angle
+/// is not that of their points where angles are rounded.
+void PathAdjustment::takeAngles() {
+  if (evidence_.counts().angles == 0) return;
+  forBins([this](std::int64_t index, const PathEvidence::Bin& bin) {
+    AdjustedAngle* nearest = nullptr;
+    const std::size_t begin = angles_.size();
+    for (std::size_t i = 1; i + 1 < bin.angles.size(); ++i) {
+      const ScanAngleSums &low = bin.angles[i - 1], &sums = bin.angles[i],
+                          &high = bin.angles[i + 1];
+      if (low.index + 1 != sums.index || high.index != sums.index + 1) continue;
+      if (std::min({low.n, sums.n, high.n}) < kFewestOfClass) continue;
+      AdjustedAngle& angle = angles_.emplace_back();
+      angle.time = static_cast<double>(index) * PathEvidence::kBin + sums.time / sums.n;
+      angle.at = spline_.at(angle.time);
+      angle.bin = index;
+      angle.index = sums.index;
+      angle.mean = sums.position / sums.n;
+      angle.tangent = sums.tangent / sums.n;
+      angle.tangent_z = sums.tangent_z / sums.n;
+    }
+    for (std::size_t i = begin; i < angles_.size(); ++i)
+      if (nearest == nullptr || std::abs(angles_[i].tangent) < std::abs(nearest->tangent))
+        nearest = &angles_[i];
+    if (nearest != nullptr) nearest->nadir = std::abs(nearest->tangent) < kNadir;
+  });
+}
+
+/// Course from the movement of the points of one class, height and sign from the lateral positions
+/// of the classes of one time.
+bool PathAdjustment::startFromAngles() {
+  struct Means {
+    double n = 0.0, time = 0.0, tangent = 0.0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  };
+  const auto meansBy = [this](const auto& key) {
+    std::map<std::int64_t, Means> means;
+    for (const AdjustedAngle& angle : angles_) {
+      Means& m = means[key(angle)];
+      m.n += 1.0;
+      m.time += (angle.time - m.time) / m.n;
+      m.tangent += (angle.tangent - m.tangent) / m.n;
+      m.place += (angle.mean.head<2>() - m.place) / m.n;
+    }
+    return means;
+  };
+  const auto ofClass = [](const AdjustedAngle& a) { return static_cast<std::int64_t>(a.index); };
+  const auto ofBin = [](const AdjustedAngle& a) { return a.bin; };
+  const auto classes = meansBy(ofClass), bins = meansBy(ofBin);
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+  double times = 0.0;
+  for (const AdjustedAngle& angle : angles_) {
+    const Means& m = classes.at(ofClass(angle));
+    moved += (angle.time - m.time) * (angle.mean.head<2>() - m.place);
+    times += (angle.time - m.time) * (angle.time - m.time);
+  }
+  if (!(times > 0.0) || !(moved.norm() > kSlowest * times)) return false;
+  start_course_ = moved.normalized();
+  double slope = 0.0, tangents = 0.0;
+  for (const AdjustedAngle& angle : angles_) {
+    const Means& m = bins.at(angle.bin);
+    slope +=
+        (angle.tangent - m.tangent) * rightOf(start_course_).dot(angle.mean.head<2>() - m.place);
+    tangents += (angle.tangent - m.tangent) * (angle.tangent - m.tangent);
+  }
+  if (!(tangents > 0.0)) return false;
+  start_height_ = std::abs(slope) / tangents;
+  sign_ = slope > 0.0 ? 1.0 : -1.0;
+  return start_height_ > 1.0;
+}
+
+/// Height from recorded angles over that of the path: slope of the lateral distance over the height
+/// against the tangent; negative where angles are positive to the left.
+double PathAdjustment::angleSlope() const {
+  double product = 0.0, square = 0.0, n = 0.0, x = 0.0, y = 0.0;
+  for (const AdjustedAngle& angle : angles_) {
+    const Eigen::Vector3d from = angle.mean - valueAt(angle.at);
+    if (!(from.z() < 0.0)) continue;
+    const double seen = rightOf(courseAt(angle.at)).dot(from.head<2>()) / -from.z();
+    n += 1.0;
+    x += angle.tangent;
+    y += seen;
+    product += angle.tangent * seen;
+    square += angle.tangent * angle.tangent;
+  }
+  const double spread = square - x * x / std::max(n, 1.0);
+  return spread > 0.0 ? (product - x * y / n) / spread : 0.0;
+}
+
+Eigen::Vector2d PathAdjustment::courseAt(const UniformCubicSpline::Weights& at) const {
+  if (!solved_) return start_course_;
+  const Eigen::Vector2d velocity = valueAt(at, true).head<2>();
+  return velocity.norm() > kSlowest ? velocity.normalized() : start_course_;
+}
+
+double PathAdjustment::heightOf(const AdjustedAngle& angle) const {
+  constexpr double kLowest = 5.0;
+  if (!solved_) return start_height_;
+  return std::max(kLowest, valueAt(angle.at).z() - angle.mean.z());
+}
+
+/// right . (mean - X) = sign (Z T - mean(z T)) (1 + scale)
+///                      + h (1 + T^2) (offset + roll + truncation sign(T)).
+PathAdjustment::AngleRow PathAdjustment::rowOf(const AdjustedAngle& angle) const {
+  const Eigen::Vector2d right = rightOf(courseAt(angle.at));
+  const double height = heightOf(angle), tangent = angle.tangent;
+  const double turned = height * (1.0 + tangent * tangent);
+  AngleRow row;
+  row.path << right.x(), right.y(), sign_ * tangent, turned;
+  row.common << sign_ * tangent * height, turned, turned * (tangent > 0.0 ? 1.0 : -1.0), 0.0;
+  row.value = right.dot(angle.mean.head<2>()) + sign_ * angle.tangent_z;
+  row.metres_per_radian = turned;
+  return row;
+}
+
+void PathAdjustment::addAngles() {
+  for (const AdjustedAngle& angle : angles_) {
+    if (!(angle.weight > 0.0)) continue;
+    const AngleRow row = rowOf(angle);
+    addObservation(angle.at, row.path, row.common, row.value,
+                   angle.weight / (noise_ * row.metres_per_radian * row.metres_per_radian));
+    if (angle.nadir) addAlong(angle);
+  }
+}
+
+/// Points near the vertical lie ahead of the sensor by the height times the tangent of the pitch.
+void PathAdjustment::addAlong(const AdjustedAngle& angle) {
+  const Eigen::Vector2d course = courseAt(angle.at);
+  const double height = heightOf(angle);
+  Eigen::Matrix<double, kBlock, 1> path;
+  Eigen::Matrix<double, kCommon, 1> common;
+  path << course.x(), course.y(), 0.0, 0.0;
+  common << 0.0, 0.0, 0.0, height;
+  const double sigma = kPitchMotion * height;
+  addObservation(angle.at, path, common, course.dot(angle.mean.head<2>()), 1.0 / (sigma * sigma));
+}
+
+void PathAdjustment::weighAngles() {
+  for (AdjustedAngle& angle : angles_) {
+    const AngleRow row = rowOf(angle);
+    Eigen::Matrix<double, kBlock, 1> path;
+    path << valueAt(angle.at), rollAt(angle.at);
+    angle.residual =
+        (row.path.dot(path) + row.common.dot(common_) - row.value) / row.metres_per_radian;
+    const double size = std::abs(angle.residual) / std::sqrt(noise_);
+    angle.weight = size > kRejectionLimit ? 0.0 : huberWeight(size);
+  }
+}
+
+void PathAdjustment::updateAngleVariance() {
+  double squares = 0.0, weights = 0.0;
+  for (const AdjustedAngle& angle : angles_) {
+    squares += angle.weight * angle.residual * angle.residual;
+    weights += angle.weight;
+  }
+  if (weights > 0.0) noise_ = std::max(squares / weights, kLeastAngleNoise * kLeastAngleNoise);
+}
+
+}  // namespace pcl_als::detail

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <pcl_als/common/system_parameters.h>
+
+namespace pcl_als::detail {
+
+// Constants of the reconstruction of paths from points; the module's page gives their sources.
+
+inline constexpr double kAcross = 0.01;  // m, standard deviation of a return across, at the start
+inline constexpr double kLeastAcross = 1e-4;  // m
+inline constexpr double kAgility = 0.3;       // m/s^2 per sqrt(Hz), accelerations, at the start
+inline constexpr double kLeastAgility = 0.01, kMostAgility = 10.0;  // the same, limits
+inline constexpr double kRoll = 1.0 * kRadiansPerDegree;  // rad, of the roll in recorded angles
+inline constexpr double kLeastRoll = 0.005 * kRadiansPerDegree;
+inline constexpr double kMostRoll = 5.0 * kRadiansPerDegree;
+inline constexpr double kRollTime = 3.0;  // s, correlation time of the roll
+inline constexpr double kAngleNoise =
+    0.15 * kRadiansPerDegree;  // rad, mean of a class, at the start
+inline constexpr double kLeastAngleNoise = 0.02 * kRadiansPerDegree;
+inline constexpr double kScale = 0.005;                     // 1, prior of recorded angles' scale
+inline constexpr double kOffset = 1.0 * kRadiansPerDegree;  // rad, prior of their offset
+inline constexpr double kTruncation = 0.25 * kRadiansPerDegree;  // rad, of whole degrees
+inline constexpr double kPitch = 3.0 * kRadiansPerDegree;        // rad, prior of the mean pitch
+inline constexpr double kPitchMotion = 4.0 * kRadiansPerDegree;  // rad, of a quarter of a second
+inline constexpr double kRegular = 1e-10;                        // 1/m^2, prior of a coefficient
+inline constexpr double kSlowest = 0.5;         // m/s, speed from which there is a course
+inline constexpr double kSlopeTolerance = 0.3;  // 1, heights from angles over that of rays
+inline constexpr double kRaysSuffice = 0.005;   // std over height: recorded angles are not used
+inline constexpr int kRobustSteps = 12, kMostSteps = 80;
+inline constexpr double kConverged = 1e-3;          // m, change of a coefficient
+inline constexpr double kConvergedVariance = 0.01;  // 1, relative change
+inline constexpr double kNormMedian = 1.1774;       // median of the norm of two normal errors
+inline constexpr double kNormHuber = 2.5;           // standard deviations of a norm
+inline constexpr double kNormRejection = 5.0;
+inline constexpr double kPriorRays = 4.0;   // rays that the value at the start counts
+inline constexpr double kManyRays = 100.0;  // rays from which on it does not
+
+}  // namespace pcl_als::detail

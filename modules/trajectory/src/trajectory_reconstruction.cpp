@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/trajectory/trajectory_reconstruction.h>
+
+#include "path_adjustment.h"
+#include "path_constants.h"
+
+namespace pcl_als {
+namespace {
+
+using detail::PathAdjustment;
+
+std::string formatted(const char* format, double a, double b = 0.0) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+void takeSamples(const PathAdjustment& adjustment, double interval, ReconstructedPath& path) {
+  path.samples.clear();
+  const auto first = static_cast<std::int64_t>(std::floor(path.times.first / interval));
+  const auto last = static_cast<std::int64_t>(std::ceil(path.times.last / interval));
+  for (std::int64_t i = first; i <= std::max(last, first + 1); ++i)
+    path.samples.push_back(adjustment.sampleAt(static_cast<double>(i) * interval));
+  path.height = adjustment.heightAboveGround();
+}
+
+/// Largest standard deviation of a coordinate over time, in shares of the height above ground.
+double largestShare(const ReconstructedPath& path) {
+  double largest = 0.0;
+  for (const PathSample& sample : path.samples)
+    largest = std::max(largest, sample.covariance.diagonal().maxCoeff());
+  return path.height > 0.0 ? std::sqrt(largest) / path.height
+                           : std::numeric_limits<double>::infinity();
+}
+
+/// Why a strip has no evidence at all; empty where it has.
+std::string whyNone(const PathEvidence::Counts& counts) {
+  if (counts.points == counts.timeless)
+    return counts.points == 0 ? "no points" : "its points have no GPS times";
+  if (counts.rays > 0 || counts.angles > 0) return {};
+  return "no pulse has two returns, and recorded scan angles are zero or absent: nothing shows "
+         "from where its points were measured";
+}
+
+void addFindings(const PathEvidence& evidence, ReconstructedPath& path) {
+  const PathEvidence::Counts& counts = path.counts;
+  const auto warn = [&path](const std::string& text) {
+    path.warnings.emplace_back("strip " + path.name + ": " + text);
+  };
+  if (counts.timeless > 0) warn(grouped(counts.timeless) + " points without a time are not used");
+  if (counts.duplicates > 0) warn(grouped(counts.duplicates) + " repeated points are not used");
+  if (counts.by_time > 0)
+    warn("returns have no numbers: " + grouped(counts.by_time) +
+         " groups of points of equal times are taken as pulses");
+  if (counts.ambiguous > 0)
+    warn(grouped(counts.ambiguous) +
+         " returns share a time with those of other pulses: the nearest in plan are taken as one "
+         "pulse");
+  const std::string steps = evidence.times().describe();
+  if (!steps.empty()) warn("times are in " + steps);
+  if (path.rays > 0 && path.rejected > path.rays / 5)
+    warn(formatted("%.0f %% of the rays miss the path and are left out",
+                   100.0 * static_cast<double>(path.rejected) / static_cast<double>(path.rays)));
+}
+
+}  // namespace
+
+Eigen::Vector3d ReconstructedPath::meanStd() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const PathSample& sample : samples) sum += sample.covariance.diagonal();
+  return samples.empty() ? sum : (sum / static_cast<double>(samples.size())).cwiseSqrt().eval();
+}
+
+TrajectoryReconstruction::TrajectoryReconstruction(const Settings& settings) : settings_(settings) {
+  if (!(settings.knot_spacing > 0.0) || !(settings.interval > 0.0))
+    throw UsageError("trajectory reconstruction: intervals must be positive");
+}
+
+int TrajectoryReconstruction::addStrip(const std::string& name) {
+  strips_.push_back({name, {}});
+  return static_cast<int>(strips_.size()) - 1;
+}
+
+void TrajectoryReconstruction::add(int strip, const LidarReturn* points, std::size_t count) {
+  PathEvidence& evidence = strips_[static_cast<std::size_t>(strip)].evidence;
+  for (std::size_t i = 0; i < count; ++i) evidence.add(points[i]);
+}
+
+/// Strips that share at least a fifth of the quarters of a second of the shorter one.
+void TrajectoryReconstruction::joinSimultaneous() {
+  constexpr double kShared = 0.2;
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    for (std::size_t k = i + 1; k < strips_.size();) {
+      const auto &a = strips_[i].evidence.bins(), &b = strips_[k].evidence.bins();
+      const auto& shorter = a.size() < b.size() ? a : b;
+      const auto& longer = a.size() < b.size() ? b : a;
+      std::size_t shared = 0;
+      for (const auto& entry : shorter) shared += longer.count(entry.first);
+      if (shared == 0 ||
+          static_cast<double>(shared) < kShared * static_cast<double>(shorter.size())) {
+        ++k;
+        continue;
+      }
+      strips_[i].evidence.merge(strips_[k].evidence);
+      strips_[i].name += " + " + strips_[k].name;
+      strips_.erase(strips_.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i + 1;
+    }
+  }
+}
+
+std::vector<ReconstructedPath> TrajectoryReconstruction::reconstruct() {
+  for (Strip& strip : strips_) strip.evidence.finish();
+  joinSimultaneous();
+  std::vector<ReconstructedPath> paths;
+  for (const Strip& strip : strips_) {
+    std::vector<TimeRange> passes = strip.evidence.passes(kGap);
+    if (passes.empty()) passes.emplace_back();
+    for (const TimeRange& pass : passes)
+      paths.push_back(reconstruct(strip, pass, &pass == &passes.front()));
+  }
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const auto& a, const auto& b) { return a.times.first < b.times.first; });
+  return paths;
+}
+
+ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip,
+                                                        const TimeRange& span, bool first) const {
+  ReconstructedPath path;
+  path.name = strip.name;
+  path.times = span;
+  path.counts = strip.evidence.counts();
+  path.reason = whyNone(path.counts);
+  if (!path.reason.empty()) return path;
+  PathAdjustment adjustment(strip.evidence, span, settings_);
+  bool solved = adjustment.adjustRays();
+  if (solved) takeSamples(adjustment, settings_.interval, path);
+  // Recorded angles have systematic errors; they are used where rays are not sufficient.
+  if ((!solved || largestShare(path) > detail::kRaysSuffice) && adjustment.hasAngles()) {
+    if (adjustment.adjustWithAngles()) {
+      solved = true;
+      takeSamples(adjustment, settings_.interval, path);
+    }
+  }
+  adjustment.describe(path);
+  const double share = solved ? largestShare(path) : 1.0;
+  path.found = solved && share <= kLargestShare;
+  if (!path.found)
+    path.reason = solved ? formatted(
+                               "the path is uncertain by %.0f %% of the height above ground "
+                               "(%.0f m)",
+                               100.0 * share, path.height)
+                         : "rays and recorded scan angles do not determine a path";
+  if (first) addFindings(strip.evidence, path);
+  return path;
+}
+
+}  // namespace pcl_als

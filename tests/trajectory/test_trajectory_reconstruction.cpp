@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/trajectory/trajectory_reconstruction.h>
+
+#include "ray_flight.h"
+
+namespace pcl_als {
+namespace {
+
+using test::RayFlight;
+using test::wavyPath;
+using Points = std::vector<LidarReturn>;
+
+std::vector<ReconstructedPath> reconstructed(const std::vector<Points>& strips) {
+  TrajectoryReconstruction reconstruction;
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const int strip = reconstruction.addStrip(std::to_string(i + 1));
+    reconstruction.add(strip, strips[i].data(), strips[i].size());
+  }
+  return reconstruction.reconstruct();
+}
+
+ReconstructedPath only(const Points& points) {
+  std::vector<ReconstructedPath> paths = reconstructed({points});
+  EXPECT_EQ(paths.size(), 1U);
+  return paths.front();
+}
+
+/// Root mean squares over time of errors, and of errors over their standard deviations.
+struct Deviation {
+  Eigen::Vector3d rms = Eigen::Vector3d::Zero(), normalised = Eigen::Vector3d::Zero();
+};
+
+Deviation deviation(const ReconstructedPath& path,
+                    const std::function<Eigen::Vector3d(double)>& truth) {
+  Deviation sum;
+  for (const PathSample& sample : path.samples) {
+    const Eigen::Array3d error = (sample.position - truth(sample.time)).array();
+    sum.rms.array() += error.square();
+    sum.normalised.array() += error.square() / sample.covariance.diagonal().array();
+  }
+  const auto n = static_cast<double>(path.samples.size());
+  return {(sum.rms / n).cwiseSqrt(), (sum.normalised / n).cwiseSqrt()};
+}
+
+RayFlight wavy() {
+  RayFlight flight;
+  flight.path = wavyPath;
+  return flight;
+}
+
+bool mentions(const ReconstructedPath& path, const std::string& text) {
+  return std::any_of(path.warnings.begin(), path.warnings.end(), [&](const Warning& warning) {
+    return warning.text.find(text) != std::string::npos;
+  });
+}
+
+// 1 cm across a ray, 7 m between its returns, 1000 m: 2 m for a ray; 128 rays in a second.
+TEST(TrajectoryReconstruction, FindsThePathFromRays) {
+  const ReconstructedPath path = only(wavy().points());
+  ASSERT_TRUE(path.found) << path.reason;
+  const Deviation is = deviation(path, wavyPath);
+  EXPECT_LT(is.rms.head<2>().maxCoeff(), 0.4);
+  EXPECT_LT(is.rms.z(), 1.0);
+  EXPECT_FALSE(path.angles.used);
+  EXPECT_NEAR(path.height, 1000.0, 5.0);
+  EXPECT_NEAR(path.across, 0.01, 0.002);
+}
+
+// The standard deviation of an RMS over 20 flights with some ten independent values each is 5 %.
+TEST(TrajectoryReconstruction, StandardDeviationsAreThoseOfTheErrors) {
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  constexpr int kSeeds = 20;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    RayFlight flight = wavy();
+    flight.seed = seed;
+    flight.trees = 0.05 + 0.01 * seed;
+    squares += deviation(only(flight.points()), wavyPath).normalised.cwiseAbs2() / kSeeds;
+  }
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_GT(std::sqrt(squares[c]), 0.8) << c;
+    EXPECT_LT(std::sqrt(squares[c]), 1.25) << c;
+  }
+}
+
+TEST(TrajectoryReconstruction, FollowsATurn) {
+  RayFlight flight;
+  flight.path = [](double time) -> Eigen::Vector3d {
+    const double turned = 0.02 * time;
+    return {3000.0 * (1.0 - std::cos(turned)), 3000.0 * std::sin(turned), 800.0};
+  };
+  const ReconstructedPath path = only(flight.points());
+  ASSERT_TRUE(path.found);
+  const Deviation is = deviation(path, flight.path);
+  EXPECT_LT(is.normalised.maxCoeff(), 2.0);
+  EXPECT_LT(is.rms.maxCoeff(), 1.0);
+}
+
+// Recorded angles are uncertain by half a percent: 5 m of the height of 1000 m, 1 degree across.
+TEST(TrajectoryReconstruction, UsesScanAnglesWithoutSecondReturns) {
+  for (const double step : {1.0, 0.006}) {
+    for (const double sign : {1.0, -1.0}) {
+      RayFlight flight = wavy();
+      flight.trees = 0.0;
+      flight.angle_step = step;
+      flight.angle_sign = sign;
+      const ReconstructedPath path = only(flight.points());
+      ASSERT_TRUE(path.found) << path.reason;
+      EXPECT_TRUE(path.angles.used);
+      EXPECT_EQ(path.angles.right_positive, sign > 0.0);
+      const Deviation is = deviation(path, wavyPath);
+      EXPECT_LT(is.rms.z(), 10.0);
+      EXPECT_LT(is.rms.x(), 20.0);
+      EXPECT_LT(is.normalised.maxCoeff(), 1.5);
+      EXPECT_GT(path.meanStd().y(), 20.0) << "an unknown pitch of some degrees";
+    }
+  }
+}
+
+TEST(TrajectoryReconstruction, AllowsForRollInScanAngles) {
+  RayFlight flight = wavy();
+  flight.trees = 0.0;
+  flight.angles_with_roll = false;
+  flight.roll = [](double time) { return 0.02 * std::sin(1.1 * time); };
+  const ReconstructedPath path = only(flight.points());
+  ASSERT_TRUE(path.found) << path.reason;
+  EXPECT_GT(path.angles.roll, 0.005) << "RMS of the roll is 0.014";
+  const Deviation is = deviation(path, wavyPath);
+  // Errors of the offset and the scale are single values of a flight: 95 % within two.
+  EXPECT_LT(is.normalised.x(), 2.0);
+  EXPECT_LT(is.normalised.z(), 2.0);
+}
+
+TEST(TrajectoryReconstruction, ScanAnglesBridgeOpenGround) {
+  RayFlight flight = wavy();
+  flight.to = 60.0;
+  Points points = flight.points();
+  points.erase(
+      std::remove_if(points.begin(), points.end(),
+                     [](const LidarReturn& p) { return p.time > 8.0 && p.number_of_returns > 1; }),
+      points.end());
+  const ReconstructedPath path = only(points);
+  ASSERT_TRUE(path.found) << path.reason;
+  EXPECT_TRUE(path.angles.used);
+  EXPECT_GT(path.samples.back().covariance(1, 1), 100.0 * path.samples[40].covariance(1, 1));
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 1.6);
+}
+
+TEST(TrajectoryReconstruction, SaysWhyThereIsNone) {
+  RayFlight flight = wavy();
+  flight.trees = 0.0;
+  flight.angle_step = 0.0;
+  const ReconstructedPath path = only(flight.points());
+  EXPECT_FALSE(path.found);
+  EXPECT_NE(path.reason.find("no pulse has two returns"), std::string::npos) << path.reason;
+  Points timeless = wavy().points();
+  for (LidarReturn& point : timeless) point.time = 0.0;
+  EXPECT_NE(only(timeless).reason.find("no GPS times"), std::string::npos);
+}
+
+/// A tenth of the pulses are of other places.
+TEST(TrajectoryReconstruction, RejectsRaysThatMissThePath) {
+  RayFlight flight = wavy();
+  Points points = flight.points();
+  std::size_t i = 0;
+  for (LidarReturn& point : points)
+    if (point.number_of_returns == 2 && point.return_number == 1 && i++ % 10 == 0)
+      point.position += Eigen::Vector3d(1.5, -2.0, 0.0);
+  const ReconstructedPath path = only(points);
+  ASSERT_TRUE(path.found);
+  EXPECT_GT(path.rejected, path.rays / 20);
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+}
+
+TEST(TrajectoryReconstruction, DoesNotDependOnTheOrderOfPoints) {
+  RayFlight flight = wavy();
+  flight.to = 5.0;
+  Points points = flight.points();
+  const ReconstructedPath sorted = only(points);
+  std::shuffle(points.begin(), points.end(), std::mt19937(5));
+  const ReconstructedPath shuffled = only(points);
+  ASSERT_EQ(sorted.rays, shuffled.rays);
+  for (std::size_t i = 0; i < sorted.samples.size(); ++i)
+    EXPECT_LT((sorted.samples[i].position - shuffled.samples[i].position).norm(), 1e-3);
+}
+
+// Channels that fire at one time look to different places; their returns alternate in the file.
+TEST(TrajectoryReconstruction, SeparatesChannelsOfOneTime) {
+  RayFlight first = wavy(), second = wavy();
+  first.trees = second.trees = 1.0;
+  second.seed = 2;
+  second.from += 1e-9;
+  const Points a = first.points();
+  RayFlight shifted = second;
+  shifted.half_angle = -20.0;  // the other way
+  const Points b = shifted.points();
+  Points both;
+  for (std::size_t i = 0; i + 1 < a.size(); i += 2) {
+    for (std::size_t k = i; k < i + 2; ++k) {
+      both.push_back(a[k]);
+      both.push_back(b[k]);
+      both.back().time = a[k].time;
+    }
+  }
+  const ReconstructedPath path = only(both);
+  ASSERT_TRUE(path.found);
+  EXPECT_TRUE(mentions(path, "share a time")) << "ambiguous pulses are reported";
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+}
+
+TEST(TrajectoryReconstruction, PairsReturnsWithoutNumbersByTime) {
+  Points points = wavy().points();
+  for (LidarReturn& point : points) point.return_number = point.number_of_returns = 1;
+  const ReconstructedPath path = only(points);
+  ASSERT_TRUE(path.found);
+  EXPECT_TRUE(mentions(path, "have no numbers"));
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+}
+
+TEST(TrajectoryReconstruction, CountsDuplicatesAndPointsWithoutTime) {
+  Points points;
+  for (const LidarReturn& point : wavy().points()) {
+    points.push_back(point);
+    points.push_back(point);
+    LidarReturn& timeless = points.emplace_back(point);
+    timeless.time = 0.0;
+  }
+  const ReconstructedPath path = only(points);
+  ASSERT_TRUE(path.found);
+  EXPECT_TRUE(mentions(path, "repeated points"));
+  EXPECT_TRUE(mentions(path, "without a time"));
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+}
+
+// In a millisecond the sensor moves 6 cm.
+TEST(TrajectoryReconstruction, AcceptsTimesInMilliseconds) {
+  Points points = wavy().points();
+  for (LidarReturn& point : points) point.time = std::round(1e3 * point.time) / 1e3;
+  const ReconstructedPath path = only(points);
+  ASSERT_TRUE(path.found);
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+}
+
+TEST(TrajectoryReconstruction, JoinsStripsOfOneTimeAndDividesAtGaps) {
+  const Points points = wavy().points();
+  std::vector<Points> tiles(2);
+  for (const LidarReturn& point : points)
+    if (point.time < 8.0 || point.time > 14.0)
+      tiles[point.position.x() > 0.0 ? 1 : 0].push_back(point);
+  const std::vector<ReconstructedPath> paths = reconstructed(tiles);
+  ASSERT_EQ(paths.size(), 2U) << "the gap of six seconds";
+  EXPECT_EQ(paths[0].name, "1 + 2");
+  EXPECT_LT(paths[0].times.last, 8.1);
+  EXPECT_GT(paths[1].times.first, 13.9);
+  for (const ReconstructedPath& path : paths) {
+    ASSERT_TRUE(path.found);
+    EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+  }
+}
+
+TEST(TrajectoryReconstruction, RefusesImpossibleSettings) {
+  TrajectoryReconstruction::Settings settings;
+  settings.interval = 0.0;
+  EXPECT_THROW(TrajectoryReconstruction{settings}, UsageError);
+}
+
+}  // namespace
+}  // namespace pcl_als
