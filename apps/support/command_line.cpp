@@ -20,6 +20,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/nearest_name.h>
+#include <pcl_als/common/thread_limit.h>
 
 #include "interruption.h"
 #include "option_list.h"
@@ -141,6 +142,7 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   if (parser_->values.count("input") != 0)
     inputs_ = parser_->values["input"].as<std::vector<std::string>>();
   if (get<int>("threads") < 0) throw UsageError("option -threads: must be 0 or more");
+  limitThreads(get<int>("threads"));
   refuseToOverwrite();
   return true;
 }

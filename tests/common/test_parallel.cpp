@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/thread_limit.h>
 
 namespace pcl_als {
 namespace {
@@ -64,6 +67,43 @@ TEST(ParallelFor, SumPerChunkIsTheSameForAnyNumberOfThreads) {
     return total;
   };
   EXPECT_EQ(sum(1), sum(8));  // to the last bit: combined in chunk order
+}
+
+/// The largest number of bodies that run at once, of an inner loop in each body of an outer one.
+int mostAtOnce(int outer, int inner) {
+  std::atomic<int> running{0}, most{0};
+  parallelFor(8, outer, [&](std::size_t) {
+    parallelFor(8, inner, [&](std::size_t) {
+      const int now = ++running;
+      int known = most;
+      while (known < now && !most.compare_exchange_weak(known, now)) {
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      --running;
+    });
+  });
+  return most;
+}
+
+TEST(ThreadLimit, HoldsForDividedWorkInDividedWork) {
+  for (const int limit : {1, 2, 3}) {
+    limitThreads(limit);
+    EXPECT_EQ(threadCount(0), static_cast<unsigned>(limit));
+    EXPECT_LE(mostAtOnce(0, 0), limit);
+    EXPECT_LE(mostAtOnce(limit, 0), limit);
+    EXPECT_LE(mostAtOnce(1, limit), limit);
+  }
+  limitThreads(0);
+  EXPECT_GT(mostAtOnce(4, 1), 1);  // a request of its own may exceed the number of cores
+}
+
+TEST(ThreadLimit, ReservationsAreReturned) {
+  EXPECT_EQ(reserveThreads(3, 2), 2U);
+  EXPECT_EQ(reserveThreads(1, 2), 0U);
+  EXPECT_EQ(reserveThreads(1, 3), 1U);
+  releaseThreads(3);
+  EXPECT_EQ(reserveThreads(1, 1), 1U);
+  releaseThreads(1);
 }
 
 TEST(ThreadCount, TakesTheRequestOrTheMachine) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +93,35 @@ TEST(LasRewriter, OneThreadEqualsEight) {
   rewriteLas(folder / "in.las", folder / "eight.las", edit, 8);
   EXPECT_NE(test::readBytes(folder / "one.las"), las.str());
   EXPECT_EQ(test::readBytes(folder / "one.las"), test::readBytes(folder / "eight.las"));
+}
+
+/// Compressed files are coded in their order, but edited by all threads.
+TEST(LasRewriter, CompressedBlocksAreEditedAtOnceByTwoThreads) {
+  const auto folder = test::scratch("las_rewriter_laz");
+  LasBytes las;
+  las.count = 200000;
+  test::writeBytes(folder / "in.las", las.str());
+  rewriteLas(folder / "in.las", folder / "in.laz", kNothing);
+  std::vector<std::atomic<int>> seen(las.count);
+  std::atomic<int> running{0}, together{0};
+  const LasEdit edit = [&](const LasRecordBlock& block) {
+    ++running;
+    // Seconds for a machine under load: a second thread comes, or never will.
+    for (int i = 0; i < 5000 && running < 2 && together == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (running > 1) together = 1;
+    for (std::size_t i = 0; i < block.count; ++i) ++seen[block.first + i];
+    addToX(block, static_cast<int>(block.first % 1000));
+    --running;
+  };
+  rewriteLas(folder / "in.laz", folder / "two.laz", edit, 2);
+  EXPECT_EQ(together, 1);
+  for (const auto& count : seen) ASSERT_EQ(count, 1);
+  rewriteLas(folder / "in.laz", folder / "one.laz", edit, 1);
+  EXPECT_EQ(test::readBytes(folder / "one.laz"), test::readBytes(folder / "two.laz"));
+  rewriteLas(folder / "in.las", folder / "plain.las", edit, 1);
+  rewriteLas(folder / "two.laz", folder / "unpacked.las", kNothing, 2);
+  EXPECT_EQ(test::readBytes(folder / "plain.las"), test::readBytes(folder / "unpacked.las"));
 }
 
 TEST(LasRewriter, AWrongBoxIsLeftAloneUntilPointsMove) {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <mutex>
+#include <set>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/thread_limit.h>
 
 #include "laz_file.h"
 #include "laz_records.h"
@@ -127,6 +132,57 @@ TEST(LazCodecMemory, UnwantedLayersAreNotRead) {
   reader.read(0, 5000, out.data());
   // Random coordinates of 12 bytes, and what describes the returns, of 67 bytes.
   EXPECT_LT(bytes_read, file.size() / 2);
+}
+
+/// Threads that read the chunks of a file which is decoded with all cores.
+std::size_t decodingThreads(const ByteVector& file, const LazSchema& schema, std::size_t count) {
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  const auto read = [&](std::uint64_t position, std::size_t bytes, void* out) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      threads.insert(std::this_thread::get_id());
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    test::readFrom(file)(position, bytes, out);
+  };
+  LazPointReader reader(schema, read, {0, file.size(), count}, "a.laz");
+  ByteVector out(count * schema.recordLength());
+  reader.read(0, count, out.data());
+  return threads.size();
+}
+
+TEST(LazCodecThreads, AreLimitedWithThoseOfTheProgram) {
+  const LazSchema schema = schemaOf(6, 0, 5000);
+  const ByteVector records = LazRecords(6, 0, PointKind::survey, 9).make(200000);
+  const ByteVector file = test::encode(schema, records);
+  limitThreads(1);
+  EXPECT_EQ(decodingThreads(file, schema, 200000), 1U);
+  limitThreads(3);
+  const std::size_t threads = decodingThreads(file, schema, 200000);
+  limitThreads(0);
+  EXPECT_GT(threads, 1U);
+}
+
+/// An error of the output reaches the caller, whichever thread encodes meanwhile.
+TEST(LazCodecThreads, AFailingOutputEndsTheEncoding) {
+  const LazSchema schema = schemaOf(1, 0, 1000);
+  const ByteVector records = LazRecords(1, 0, PointKind::survey, 10).make(100000);
+  for (const int threads : {1, 4}) {
+    std::uint64_t written = 0;
+    LazPointWriter writer(
+        schema,
+        [&](std::uint64_t, std::size_t bytes, const void*) {
+          if ((written += bytes) > 100000) throw InputError("the disk is full");
+        },
+        0, threads);
+    EXPECT_THROW(
+        {
+          for (std::size_t i = 0; i < 100; ++i) writer.write(&records[28000 * i], 1000);
+          writer.finish();
+        },
+        InputError);
+  }
 }
 
 TEST(LazSchemaTest, SurvivesItsBytes) {

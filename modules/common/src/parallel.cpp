@@ -9,18 +9,45 @@
 #include <vector>
 
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/thread_limit.h>
 
 namespace pcl_als {
+namespace {
+
+std::atomic<int> limit{0};          // 0: the number of cores
+std::atomic<unsigned> reserved{0};  // threads beside their callers
+
+}  // namespace
+
+void limitThreads(int most) {
+  limit = most;
+}
 
 unsigned threadCount(int requested) {
-  if (requested > 0) return static_cast<unsigned>(requested);
+  const int count = requested > 0 ? requested : limit.load();
+  if (count > 0) return static_cast<unsigned>(count);
   return std::max(1U, std::thread::hardware_concurrency());
+}
+
+unsigned reserveThreads(unsigned wanted, unsigned most) {
+  unsigned busy = reserved;
+  for (;;) {
+    const unsigned granted = busy < most ? std::min(wanted, most - busy) : 0;
+    if (granted == 0 || reserved.compare_exchange_weak(busy, busy + granted)) return granted;
+  }
+}
+
+void releaseThreads(unsigned count) {
+  reserved -= count;
 }
 
 void parallelFor(std::size_t chunk_count, int threads,
                  const std::function<void(std::size_t)>& body) {
   const std::size_t workers = std::min<std::size_t>(threadCount(threads), chunk_count);
-  if (workers <= 1) {
+  const unsigned most = std::max(threadCount(threads), threadCount(0)) - 1;
+  const unsigned helpers =
+      workers > 1 ? reserveThreads(static_cast<unsigned>(workers) - 1, most) : 0;
+  if (helpers == 0) {
     for (std::size_t chunk = 0; chunk < chunk_count; ++chunk) body(chunk);
     return;
   }
@@ -36,11 +63,16 @@ void parallelFor(std::size_t chunk_count, int threads,
       next = chunk_count;
     }
   };
+  const auto help = [&work] {
+    work();
+    releaseThreads(1);
+  };
   std::vector<std::thread> pool;
   try {
-    for (std::size_t i = 1; i < workers; ++i) pool.emplace_back(work);
+    while (pool.size() < helpers) pool.emplace_back(help);
   } catch (const std::system_error&) {
     // No memory or permission for another thread: those that there are do the work.
+    releaseThreads(helpers - static_cast<unsigned>(pool.size()));
   }
   work();
   for (std::thread& thread : pool) thread.join();

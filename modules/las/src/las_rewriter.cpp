@@ -49,11 +49,11 @@ class Rewrite {
         output_(output, head_, threads) {}
 
   LasRewriteResult run() {
-    const std::uint64_t blocks = (header_.point_count + per_block_ - 1) / per_block_;
-    // Compressed points are coded in the order of the file, on several threads within.
-    const bool in_order = header_.compressed || output_.compressed();
-    parallelFor(blocks, in_order ? 1 : threads_,
-                [this](std::size_t block) { rewriteBlock(block); });
+    if (header_.compressed || output_.compressed())
+      rewriteInOrder();
+    else
+      parallelFor((header_.point_count + per_block_ - 1) / per_block_, threads_,
+                  [this](std::size_t block) { rewriteBlock(block); });
     detail::copyLasTail(input_, output_);
     LasRewriteResult result;
     result.points = header_.point_count;
@@ -71,10 +71,28 @@ class Rewrite {
     buffer.resize(per_block_ * out_length_);
     readBlock(first, count, buffer);
     editBlock({buffer.data(), count, out_length_, first});
-    if (output_.compressed())
-      output_.append(buffer.data(), count);
-    else
-      output_.putAt(first, buffer.data(), count);
+    output_.putAt(first, buffer.data(), count);
+  }
+
+  /// Compressed points are coded in the order of the file, on several threads within; a block for
+  /// each thread is edited between.
+  void rewriteInOrder() {
+    const std::uint64_t together = per_block_ * threadCount(threads_);
+    std::vector<std::byte> buffer;
+    for (std::uint64_t first = 0; first < header_.point_count; first += together) {
+      const std::size_t count = std::min<std::uint64_t>(together, header_.point_count - first);
+      buffer.resize(count * out_length_);
+      readBlock(first, count, buffer);
+      parallelFor((count + per_block_ - 1) / per_block_, threads_, [&](std::size_t block) {
+        const std::size_t from = block * per_block_;
+        editBlock({&buffer[from * out_length_], std::min(per_block_, count - from), out_length_,
+                   first + from});
+      });
+      if (output_.compressed())
+        output_.append(buffer.data(), count);
+      else
+        output_.putAt(first, buffer.data(), count);
+    }
   }
 
   void editBlock(const LasRecordBlock& block) {
