@@ -31,7 +31,8 @@ void addFlightOptions(CommandLine& line, const char* use) {
 void addTrajectoryOptions(CommandLine& line, const char* use) {
   const std::string help =
       std::string(
-          "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet) or TerraScan (.trj); "
+          "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet), TerraScan (.trj), RIEGL "
+          "(.pof) or Leica (.sol); "
           "several files or a folder are joined in order of time (") +
       use + ")";
   line.addList("trajectory", help.c_str());
@@ -165,7 +166,9 @@ void checkFlightOptions(const CommandLine& line) {
 
 void addAccuracyOption(CommandLine& line, const char* use) {
   const std::string help =
-      std::string("accuracies of the trajectory over time, an Applanix smrmsg file: ") + use;
+      std::string(
+          "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: ") +
+      use;
   line.addOptional("accuracy", help.c_str());
 }
 

@@ -3,7 +3,6 @@
 #include "fuzz_targets.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -11,22 +10,17 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/io/class_io.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
-#include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/las/las_file.h>
-#include <pcl_als/processing/class_model_file.h>
-#include <pcl_als/report/accuracy_report.h>
 
 #include "fuzz_seeds.h"
 
 namespace pcl_als::fuzz {
-namespace {
 
-/// The bytes as a file that reader is called with; only the library's own errors are swallowed.
 bool readAs(const char* extension, const std::uint8_t* data, std::size_t size,
             const std::function<void(const std::filesystem::path&)>& reader) {
   static const std::filesystem::path folder = std::filesystem::temp_directory_path();
@@ -42,6 +36,8 @@ bool readAs(const char* extension, const std::uint8_t* data, std::size_t size,
   std::filesystem::remove(path);
   return accepted;
 }
+
+namespace {
 
 /// A small file may hold many equal points: some are enough.
 void readLaz(const LasFile& file) {
@@ -106,45 +102,28 @@ void readPcd(const std::filesystem::path& path) {
   takeCensus({path});
 }
 
-void assess(const ConfusionMatrix& matrix) {
-  if (matrix.total() == 0) return;
-  AccuracyReport report{matrix, assessAccuracy(matrix), {}, {}, {}, {}, {}, {}};
-  report.other = report.result;
-  report.comparison = compareAccuracy(matrix, matrix);
-  accuracyText(report);
+/// A trajectory without its projection to a map, and with the names of its columns given.
+void readExport(const std::filesystem::path& path) {
+  try {
+    summarize(inspectTrajectory(path, {}).accuracy);
+  } catch (const Error&) {
+    TrajectoryReading reading;
+    reading.columns = {"time", "latitude", "longitude", "height", "roll", "pitch", "heading"};
+    reading.angles = AngleUnit::gon;
+    reading.leap_seconds = 18.0;
+    inspectTrajectory(path, reading);
+  }
 }
 
-void readMatrix(const std::filesystem::path& path) {
-  if (holdsCheckedSites(path)) return;
-  assess(matrixOf(readCountTable(path)));
-}
-
-void readChecked(const std::filesystem::path& path) {
-  const std::vector<CheckedSite> sites = readCheckedSites(path);
-  const CountedSites counted = countSites(sites, {});
-  assess(countPoints(counted.classes, counted.points));
-  assessSites(counted);
-  matchSites(path.string(), sites, sites);
-}
-
-void useModel(const std::filesystem::path& path) {
-  const GaussianModel model = readClassModel(path);
-  const MaximumLikelihood classifier(model, 0.01);
-  std::vector<double> values(model.bands.size(), 1.5);
-  classifier.classify(values.data());
-}
-
-void readGeoTiff(const std::filesystem::path& path) {
-  RasterReader reader(path);
-  const RasterGrid& grid = reader.layout().grid;
-  const RasterWindow corner{grid.columns - std::min(grid.columns, 70),
-                            grid.rows - std::min(grid.rows, 70), std::min(grid.columns, 70),
-                            std::min(grid.rows, 70)};
-  std::vector<float> values(corner.cells());
-  for (std::size_t band = 0; band < std::min<std::size_t>(reader.layout().bands.size(), 4); ++band)
-    reader.read(band, corner, values.data());
-  if (grid.cells() <= 1U << 20U) readRaster(path);
-  if (reader.layout().type == RasterLayout::Type::byte) readCodeRaster(path, 300);
+/// Each record of a .sol has a checksum of its header: with it the rest is reached.
+std::string withChecksums(std::string bytes) {
+  constexpr std::size_t record = 184, header = 35;
+  for (std::size_t at = 0; at + header <= bytes.size(); at += record) {
+    unsigned sum = 0;
+    for (std::size_t i = 0; i + 1 < header; ++i) sum ^= static_cast<unsigned char>(bytes[at + i]);
+    bytes[at + header - 1] = static_cast<char>(sum);
+  }
+  return bytes;
 }
 
 bool las(const std::uint8_t* data, std::size_t size) {
@@ -168,36 +147,35 @@ bool trajectoryCsv(const std::uint8_t* data, std::size_t size) {
 bool sbet(const std::uint8_t* data, std::size_t size) {
   return readAs(".sbet", data, size, [](const auto& path) { readTrajectory(path, "EPSG:32611"); });
 }
+bool trajectoryExport(const std::uint8_t* data, std::size_t size) {
+  return readAs(".txt", data, size, readExport);
+}
+bool smrmsg(const std::uint8_t* data, std::size_t size) {
+  return readAs(".out", data, size, [](const auto& path) { summarize(readAccuracies(path)); });
+}
+bool terrascan(const std::uint8_t* data, std::size_t size) {
+  return readAs(".trj", data, size, [](const auto& path) { inspectTrajectory(path, {}); });
+}
+bool rieglTrajectory(const std::uint8_t* data, std::size_t size) {
+  return readAs(".pof", data, size, [](const auto& path) { inspectTrajectory(path, {}); });
+}
+bool rieglAccuracies(const std::uint8_t* data, std::size_t size) {
+  return readAs(".poq", data, size, [](const auto& path) { summarize(readAccuracies(path)); });
+}
+bool leicaTrajectory(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes = withChecksums(std::string(reinterpret_cast<const char*>(data), size));
+  return readAs(".sol", reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                [](const auto& path) { inspectTrajectory(path, {}); });
+}
 bool control(const std::uint8_t* data, std::size_t size) {
   return readAs(".csv", data, size, [](const auto& path) { readControl(path); });
 }
 bool calibration(const std::uint8_t* data, std::size_t size) {
   return readAs(".json", data, size, [](const auto& path) { readCalibration(path); });
 }
-bool geojson(const std::uint8_t* data, std::size_t size) {
-  return readAs(".geojson", data, size, [](const auto& path) { readClassSites(path); });
-}
-bool sites(const std::uint8_t* data, std::size_t size) {
-  return readAs(".csv", data, size, [](const auto& path) { readClassSites(path); });
-}
-bool countTable(const std::uint8_t* data, std::size_t size) {
-  return readAs(".csv", data, size, readMatrix);
-}
-bool checkedSites(const std::uint8_t* data, std::size_t size) {
-  return readAs(".csv", data, size, readChecked);
-}
-bool classModel(const std::uint8_t* data, std::size_t size) {
-  return readAs(".json", data, size, useModel);
-}
-#ifdef PCL_ALS_HAVE_GDAL
-bool geoTiff(const std::uint8_t* data, std::size_t size) {
-  return readAs(".tif", data, size, readGeoTiff);
-}
-#endif
-
 }  // namespace
 
-const std::vector<Target>& targets() {
+const std::vector<Target>& readerTargets() {
   static const std::vector<Target> all = {
       {"las", las, lasSeeds},
       {"laz", laz, lazSeeds},
@@ -205,25 +183,17 @@ const std::vector<Target>& targets() {
       {"copc", copc, copcSeeds},
       {"pcd", pcd, pcdSeeds},
       {"trajectory_csv", trajectoryCsv, trajectorySeeds},
+      {"trajectory_export", trajectoryExport, exportSeeds},
       {"sbet", sbet, sbetSeeds},
+      {"smrmsg", smrmsg, smrmsgSeeds},
+      {"terrascan", terrascan, terrascanSeeds},
+      {"riegl_pof", rieglTrajectory, pofSeeds},
+      {"riegl_poq", rieglAccuracies, poqSeeds},
+      {"leica_sol", leicaTrajectory, solSeeds},
       {"control", control, controlSeeds},
       {"calibration", calibration, calibrationSeeds},
-      {"geojson", geojson, geoJsonSeeds},
-      {"class_sites", sites, classSiteSeeds},
-      {"confusion_matrix", countTable, countTableSeeds},
-      {"checked_sites", checkedSites, checkedSiteSeeds},
-      {"class_model", classModel, classModelSeeds},
-#ifdef PCL_ALS_HAVE_GDAL
-      {"geotiff", geoTiff, geoTiffSeeds},
-#endif
   };
   return all;
-}
-
-const Target& targetNamed(const std::string& name) {
-  for (const Target& target : targets())
-    if (name == target.name) return target;
-  std::abort();
 }
 
 }  // namespace pcl_als::fuzz

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,17 @@ struct Target {
   std::vector<std::string> (*seeds)();
 };
 
-/// las, laz, damaged_laz, copc, pcd, trajectory_csv, sbet, control, calibration; geojson, class_sites,
-/// confusion_matrix, checked_sites, class_model, geotiff
-const std::vector<Target>& targets();
-const Target& targetNamed(const std::string& name);
+/// Files of points and trajectories, control, calibrations: las, laz, damaged_laz, copc, pcd;
+/// trajectory_csv, trajectory_export, sbet, smrmsg, terrascan, riegl_pof, riegl_poq, leica_sol;
+/// control, calibration
+const std::vector<Target>& readerTargets();
+/// geojson, class_sites, confusion_matrix, checked_sites, class_model, geotiff. A library of its
+/// own: these need most modules, which take long to build with sanitizers.
+const std::vector<Target>& landCoverTargets();
+
+/// The bytes as a file that \a reader is called with; only the library's own errors are swallowed.
+/// \return whether it was accepted
+bool readAs(const char* extension, const std::uint8_t* data, std::size_t size,
+            const std::function<void(const std::filesystem::path&)>& reader);
 
 }  // namespace pcl_als::fuzz

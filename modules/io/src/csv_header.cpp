@@ -32,8 +32,8 @@ std::string_view withoutMark(std::string_view line, bool& comment) {
   comment = first != std::string_view::npos &&
             std::string_view("#%*!").find(line[first]) != std::string_view::npos;
   if (!comment) return line;
-  const std::size_t text = line.find_first_not_of("#%*! \t", first);
-  return text == std::string_view::npos ? std::string_view() : line.substr(text);
+  // An empty rest is one of the line, too: a view without characters has no address.
+  return line.substr(std::min(line.find_first_not_of("#%*! \t", first), line.size()));
 }
 
 /// Where names are separated by blanks, a unit in brackets belongs to the name before it.

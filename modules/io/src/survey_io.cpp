@@ -4,6 +4,8 @@
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/survey_io.h>
 
+#include "leica_sol.h"
+#include "riegl_pof.h"
 #include "sbet.h"
 #include "terrascan_trj.h"
 #include "trajectory_records.h"
@@ -21,6 +23,10 @@ TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
     records = readSbet(path, reading);
   } else if (extension == ".trj") {
     records = readTerrascanTrajectory(path, reading);
+  } else if (extension == ".pof") {
+    records = readRieglTrajectory(path, reading);
+  } else if (extension == ".sol") {
+    records = readLeicaTrajectory(path, reading);
   } else {
     records = readTextTrajectory(path, reading);
   }

@@ -8,10 +8,12 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 
 #include "csv_table.h"
+#include "riegl_pof.h"
 #include "week_rollover.h"
 
 namespace pcl_als {
@@ -121,6 +123,7 @@ std::string describe(const AccuracySummary& summary) {
 }
 
 std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path) {
+  if (lowerExtension(path) == ".poq") return detail::readRieglAccuracies(path);
   constexpr std::size_t kBytes = sizeof(AccuracyRecord);
   const std::string content = detail::readWholeFile(path);
   if (content.empty()) throw InputError(path.string() + ": is empty");

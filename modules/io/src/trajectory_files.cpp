@@ -233,8 +233,8 @@ std::string timeKindOf(const TimeRange& times) {
 }  // namespace
 
 std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
-  static const std::set<std::string> kExtensions = {".csv", ".txt", ".sbet", ".out",
-                                                    ".pos", ".asc", ".trj"};
+  static const std::set<std::string> kExtensions = {".csv", ".txt", ".sbet", ".out", ".pos",
+                                                    ".asc", ".trj", ".pof",  ".sol"};
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
     std::error_code error;
@@ -250,7 +250,7 @@ std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
     if (inside.empty()) {
       throw InputError(path.string() +
                        ": holds no trajectory (.csv, .txt, .pos, .asc, .sbet, "
-                       ".out, .trj)");
+                       ".out, .trj, .pof, .sol)");
     }
     std::sort(inside.begin(), inside.end());
     files.insert(files.end(), inside.begin(), inside.end());

@@ -22,7 +22,8 @@ struct TrajectoryRecords {
   std::vector<std::string> remarks;
 };
 
-/// Reads by the extension: .out and .sbet are SBET, .trj is TerraScan's, all others text.
+/// Reads by the extension: .out and .sbet are SBET, .trj TerraScan, .pof RIEGL, .sol Leica, all
+/// others text.
 TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
                                         const TrajectoryReading& reading);
 

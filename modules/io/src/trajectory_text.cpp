@@ -7,6 +7,7 @@
 #include <pcl_als/common/system_parameters.h>
 
 #include "csv_table.h"
+#include "leap_seconds.h"
 #include "trajectory_columns.h"
 #include "trajectory_records.h"
 
@@ -14,22 +15,6 @@ namespace pcl_als::detail {
 namespace {
 
 using Quantity = TrajectoryQuantity;
-
-/// UTC lags GPS time by these seconds from a GPS time on (IERS Bulletin C); the last entry holds
-/// until another leap second is announced.
-double leapSecondsAt(double gps_seconds) {
-  constexpr std::array<std::array<double, 2>, 6> kTable = {{{0.0, 13.0},
-                                                            {820108814.0, 14.0},
-                                                            {914803215.0, 15.0},
-                                                            {1025136016.0, 16.0},
-                                                            {1119744017.0, 17.0},
-                                                            {1167264018.0, 18.0}}};
-  double seconds = kTable[0][1];
-  for (const auto& [from, value] : kTable) {
-    if (gps_seconds >= from) seconds = value;
-  }
-  return seconds;
-}
 
 /// One record after the other, as the columns say.
 class RecordReader {

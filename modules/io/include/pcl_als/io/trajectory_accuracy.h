@@ -17,12 +17,12 @@ namespace pcl_als {
 void writeAccuracies(const std::filesystem::path& path,
                      const std::vector<TrajectoryAccuracy>& accuracy);
 
-/** \brief Reads standard deviations over time from an Applanix smrmsg file.
+/** \brief Reads standard deviations over time from an Applanix smrmsg file, or a RIEGL file (.poq).
  *
- * Records of 10 little-endian doubles: time (s, as the SBET's), standard deviations of north, east
- * and down (m), of three velocities (m/s), of roll, pitch and heading (arc-minutes). InputError
- * names file and record for values that are negative, not finite or larger than 1 km or 180
- * degrees, and for times that run backwards.
+ * smrmsg: records of 10 little-endian doubles: time (s, as the SBET's), standard deviations of
+ * north, east and down (m), of three velocities (m/s), of roll, pitch and heading (arc-minutes).
+ * InputError names file and record for values that are negative, not finite or larger than 1 km or
+ * 180 degrees, and for times that run backwards.
  */
 std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path);
 

@@ -82,8 +82,8 @@ struct TrajectoryFile {
   std::vector<std::string> remarks;          ///< conversions and assumptions, one line each
 };
 
-/** \brief Reads a trajectory: text with a header line, Applanix SBET (.out, .sbet) or TerraScan
- * (.trj).
+/** \brief Reads a trajectory: text with a header line, Applanix SBET (.out, .sbet), TerraScan
+ * (.trj), RIEGL (.pof, with the .poq beside it) or Leica (.sol).
  *
  * Text: columns are found by the names in use (the module's README lists them) in any case, below
  * any number of lines that are no header; separator , ; tab or blanks; a line of units below the
