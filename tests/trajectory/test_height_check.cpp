@@ -42,6 +42,17 @@ TEST(HeightCheck, FindsAConstantErrorAtTwoHeights) {
   EXPECT_NEAR(heightError({seen(600.0, -40.0), seen(1200.0, -40.0)}).metres, -40.0, 2.0);
 }
 
+// A trajectory with ellipsoidal heights and points above a geoid, or the reverse.
+TEST(HeightCheck, NamesTheGeoidWhereItExplainsTheOffset) {
+  const auto named = [](const HeightError& error) {
+    return error.text.find("heights above a geoid") != std::string::npos;
+  };
+  EXPECT_TRUE(named(heightError({seen(600.0, 47.0), seen(1200.0, 47.0)})));
+  EXPECT_TRUE(named(heightError({seen(1000.0, -30.0)})));
+  EXPECT_FALSE(named(heightError({seen(2000.0, 250.0), seen(4000.0, 250.0)})));
+  EXPECT_FALSE(named(heightError({seen(600.0, 1370.0)})));  // feet
+}
+
 TEST(HeightCheck, OneHeightLeavesTheAnglesOpen) {
   EXPECT_EQ(heightError({seen(600.0, 30.0)}).kind, HeightError::Kind::scale);
   EXPECT_EQ(heightError({seen(600.0, 0.0, 1.04), seen(1200.0, 0.0, 1.04)}).kind,

@@ -18,6 +18,8 @@ constexpr double kLargeMotion = 0.5 * kRadiansPerDegree;
 // Slopes: of angles that are too small by 57, and half way from 0 to -1 and beyond.
 constexpr double kRadiansSlope = 15.0, kOpposite = -0.25, kLikelyOpposite = -0.5;
 constexpr double kConstant = 1e-16;  // rad^2: rounding
+// Exchanged columns: share of the misfit that is left, correlation.
+constexpr double kExchanged = 0.4, kAlike = 0.8;
 constexpr double kFarBeyond = -2.0;  // neither a wrong sign nor a wrong unit
 
 /// Calls visit(first, count) for each run of items of one pass.
@@ -33,6 +35,9 @@ void forEachPass(const std::vector<Item>& items, const Visit& visit) {
 
 double AttitudeComparison::Line::correlation() const {
   return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
+}
+double AttitudeComparison::Line::misfit() const {
+  return n > 0.0 ? std::sqrt(std::max(0.0, xx - 2.0 * xy + yy) / n) : 0.0;
 }
 double AttitudeComparison::Line::spreadX() const {
   return n > 0.0 ? std::sqrt(xx / n) : 0.0;
@@ -60,16 +65,22 @@ bool AttitudeComparison::anglesAt(double time, Angles& angles) {
 
 void AttitudeComparison::addPitch(const AttitudeRecovery::Instant* first, std::size_t count) {
   std::vector<MotionSample> series;
-  double mean = 0.0, mean_seen = 0.0;
+  std::vector<double> rolls;
+  double mean_roll = 0.0, mean = 0.0, mean_seen = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     Angles given;
     if (!anglesAt(first[i].time, given)) return;
     series.push_back({first[i].time, given.pitch, first[i].pitch});
+    rolls.push_back(given.roll);
+    mean_roll += given.roll / static_cast<double>(count);
     mean += given.pitch / static_cast<double>(count);
     mean_seen += first[i].pitch / static_cast<double>(count);
   }
   pitch_.add(series);
-  for (const MotionSample& s : series) pitch_level_.add(s.x - mean, s.y - mean_seen);
+  for (std::size_t i = 0; i < count; ++i) {
+    pitch_level_.add(series[i].x - mean, series[i].y - mean_seen);
+    roll_level_.add(rolls[i] - mean_roll, series[i].y - mean_seen);
+  }
 }
 
 void AttitudeComparison::addRoll(const AttitudeRecovery::Swath* first, std::size_t count) {
@@ -142,7 +153,20 @@ AttitudeComparison::Result AttitudeComparison::withoutMotion() const {
   return {};
 }
 
+/// Whether the points show the roll of the trajectory as their pitch, and not its pitch. A pitch of
+/// the opposite sign differs from theirs by at most twice as much as any roll that is not related.
+bool AttitudeComparison::exchanged() const {
+  return pitch_level_.n >= kFewest && pitch_level_.misfit() > kMotion &&
+         roll_level_.misfit() < kExchanged * pitch_level_.misfit() &&
+         roll_level_.correlation() > kAlike;
+}
+
 AttitudeComparison::Result AttitudeComparison::result() const {
+  if (exchanged()) {
+    return {true,
+            "the pitch that the points show is the roll of the trajectory: give its columns of "
+            "roll and pitch in the right order"};
+  }
   Result found = judged(pitch_, "pitch", "");
   if (found.text.empty()) found = judged(edges_, "roll", " at the edges of the swath");
   if (found.text.empty()) found = judged(recorded_, "roll", " in their recorded scan angles");

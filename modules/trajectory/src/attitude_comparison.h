@@ -48,6 +48,7 @@ class AttitudeComparison {
     double n = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
     void add(double x, double y) { n += 1.0, xx += x * x, xy += x * y, yy += y * y; }
     double correlation() const;
+    double misfit() const;  ///< RMS of y - x
     double spreadX() const;
     double spreadY() const;
   };
@@ -56,11 +57,12 @@ class AttitudeComparison {
   void addRoll(const AttitudeRecovery::Swath* first, std::size_t count);
   static Result judged(const MotionSlope& slope, const char* angle, const char* shown);
   Result withoutMotion() const;
+  bool exchanged() const;
 
   const Trajectory& flight_;
   const Trajectory& path_;
   std::size_t cursor_ = 0, path_cursor_ = 0;
-  Line pitch_level_;                      ///< about the means of passes
+  Line pitch_level_, roll_level_;         ///< pitch of the points over both, about means
   MotionSlope pitch_, edges_, recorded_;  ///< y: shown by the points
   MotionSlope together_;                  ///< the right edge of the swath over the left one
   double largest_roll_ = 0.0;             ///< RMS over a pass about its mean, radians

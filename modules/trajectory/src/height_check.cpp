@@ -24,11 +24,21 @@ constexpr double kGross = 0.25;
 constexpr double kHalfLeast = 0.42, kHalfMost = 0.52, kTwiceLeast = 1.95, kTwiceMost = 2.4;
 // ratio of flying heights: errors of heights and of angles are separable
 constexpr double kTwoHeights = 1.3;
+// Undulations of a geoid above the ellipsoid are -107 to 86 m (EGM2008); smaller offsets than 5 m
+// have other causes as often.
+constexpr double kLeastUndulation = 5.0, kLargestUndulation = 110.0;
 
 bool isGross(double slope) {
   const bool half = slope > kHalfLeast && slope < kHalfMost;
   const bool twice = slope > kTwiceLeast && slope < kTwiceMost;
   return std::abs(slope - 1.0) > kGross && !half && !twice;
+}
+
+/// Whether an offset may be that between ellipsoidal heights and heights above a geoid.
+bool isUndulation(const HeightError& error) {
+  const double metres = std::abs(error.metres);
+  return error.kind != HeightError::Kind::gross && metres > kLeastUndulation &&
+         metres < kLargestUndulation;
 }
 
 }  // namespace
@@ -92,16 +102,19 @@ HeightError heightError(const std::vector<HeightCheck>& strips) {
   found.kind = isGross(found.slope) ? HeightError::Kind::gross
                : offset             ? HeightError::Kind::offset
                                     : HeightError::Kind::scale;
-  char text[400];
+  char text[600];
   std::snprintf(
       text, sizeof text,
       "the trajectory is %.0f m too %s by the recorded scan angles (their tangents are %.3f of "
       "those computed from it at %zu strips)%s: check the unit, the vertical datum and the "
-      "reference point of its heights; lever_arm_x, lever_arm_y and range_bias depend on them",
+      "reference point of its heights%s; lever_arm_x, lever_arm_y and range_bias depend on them",
       std::abs(found.metres), high ? "high" : "low", found.slope, errors.size(),
       found.kind == HeightError::Kind::scale
           ? ", unless the recorded angles are wrong by this factor"
-          : "");
+          : "",
+      isUndulation(found) ? " (an offset as between ellipsoidal heights and heights above a geoid, "
+                            "whose undulation can be given)"
+                          : "");
   found.text = text;
   return found;
 }
