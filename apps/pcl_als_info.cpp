@@ -19,15 +19,16 @@
 namespace pcl_als::app {
 namespace {
 
-void listFlight(const CommandLine& line) {
-  std::string text;
+ListedFlight flightOf(const CommandLine& line) {
+  ListedFlight flight;
   if (line.has("trajectory")) {
     const TrajectoryReading reading = trajectoryReading(line, {});
     for (const std::filesystem::path& file : trajectoryPaths(trajectoryFiles(line)))
-      text += trajectoryText(file.string(), inspectTrajectory(file, reading));
+      flight.trajectories.emplace_back(file.string(), inspectTrajectory(file, reading));
   }
-  if (line.has("accuracy")) text += accuracyText(line.text("accuracy"), accuracies(line));
-  if (!line.quiet()) std::cout << text;
+  if (line.has("accuracy")) flight.accuracy_path = line.text("accuracy");
+  flight.accuracy = accuracies(line);
+  return flight;
 }
 
 int info(int argc, char** argv) {
@@ -45,11 +46,14 @@ int info(int argc, char** argv) {
 
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell", 0.0, 10000.0, "m");
-  const bool flight = line.has("trajectory") || line.has("accuracy");
-  const auto& inputs = line.inputs(flight ? 0 : 1, std::numeric_limits<std::size_t>::max());
-  listFlight(line);
-  if (inputs.empty() && line.has("json")) throw UsageError("option -json: needs point files");
-  if (inputs.empty()) return kDone;
+  const bool only_flight = line.has("trajectory") || line.has("accuracy");
+  const auto& inputs = line.inputs(only_flight ? 0 : 1, std::numeric_limits<std::size_t>::max());
+  const ListedFlight flight = flightOf(line);
+  if (!line.quiet()) std::cout << flightText(flight);
+  if (inputs.empty()) {
+    if (line.has("json")) writeFile(line.text("json"), censusJson({}, {}, flight));
+    return kDone;
+  }
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const std::vector<std::filesystem::path> paths(inputs.begin(), inputs.end());
   std::optional<ArrangedFiles> arranged;
@@ -69,9 +73,7 @@ int info(int argc, char** argv) {
   for (const FileCensus& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
   if (!line.quiet()) std::cout << '\n' << censusText(survey, left_out);
-  if (line.has("json")) {
-    writeFile(line.text("json"), censusJson(survey, left_out));
-  }
+  if (line.has("json")) writeFile(line.text("json"), censusJson(survey, left_out, flight));
   return kDone;
 }
 

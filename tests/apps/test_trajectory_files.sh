@@ -76,6 +76,15 @@ expect 2 'are not those of the strips' "${calibrate[@]}" -accuracy other.out
 expect 0 'accuracies of a trajectory (smrmsg), 1 200 records' info -accuracy smrmsg_1.out
 expect 2 'not a multiple of the 80' info -accuracy "$csv"
 expect 0 'heading within 2 degrees of the course' info -trajectory parts
+# What is listed is in the JSON as well, with and without points.
+expect 0 '' info -trajectory parts -accuracy smrmsg_1.out -json flight.json
+expect 0 '' info "$block/strip1.las" -trajectory enu.csv -json both.json
+for text in '"format": "text"' '"frame": "map coordinates, those of the points assumed"' \
+  '"time_kind": "seconds of the GPS week"' '"follows_course": true' '"samples_per_second": 199.99' '"records": 1200'; do
+  check "flight.json has $text" grep -q "$text" flight.json
+done
+check "the other reading of yaw" grep -q '"would_follow_as": "an angle counter-clockwise from east' both.json
+check "points beside the trajectory" grep -q '"id": "1"' both.json
 expect 0 '401000.000 to 401255.740 s, seconds of the GPS week' info "$block/strip1.las" -trajectory parts/a.csv
 expect 0 'it would follow it as an angle counter-clockwise from east' info -trajectory enu.csv
 
@@ -89,6 +98,25 @@ if "$bin/pcl_als_trajectory" -trajectory "$csv" -crs EPSG:32611 -output flight.s
   check "an SBET that was written" cmp out.las plain.las
   expect 0 'turned to grid north' trajectory -trajectory flight.sbet -crs EPSG:32611 -output back.csv
   check "CSV to SBET to CSV" cmp back.csv "$csv"
+  # The same as RIEGL and Leica files; seconds of the day on 2 January 2020, a Thursday, are 57400 s.
+  perl -e 'open my $in, "<:raw", "flight.sbet"; local $/ = \136; my @r; push @r, [unpack "d<17", $_] while <$in>;
+    my $deg = 180 / atan2(0, -1);
+    open my $pof, ">:raw", "flight.pof";
+    print $pof pack("a27vvVvvvq<", "RIEGL POSITION&ORIENTATION", 1, 0, 315, 2020, 1, 2, scalar @r), "\0" x 72,
+      pack("CC", 1, 0), "\0" x 192;
+    for (@r) { print $pof pack "d<7", $_->[0] - 4 * 86400, $_->[2] * $deg, $_->[1] * $deg, $_->[3],
+      $_->[7] * $deg, $_->[8] * $deg, $_->[9] * $deg }
+    open my $sol, ">:raw", "flight.sol";
+    for (@r) { my $head = pack "C2vC6vvC2vd<2", 1, 2, 149, (0) x 6, 0, 0, 1, 1, 2086, $_->[0], 0;
+      my $sum = 0; $sum ^= $_ for unpack "C*", $head;
+      print $sol $head, pack("Cv3C", $sum, 0, 0, 0, 0), pack("d<3f<3", @$_[1, 2, 3], 0, 0, 0),
+        pack("d<3f<3", @$_[7, 8, 9], 0, 0, 0), "\0" x 60, pack("f<", 47.5), "\0" x 6 }'
+  for kind in pof sol; do
+    expect 0 'latitude, longitude and ellipsoidal height, datum not stated' info -trajectory flight.$kind
+    same "a .$kind" -trajectory flight.$kind
+  done
+  expect 0 'geoid undulations of 47.5 to 47.5 m, which are not applied' trajectory -trajectory flight.sol \
+    -crs EPSG:32611 -output sol.csv
   # Parts of both kinds.
   mkdir both
   "$bin/pcl_als_trajectory" -trajectory parts/b.csv -crs EPSG:32611 -output both/b.sbet -quiet

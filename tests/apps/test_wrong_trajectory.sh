@@ -55,6 +55,17 @@ CAUSES
 variant datum '$2 += 150'
 expect 2 'as between two geodetic datums' "${calibrate[@]}" -trajectory datum.csv
 expect 2 'as between two geodetic datums' "${check[@]}" -trajectory datum.csv
+# UTC: points that were measured 18 s of flight away.
+awk -F, -v OFS=, -v CONVFMT=%.9f -v OFMT=%.9f 'NR == 1 { print } $1 > 401000 && $1 < 401006 {
+    if (!n++) { t = $1; x = $2; y = $3 } else { u = ($2 - x) / ($1 - t); v = ($3 - y) / ($1 - t) }
+    z = $4; rest = $5 OFS $6 OFS $7 }
+  END { for (s = -40; s <= 40; s += 0.1) print t + s - 18, x + u * s, y + v * s, z, rest }' \
+  "$block/trajectory.csv" >utc.csv
+for tool in check intensity apply; do
+  expect 2 'as if the times of the trajectory were UTC' \
+    $tool "$block/strip1.las" $([[ $tool == check ]] && echo "$block/strip2.las -output q.json" || echo out.las) \
+    $([[ $tool == apply ]] && echo -biases boresight_roll=100) -trajectory utc.csv
+done
 # Times of another GPS week or of the day.
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 -= 345600 } { print }' "$block/trajectory.csv" >day.csv
 expect 2 'they would overlap 4 day(s) earlier' "${apply[@]}" -trajectory day.csv
@@ -93,6 +104,7 @@ done <<'SIGNS'
 roll $5=-$5 the roll of the trajectory has the opposite sign
 pitch $6=-$6 the pitch of the trajectory has the opposite sign
 both $5=-$5;$6=-$6 the pitch of the trajectory has the opposite sign
+exchanged t=$5;$5=$6;$6=t the pitch that the points show is the roll of the trajectory
 radians $5/=57.29578;$6/=57.29578 the pitch of the trajectory changes by a 57th
 SIGNS
 awk -F, -v OFS=, 'NR > 1 { $5 = 0; $6 = 0 } { print }' long/trajectory.csv >long/level.csv
@@ -106,6 +118,19 @@ for tool in check apply intensity; do
   expect 2 'm too high by the recorded scan angles' "${command[@]}" -trajectory tall.csv
 done
 expect 3 'm too high by the recorded scan angles' "${calibrate[@]}" -trajectory tall.csv -quiet
+# Ellipsoidal heights of the trajectory, points above a geoid: named, and brought together by the undulation.
+awk -F, -v OFS=, -v OFMT=%.9f -v CONVFMT=%.9f 'NR > 1 { $4 += 47 } { print }' "$block/trajectory.csv" >ellipsoidal.csv
+for tool in check apply intensity; do
+  declare -n command=$tool
+  expect 0 '47 m too high*as between ellipsoidal heights and heights above a geoid' "${command[@]}" -trajectory ellipsoidal.csv
+  rm -f out.las
+done
+expect 3 'heights above a geoid' "${calibrate[@]}" -trajectory ellipsoidal.csv
+expect 0 '' "${apply[@]}" -trajectory "$block/trajectory.csv"
+mv out.las right.las
+expect 0 'geoid undulation subtracted' "${apply[@]}" -trajectory ellipsoidal.csv -geoid 47
+check "the undulation brings heights together" cmp out.las right.las
+rm -f out.las right.las
 # 50 m at one flying height may also be a factor of the angles: standard deviations include it.
 awk -F, -v OFS=, 'NR > 1 { $4 += 50 } { print }' "$block/trajectory.csv" >high.csv
 expect 0 'the standard deviations of lever_arm_x* include that the height of the trajectory may be wrong' \

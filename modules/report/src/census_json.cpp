@@ -5,6 +5,7 @@
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
 
+#include "flight_json.h"
 #include "left_out_json.h"
 
 namespace pcl_als {
@@ -104,7 +105,8 @@ Json stripJson(const StripCensus& strip) {
 
 }  // namespace
 
-std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out) {
+std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out,
+                       const ListedFlight& flight) {
   Json json;
   json["format"] = "pcl_als info";
   json["version"] = 1;
@@ -123,6 +125,7 @@ std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoin
   json["duplicates"] = survey.duplicates;
   json["duplicates_estimated"] = survey.duplicates_estimated;
   json["remarks"] = survey.remarks;
+  detail::addFlight(json, flight);
   // Text fields of a file may hold bytes that are no UTF-8.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

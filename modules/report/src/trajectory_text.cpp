@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/report/census_report.h>
 #include <pcl_als/trajectory/heading_check.h>
@@ -25,8 +26,6 @@ std::string headingText(const TrajectoryFacts& facts) {
                 best == HeadingReading::heading ? "" : std::string(describe(best)).c_str());
   return text;
 }
-
-}  // namespace
 
 std::string trajectoryText(const std::string& name, const TrajectoryFacts& facts) {
   char times[200];
@@ -53,9 +52,19 @@ std::string accuracyText(const std::string& name,
   char times[120];
   std::snprintf(times, sizeof times, "  time %.3f to %.3f s\n", accuracies.front().time,
                 accuracies.back().time);
-  return name + "\n  accuracies of a trajectory (smrmsg), " + grouped(accuracies.size()) +
+  const char* const format = lowerExtension(name) == ".poq" ? "RIEGL" : "smrmsg";
+  return name + "\n  accuracies of a trajectory (" + format + "), " + grouped(accuracies.size()) +
          " records\n" + times +
          "  standard deviations, root mean square: " + describe(summarize(accuracies)) + '\n';
+}
+
+}  // namespace
+
+std::string flightText(const ListedFlight& flight) {
+  std::string text;
+  for (const auto& [path, facts] : flight.trajectories) text += trajectoryText(path, facts);
+  if (!flight.accuracy.empty()) text += accuracyText(flight.accuracy_path, flight.accuracy);
+  return text;
 }
 
 }  // namespace pcl_als

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/common/left_out.h>
@@ -14,15 +15,20 @@ namespace pcl_als {
 /// The census as text; \a left_out: points that belong to none of its strips.
 std::string censusText(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out);
 
-/// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
-std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out);
+/// Files of a flight that are listed beside the points.
+struct ListedFlight {
+  std::vector<std::pair<std::string, TrajectoryFacts>> trajectories;  ///< path and facts
+  std::string accuracy_path;
+  std::vector<TrajectoryAccuracy> accuracy;  ///< empty: no file of accuracies
+};
 
-/// The facts of a trajectory file as text: format, frame and datum, times, attitude against the
+/// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
+std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out,
+                       const ListedFlight& flight = {});
+
+/// The facts of trajectory files as text: format, frame and datum, times, attitude against the
 /// course, standard deviations.
-std::string trajectoryText(const std::string& name, const TrajectoryFacts& facts);
-/// The same of a file of accuracies, which is not empty.
-std::string accuracyText(const std::string& name,
-                         const std::vector<TrajectoryAccuracy>& accuracies);
+std::string flightText(const ListedFlight& flight);
 
 /// Name of an ASPRS class; empty for a code without one.
 std::string className(int code);
