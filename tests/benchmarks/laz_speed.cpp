@@ -30,23 +30,26 @@ double now(clockid_t clock) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Seconds: of all threads together, and of the busier one of two.
+/// Seconds: of all threads together, and by the wall clock.
 struct Times {
-  double all = HUGE_VAL, busier = HUGE_VAL;
+  double cpu = HUGE_VAL, wall = HUGE_VAL;
 };
 
-/// The best of several runs; CPU times, because other work on the machine does not change them.
-Times measure(int repetitions, const std::function<void()>& work) {
+/// What is measured: in turns, so that other work on the machine meets all of it alike.
+struct Task {
+  std::function<void()> work;
   Times best;
+};
+
+void measure(int repetitions, std::vector<Task>& tasks) {
   for (int i = 0; i < repetitions; ++i) {
-    const double all = now(CLOCK_PROCESS_CPUTIME_ID), caller = now(CLOCK_THREAD_CPUTIME_ID);
-    work();
-    const double spent = now(CLOCK_PROCESS_CPUTIME_ID) - all;
-    const double own = now(CLOCK_THREAD_CPUTIME_ID) - caller;
-    best.all = std::min(best.all, spent);
-    best.busier = std::min(best.busier, std::max(own, spent - own));
+    for (Task& task : tasks) {
+      const double cpu = now(CLOCK_PROCESS_CPUTIME_ID), wall = now(CLOCK_MONOTONIC);
+      task.work();
+      task.best.cpu = std::min(task.best.cpu, now(CLOCK_PROCESS_CPUTIME_ID) - cpu);
+      task.best.wall = std::min(task.best.wall, now(CLOCK_MONOTONIC) - wall);
+    }
   }
-  return best;
 }
 
 /// A LAZ file in memory.
@@ -164,20 +167,26 @@ void row(const File& file, int repetitions) {
   laszipDecode(file, &points);
   const LazSchema schema = LazSchema::forFormat(file.format(), file.schema().recordLength());
   std::size_t bytes = 0, laszip_bytes = 0;
-  const Times laszip_in = measure(repetitions, [&] { laszipDecode(file, nullptr); });
-  const Times in = measure(repetitions, [&] { file.decode(1, records); });
-  const Times in_two = measure(repetitions, [&] { file.decode(2, records); });
-  const Times laszip_out =
-      measure(repetitions, [&] { laszip_bytes = laszipEncode(file, points, records); });
-  const Times out = measure(repetitions, [&] { bytes = encode(schema, records, 1); });
-  const Times out_two = measure(repetitions, [&] { encode(schema, records, 2); });
+  std::vector<Task> tasks(6);
+  tasks[0].work = [&] { laszipDecode(file, nullptr); };
+  tasks[1].work = [&] { file.decode(1, records); };
+  tasks[2].work = [&] { file.decode(2, records); };
+  tasks[3].work = [&] { laszip_bytes = laszipEncode(file, points, records); };
+  tasks[4].work = [&] { bytes = encode(schema, records, 1); };
+  tasks[5].work = [&] { encode(schema, records, 2); };
+  file.decode(1, records);
+  measure(repetitions, tasks);
   const double unit = 1e9 / static_cast<double>(file.count());
-  std::printf("| %s | %d | %llu | %.0f | %.0f | %.2f | %.2f | %.0f | %.0f | %.2f | %.2f | %.3f |\n",
-              file.path().substr(file.path().rfind('/') + 1).c_str(), file.format(),
-              static_cast<unsigned long long>(file.count()), laszip_in.all * unit, in.all * unit,
-              laszip_in.all / in.all, in.all / in_two.busier, laszip_out.all * unit, out.all * unit,
-              laszip_out.all / out.all, out.all / out_two.busier,
-              static_cast<double>(bytes) / static_cast<double>(laszip_bytes));
+  std::printf("| %s | %d | %llu |", file.path().substr(file.path().rfind('/') + 1).c_str(),
+              file.format(), static_cast<unsigned long long>(file.count()));
+  for (const std::size_t first : {0U, 3U}) {
+    const Times &laszip = tasks[first].best, &one = tasks[first + 1].best,
+                &two = tasks[first + 2].best;
+    std::printf(" %.0f | %.0f | %.2f | %.2f |", laszip.cpu * unit, one.cpu * unit,
+                laszip.cpu / one.cpu, one.wall / two.wall);
+  }
+  std::printf(" %.3f |\n", static_cast<double>(bytes) / static_cast<double>(laszip_bytes));
+  std::fflush(stdout);
 }
 
 }  // namespace
