@@ -71,7 +71,8 @@ part pulse_rates 1=@ "${intensity[@]}"
 numbers "fov speed density ground_slope slope sloped usable control $estimation" plan -lines lines.csv
 numbers spacing plan -lines lines.csv
 numbers "scale density seed fov relief buildings trees gain range_exponent incidence_exponent
-  visibility" simulate -preset small -output x
+  visibility height sessions" simulate -preset small -output x
+part error time_offset=@ simulate -preset small -output x
 part bias range_bias=@ simulate -preset small -output x
 part origin 0,@,0 simulate -preset small -output x
 part strip_gains 1=@ simulate -preset small -output x

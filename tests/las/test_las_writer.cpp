@@ -86,6 +86,26 @@ TEST_P(LasWriterMatrix, ReadsBackWhatWasWritten) {
   }
 }
 
+TEST(LasWriter, ScannerChannelAndUserDataHoldTheChannel) {
+  const auto folder = test::scratch("las_writer_channel");
+  PointChunk p = somePoints(8);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    p.channel[i] = static_cast<std::uint8_t>(4 * i);  // of point 0 the same in both
+    p.flags[i] = static_cast<std::uint8_t>((i % 4) << 6U);
+  }
+  LasWriter writer(folder / "out.las", around(4, 6));
+  writer.append(p);
+  writer.finish();
+  const LasFile file(folder / "out.las");
+  std::vector<std::byte> records;
+  const PointChunk q = readBack(file, records);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_EQ(q.channel[i], i % 4) << "the scanner channel, which has two bits";
+    const std::byte* record = &records[i * file.header().record_length];
+    EXPECT_EQ(std::to_integer<std::size_t>(record[17]), 4 * i) << "user data";
+  }
+}
+
 std::vector<std::pair<int, int>> specifiedFormats() {
   std::vector<std::pair<int, int>> formats;
   for (int format = 0; format <= 3; ++format) formats.emplace_back(2, format);

@@ -158,6 +158,32 @@ TEST(SimulateTool, TruthStatesBiasesAndPairs) {
   EXPECT_NE(truth.find("\"pairs\""), std::string::npos);
 }
 
+TEST(SimulateTool, TruthStatesErrorsScannerAndSessions) {
+  const fs::path folder = test::scratch("tool_errors");
+  const ToolRun run = tiny(folder,
+                           "-scanner dual -sessions 2 -error time_offset=1.5 "
+                           "session2:offset_z=0.08,channel1:boresight_roll=60 -ins tactical");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const std::string truth = contentOf(folder / "truth.json");
+  for (const char* text : {"\"name\": \"time_offset\"", "\"value\": 1.5", "\"unit\": \"ms\"",
+                           "\"of\": \"session 2\"", "\"of\": \"channel 1\"", "\"type\": \"dual\"",
+                           "\"session\": 2", "\"heading_arcsec\": 126.0"})
+    EXPECT_NE(truth.find(text), std::string::npos) << text;
+}
+
+TEST(SimulateTool, ChannelsAreInTheFiles) {
+  const fs::path folder = test::scratch("tool_channels");
+  ASSERT_EQ(tiny(folder, "-scanner cross").status, 0);
+  const PointChunk points = allPoints(folder / "strip3.las");
+  std::size_t second = 0;
+  for (const std::uint8_t channel : points.channel) {
+    ASSERT_LE(channel, 1);
+    second += channel;
+  }
+  EXPECT_NEAR(static_cast<double>(second), 0.5 * static_cast<double>(points.size()),
+              0.05 * static_cast<double>(points.size()));
+}
+
 TEST(SimulateTool, WrongUseIsNamed) {
   const std::string out = "-output " + (test::scratch("tool_wrong") / "x").string();
   const auto expectRefusal = [&](const std::string& arguments, const std::string& word) {
@@ -174,6 +200,10 @@ TEST(SimulateTool, WrongUseIsNamed) {
   expectRefusal(out + " -bias boresight_roll=1,boresight_roll=2", "twice");
   expectRefusal(out + " -bias boresight_roll=1e9", "boresight_roll");
   expectRefusal(out + " -scale 0", "-scale");
+  expectRefusal(out + " -error clock=3", "clock");
+  expectRefusal(out + " -scanner flash", "flash");
+  expectRefusal(out + " -ins toy", "toy");
+  expectRefusal(out + " -strip_gains 9=1", "9=1");
   expectRefusal(out + " -density nan", "-density");
   expectRefusal(out + " -fov 120", "-fov");
   expectRefusal(out + " -origin 1,2", "-origin");
@@ -206,7 +236,8 @@ TEST(SimulateTool, HelpNamesEveryOption) {
   const ToolRun run = simulate("-h");
   EXPECT_EQ(run.status, 0);
   for (const char* option : {"output", "preset", "scale", "density", "seed", "noise", "bias",
-                             "vertical", "fov", "origin", "truth_points", "time", "error_process"})
+                             "vertical", "fov", "origin", "truth_points", "time", "error_process",
+                             "error", "scanner", "ins", "sessions", "height"})
     EXPECT_NE(run.output.find("--" + std::string(option)), std::string::npos) << option;
 }
 

@@ -84,6 +84,73 @@ TEST(SimulationOptions, PaperIsThePapersBlock) {
   EXPECT_NEAR(overlap(4, 5, 393.0878), 0.50, 1e-6);
 }
 
+TEST(SimulationOptions, EveryPresetIsPossible) {
+  for (const char* name :
+       {"small", "uav", "corridor", "conical", "dual", "rosette", "mountain", "city"}) {
+    const auto options = SimulationOptions::preset(name);
+    EXPECT_NO_THROW(options.check()) << name;
+    EXPECT_GE(options.lines.size(), 5U) << name;
+    EXPECT_GE(options.pairs.size(), 2U) << name;
+    // No line ends beyond the next: lines have their order.
+    for (std::size_t i = 0; i < options.lines.size(); ++i)
+      EXPECT_EQ(options.lines[i].id, i + 1) << name;
+  }
+}
+
+TEST(SimulationOptions, CorridorStripsOverlapAtTheirEndsAndAlongABand) {
+  const auto options = SimulationOptions::preset("corridor");
+  ASSERT_EQ(options.lines.size(), 6U);
+  const double swath = 2.0 * 200.0 * 0.5773503;  // field of view 60 degrees
+  for (std::size_t i = 1; i < 4; ++i) {
+    const PlannedLine &before = options.lines[i - 1], &line = options.lines[i];
+    const Eigen::Vector2d a = (before.end - before.start).normalized();
+    const Eigen::Vector2d b = (line.end - line.start).normalized();
+    EXPECT_LT(a.dot(b), std::cos(20.0 * kRadiansPerDegree)) << "a bend";
+    // Both reach 0.3 swaths beyond the corner that they share.
+    EXPECT_LT((before.end - 0.3 * swath * a - line.start - 0.3 * swath * b).norm(), 1e-3);
+  }
+  const PlannedLine &out = options.lines[1], &back = options.lines[4];
+  const Eigen::Vector2d course = (out.end - out.start).normalized();
+  EXPECT_NEAR((back.end - back.start).normalized().dot(course), -1.0, 1e-9);
+  const Eigen::Vector2d from = back.end - out.start;
+  EXPECT_NEAR(std::abs(from.x() * course.y() - from.y() * course.x()), 0.85 * swath, 1e-3);
+}
+
+TEST(SimulationOptions, HeightMultipliesHeightsAndSpacing) {
+  const auto one = SimulationOptions::preset("uav", 1.0, 1.0, 0.0, 1.0);
+  const auto two = SimulationOptions::preset("uav", 1.0, 1.0, 0.0, 2.0);
+  EXPECT_DOUBLE_EQ(two.lines[0].height, 150.0);
+  EXPECT_NEAR((two.lines[1].end - two.lines[0].start).norm(),
+              2.0 * (one.lines[1].end - one.lines[0].start).norm(), 1e-9);
+}
+
+TEST(SimulationOptions, SessionsDivideTheLinesInOrder) {
+  auto options = SimulationOptions::preset("paper");
+  options.setSessions(2);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(options.lines[i].session, i < 3 ? 1 : 2);
+  EXPECT_NE(messageOf([&] { options.setSessions(7); }).find("sessions"), std::string::npos);
+}
+
+TEST(SimulationOptions, GradesOfTheTrajectoryKeepTheOtherNoise) {
+  auto noise = NoiseOptions::named("range");
+  noise.setTrajectoryGrade("mems");
+  EXPECT_EQ(noise.range, 0.02);
+  EXPECT_NEAR(noise.heading / kRadiansPerDegree, 0.08, 1e-12);
+  EXPECT_NEAR(noise.roll_pitch / kRadiansPerDegree, 0.025, 1e-12);
+  EXPECT_TRUE(noise.trajectory());
+  const std::string message = messageOf([&] { noise.setTrajectoryGrade("toy"); });
+  EXPECT_NE(message.find("tactical"), std::string::npos) << message;
+}
+
+TEST(SimulationOptions, GainsAreThoseOfLines) {
+  auto options = SimulationOptions::preset("small");
+  options.setGains("2=1.5,4=0.5");
+  EXPECT_EQ(options.lines[1].gain, 1.5);
+  EXPECT_EQ(options.lines[3].gain, 0.5);
+  for (const char* wrong : {"9=1", "2", "2=x", "2=1000", "2=1.5x"})
+    EXPECT_NE(messageOf([&] { options.setGains(wrong); }).find(wrong), std::string::npos) << wrong;
+}
+
 TEST(SimulationOptions, EveryParameterButOneHasABias) {
   // lever_arm_z cannot be told from range_bias, so it stays zero.
   const SystemVector bias = SimulationOptions::preset("paper").bias;

@@ -8,7 +8,7 @@ void PointChunk::resize(std::size_t count) {
   for (auto* column : {&x, &y, &z, &gps_time}) column->resize(count);
   for (auto* column : {&intensity, &scan_angle}) column->resize(count);
   point_source_id.resize(count);
-  for (auto* column : {&return_number, &number_of_returns, &classification, &flags})
+  for (auto* column : {&return_number, &number_of_returns, &classification, &flags, &channel})
     column->resize(count);
 }
 

@@ -90,8 +90,8 @@ void dropInvalid(PointChunk& chunk) {
   for (auto* column : {&chunk.x, &chunk.y, &chunk.z, &chunk.gps_time}) keepOnly(rows, *column);
   for (auto* column : {&chunk.intensity, &chunk.scan_angle}) keepOnly(rows, *column);
   keepOnly(rows, chunk.point_source_id);
-  for (auto* column :
-       {&chunk.return_number, &chunk.number_of_returns, &chunk.classification, &chunk.flags})
+  for (auto* column : {&chunk.return_number, &chunk.number_of_returns, &chunk.classification,
+                       &chunk.flags, &chunk.channel})
     keepOnly(rows, *column);
   chunk.resize(rows.size());
 }
@@ -140,6 +140,8 @@ bool PcdFile::read(std::size_t records, PointChunk& chunk) {
   block.column("number_of_returns", std::uint8_t{1}, chunk.number_of_returns);
   block.column("classification", std::uint8_t{0}, chunk.classification);
   block.column("flags", std::uint8_t{0}, chunk.flags);
+  chunk.channel = chunk.flags;
+  for (std::uint8_t& channel : chunk.channel) channel = channel >> 6U;
   dropInvalid(chunk);
   return count > 0;
 }

@@ -55,6 +55,7 @@ void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk) {
   keepRows(rows, chunk.point_source_id);
   keepRows(rows, chunk.return_number), keepRows(rows, chunk.number_of_returns);
   keepRows(rows, chunk.classification), keepRows(rows, chunk.flags);
+  keepRows(rows, chunk.channel);
   chunk.resize(rows.size());
 }
 

@@ -57,6 +57,7 @@ void decodeLegacyBits(const Source& from, PointChunk& to, std::size_t first) {
   });
   from.column(16, &to.scan_angle[first],
               [](const std::byte* at) { return static_cast<float>(loadLas<std::int8_t>(at)); });
+  std::fill_n(&to.channel[first], from.count, std::uint8_t{0});
 }
 
 // Formats 6-10: return number 4 bits, returns 4 bits; flags 4 bits, channel 2, direction, edge.
@@ -72,6 +73,8 @@ void decodeExtendedBits(const Source& from, PointChunk& to, std::size_t first) {
     return static_cast<std::uint8_t>((bits & 15U) | ((bits >> 2U) & 0x30U) |
                                      ((bits << 2U) & 0xC0U));
   });
+  from.column(15, &to.channel[first],
+              [](const std::byte* at) { return static_cast<std::uint8_t>(byteAt(at) >> 4U & 3U); });
   from.column(18, &to.scan_angle[first], [](const std::byte* at) {
     return static_cast<float>(loadLas<std::int16_t>(at)) * static_cast<float>(kLasScanAngleStep);
   });

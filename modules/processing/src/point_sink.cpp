@@ -61,7 +61,8 @@ PointChunk rowsOf(const PointChunk& chunk, std::size_t from, std::size_t to) {
           part(chunk.return_number),
           part(chunk.number_of_returns),
           part(chunk.classification),
-          part(chunk.flags)};
+          part(chunk.flags),
+          part(chunk.channel)};
 }
 
 LasWriterOptions optionsFor(const PointFileInfo& info) {

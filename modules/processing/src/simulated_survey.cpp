@@ -41,7 +41,7 @@ LasWriterOptions lasOptionsOf(const SimulationOptions& options, std::uint16_t st
   for (const char* name : {"bias_x", "bias_y", "bias_z"}) {
     LasExtraField field;
     field.name = name;
-    field.description = "written - with true system, m";
+    field.description = "written - without systematic errors";
     field.type = LasExtraType::i32;
     field.scale = 1e-4;
     las.extra_fields.push_back(field);
@@ -49,7 +49,9 @@ LasWriterOptions lasOptionsOf(const SimulationOptions& options, std::uint16_t st
   return las;
 }
 
-void fill(const std::vector<SimulatedPoint>& points, double time_shift, PointChunk& chunk) {
+/// The scanner channel of the point format has room for four; more are stored in the user data.
+void fill(const std::vector<SimulatedPoint>& points, double time_shift, bool few_channels,
+          PointChunk& chunk) {
   chunk.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SimulatedPoint& p = points[i];
@@ -63,7 +65,8 @@ void fill(const std::vector<SimulatedPoint>& points, double time_shift, PointChu
     chunk.return_number[i] = p.return_number;
     chunk.number_of_returns[i] = p.number_of_returns;
     chunk.classification[i] = p.classification;
-    chunk.flags[i] = p.flags;
+    chunk.flags[i] = static_cast<std::uint8_t>(p.flags | (few_channels ? p.channel << 6U : 0U));
+    chunk.channel[i] = p.channel;
   }
 }
 
@@ -151,6 +154,28 @@ nlohmann::ordered_json noiseJson(const simulation::NoiseOptions& noise, const st
   return json;
 }
 
+nlohmann::ordered_json errorsJson(const simulation::ErrorSources& errors) {
+  auto json = nlohmann::ordered_json::array();
+  for (const simulation::ErrorSources::Entry& entry : errors.entries())
+    json.push_back({{"name", entry.name},
+                    {"of", entry.scopeName()},
+                    {"value", entry.value},
+                    {"unit", entry.unit}});
+  return json;
+}
+
+nlohmann::ordered_json scannerJson(const SimulationOptions& options) {
+  const simulation::ScannerOptions& scanner = options.scanner;
+  nlohmann::ordered_json json = {{"type", nameOf(scanner.type)}, {"channels", scanner.channels}};
+  if (scanner.channels > 1) {
+    json["channel_angle_deg"] = scanner.channel_angle / kRadiansPerDegree;
+    json["channel_field"] = scanner.channels <= 4 ? "scanner channel" : "user data";
+  }
+  if (options.errors.any(simulation::ErrorSource::range_walk))
+    json["range_walk_reference"] = options.rangeWalkReference();
+  return json;
+}
+
 nlohmann::ordered_json stripJson(const SimulationOptions& options, std::size_t i,
                                  const StripSummary& summary) {
   const simulation::PlannedLine& line = options.lines[i];
@@ -163,6 +188,7 @@ nlohmann::ordered_json stripJson(const SimulationOptions& options, std::size_t i
           {"speed_m_s", line.speed},
           {"pulses_per_m2", line.density},
           {"gain", line.gain},
+          {"session", line.session},
           {"pulses", summary.pulses},
           {"points", summary.points}};
 }
@@ -192,7 +218,7 @@ StripSummary writeStrip(const Simulator& simulator, std::size_t strip,
   Columns extra(options.bias_columns ? 4 : 1);
   const double expected = static_cast<double>(summary.pulses) * 1.03;
   simulator.simulateStrip(strip, threads, [&](const std::vector<SimulatedPoint>& points) {
-    fill(points, shift, chunk);
+    fill(points, shift, simulator.options().scanner.channels <= 4, chunk);
     fill(points, extra);
     writer.append(chunk, extra);
     summary.points += points.size();
@@ -222,6 +248,8 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
   json["version"] = 1;
   json["convention"] = "bias = assumed - true (Habib et al. 2011, Eq. 8)";
   json["bias"] = biasJson(s.bias);
+  json["errors"] = errorsJson(s.errors);
+  json["scanner"] = scannerJson(s);
   json["noise"] = noiseJson(s.noise, noise_name);
   json["pairs"] = nlohmann::ordered_json::array();
   for (const auto& [a, b] : s.pairs)

@@ -210,6 +210,7 @@ LidarReturn SurveyReader::Run::point(std::size_t row) const {
   point.number_of_returns = chunk.number_of_returns[row];
   point.classification = chunk.classification[row];
   point.flags = chunk.flags[row];
+  point.channel = chunk.channel[row];
   return point;
 }
 

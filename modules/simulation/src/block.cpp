@@ -17,6 +17,16 @@ double halfSwath(const PlannedLine& line, const SimulationOptions& options) {
   return line.height * std::tan(0.5 * options.scanner.field_of_view);
 }
 
+/// Largest angle between a pulse and the plane across the flight, radians.
+double aheadAngle(const ScannerOptions& scanner) {
+  if (!scanner.hasMirrorAngle()) return 0.5 * scanner.field_of_view;
+  return scanner.type == ScannerType::cross ? 0.0 : scanner.channel_angle;
+}
+
+double turnAngle(const ScannerOptions& scanner) {
+  return scanner.type == ScannerType::cross ? scanner.channel_angle : 0.0;
+}
+
 /// Bounding rectangle of the planned swaths.
 std::pair<Eigen::Vector2d, Eigen::Vector2d> plannedRectangle(const SimulationOptions& options) {
   Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e30), upper = -lower;
@@ -53,11 +63,19 @@ bool farFromAll(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>
   });
 }
 
+/// Metres from the edges of the swaths to control points and sites.
+double marginOf(const SimulationOptions& options) {
+  double margin = 20.0;
+  for (const PlannedLine& line : options.lines)
+    margin = std::min(margin, 0.2 * halfSwath(line, options));
+  return margin;
+}
+
 /// Bare, clear of objects, not steep, under at least two swaths.
 bool suitsControl(const Eigen::Vector2d& place, const Scene& scene,
                   const SimulationOptions& options) {
   const std::size_t wanted = std::min<std::size_t>(2, options.lines.size());
-  if (swathsOver(place, options, 20.0) < static_cast<int>(wanted)) return false;
+  if (swathsOver(place, options, marginOf(options)) < static_cast<int>(wanted)) return false;
   if (!scene.isOpen(place, 6.0)) return false;
   constexpr double kSteepest = 0.9848;  // cosine of 10 degrees
   return scene.terrain().normal(place.x(), place.y()).z() > kSteepest;
@@ -82,13 +100,15 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> sceneRectangle(const SimulationOptio
   auto [lower, upper] = plannedRectangle(options);
   double margin = 0.0;
   for (const PlannedLine& line : options.lines) {
-    // Terrain up to 80 m below the mean, the aircraft off its line, tilted and crabbing.
-    const double height = line.height + 80.0;
+    // Terrain up to 80 m (and the mountains) below the mean, the aircraft off its line, tilted and
+    // crabbing.
+    const double height = line.height + 80.0 + 1.5 * options.scene.mountains;
     const double tilt = std::abs(options.mean_pitch) + options.attitude_amplitude +
                         options.mounting.segment<3>(3).cwiseAbs().maxCoeff();
     const double half = height * std::tan(0.5 * options.scanner.field_of_view + tilt);
     const double aside = half - halfSwath(line, options);
-    const double ahead = height * std::tan(tilt) + half * std::sin(options.largest_crab);
+    const double ahead = height * std::tan(tilt + aheadAngle(options.scanner)) +
+                         half * std::sin(options.largest_crab + turnAngle(options.scanner));
     margin = std::max({margin, aside + 15.0, ahead + 15.0});
   }
   lower = ((lower.array() - margin) / 10.0).floor() * 10.0;
@@ -147,7 +167,8 @@ std::vector<LandCoverSite> chooseSites(const Scene& scene, const SimulationOptio
   for (long i = 0; i < tries && sites.size() < std::size_t(kClasses) * per_class; ++i) {
     const Eigen::Vector2d place = places.next();
     LandCover cover = LandCover::grass;
-    if (swathsOver(place, options, 20.0) < 1 || !uniformCover(place, scene, cover)) continue;
+    if (swathsOver(place, options, marginOf(options)) < 1 || !uniformCover(place, scene, cover))
+      continue;
     if (++count[classNameOf(cover)] > per_class) continue;
     sites.push_back({options.origin.x() + place.x(), options.origin.y() + place.y(), cover});
   }

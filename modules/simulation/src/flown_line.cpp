@@ -92,12 +92,14 @@ class Motion {
 
 FlownLine::FlownLine(const PlannedLine& plan, const SimulationOptions& options, double first_time,
                      double wind)
-    : plan_(plan), first_time_(first_time), rate_(options.trajectory_rate) {
-  const double swath = 2.0 * plan.height * std::tan(0.5 * options.scanner.field_of_view);
+    : plan_(plan),
+      pattern_(plan, options.scanner),
+      first_time_(first_time),
+      rate_(options.trajectory_rate) {
   const double duration = (plan.end - plan.start).norm() / plan.speed;
-  pulse_rate_ = plan.density * swath * plan.speed;
-  scan_line_rate_ = std::sqrt(plan.density) * plan.speed;  // as far apart as pulses along a line
-  pulse_count_ = static_cast<std::uint64_t>(duration * pulse_rate_);
+  const ErrorValues errors = options.errors.of(plan.session, plan.id, -1);
+  offset_ = errors.offset();
+  jump_ = errors.jump();
   const Motion motion(plan, options, wind);
   const auto samples = static_cast<std::size_t>(std::ceil((duration + 2.0 * kLead) * rate_)) + 1;
   true_.reserve(samples);
@@ -106,20 +108,20 @@ FlownLine::FlownLine(const PlannedLine& plan, const SimulationOptions& options, 
   for (std::size_t i = 1; i < samples; ++i)  // continuous across north
     true_[i].heading +=
         2.0 * kPi * std::round((true_[i - 1].heading - true_[i].heading) / (2.0 * kPi));
-  written_ = true_;
+  noisy_ = true_;
   if (options.noise.trajectory()) addErrors(options.noise, keyOf({options.seed, 0x6A55, plan.id}));
 }
 
 void FlownLine::addErrors(const NoiseOptions& noise, std::uint64_t key) {
   Random random(key);
-  const ErrorTiming timing{1.0 / rate_, static_cast<double>(written_.size()) / rate_,
+  const ErrorTiming timing{1.0 / rate_, static_cast<double>(noisy_.size()) / rate_,
                            noise.correlation_time};
   std::array<std::unique_ptr<TrajectoryError>, 6> errors;
   const std::array<double, 6> sigma = {noise.position,   noise.position,   noise.position,
                                        noise.roll_pitch, noise.roll_pitch, noise.heading};
   for (std::size_t i = 0; i < errors.size(); ++i)
     errors[i] = makeTrajectoryError(noise.process, sigma[i], timing, random);
-  for (Pose& pose : written_) {
+  for (Pose& pose : noisy_) {
     for (int axis = 0; axis < 3; ++axis) pose.position[axis] += errors[axis]->next(random);
     pose.roll += errors[3]->next(random);
     pose.pitch += errors[4]->next(random);
@@ -144,26 +146,24 @@ Pose FlownLine::interpolate(const std::vector<Pose>& table, double time) const {
   return pose;
 }
 
+Eigen::Vector3d FlownLine::shiftAt(double time) const {
+  // From one sample to the next, as the trajectory is interpolated.
+  const auto middle = static_cast<double>(true_.size() / 2);
+  return offset_ + std::clamp((time - first_time_) * rate_ - middle, 0.0, 1.0) * jump_;
+}
+
 void FlownLine::append(const Eigen::Vector3d& origin, bool written,
                        std::vector<TrajectorySample>& samples) const {
-  const std::vector<Pose>& table = written ? written_ : true_;
+  const std::vector<Pose>& table = written ? noisy_ : true_;
   for (std::size_t i = 0; i < table.size(); ++i) {
     TrajectorySample& sample = samples.emplace_back();
     sample.time = first_time_ + static_cast<double>(i) / rate_;
     sample.position = origin + table[i].position;
+    if (written) sample.position += shiftAt(sample.time);
     sample.roll = table[i].roll;
     sample.pitch = table[i].pitch;
     sample.heading = table[i].heading - 2.0 * kPi * std::floor(table[i].heading / (2.0 * kPi));
   }
-}
-
-ScanPattern::Reading ScanPattern::at(std::uint64_t pulse) const {
-  const double phase = static_cast<double>(pulse) * sweeps_per_pulse_;
-  const double sweep = std::floor(phase), part = phase - sweep;
-  const bool to_right = std::fmod(sweep, 2.0) == 0.0;
-  const double angle = half_ * (1.0 - 2.0 * part);
-  const double next = std::floor(static_cast<double>(pulse + 1) * sweeps_per_pulse_);
-  return {to_right ? angle : -angle, to_right, next != sweep};
 }
 
 }  // namespace pcl_als::simulation

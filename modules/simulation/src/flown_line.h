@@ -10,6 +10,8 @@
 #include <pcl_als/simulation/lidar_system.h>
 #include <pcl_als/simulation/simulation_options.h>
 
+#include "scan_pattern.h"
+
 namespace pcl_als::simulation {
 
 /** \brief One line as it was flown, and as GNSS/INS saw it.
@@ -29,17 +31,16 @@ class FlownLine {
   const PlannedLine& plan() const { return plan_; }
   double firstTime() const { return first_time_; }
   double lastTime() const;
-  std::uint64_t pulseCount() const { return pulse_count_; }
-  double pulseRate() const { return pulse_rate_; }         ///< Hz
-  double scanLineRate() const { return scan_line_rate_; }  ///< sweeps per second, both ways counted
+  const ScanPattern& pattern() const { return pattern_; }
+  double firstPulseTime() const { return first_time_ + kLead; }
 
-  double timeOf(std::uint64_t pulse) const {
-    return first_time_ + kLead + static_cast<double>(pulse) / pulse_rate_;
-  }
   Pose truePose(double time) const { return interpolate(true_, time); }
-  Pose writtenPose(double time) const { return interpolate(written_, time); }
+  /// With the random errors of GNSS/INS.
+  Pose noisyPose(double time) const { return interpolate(noisy_, time); }
+  /// Systematic shift of the delivered trajectory (offset and jump of ErrorSources), metres.
+  Eigen::Vector3d shiftAt(double time) const;
 
-  /// The tables in the ground frame.
+  /// The tables in the ground frame; \a written: as delivered, with all errors.
   void append(const Eigen::Vector3d& origin, bool written,
               std::vector<TrajectorySample>& samples) const;
 
@@ -48,25 +49,10 @@ class FlownLine {
   void addErrors(const NoiseOptions& noise, std::uint64_t key);
 
   PlannedLine plan_;
-  double first_time_, rate_, pulse_rate_ = 0.0, scan_line_rate_ = 0.0;
-  std::uint64_t pulse_count_ = 0;
-  std::vector<Pose> true_, written_;
-};
-
-/// The mirror: constant angular rate from edge to edge and back.
-class ScanPattern {
- public:
-  ScanPattern(const FlownLine& line, double field_of_view)
-      : sweeps_per_pulse_(line.scanLineRate() / line.pulseRate()), half_(0.5 * field_of_view) {}
-
-  struct Reading {
-    double angle;         ///< radians, left of flight positive
-    bool to_right, last;  ///< the mirror moves to the right; last pulse of its sweep
-  };
-  Reading at(std::uint64_t pulse) const;
-
- private:
-  double sweeps_per_pulse_, half_;
+  ScanPattern pattern_;
+  double first_time_, rate_;
+  Eigen::Vector3d offset_, jump_;
+  std::vector<Pose> true_, noisy_;
 };
 
 }  // namespace pcl_als::simulation

@@ -67,7 +67,7 @@ class Warp {
   double phase_[3];
 };
 
-enum class Use { houses, hall, wood, open };
+enum class Use { houses, hall, wood, open, blocks };
 
 class Planner {
  public:
@@ -102,6 +102,7 @@ class Planner {
         {seed_, purpose, static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)}));
   }
   Use useOf(long column, long row) const {
+    if (randomOf(column, row, 0xC17).chance(options_.high_rises)) return Use::blocks;
     const double draw = randomOf(column, row, 0x05E).uniform();
     return draw < 0.52   ? Use::houses
            : draw < 0.62 ? Use::hall
@@ -122,6 +123,7 @@ class Planner {
   void build(long column, long row);
   void buildHouse(double street_u, double v, double side, Random& random);
   void buildHall(long column, long row, Random& random);
+  void buildBlocks(long column, long row, Random& random);
   bool place(Building& building, double storeys);
   void plant(long column, long row);
 
@@ -148,6 +150,7 @@ void Planner::build(long column, long row) {
   Random random = randomOf(column, row, 0xB17D);
   const Use use = useOf(column, row);
   if (use == Use::hall) buildHall(column, row, random);
+  if (use == Use::blocks) buildBlocks(column, row, random);
   if (use != Use::houses) return;
   const double u = kMeshWidth * static_cast<double>(column);
   const double v = kMeshLength * static_cast<double>(row);
@@ -200,6 +203,29 @@ void Planner::buildHall(long column, long row, Random& random) {
   if (!place(hall, storeys)) return;
   cover_.paintRectangle(hall.centre, hall.azimuth, hall.length + 34.0, hall.width + 26.0,
                         LandCover::road);
+}
+
+/// Three rows of blocks with flat roofs along the long streets of a mesh.
+void Planner::buildBlocks(long column, long row, Random& random) {
+  constexpr double kLowest = 12.0, kHighest = 90.0;
+  for (const double aside : {kSetback, 0.5 * kMeshWidth, kMeshWidth - kSetback}) {
+    const double u = kMeshWidth * static_cast<double>(column) + aside;
+    for (int lot = 1; lot < static_cast<int>(kMeshLength / kLot); ++lot) {
+      const double v = kMeshLength * static_cast<double>(row) + kLot * lot;
+      Building block;
+      block.length = random.uniform(14.0, 20.0);
+      block.width = random.uniform(10.0, 15.0);
+      block.overhang = 0.0;
+      block.roof_reflectance = static_cast<float>(random.uniform(0.12, 0.35));
+      block.wall_reflectance = static_cast<float>(random.uniform(0.2, 0.45));
+      const double height = kLowest * std::pow(kHighest / kLowest, random.uniform());
+      if (random.uniform() > options_.buildings) continue;
+      block.centre = warp_(u, v);
+      const Eigen::Vector2d tangent = warp_(u, v + 1.0) - warp_(u, v - 1.0);
+      block.azimuth = std::atan2(tangent.y(), tangent.x());
+      place(block, height);
+    }
+  }
 }
 
 /// Sets a building on the terrain; false where it is too steep or taken.

@@ -30,27 +30,31 @@ Eigen::Matrix3d groundFromBody(double roll, double pitch, double heading) {
   return rotation(pitch, roll, -heading);
 }
 
-LidarSystem::LidarSystem(const SystemVector& parameters)
+LidarSystem::LidarSystem(const SystemVector& parameters, const Eigen::Matrix3d& laser_from_channel)
     : lever_arm_(parameters.head<3>()),
       body_from_laser_(rotation(valueOf(parameters, SystemParameter::boresight_pitch),
                                 valueOf(parameters, SystemParameter::boresight_roll),
-                                valueOf(parameters, SystemParameter::boresight_heading))),
+                                valueOf(parameters, SystemParameter::boresight_heading)) *
+                       laser_from_channel),
       range_bias_(valueOf(parameters, SystemParameter::range_bias)),
       scale_(1.0 + valueOf(parameters, SystemParameter::scan_angle_scale)) {}
 
 Eigen::Vector3d LidarSystem::direction(const Eigen::Matrix3d& ground_from_body,
-                                       double encoder_angle) const {
-  const double beta = scale_ * encoder_angle;
-  const Eigen::Vector3d in_body =
-      -std::sin(beta) * body_from_laser_.col(0) - std::cos(beta) * body_from_laser_.col(2);
-  return ground_from_body * in_body;
+                                       const BeamAngles& beam) const {
+  return ground_from_body * (body_from_laser_ * laserDirection({scale_ * beam.across, beam.along}));
 }
 
-Eigen::Vector3d LidarSystem::groundPoint(const Pose& pose, double encoder_angle,
+Eigen::Vector3d LidarSystem::laserDirection(const BeamAngles& beam) {
+  const double in_plane = std::cos(beam.along);
+  return {-std::sin(beam.across) * in_plane, std::sin(beam.along),
+          -std::cos(beam.across) * in_plane};
+}
+
+Eigen::Vector3d LidarSystem::groundPoint(const Pose& pose, const BeamAngles& beam,
                                          double measured_range) const {
   const Eigen::Matrix3d ground_from_body = groundFromBody(pose.roll, pose.pitch, pose.heading);
   return firingPoint(pose.position, ground_from_body) +
-         distance(measured_range) * direction(ground_from_body, encoder_angle);
+         distance(measured_range) * direction(ground_from_body, beam);
 }
 
 }  // namespace pcl_als::simulation

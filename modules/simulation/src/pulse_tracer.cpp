@@ -15,6 +15,13 @@ namespace pcl_als::simulation {
 namespace {
 
 constexpr double kAxisEnergy = 0.5, kRingEnergy = 1.0 / 12.0;
+/// Largest tangent of the incidence; of walls it would be without limit.
+constexpr double kSteepestTangent = 3.0;
+
+double tangentOf(double cosine) {
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  return sine < kSteepestTangent * cosine ? sine / cosine : kSteepestTangent;
+}
 
 /// Two echoes as one; the range is the signal's mean.
 Echo joined(const Echo& a, const Echo& b) {
@@ -24,6 +31,7 @@ Echo joined(const Echo& a, const Echo& b) {
   sum.reflectance = (a.share * a.reflectance + b.share * b.reflectance) / sum.share;
   const double p = sum.signal > 0.0 ? a.signal / sum.signal : a.share / sum.share, q = 1.0 - p;
   sum.range = p * a.range + q * b.range;
+  sum.tangent = p * a.tangent + q * b.tangent;
   sum.spread = std::sqrt(p * a.spread * a.spread + q * b.spread * b.spread +
                          p * q * (a.range - b.range) * (a.range - b.range));
   return sum;
@@ -40,11 +48,11 @@ double PulseTracer::returned(double cosine) const {
 void PulseTracer::addParts(const Eigen::Vector3d& direction, double energy) {
   for (const SurfaceHit& hit : hits_) {
     const double share = energy * hit.opacity;
-    const double cosine = hit.cover == LandCover::tree
-                              ? kFoliageCosine
-                              : returned(std::abs(hit.normal.dot(direction)));
+    const bool leaves = hit.cover == LandCover::tree;
+    const double cosine = std::abs(hit.normal.dot(direction));
+    const double signal = share * hit.reflectance * (leaves ? kFoliageCosine : returned(cosine));
     parts_.push_back(
-        {hit.range, share, share * hit.reflectance * cosine, hit.reflectance, hit.cover});
+        {hit.range, share, signal, hit.reflectance, leaves ? 0.0 : tangentOf(cosine), hit.cover});
     energy -= share;
   }
 }
@@ -70,12 +78,12 @@ bool PulseTracer::formOpenGroundEcho(const Eigen::Vector3d& origin,
   if (hit.object != SurfaceHit::kGround) return false;
   if (!scene_.isOpen(origin, direction, hit.range, scanner_.divergence * hit.range)) return false;
   const double cosine = std::abs(hit.normal.dot(direction));
-  const double tangent = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) / cosine;
   Echo& echo = echoes_.emplace_back();
   echo.range = hit.range;
   echo.share = 1.0;
   echo.signal = hit.reflectance * returned(cosine);
-  echo.spread = 0.25 * scanner_.divergence * hit.range * tangent;
+  echo.tangent = tangentOf(cosine);
+  echo.spread = 0.25 * scanner_.divergence * hit.range * echo.tangent;
   echo.reflectance = hit.reflectance;
   echo.cover = hit.cover;
   return true;
@@ -87,7 +95,8 @@ void PulseTracer::formEchoes() {
                    [](const Part& a, const Part& b) { return a.range < b.range; });
   double start = 0.0;
   for (const Part& part : parts_) {
-    const Echo echo = {part.range, part.share, part.signal, 0.0, part.reflectance, part.cover};
+    const Echo echo = {part.range,       part.share,   part.signal, 0.0,
+                       part.reflectance, part.tangent, part.cover};
     if (echoes_.empty() || part.range - start >= scanner_.return_separation) {
       echoes_.push_back(echo);
       start = part.range;

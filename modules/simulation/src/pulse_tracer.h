@@ -18,6 +18,7 @@ struct Echo {
   double signal = 0.0;       ///< sum of share * reflectance * cos(incidence)
   double spread = 0.0;       ///< standard deviation of the ranges in it, weighted by signal, metres
   double reflectance = 0.0;  ///< weighted by share
+  double tangent = 0.0;      ///< of the incidence on surfaces (leaves: 0), weighted by signal
   LandCover cover = LandCover::grass;  ///< of the largest part of the signal
 };
 
@@ -39,7 +40,7 @@ class PulseTracer {
 
  private:
   struct Part {
-    double range, share, signal, reflectance;
+    double range, share, signal, reflectance, tangent;
     LandCover cover;
   };
   double returned(double cosine) const;

@@ -49,7 +49,7 @@ struct Scene::State {
       : minimum(lower),
         maximum(upper),
         seed(scene_seed),
-        terrain(lower, upper, options.relief, scene_seed),
+        terrain(lower, upper, options.relief, scene_seed, options.mountains),
         cover(lower, upper, scene_seed) {
     Layout layout = layOut(terrain, lower, upper, options, scene_seed, cover);
     buildings = std::move(layout.buildings);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -21,10 +23,38 @@ void require(double value, double low, double high, const std::string& what) {
 void checkLine(const PlannedLine& line) {
   const std::string name = "line " + std::to_string(line.id) + ": ";
   require((line.end - line.start).norm(), 1.0, 200000.0, name + "length (m)");
-  require(line.height, 40.0, 6000.0, name + "height (m)");
+  require(line.height, 20.0, 8000.0, name + "height (m)");
   require(line.speed, 1.0, 300.0, name + "speed (m/s)");
-  require(line.density, 1e-4, 200.0, name + "density (pulses/m2)");
+  require(line.density, 1e-4, 1000.0, name + "density (pulses/m2)");
   require(line.gain, 0.01, 100.0, name + "gain");
+}
+
+/// A scanner without a mirror has no error of its encoder, and so on.
+void checkErrors(const SimulationOptions& options) {
+  const ScannerOptions& scanner = options.scanner;
+  const std::string name(nameOf(scanner.type));
+  const auto refuse = [&](ErrorSource source, const char* what) {
+    if (options.errors.any(source)) throw UsageError("simulation: a scanner " + name + what);
+  };
+  if (scanner.type != ScannerType::oscillating)
+    refuse(ErrorSource::mirror_torsion, " has no mirror that is turned back: no mirror_torsion");
+  if (scanner.hasMirrorAngle()) {
+    refuse(ErrorSource::deflection_scale, " has scan_angle_scale in place of deflection_scale");
+  } else {
+    refuse(ErrorSource::encoder_quadratic, " has no mirror angle: no encoder_quadratic");
+    refuse(ErrorSource::encoder_cubic, " has no mirror angle: no encoder_cubic");
+  }
+  for (const ErrorSources::Entry& entry : options.errors.entries()) {
+    const auto concerns = [&entry](const PlannedLine& line) {
+      return entry.number == (entry.scope == ErrorScope::session ? line.session : line.id);
+    };
+    const bool known = entry.scope == ErrorScope::channel
+                           ? entry.number < scanner.channels
+                           : entry.scope == ErrorScope::block ||
+                                 std::any_of(options.lines.begin(), options.lines.end(), concerns);
+    if (!known)
+      throw UsageError("simulation: error " + entry.name + ": there is no " + entry.scopeName());
+  }
 }
 
 }  // namespace
@@ -44,6 +74,56 @@ NoiseOptions NoiseOptions::named(std::string_view level) {
   noise.control = 0.01;
   noise.footprint = true;
   return noise;
+}
+
+void NoiseOptions::setTrajectoryGrade(std::string_view grade) {
+  struct Grade {
+    std::string_view name;
+    double position, roll_pitch, heading, seconds;  ///< m, arcsec, arcsec
+  };
+  constexpr Grade kGrades[] = {{"survey", 0.02, 9.0, 18.0, 60.0},
+                               {"tactical", 0.03, 54.0, 126.0, 40.0},
+                               {"mems", 0.04, 90.0, 288.0, 20.0}};
+  for (const Grade& known : kGrades) {
+    if (known.name != grade) continue;
+    position = known.position;
+    roll_pitch = known.roll_pitch * kRadiansPerArcsec;
+    heading = known.heading * kRadiansPerArcsec;
+    correlation_time = known.seconds;
+    return;
+  }
+  throw UsageError("trajectory grade '" + std::string(grade) +
+                   "': there are survey, tactical, mems");
+}
+
+void SimulationOptions::setScanner(std::string_view scanner_name) {
+  scanner.setType(scanner_name);
+  if (!scanner.hasMirrorAngle()) bias[indexOf(SystemParameter::scan_angle_scale)] = 0.0;
+}
+
+void SimulationOptions::setSessions(int count) {
+  require(count, 1, std::min<double>(5.0, static_cast<double>(lines.size())), "number of sessions");
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    lines[i].session = 1 + static_cast<int>(i * static_cast<std::size_t>(count) / lines.size());
+}
+
+void SimulationOptions::setGains(std::string_view list) {
+  while (!list.empty()) {
+    const std::string_view part = list.substr(0, list.find(','));
+    list.remove_prefix(std::min(part.size() + 1, list.size()));
+    const auto equals = std::min(part.find('='), part.size());
+    const std::string_view text = part.substr(std::min(equals + 1, part.size()));
+    const auto named = std::find_if(lines.begin(), lines.end(), [&](const PlannedLine& line) {
+      return std::to_string(line.id) == part.substr(0, equals);
+    });
+    if (named == lines.end())
+      throw UsageError("strip_gains '" + std::string(part) + "' names no line (ID=FACTOR)");
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), named->gain);
+    if (error != std::errc() || end != text.data() + text.size() || !(named->gain >= 0.01) ||
+        !(named->gain <= 100.0))
+      throw UsageError("strip_gains '" + std::string(part) +
+                       "': the factor is a number from 0.01 to 100");
+  }
 }
 
 void SimulationOptions::check() const {
@@ -72,7 +152,7 @@ void SimulationOptions::check() const {
   require(noise.correlation_time, 0.1, 1e5, "correlation time (s)");
   require(noise.intensity, 0.0, 1.0, "intensity noise");
   require(noise.control, 0.0, 1.0, "control noise (m)");
-  require(scanner.field_of_view / kRadiansPerDegree, 1.0, 75.0, "field of view (degrees)");
+  require(scanner.field_of_view / kRadiansPerDegree, 1.0, 90.0, "field of view (degrees)");
   require(scanner.divergence, 0.0, 0.01, "beam divergence (rad)");
   require(scanner.max_returns, 1, 15, "largest number of returns");
   require(scanner.return_separation, 0.01, 20.0, "separation of returns (m)");
@@ -84,10 +164,13 @@ void SimulationOptions::check() const {
   require(atmosphere.temperature_c, -60.0, 60.0, "temperature (C)");
   require(atmosphere.pressure_kpa, 20.0, 120.0, "pressure (kPa)");
   require(scene.relief, 0.0, 1.5, "relief factor");
+  require(scene.mountains, 0.0, 400.0, "mountains (m)");
+  require(scene.high_rises, 0.0, 1.0, "share of high-rises");
   require(scene.buildings, 0.0, 2.0, "buildings factor");
   require(scene.trees, 0.0, 4.0, "trees factor");
   if (lines.empty()) throw UsageError("simulation: no flight line is planned");
   for (const PlannedLine& line : lines) checkLine(line);
+  checkErrors(*this);
 }
 
 }  // namespace pcl_als::simulation

@@ -20,6 +20,8 @@ namespace pcl_als::simulation {
 namespace {
 
 constexpr std::uint64_t kChunkPulses = 16384;
+constexpr double kLeastClearance = 20.0;  ///< metres between the highest ground and a line
+constexpr double kDay = 86400.0;          ///< seconds between sessions
 /// Share of an echo's spread in range that appears as timing noise.
 constexpr double kSpreadNoise = 0.1;
 
@@ -29,7 +31,13 @@ constexpr std::uint8_t kScanDirectionBit = 16, kEdgeBit = 32;
 Scene makeScene(const SimulationOptions& options) {
   options.check();
   const auto [lower, upper] = sceneRectangle(options);
-  return Scene(lower, upper, options.scene, options.seed);
+  Scene scene(lower, upper, options.scene, options.seed);
+  for (const PlannedLine& line : options.lines) {
+    if (line.height < scene.terrain().highest() + kLeastClearance)
+      throw UsageError("simulation: line " + std::to_string(line.id) +
+                       " is flown into the terrain: more height or less relief is needed");
+  }
+  return scene;
 }
 
 std::vector<FlownLine> fly(const SimulationOptions& options) {
@@ -42,81 +50,137 @@ std::vector<FlownLine> fly(const SimulationOptions& options) {
   for (const PlannedLine& plan : options.lines) {
     lines.emplace_back(plan, options, time, wind);
     time = std::ceil(lines.back().lastTime() + options.line_interval);
+    if (lines.size() < options.lines.size())
+      time += kDay * (options.lines[lines.size()].session - plan.session);
   }
   return lines;
 }
 
-/// Data common to all pulses of a block.
-struct Instrument {
-  explicit Instrument(const SimulationOptions& options)
-      : true_system(options.mounting),
-        assumed_system(options.mounting + options.bias),
-        extinction(extinctionPerKilometre(options.atmosphere)) {}
+/// One channel of the scanner in one strip.
+struct Channel {
+  Channel(const SimulationOptions& options, const PlannedLine& line, int number)
+      : errors(options.errors.of(line.session, line.id, number)),
+        true_system(options.mounting, options.scanner.laserFromChannel(number)),
+        assumed_system(options.mounting + options.bias + errors.system,
+                       options.scanner.laserFromChannel(number)) {}
+
+  double error(ErrorSource source) const { return errors.of(source); }
+  /// The angles that the encoder reports, without noise.
+  BeamAngles reported(const ScanPattern::Reading& reading) const;
+
+  ErrorValues errors;
   LidarSystem true_system, assumed_system;
-  double extinction;
 };
+
+BeamAngles Channel::reported(const ScanPattern::Reading& reading) const {
+  BeamAngles beam = reading.beam;
+  const double deflection = error(ErrorSource::deflection_scale);
+  if (deflection != 0.0) beam = deflectedMore(beam, 1.0 + deflection);
+  const double b = beam.across, torsion = error(ErrorSource::mirror_torsion);
+  beam.across +=
+      (reading.to_right ? torsion : -torsion) +
+      b * b * (error(ErrorSource::encoder_quadratic) + b * error(ErrorSource::encoder_cubic));
+  return beam;
+}
 
 /// Fires the pulses of one chunk.
 class PulseRun {
  public:
-  PulseRun(const SimulationOptions& options, const Instrument& instrument, const Scene& scene,
+  PulseRun(const SimulationOptions& options, double extinction, const Scene& scene,
            const FlownLine& line)
       : options_(options),
-        instrument_(instrument),
+        extinction_(extinction),
         line_(line),
-        pattern_(line, options.scanner.field_of_view),
-        tracer_(scene, options.scanner, options.noise.footprint) {}
+        tracer_(scene, options.scanner, options.noise.footprint) {
+    for (int i = 0; i < options.scanner.channels; ++i)
+      channels_.emplace_back(options, line.plan(), i);
+  }
 
   void fire(std::uint64_t pulse, std::vector<SimulatedPoint>& points);
 
  private:
   struct Shot;
+  Shot aim(const ScanPattern::Reading& reading) const;
+  void report(const ScanPattern::Reading& reading, Random& random, Shot& shot) const;
   void record(const Shot& shot, const Echo& echo, Random& random, SimulatedPoint& point) const;
+  double rangeError(const Shot& shot, const Echo& echo, double intensity) const;
+  /// As GNSS/INS sees it, without the systematic shift of the trajectory.
+  Pose poseAt(double time) const {
+    return options_.noise.trajectory() ? line_.noisyPose(time) : line_.truePose(time);
+  }
 
   const SimulationOptions& options_;
-  const Instrument& instrument_;
+  double extinction_;
   const FlownLine& line_;
-  ScanPattern pattern_;
+  std::vector<Channel> channels_;
   PulseTracer tracer_;
 };
 
 /// A pulse as it was fired, and as position, attitude and encoder report it.
 struct PulseRun::Shot {
+  const Channel& channel;
+  double time;  ///< true
   Eigen::Vector3d true_origin, true_direction;
   Eigen::Vector3d unbiased_origin, unbiased_direction;  ///< reported, with the true parameters
   Eigen::Vector3d assumed_origin, assumed_direction;
+  double assumed_heading;
 };
 
+PulseRun::Shot PulseRun::aim(const ScanPattern::Reading& reading) const {
+  Shot shot{channels_[static_cast<std::size_t>(reading.channel)],
+            line_.firstPulseTime() + reading.time,
+            {},
+            {},
+            {},
+            {},
+            {},
+            {},
+            0.0};
+  const Pose pose = line_.truePose(shot.time);
+  const Eigen::Matrix3d rotation = groundFromBody(pose.roll, pose.pitch, pose.heading);
+  shot.true_origin = shot.channel.true_system.firingPoint(pose.position, rotation);
+  shot.true_direction = shot.channel.true_system.direction(rotation, reading.beam);
+  return shot;
+}
+
+void PulseRun::report(const ScanPattern::Reading& reading, Random& random, Shot& shot) const {
+  const Channel& channel = shot.channel;
+  BeamAngles beam = reading.beam, assumed = channel.reported(reading);
+  if (options_.noise.scan_angle > 0.0) {
+    const double noise = options_.noise.scan_angle * random.normal();
+    beam.across += noise;
+    assumed.across += noise;
+  }
+  const Pose pose = poseAt(shot.time);
+  const Eigen::Matrix3d rotation = groundFromBody(pose.roll, pose.pitch, pose.heading);
+  shot.unbiased_origin = channel.true_system.firingPoint(pose.position, rotation);
+  shot.unbiased_direction = channel.true_system.direction(rotation, beam);
+  const double tag = shot.time + channel.error(ErrorSource::time_offset);
+  const Pose written = tag == shot.time ? pose : poseAt(tag);
+  const Eigen::Matrix3d turned =
+      tag == shot.time ? rotation : groundFromBody(written.roll, written.pitch, written.heading);
+  shot.assumed_origin =
+      channel.assumed_system.firingPoint(written.position + line_.shiftAt(tag), turned);
+  shot.assumed_direction = channel.assumed_system.direction(turned, assumed);
+  shot.assumed_heading = written.heading;
+}
+
 void PulseRun::fire(std::uint64_t pulse, std::vector<SimulatedPoint>& points) {
-  const double time = line_.timeOf(pulse);
-  const ScanPattern::Reading reading = pattern_.at(pulse);
-  const Pose true_pose = line_.truePose(time);
-  const Eigen::Matrix3d true_rotation =
-      groundFromBody(true_pose.roll, true_pose.pitch, true_pose.heading);
-  Shot shot;
-  shot.true_origin = instrument_.true_system.firingPoint(true_pose.position, true_rotation);
-  shot.true_direction = instrument_.true_system.direction(true_rotation, reading.angle);
+  const ScanPattern::Reading reading = line_.pattern().at(pulse);
+  Shot shot = aim(reading);
   const std::vector<Echo>& echoes = tracer_.trace(shot.true_origin, shot.true_direction);
   if (echoes.empty()) return;
 
   Random random(keyOf({options_.seed, 0x9015E, line_.plan().id, pulse}));
-  const bool exact = !options_.noise.trajectory();
-  const Pose pose = exact ? true_pose : line_.writtenPose(time);
-  const Eigen::Matrix3d rotation =
-      exact ? true_rotation : groundFromBody(pose.roll, pose.pitch, pose.heading);
-  double angle = reading.angle;
-  if (options_.noise.scan_angle > 0.0) angle += options_.noise.scan_angle * random.normal();
-  shot.unbiased_origin = instrument_.true_system.firingPoint(pose.position, rotation);
-  shot.unbiased_direction = instrument_.true_system.direction(rotation, angle);
-  shot.assumed_origin = instrument_.assumed_system.firingPoint(pose.position, rotation);
-  shot.assumed_direction = instrument_.assumed_system.direction(rotation, angle);
-
+  report(reading, random, shot);
   const Eigen::Vector3d& beam = shot.assumed_direction;
-  const double to_right = beam.x() * std::cos(pose.heading) - beam.y() * std::sin(pose.heading);
+  const double to_right =
+      beam.x() * std::cos(shot.assumed_heading) - beam.y() * std::sin(shot.assumed_heading);
   SimulatedPoint point;
-  point.time = time;
+  point.time = shot.time + shot.channel.error(ErrorSource::time_offset);
   point.scan_angle = static_cast<float>(std::atan2(to_right, -beam.z()) / kRadiansPerDegree);
   point.strip = line_.plan().id;
+  point.channel = static_cast<std::uint8_t>(reading.channel);
   point.number_of_returns = static_cast<std::uint8_t>(echoes.size());
   point.flags = static_cast<std::uint8_t>((reading.to_right ? kScanDirectionBit : 0) |
                                           (reading.last ? kEdgeBit : 0));
@@ -127,23 +191,33 @@ void PulseRun::fire(std::uint64_t pulse, std::vector<SimulatedPoint>& points) {
   }
 }
 
+double PulseRun::rangeError(const Shot& shot, const Echo& echo, double intensity) const {
+  const double range = echo.range, stretch = range * options_.scanner.divergence * echo.tangent;
+  return shot.channel.error(ErrorSource::range_scale) * range +
+         shot.channel.error(ErrorSource::range_incidence) * stretch +
+         shot.channel.error(ErrorSource::range_walk) *
+             std::log10(options_.rangeWalkReference() / std::max(1.0, intensity));
+}
+
 void PulseRun::record(const Shot& shot, const Echo& echo, Random& random,
                       SimulatedPoint& point) const {
   const NoiseOptions& noise = options_.noise;
-  double measured = instrument_.true_system.measuredRange(echo.range);
+  const Channel& channel = shot.channel;
+  double measured = channel.true_system.measuredRange(echo.range);
   if (noise.range > 0.0) {
     const double timing = noise.footprint ? kSpreadNoise * echo.spread : 0.0;
     measured += std::hypot(noise.range, timing) * random.normal();
   }
-  point.surface = options_.origin + shot.true_origin + echo.range * shot.true_direction;
-  point.unbiased = options_.origin + shot.unbiased_origin +
-                   instrument_.true_system.distance(measured) * shot.unbiased_direction;
-  point.position = options_.origin + shot.assumed_origin +
-                   instrument_.assumed_system.distance(measured) * shot.assumed_direction;
   double number = digitalNumber(options_.scanner.gain * line_.plan().gain, echo.signal, echo.range,
-                                instrument_.extinction, options_.scanner.range_exponent);
+                                extinction_, options_.scanner.range_exponent);
   if (noise.intensity > 0.0) number *= 1.0 + noise.intensity * random.normal();
   point.intensity = static_cast<std::uint16_t>(std::clamp(std::round(number), 0.0, 65535.0));
+  point.surface = options_.origin + shot.true_origin + echo.range * shot.true_direction;
+  point.unbiased = options_.origin + shot.unbiased_origin +
+                   channel.true_system.distance(measured) * shot.unbiased_direction;
+  const double assumed =
+      channel.assumed_system.distance(measured) + rangeError(shot, echo, point.intensity);
+  point.position = options_.origin + shot.assumed_origin + assumed * shot.assumed_direction;
   point.reflectance = static_cast<float>(echo.reflectance);
   point.classification = asprsClassOf(echo.cover);
 }
@@ -152,7 +226,10 @@ void PulseRun::record(const Shot& shot, const Echo& echo, Random& random,
 
 struct Simulator::State {
   explicit State(const SimulationOptions& given)
-      : options(given), scene(makeScene(options)), instrument(options), lines(fly(options)) {}
+      : options(given),
+        scene(makeScene(options)),
+        extinction(extinctionPerKilometre(options.atmosphere)),
+        lines(fly(options)) {}
   const FlownLine& line(std::size_t strip) const {
     if (strip < lines.size()) return lines[strip];
     throw UsageError("simulation: there is no strip " + std::to_string(strip));
@@ -160,7 +237,7 @@ struct Simulator::State {
 
   SimulationOptions options;
   Scene scene;
-  Instrument instrument;
+  double extinction;  ///< per kilometre
   std::vector<FlownLine> lines;
 };
 
@@ -178,12 +255,12 @@ std::size_t Simulator::stripCount() const {
   return state_->lines.size();
 }
 std::uint64_t Simulator::pulseCount(std::size_t strip) const {
-  return state_->line(strip).pulseCount();
+  return state_->line(strip).pattern().pulseCount();
 }
 
 void Simulator::simulateStrip(std::size_t strip, int threads, const Sink& sink) const {
   const FlownLine& line = state_->line(strip);
-  const std::uint64_t pulses = line.pulseCount();
+  const std::uint64_t pulses = line.pattern().pulseCount();
   const std::uint64_t chunks = (pulses + kChunkPulses - 1) / kChunkPulses;
   // Chunks are fixed and a pulse depends on its number alone: threads change nothing but the time.
   const std::uint64_t at_once = 4 * threadCount(threads);
@@ -191,7 +268,7 @@ void Simulator::simulateStrip(std::size_t strip, int threads, const Sink& sink) 
   for (std::uint64_t first = 0; first < chunks; first += at_once) {
     const std::uint64_t count = std::min(at_once, chunks - first);
     parallelFor(count, threads, [&](std::size_t i) {
-      PulseRun run(state_->options, state_->instrument, state_->scene, line);
+      PulseRun run(state_->options, state_->extinction, state_->scene, line);
       const std::uint64_t begin = (first + i) * kChunkPulses;
       buffers[i].clear();
       for (std::uint64_t pulse = begin; pulse < std::min(pulses, begin + kChunkPulses); ++pulse)

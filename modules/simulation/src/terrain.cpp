@@ -35,7 +35,8 @@ struct Relief {
   Eigen::Vector2d first_cell{0, 0};
   long columns = 0, rows = 0;
 
-  Relief(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, std::uint64_t seed) {
+  Relief(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, double factor,
+         double mountains, std::uint64_t seed) {
     constexpr std::array<std::array<double, 2>, 5> kRidges = {
         {{14.0, 1130.0}, {9.0, 640.0}, {6.0, 390.0}, {3.0, 240.0}, {0.8, 110.0}}};
     Random random(keyOf({seed, 0x7E}));
@@ -43,17 +44,32 @@ struct Relief {
     for (std::size_t i = 0; i < kRidges.size(); ++i) {
       const double azimuth = first_azimuth + 1.1 * static_cast<double>(i);
       const double wave = 2.0 * kPi / kRidges[i][1];
-      ridges.push_back({kRidges[i][0], wave * std::cos(azimuth), wave * std::sin(azimuth),
+      ridges.push_back({factor * kRidges[i][0], wave * std::cos(azimuth), wave * std::sin(azimuth),
                         random.uniform(0.0, 2.0 * kPi)});
     }
+    addMountains(mountains, seed);
     first_cell = (minimum / kHillCell).array().floor() - kHillReach;
     const Eigen::Vector2d last = (maximum / kHillCell).array().floor() + kHillReach;
     columns = std::lround(last.x() - first_cell.x()) + 1;
     rows = std::lround(last.y() - first_cell.y()) + 1;
     for (long row = 0; row < rows; ++row)
-      for (long column = 0; column < columns; ++column)
+      for (long column = 0; column < columns; ++column) {
         hills.push_back(hillOf(first_cell.x() + static_cast<double>(column),
                                first_cell.y() + static_cast<double>(row), seed));
+        hills.back().height *= factor;
+      }
+  }
+
+  void addMountains(double amplitude, std::uint64_t seed) {
+    constexpr std::array<std::array<double, 2>, 2> kShares = {{{0.65, 3400.0}, {0.35, 1700.0}}};
+    Random random(keyOf({seed, 0x3017}));
+    const double first_azimuth = random.uniform(0.0, kPi);
+    for (std::size_t i = 0; i < kShares.size() && amplitude > 0.0; ++i) {
+      const double azimuth = first_azimuth + 0.9 * static_cast<double>(i);
+      const double wave = 2.0 * kPi / kShares[i][1];
+      ridges.push_back({amplitude * kShares[i][0], wave * std::cos(azimuth),
+                        wave * std::sin(azimuth), random.uniform(0.0, 2.0 * kPi)});
+    }
   }
 
   /// The hill of a cell depends on the cell only: a wider scene keeps the hills of a smaller one.
@@ -105,19 +121,19 @@ std::pair<std::ptrdiff_t, double> locate(double value, double minimum, std::ptrd
 }  // namespace
 
 Terrain::Terrain(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, double relief,
-                 std::uint64_t seed)
+                 std::uint64_t seed, double mountains)
     // Whole nodes: a wider scene of the same seed has the same terrain, but for a shift in height.
     : minimum_((minimum / kNode).array().floor() * kNode - 2.0 * kNode) {
   const Eigen::Vector2d size = (maximum - minimum_) / kNode;
   columns_ = static_cast<std::ptrdiff_t>(std::ceil(size.x())) + 3;
   rows_ = static_cast<std::ptrdiff_t>(std::ceil(size.y())) + 3;
   coefficients_.reserve(static_cast<std::size_t>(columns_ * rows_));
-  const Relief shape(minimum, maximum, seed);
+  const Relief shape(minimum, maximum, relief, mountains, seed);
   double sum = 0.0;
   for (std::ptrdiff_t row = 0; row < rows_; ++row)
     for (std::ptrdiff_t column = 0; column < columns_; ++column) {
-      coefficients_.push_back(relief * shape.at(minimum_.x() + kNode * static_cast<double>(column),
-                                                minimum_.y() + kNode * static_cast<double>(row)));
+      coefficients_.push_back(shape.at(minimum_.x() + kNode * static_cast<double>(column),
+                                       minimum_.y() + kNode * static_cast<double>(row)));
       sum += coefficients_.back();
     }
   const double mean = sum / static_cast<double>(coefficients_.size());

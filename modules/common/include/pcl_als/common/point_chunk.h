@@ -14,7 +14,8 @@ struct PointChunk {
   std::vector<float> intensity, scan_angle;
   std::vector<std::uint16_t> point_source_id;
   std::vector<std::uint8_t> return_number, number_of_returns, classification,
-      flags;  ///< flags: PointFlag
+      flags;                          ///< PointFlag
+  std::vector<std::uint8_t> channel;  ///< of the scanner; 0 where none is recorded
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t count);

@@ -13,6 +13,8 @@
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/simulation/error_process.h>
+#include <pcl_als/simulation/error_sources.h>
+#include <pcl_als/simulation/scanner_options.h>
 
 namespace pcl_als::simulation {
 
@@ -35,19 +37,12 @@ struct NoiseOptions {
   /// control 1 cm, footprint, trajectory 1.5 cm, 8 arcsec roll and pitch, 16 arcsec heading over
   /// 20 s. UsageError for another name.
   static NoiseOptions named(std::string_view level);
-};
 
-/// Laser unit: an oscillating mirror with constant angular rate (zig-zag on the ground).
-struct ScannerOptions {
-  double field_of_view = 40.0 * kRadiansPerDegree;  ///< full angle, radians, (0, 75 degrees]
-  double divergence = 0.33e-3;        ///< full angle between the 1/e^2 points of the beam, radians
-  int max_returns = 5;                ///< per pulse, 1 … 15
-  double return_separation = 1.5;     ///< metres: closer echoes are merged
-  double detection_threshold = 0.05;  ///< share of the pulse's energy of the weakest return
-  double gain = 10000.0;  ///< digital number of a full-footprint target of reflectance 1, normal to
-                          ///< the beam, at 1000 m in vacuum
-  double range_exponent = 2.0;      ///< signal falls with range to this power
-  double incidence_exponent = 1.0;  ///< of surfaces (not leaves): 1 Lambertian
+  /// Sets the trajectory errors to those of a GNSS/INS after post-processing (standard deviations
+  /// of position, roll and pitch, heading; correlation time; sources: README of the module):
+  /// "survey" 2 cm, 9", 18", 60 s; "tactical" 3 cm, 54", 126", 40 s; "mems" 4 cm, 90", 288", 20 s.
+  /// UsageError for another name.
+  void setTrajectoryGrade(std::string_view grade);
 };
 
 /// Air between sensor and ground, at 1064 nm.
@@ -66,12 +61,15 @@ struct PlannedLine {
   double speed = 60.0;     ///< metres per second
   double density = 1.0;    ///< pulses per square metre, mean over the nominal swath
   double gain = 1.0;       ///< factor on the scanner's gain while this line is flown
+  int session = 1;         ///< from 1; a session is flown a day after the one before
 };
 
 struct SceneOptions {
-  double relief = 1.0;     ///< factor on the heights of the terrain, 0: a horizontal plane
-  double buildings = 1.0;  ///< factor on their number, 0: none; at most 2
-  double trees = 1.0;      ///< factor on their number, 0: none; at most 4
+  double relief = 1.0;      ///< factor on the heights of the terrain, 0: a horizontal plane
+  double mountains = 0.0;   ///< metres: amplitude of ridges of 3.4 and 1.7 km; at most 400
+  double buildings = 1.0;   ///< factor on their number, 0: none; at most 2
+  double high_rises = 0.0;  ///< share of the meshes of streets with blocks of 12 to 90 m in height
+  double trees = 1.0;       ///< factor on their number, 0: none; at most 4
 };
 
 /** \brief All options of a simulation. Equal options give equal points for any number of threads.
@@ -94,6 +92,7 @@ struct SimulationOptions {
   int control_points = 37;
   SystemVector mounting = SystemVector::Zero();  ///< true parameters (scale: difference from 1)
   SystemVector bias = SystemVector::Zero();      ///< assumed - true, internal units
+  ErrorSources errors;
   NoiseOptions noise;
   ScannerOptions scanner;
   AtmosphereOptions atmosphere;
@@ -101,14 +100,24 @@ struct SimulationOptions {
   std::vector<PlannedLine> lines;
   std::vector<std::pair<int, int>> pairs;  ///< ids of the lines planned to overlap
 
-  /// "paper" (six lines of Habib et al. 2011 over 1 km x 2 km, 11 million pulses) or "small" (five
-  /// lines, 0.9 million), or "uav" (eight lines of a drone 75 m above ground at 6 m/s, 30 m apart,
-  /// 1.5 million), with the paper's kind of biases and no noise. \a scale multiplies the
-  /// lengths of the lines, \a density the pulses per square metre; the lines are spaced so that
-  /// their overlaps hold for the \a field_of_view (radians). UsageError for another name or a value
-  /// out of range.
+  /// The presets are listed in the README of the module; "paper" has six lines of Habib et al. 2011
+  /// over 1 km x 2 km, 11 million pulses. Biases are those of the paper's kind, noise is none. \a
+  /// scale multiplies the lengths of the lines, \a density the pulses per square metre, \a height
+  /// the flying heights; the lines are spaced so that their overlaps hold for the \a field_of_view
+  /// (radians; 0: that of the preset). UsageError for another name or a value out of range.
   static SimulationOptions preset(std::string_view name, double scale = 1.0, double density = 1.0,
-                                  double field_of_view = ScannerOptions().field_of_view);
+                                  double field_of_view = 0.0, double height = 1.0);
+
+  /// Intensity for which ErrorSource::range_walk is zero: a tenth of the gain.
+  double rangeWalkReference() const { return 0.1 * scanner.gain; }
+
+  /// Sets the type of the scanner (ScannerOptions::setType()); a conical or rosette scanner gets no
+  /// bias of the scan angle scale, which is that of a mirror.
+  void setScanner(std::string_view name);
+  /// Divides the lines into sessions of about equally many lines, in their order.
+  void setSessions(int count);
+  /// Sets the gains of lines from "ID=FACTOR,…"; UsageError for an unknown line or wrong factor.
+  void setGains(std::string_view list);
 
   /// UsageError naming the first value that is impossible.
   void check() const;

@@ -19,7 +19,8 @@ namespace pcl_als::simulation {
 /// One return with its truth. Positions in metres, ground frame.
 struct SimulatedPoint {
   Eigen::Vector3d position;  ///< as written: measurements, assumed parameters, written trajectory
-  Eigen::Vector3d unbiased;  ///< the same measurements and trajectory with the true parameters
+  /// The same, with the same random errors, without biases and error sources.
+  Eigen::Vector3d unbiased;
   Eigen::Vector3d surface;   ///< position on the surface: no noise, no bias
   double time = 0.0;         ///< GPS seconds of week
   float scan_angle = 0.0F;   ///< degrees from the vertical, right of flight positive (as LAS)
@@ -29,6 +30,7 @@ struct SimulatedPoint {
   std::uint8_t return_number = 1, number_of_returns = 1;
   std::uint8_t classification = 0;  ///< ASPRS: 2 ground, 5 vegetation, 6 building, 11 road
   std::uint8_t flags = 0;           ///< PointFlag: scan direction, edge of flight line
+  std::uint8_t channel = 0;         ///< of the scanner
 };
 
 /// A place of known land cover, ground frame.

@@ -19,8 +19,9 @@ namespace pcl_als::simulation {
 class Terrain {
  public:
   /// \param relief factor on the heights, 0 … 1.5; 1 gives slopes up to about 25 degrees
+  /// \param mountains amplitude of two further ridges of 3.4 and 1.7 km, metres
   Terrain(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, double relief,
-          std::uint64_t seed);
+          std::uint64_t seed, double mountains = 0.0);
 
   double height(double x, double y) const;
   /// Height and its derivatives by x and y.
