@@ -204,7 +204,10 @@ int calibrate(int argc, char** argv) {
   SurveyReader survey(files, line.threads(), window);
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
-  const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude);
+  std::vector<TrajectoryAccuracy> stated;
+  const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude, files, &stated);
+  if (options.accuracy.empty()) options.accuracy = stated;
+  options.reconstructed = app::reconstructs(line);
   if (line.has("control"))
     options.control = readControl(line.text("control"), app::unitOption(line, "control"));
   CalibrationPage page(line.has("report"));

@@ -4,11 +4,10 @@
 #include <iostream>
 #include <memory>
 
-#include <sys/resource.h>
-
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/memory.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/report/quality_page.h>
@@ -112,21 +111,13 @@ SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& 
   app::remarks(line, survey.reference().remarks);
   std::shared_ptr<const Trajectory> trajectory;
   if (line.has("trajectory")) {
-    trajectory = app::readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given);
+    trajectory =
+        app::readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given, files);
   }
   options.separation = separationOf(line, image);
   SurveyCheck checked = checkSurvey(survey, trajectory, options, app::progressOf(line));
   app::nameOptions(line, checked.block.warnings);
   return checked;
-}
-
-/// The reason for which there is no reliable result, in one line.
-std::string whyNot(const CheckedBlock& block) {
-  for (const CheckedPair& pair : block.pairs) {
-    if (!pair.assessment.reason.empty())
-      return "strips " + pair.a + " and " + pair.b + ": " + pair.assessment.reason;
-  }
-  return "no strip covers a control point";
 }
 
 void writeReport(const CommandLine& line, const QualityReport& report,
@@ -138,12 +129,6 @@ void writeReport(const CommandLine& line, const QualityReport& report,
     page.write(app::reportOrigin(line, {"control", "trajectory"}), report, areas);
   step.done(QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
                                  : "quality.md, CSV; no report.html: built without VTK");
-}
-
-double peakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1e-3 * static_cast<double>(usage.ru_maxrss);
 }
 
 int check(int argc, char** argv) {
@@ -176,11 +161,10 @@ int check(int argc, char** argv) {
   writeFile(line.text("output"), qualityJson(report));
   if (!line.quiet()) std::cout << qualityText(report) << std::endl;
   if (line.has("report")) writeReport(line, report, checked.areas, page);
-  if (!hasAnswer(report.block)) {
-    std::cerr << "pcl_als_check: no reliable answer: " << whyNot(report.block) << std::endl;
-    return app::kNoReliableAnswer;
-  }
-  return app::kDone;
+  const std::string unreliable = whyUnreliable(report.block);
+  if (unreliable.empty()) return app::kDone;
+  std::cerr << "pcl_als_check: no reliable answer: " << unreliable << std::endl;
+  return app::kNoReliableAnswer;
 }
 
 }  // namespace

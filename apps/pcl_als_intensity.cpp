@@ -57,10 +57,7 @@ Files filesOf(const CommandLine& line) {
   }
   files.inputs = line.inputs(1, 100000);
   const std::filesystem::path folder = line.text("corrected");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(folder.string() + ": cannot make this folder");
+  app::makeOutputFolder("corrected", folder);
   for (const std::string& input : files.inputs) {
     const std::string output = (folder / std::filesystem::path(input).filename()).string();
     if (std::find(files.outputs.begin(), files.outputs.end(), output) != files.outputs.end())
@@ -102,7 +99,8 @@ int intensity(int argc, const char* const* argv) {
   if (line.has("json")) app::checkWritable(line.text("json"));
   const PointReference reference = commonReference(files.inputs);
   app::remarks(line, reference.remarks);
-  const auto flight = app::readFlight(line, reference.crs, 0.0, AttitudeUse::where_given);
+  const auto flight =
+      app::readFlight(line, reference.crs, 0.0, AttitudeUse::where_given, files.inputs);
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
   const auto page = line.has("report") ? makeIntensityPage() : nullptr;
   if (page) options.observe = [&page](const IntensityRun& run) { return page->observe(run); };

@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/trajectory_writer.h>
+#include <pcl_als/processing/flight_reconstruction.h>
 
 namespace pcl_als::app {
 namespace {
@@ -33,7 +34,8 @@ void addTrajectoryOptions(CommandLine& line, const char* use) {
       std::string(
           "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet), TerraScan (.trj), RIEGL "
           "(.pof) or Leica (.sol); "
-          "several files or a folder are joined in order of time (") +
+          "several files or a folder are joined in order of time; \"reconstruct\": from "
+          "the points (") +
       use + ")";
   line.addList("trajectory", help.c_str());
   line.addOptional("crs",
@@ -177,17 +179,40 @@ std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
                               : std::vector<TrajectoryAccuracy>();
 }
 
+bool reconstructs(const CommandLine& line) {
+  return line.has("trajectory") &&
+         line.list("trajectory") == std::vector<std::string>{"reconstruct"};
+}
+
+namespace {
+
+FlightFile flightOfPoints(const CommandLine& line, const FlightFileOptions& how,
+                          const std::vector<std::string>& points) {
+  if (points.empty())
+    throw UsageError("option -trajectory: write the reconstructed one by pcl_als_trajectory first");
+  ReconstructionOptions options;
+  options.attitude = false;
+  SurveyReader survey(points, line.threads());
+  return reconstructFlight(survey, options, progressOf(line)).asFile(how);
+}
+
+}  // namespace
+
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
-                                             double half_width, AttitudeUse attitude) {
+                                             double half_width, AttitudeUse attitude,
+                                             const std::vector<std::string>& points,
+                                             std::vector<TrajectoryAccuracy>* accuracy) {
   FlightFileOptions options;
   static_cast<TrajectoryReading&>(options) = trajectoryReading(line, points_crs);
   options.line_fit_half_width = halfWidthOf(line, half_width);
   options.attitude = attitude;
+  if (reconstructs(line)) return flightOfPoints(line, options, points).trajectory;
   const std::vector<std::filesystem::path> files = trajectoryFiles(line);
   Step step("Reading " + (files.size() == 1 ? files.front().string()
                                             : counted(files.size(), "trajectory file")),
             line.quiet());
   const FlightFile file = pcl_als::readFlight(files, options);
+  if (accuracy != nullptr) *accuracy = file.accuracy;
   const Trajectory& flight = *file.trajectory;
   step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +
             (flight.attitudeIsNominal() ? ", nominal attitude"

@@ -127,7 +127,7 @@ void SystemCalibrationEngine::choose(State& state) const {
     // Parameters requested by name are left out at three times their limit only.
     const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
     std::vector<SystemParameter> unknown;
-    if (settings_.estimate.empty() && !control_covered_) {
+    if (settings_.estimate.empty() && !control_covered_ && !left_out(SystemParameter::range_bias)) {
       unknown.push_back(SystemParameter::range_bias);
     }
     for (const auto& [p, reason] : state.excluded) unknown.push_back(p);
@@ -204,6 +204,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   }
   SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
   State state(errors, settings_.threads);
+  state.excluded = settings_.undeterminable;
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
   CalibrationResult result;

@@ -77,7 +77,8 @@ class RollOfSwath {
 
 double headingOf(const Eigen::Matrix3d& rotation) {
   const Eigen::Vector3d forward = rotation.col(1);
-  return std::atan2(forward.x(), forward.y());
+  const double heading = std::atan2(forward.x(), forward.y());
+  return heading < 0.0 ? heading + 2.0 * kPi : heading;
 }
 
 void setAngles(const AttitudeRecovery::Outcome& outcome, const RollOfSwath& roll,

@@ -122,6 +122,15 @@ std::string setPriors(const SurveyCalibrationOptions& options, const SurveyReade
          describe(summary);
 }
 
+/// A reconstructed path is that of the origin of the pulses as it was assumed, and nothing is known
+/// of the heights and the positions that the points were computed with.
+void leaveOutUndeterminable(CalibrationSettings& settings) {
+  using P = SystemParameter;
+  for (const P p : {P::lever_arm_x, P::lever_arm_y, P::lever_arm_z, P::range_bias})
+    settings.undeterminable.emplace(
+        p, "the trajectory is reconstructed from the points and contains its effect");
+}
+
 }  // namespace
 
 SurveyCalibration calibrateSurvey(SurveyReader& survey,
@@ -136,6 +145,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   }
   CalibrationSettings settings = options.settings;
   settings.resolution = survey.resolution();
+  if (options.reconstructed) leaveOutUndeterminable(settings);
   progress.remark(setPriors(options, survey, settings.shared_errors));
   SystemCalibrationEngine calibration(flight, settings, survey.corner());
   Warnings warnings;

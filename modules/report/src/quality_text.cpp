@@ -252,6 +252,15 @@ bool hasAnswer(const CheckedBlock& block) {
          std::any_of(block.pairs.begin(), block.pairs.end(), judged);
 }
 
+std::string whyUnreliable(const CheckedBlock& block) {
+  if (hasAnswer(block)) return {};
+  for (const CheckedPair& pair : block.pairs) {
+    if (!pair.assessment.reason.empty())
+      return "strips " + pair.a + " and " + pair.b + ": " + pair.assessment.reason;
+  }
+  return "no strip covers a control point";
+}
+
 std::vector<QualityTable> qualityTables(const QualityReport& report) {
   std::vector<QualityTable> tables = {verticalTable(report), alignmentTable(report),
                                       shiftTable(report), trendTable(report)};

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <pcl_als/calibration/noise_model.h>
@@ -17,6 +19,9 @@ namespace pcl_als {
 /// 500-3000 m height.
 struct CalibrationSettings {
   std::vector<SystemParameter> estimate;  ///< empty: all that the data determine
+  /// Parameters that the trajectory does not allow to determine, with the reason: not estimated;
+  /// the uncertainty of the others includes their possible size (DeterminationLimits::whenHeld()).
+  std::map<SystemParameter, std::string> undeterminable;
   NoiseModel noise;
   SharedErrorModel shared_errors;
   DeterminationLimits limits;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace pcl_als {
@@ -10,6 +11,13 @@ namespace pcl_als {
 inline double physicalMemory() {
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
   return pages > 0 && size > 0 ? static_cast<double>(pages) * static_cast<double>(size) : 0.0;
+}
+
+/// Megabytes that the process has used at most.
+inline double peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1e-3 * static_cast<double>(usage.ru_maxrss);
 }
 
 }  // namespace pcl_als

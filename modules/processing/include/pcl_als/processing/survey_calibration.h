@@ -30,6 +30,8 @@ struct SurveyCalibrationOptions {
   /// strips replace those of settings.shared_errors, except those that are kept. InputError where
   /// they cover none of the strips.
   std::vector<TrajectoryAccuracy> accuracy;
+  /// The trajectory is one of reconstructFlight(): lever arm and range bias are not determined.
+  bool reconstructed = false;
   bool keep_position = false, keep_roll_pitch = false, keep_heading = false;
 };
 

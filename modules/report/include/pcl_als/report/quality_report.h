@@ -40,6 +40,8 @@ void writeQualityTables(const std::filesystem::path& folder, const QualityReport
 
 /// Whether there is a reliable result: an assessed pair, or a control point.
 bool hasAnswer(const CheckedBlock& block);
+/// The reason for which there is no reliable result, in one line; empty where there is one.
+std::string whyUnreliable(const CheckedBlock& block);
 
 bool judged(const CheckedPair& pair);
 /// The same pair in the set before; null where there is none.
