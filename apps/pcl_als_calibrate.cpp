@@ -204,10 +204,10 @@ int calibrate(int argc, char** argv) {
   SurveyReader survey(files, line.threads(), window);
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
-  std::vector<TrajectoryAccuracy> stated;
-  const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude, files, &stated);
-  if (options.accuracy.empty()) options.accuracy = stated;
-  options.reconstructed = app::reconstructs(line);
+  FlightFile whole;
+  const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude, files, &whole);
+  options.reconstructed = whole.reconstructed();
+  if (options.accuracy.empty() && !options.reconstructed) options.accuracy = whole.accuracy;
   if (line.has("control"))
     options.control = readControl(line.text("control"), app::unitOption(line, "control"));
   CalibrationPage page(line.has("report"));

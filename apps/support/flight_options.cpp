@@ -179,11 +179,6 @@ std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
                               : std::vector<TrajectoryAccuracy>();
 }
 
-bool reconstructs(const CommandLine& line) {
-  return line.has("trajectory") &&
-         line.list("trajectory") == std::vector<std::string>{"reconstruct"};
-}
-
 namespace {
 
 FlightFile flightOfPoints(const CommandLine& line, const FlightFileOptions& how,
@@ -201,18 +196,23 @@ FlightFile flightOfPoints(const CommandLine& line, const FlightFileOptions& how,
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
                                              double half_width, AttitudeUse attitude,
                                              const std::vector<std::string>& points,
-                                             std::vector<TrajectoryAccuracy>* accuracy) {
+                                             FlightFile* whole) {
   FlightFileOptions options;
   static_cast<TrajectoryReading&>(options) = trajectoryReading(line, points_crs);
   options.line_fit_half_width = halfWidthOf(line, half_width);
   options.attitude = attitude;
-  if (reconstructs(line)) return flightOfPoints(line, options, points).trajectory;
   const std::vector<std::filesystem::path> files = trajectoryFiles(line);
+  const bool reconstruct = files.size() == 1 && files.front() == "reconstruct";
+  if (reconstruct) {
+    FlightFile file = flightOfPoints(line, options, points);
+    if (whole != nullptr) *whole = file;
+    return file.trajectory;
+  }
   Step step("Reading " + (files.size() == 1 ? files.front().string()
                                             : counted(files.size(), "trajectory file")),
             line.quiet());
   const FlightFile file = pcl_als::readFlight(files, options);
-  if (accuracy != nullptr) *accuracy = file.accuracy;
+  if (whole != nullptr) *whole = file;
   const Trajectory& flight = *file.trajectory;
   step.done(grouped(flight.size()) + " samples, " + counted(flight.gaps().size(), "gap") +
             (flight.attitudeIsNominal() ? ", nominal attitude"

@@ -47,9 +47,6 @@ std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line);
 /// What the options state of the files of -trajectory.
 TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs);
 
-/// Whether -trajectory is the word reconstruct: from the points.
-bool reconstructs(const CommandLine& line);
-
 /// Reads -trajectory as a step of its own. An SBET is projected to -crs, else to \a points_crs.
 /// \a half_width: trajectory window in seconds where -line_fit is not given; 0: the library's.
 /// \a points: files for -trajectory reconstruct; empty: a UsageError. \a accuracy gets what the
@@ -57,7 +54,7 @@ bool reconstructs(const CommandLine& line);
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
                                              double half_width, AttitudeUse attitude,
                                              const std::vector<std::string>& points = {},
-                                             std::vector<TrajectoryAccuracy>* accuracy = nullptr);
+                                             FlightFile* whole = nullptr);
 
 /// The parameter of that name; UsageError that names \a what and all parameters otherwise.
 SystemParameter parameterNamed(const std::string& name, const std::string& what);

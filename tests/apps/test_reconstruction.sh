@@ -23,6 +23,9 @@ expect 0 'verdict: usable' calibrate "${strips[@]}" -trajectory reconstruct -con
   -output word.json
 check "lever arm and range bias are not determined" test "$(grep -c not_estimable word.json)" -ge 4
 
+expect 0 'reconstructed from points' calibrate "${strips[@]}" -trajectory path.csv -control "$block/control.csv" \
+  -output file.json
+check "the file is known to be reconstructed" test "$(grep -c not_estimable file.json)" -ge 4
 expect 0 'm above ground' trajectory "${strips[0]}" -positions -output one.csv
 expect 0 '' intensity "${strips[0]}" out.las -trajectory reconstruct
 expect 0 '' check "${strips[@]}" -trajectory reconstruct -output quality.json

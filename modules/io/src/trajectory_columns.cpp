@@ -55,6 +55,7 @@ const std::array<QuantityInfo, kTrajectoryQuantities>& quantities() {
       {"sd_heading",
        UnitKind::angle,
        {"sd_heading", "heading_sd", "hdng_sd", "shd", "std_heading"}},
+      {"reconstructed", UnitKind::second, {"reconstructed"}},
   }};
   return table;
 }

@@ -36,8 +36,9 @@ enum class TrajectoryQuantity {
   sd_roll,
   sd_pitch,
   sd_heading,
+  reconstructed,  ///< any value: the trajectory was reconstructed from points
 };
-constexpr std::size_t kTrajectoryQuantities = 21;
+constexpr std::size_t kTrajectoryQuantities = 22;
 
 /// A column that was recognised: where it stands, its name in the file, and the factor to internal
 /// units (radians for angles, otherwise 1).

@@ -94,7 +94,7 @@ TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
   const TrajectoryColumns columns(table, reading.angles, !reading.crs.empty());
   const RecordReader reader(table, columns, reading);
   TrajectoryRecords records;
-  records.format = "text";
+  records.format = columns[Quantity::reconstructed].present() ? kReconstructedFormat : "text";
   records.coordinates = columns.coordinates();
   records.heading_is_yaw = columns.headingIsYaw();
   records.heading_is_true = columns.headingIsTrue();

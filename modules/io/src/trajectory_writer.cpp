@@ -41,7 +41,7 @@ Eigen::Vector3d velocityAt(const std::vector<TrajectorySample>& samples, std::si
 
 void writeTrajectoryCsv(const std::filesystem::path& path,
                         const std::vector<TrajectorySample>& samples,
-                        const std::vector<TrajectoryAccuracy>& accuracy) {
+                        const std::vector<TrajectoryAccuracy>& accuracy, bool reconstructed) {
   const bool attitude = std::all_of(samples.begin(), samples.end(),
                                     [](const TrajectorySample& s) { return s.hasAttitude(); });
   const bool stated = !samples.empty() && accuracy.size() == samples.size();
@@ -49,6 +49,7 @@ void writeTrajectoryCsv(const std::filesystem::path& path,
   if (attitude) text += ",roll,pitch,heading";
   if (stated) text += ",sd_east,sd_north,sd_up";
   if (stated && attitude) text += ",sd_roll,sd_pitch,sd_heading";
+  if (reconstructed) text += ",reconstructed";
   text += '\n';
   AtomicFile file(path);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -68,6 +69,7 @@ void writeTrajectoryCsv(const std::filesystem::path& path,
       for (const double angle : accuracy[i].angles)
         appendField(text, angle / kRadiansPerDegree, "%.8f");
     }
+    if (reconstructed) text += ",1";
     text += '\n';
     if (text.size() < (std::size_t{1} << 20)) continue;
     file.write(text);

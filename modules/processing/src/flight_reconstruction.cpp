@@ -102,7 +102,7 @@ FlightFile ReconstructedFlight::asFile(const FlightFileOptions& options) const {
     throw InputError("a trajectory reconstructed from points has no attitude of its own");
   file.trajectory = std::make_shared<const Trajectory>(samples, use);
   if (options.keep_samples) file.samples = samples;
-  file.format = "reconstructed from the points";
+  file.format = kReconstructedFormat;
   file.frame = "coordinates of the points";
   file.accuracy = accuracy;
   return file;
@@ -111,7 +111,7 @@ FlightFile ReconstructedFlight::asFile(const FlightFileOptions& options) const {
 std::vector<std::filesystem::path> writeReconstruction(const ReconstructedFlight& flight,
                                                        const std::filesystem::path& output,
                                                        const std::string& crs) {
-  return writeTrajectoryFile(output, flight.samples, flight.accuracy, crs);
+  return writeTrajectoryFile(output, flight.samples, flight.accuracy, crs, true);
 }
 
 }  // namespace pcl_als

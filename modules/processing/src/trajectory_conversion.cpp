@@ -92,11 +92,11 @@ void checkTrajectoryOutput(const fs::path& output, const std::string& crs) {
 std::vector<fs::path> writeTrajectoryFile(const fs::path& output,
                                           const std::vector<TrajectorySample>& samples,
                                           const std::vector<TrajectoryAccuracy>& accuracy,
-                                          const std::string& crs) {
+                                          const std::string& crs, bool reconstructed) {
   checkTrajectoryOutput(output, crs);
   std::vector<fs::path> written = {output};
   if (!isSbet(output)) {
-    writeTrajectoryCsv(output, samples, accuracy);
+    writeTrajectoryCsv(output, samples, accuracy, reconstructed);
     return written;
   }
   writeSbet(output, samples, crs);
@@ -126,7 +126,8 @@ TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const
     progress.remark("no standard deviations are written: the trajectory states none");
   progress.begin("Writing " + output.string());
   const TrajectoryConversion conversion{
-      samples.size(), writeTrajectoryFile(output, samples, accuracies, options.reading.crs)};
+      samples.size(), writeTrajectoryFile(output, samples, accuracies, options.reading.crs,
+                                          flight.reconstructed())};
   progress.end(grouped(samples.size()) + " samples");
   return conversion;
 }

@@ -68,6 +68,10 @@ struct TrajectoryReading {
   std::string geoid;
 };
 
+/// TrajectoryFile::format of a trajectory that was reconstructed from points: its standard
+/// deviations are not those of the trajectory that the points were computed with.
+inline constexpr const char* kReconstructedFormat = "reconstructed from points";
+
 /// A trajectory as a file holds it, in the frame of the points.
 struct TrajectoryFile {
   std::vector<TrajectorySample> samples;  ///< in the order of the file

@@ -15,11 +15,13 @@ namespace pcl_als {
  * and sd_east,sd_north,sd_up,sd_roll,sd_pitch,sd_heading where \a accuracy has one for every
  * sample; seconds, metres, degrees.
  *
- * A standard deviation that is not known is an empty field.
+ * A standard deviation that is not known is an empty field. A further column "reconstructed" marks
+ * trajectories that were found from points.
  */
 void writeTrajectoryCsv(const std::filesystem::path& path,
                         const std::vector<TrajectorySample>& samples,
-                        const std::vector<TrajectoryAccuracy>& accuracy = {});
+                        const std::vector<TrajectoryAccuracy>& accuracy = {},
+                        bool reconstructed = false);
 
 /** \brief Writes a trajectory as an Applanix SBET: WGS 84 (ITRF), radians, wander angle zero.
  *

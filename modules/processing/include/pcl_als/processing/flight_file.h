@@ -39,6 +39,9 @@ struct FlightFile {
   std::vector<TrajectoryAccuracy> accuracy;  ///< that the files state; may be empty
   /// In the order of the files, with attitude where they have it.
   std::vector<TrajectorySample> samples;
+
+  /// Whether it was reconstructed from points.
+  bool reconstructed() const { return format == kReconstructedFormat; }
 };
 
 /// Reads a trajectory from files or folders of any format (readTrajectoryFiles()). Whether a column

@@ -34,7 +34,8 @@ void checkTrajectoryOutput(const std::filesystem::path& output, const std::strin
 /// NAME_smrmsg.out where they are known; returns the files.
 std::vector<std::filesystem::path> writeTrajectoryFile(
     const std::filesystem::path& output, const std::vector<TrajectorySample>& samples,
-    const std::vector<TrajectoryAccuracy>& accuracy, const std::string& crs);
+    const std::vector<TrajectoryAccuracy>& accuracy, const std::string& crs,
+    bool reconstructed = false);
 
 /** \brief Reads trajectory files, corrects them by a calibration (correctTrajectory()) and writes
  * one trajectory: .csv, or .sbet and .out as SBET.
