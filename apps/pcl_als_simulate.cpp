@@ -12,6 +12,7 @@
 #include <pcl_als/simulation/simulation_options.h>
 
 #include "command_line.h"
+#include "output_check.h"
 
 namespace {
 
@@ -167,16 +168,6 @@ bool isSecond(const CommandLine& line, const char* name, const char* first, cons
                    " nor " + second);
 }
 
-std::filesystem::path outputFolder(const CommandLine& line) {
-  if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_simulate -h)");
-  std::filesystem::path folder = line.text("output");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (std::filesystem::is_directory(folder)) return folder;
-  throw InputError(folder.string() + ": cannot make this folder" +
-                   (error ? ": " + error.message() : std::string()));
-}
-
 int simulate(int argc, const char* const* argv) {
   CommandLine line = declare();
   if (!line.parse(argc, argv)) return kDone;
@@ -186,7 +177,9 @@ int simulate(int argc, const char* const* argv) {
   files.adjusted_time = isSecond(line, "time", "week", "adjusted");
   files.compressed = isSecond(line, "format", "las", "laz");
   files.bias_columns = line.has("truth_points");
-  files.folder = outputFolder(line);
+  if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_simulate -h)");
+  files.folder = line.text("output");
+  makeOutputFolder("output", files.folder);
   simulateSurvey(options, line.text("noise"), files, line.threads(), progressOf(line));
   return kDone;
 }

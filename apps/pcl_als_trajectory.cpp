@@ -7,10 +7,12 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
+#include <pcl_als/report/trajectory_page.h>
 
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "report_options.h"
 #include "strip_options.h"
 
 namespace {
@@ -38,12 +40,14 @@ CommandLine commandLine() {
                    "they are known; .sbet or .out as SBET in WGS 84, with NAME_smrmsg.out");
   app::addForceOption(line, "the calibration's verdict is not \"usable\"");
   app::addStripOptions(line, false);
+  line.addOptional("report", "of points: folder for report.html (pictures inside) and report.md");
   line.addFlag("positions", "of points: positions only, without recovering the attitude");
   return line;
 }
 
 /// The trajectory of the points of files.
 int reconstruct(const CommandLine& line) {
+  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
   if (line.has("calibration") || line.has("accuracy") || line.has("lever_arm_only"))
     throw UsageError("-calibration, -accuracy and -lever_arm_only need -trajectory");
   app::Step step("Reading " + counted(line.inputs(1, 100000).size(), "point file"), line.quiet());
@@ -55,8 +59,11 @@ int reconstruct(const CommandLine& line) {
   ReconstructionOptions options;
   options.strips = app::stripChoice(line);
   options.attitude = !line.has("positions");
+  TrajectoryPage page(line.has("report"));
+  options.observer = page.observer();
   const ReconstructedFlight flight = reconstructFlight(survey, options, app::progressOf(line));
   writeReconstruction(flight, line.text("output"), crs);
+  if (line.has("report")) page.write(app::reportOrigin(line, {}), flight, line.inputs(1, 100000));
   if (flight.incomplete.empty()) return app::kDone;
   std::cerr << "pcl_als_trajectory: not complete: " << flight.incomplete << std::endl;
   return app::kNoReliableAnswer;

@@ -179,20 +179,6 @@ std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {
                               : std::vector<TrajectoryAccuracy>();
 }
 
-namespace {
-
-FlightFile flightOfPoints(const CommandLine& line, const FlightFileOptions& how,
-                          const std::vector<std::string>& points) {
-  if (points.empty())
-    throw UsageError("option -trajectory: write the reconstructed one by pcl_als_trajectory first");
-  ReconstructionOptions options;
-  options.attitude = false;
-  SurveyReader survey(points, line.threads());
-  return reconstructFlight(survey, options, progressOf(line)).asFile(how);
-}
-
-}  // namespace
-
 std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std::string& points_crs,
                                              double half_width, AttitudeUse attitude,
                                              const std::vector<std::string>& points,
@@ -202,9 +188,8 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
   options.line_fit_half_width = halfWidthOf(line, half_width);
   options.attitude = attitude;
   const std::vector<std::filesystem::path> files = trajectoryFiles(line);
-  const bool reconstruct = files.size() == 1 && files.front() == "reconstruct";
-  if (reconstruct) {
-    FlightFile file = flightOfPoints(line, options, points);
+  if (files.size() == 1 && files.front() == "reconstruct") {
+    FlightFile file = reconstructFlight(points, options, line.threads(), progressOf(line));
     if (whole != nullptr) *whole = file;
     return file.trajectory;
   }

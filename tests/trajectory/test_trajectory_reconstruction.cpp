@@ -155,6 +155,25 @@ TEST(TrajectoryReconstruction, ScanAnglesBridgeOpenGround) {
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 1.6);
 }
 
+// Accelerations of some 0.3 m/s^2 per sqrt(Hz) make a path uncertain by 100 m after 70 seconds.
+TEST(TrajectoryReconstruction, EndsWhereNothingShowsThePath) {
+  RayFlight flight = wavy();
+  flight.to = 150.0;
+  flight.angle_step = 0.0;
+  Points points = flight.points();
+  for (LidarReturn& point : points)
+    if (point.time > 10.0) point.return_number = point.number_of_returns = 1;
+  points.erase(
+      std::remove_if(points.begin(), points.end(),
+                     [](const LidarReturn& p) { return p.time > 10.0 && p.position.z() > 1.0; }),
+      points.end());
+  const ReconstructedPath path = only(points);
+  ASSERT_TRUE(path.found);
+  EXPECT_GT(path.samples.back().time, 10.0);
+  EXPECT_LT(path.samples.back().time, 145.0);
+  EXPECT_TRUE(mentions(path, "not determined for"));
+}
+
 TEST(TrajectoryReconstruction, SaysWhyThereIsNone) {
   RayFlight flight = wavy();
   flight.trees = 0.0;

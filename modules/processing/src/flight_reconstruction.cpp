@@ -14,10 +14,13 @@
 namespace pcl_als {
 namespace {
 
-void readPoints(const SurveyReader& survey, TrajectoryReconstruction& reconstruction) {
+void readPoints(const SurveyReader& survey, const SurveyObserver& observer,
+                TrajectoryReconstruction& reconstruction) {
+  if (observer.begin) observer.begin(survey);
   for (const std::string& name : survey.strips()) reconstruction.addStrip(name);
   survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
     reconstruction.add(strip, points, count);
+    if (observer.points) observer.points(strip, points, count);
   });
 }
 
@@ -59,7 +62,7 @@ void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
     flight.warnings.insert(flight.warnings.end(), path.warnings.begin(), path.warnings.end());
     all += path.points;
     if (path.found) {
-      found += path.points;
+      found += path.determined * path.points;
       progress.remark(summaryOf(path));
       continue;
     }
@@ -68,7 +71,10 @@ void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
     flight.warnings.emplace_back(text);
   }
   if (flight.samples.size() < 2) throw InputError(reason.empty() ? "no points" : reason);
-  if (found < 0.9 * all) flight.incomplete = reason;
+  if (found < 0.9 * all)
+    flight.incomplete = reason.empty()
+                            ? "the trajectory is not determined for more than a tenth of the points"
+                            : reason;
 }
 
 }  // namespace
@@ -80,7 +86,7 @@ ReconstructedFlight reconstructFlight(SurveyReader& survey, const Reconstruction
     progress.remark(text);
   TrajectoryReconstruction reconstruction(options.settings);
   progress.begin("Collecting rays and scan angles");
-  readPoints(survey, reconstruction);
+  readPoints(survey, options.observer, reconstruction);
   progress.end(counted(survey.strips().size(), "strip"));
   progress.begin("Reconstructing the trajectory");
   ReconstructedFlight flight;
@@ -91,6 +97,19 @@ ReconstructedFlight reconstructFlight(SurveyReader& survey, const Reconstruction
   if (options.attitude) detail::recoverAttitude(survey, flight, progress);
   for (const Warning& warning : flight.warnings) progress.remark("warning: " + warning.text);
   return flight;
+}
+
+FlightFile reconstructFlight(const std::vector<std::string>& points,
+                             const FlightFileOptions& options, int threads,
+                             const ProgressCallback& progress) {
+  if (points.empty())
+    throw UsageError(
+        "a job on a single file cannot reconstruct the trajectory: write that of all strips with "
+        "pcl_als_trajectory first");
+  ReconstructionOptions how;
+  how.attitude = false;
+  SurveyReader survey(points, threads);
+  return reconstructFlight(survey, how, progress).asFile(options);
 }
 
 FlightFile ReconstructedFlight::asFile(const FlightFileOptions& options) const {

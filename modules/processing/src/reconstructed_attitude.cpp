@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kEvery = 8;                            // points of which one is used
 constexpr double kWidthTolerance = 1.5 * kRadiansPerDegree;  // of a swath with both edges
 constexpr double kCompleteShare = 0.7;  // of the times at which both edges must be seen
-constexpr double kMountRoll = 0.5 * kRadiansPerDegree;    // rad, asymmetry of the field of view
-constexpr double kPitchNoise = 0.02 * kRadiansPerDegree;  // rad
-constexpr double kHeadingNoise = 0.1 * kRadiansPerDegree;
+constexpr double kMountRoll = 0.5 * kRadiansPerDegree;      // rad, asymmetry of the field of view
+constexpr double kPitchNoise = 0.01 * kRadiansPerDegree;    // rad
+constexpr double kHeadingNoise = 0.02 * kRadiansPerDegree;  // rad
 
 AttitudeRecovery::Outcome recover(const SurveyReader& survey,
                                   const std::shared_ptr<const Trajectory>& flight) {

@@ -213,6 +213,8 @@ bool PathAdjustment::estimate() {
             .lpNorm<Eigen::Infinity>();
     if (change < kConverged && growth < kConvergedVariance) break;
   }
+  weighRays(false);
+  findInflation();
   return true;
 }
 
@@ -236,6 +238,10 @@ PathSample PathAdjustment::sampleAt(double time) const {
       }
     }
   }
+  const Eigen::Vector3d factors = inflation_.cwiseSqrt();
+  const Eigen::Matrix3d both = factors * factors.transpose();
+  sample.covariance.array() *= both.array();
+  sample.velocity_covariance.array() *= both.array();
   return sample;
 }
 

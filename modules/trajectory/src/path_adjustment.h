@@ -89,6 +89,7 @@ class PathAdjustment {
   void updateAngleVariance();
   void updateAgility();
   void updateRoll();
+  void findInflation();
   /// Sum of squares of a coordinate's second differences, and its expectation given the data.
   double secondDifferences(int coordinate, double& uncertainty) const;
   double effectiveUnknowns() const;
@@ -125,6 +126,8 @@ class PathAdjustment {
   std::vector<AdjustedRay> rays_;
   std::vector<AdjustedAngle> angles_;
   Eigen::Vector2d start_course_{0.0, 0.0};
+  /// Factors on the variances east, north and up for errors that neighbouring rays share.
+  Eigen::Vector3d inflation_ = Eigen::Vector3d::Ones();
   bool solved_ = false, with_angles_ = false;
   double sign_ = 1.0;          ///< of recorded angles: positive to the right
   double start_height_ = 0.0;  ///< metres above the points, from angles alone; 0: none

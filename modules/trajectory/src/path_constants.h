@@ -28,6 +28,9 @@ inline constexpr double kRegular = 1e-10;                        // 1/m^2, prior
 inline constexpr double kSlowest = 0.5;         // m/s, speed from which there is a course
 inline constexpr double kSlopeTolerance = 0.3;  // 1, heights from angles over that of rays
 inline constexpr double kRaysSuffice = 0.005;   // std over height: recorded angles are not used
+inline constexpr double kSharedTime = 0.5;      // s, within which rays may share errors
+inline constexpr double kFewestBins = 8.0;      // such times that are needed to see it
+inline constexpr double kLeastFree = 0.25;      // 1, least share of them that is redundant
 inline constexpr int kRobustSteps = 12, kMostSteps = 80;
 inline constexpr double kConverged = 1e-3;          // m, change of a coefficient
 inline constexpr double kConvergedVariance = 0.01;  // 1, relative change

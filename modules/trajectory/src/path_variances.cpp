@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/statistics.h>
@@ -127,6 +128,40 @@ void PathAdjustment::updateAgility() {
   height_ = fellnerStep(height_, squares[2], uncertainty[2], rank);
   plan_ = std::clamp(plan_, least, most);
   height_ = std::clamp(height_, least, most);
+}
+
+/// Errors that rays of a quarter of a second share are not independent of each other: the squares
+/// of the sums of their weighted residuals, which are then larger than the sums of their
+/// information.
+void PathAdjustment::findInflation() {
+  struct Sums {
+    Eigen::Vector3d score = Eigen::Vector3d::Zero(), information = score;
+  };
+  std::map<std::int64_t, Sums> bins;
+  for (const AdjustedRay& ray : rays_) {
+    if (!(ray.weight > 0.0)) continue;
+    const Eigen::Matrix3d across =
+        (ray.weight / ray.variance) *
+        (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose());
+    Sums& sums = bins[static_cast<std::int64_t>(std::floor(ray.time / kSharedTime))];
+    sums.score += across * (ray.lower - valueAt(ray.at));
+    sums.information += across.diagonal();
+  }
+  inflation_.setOnes();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero(), expected = squares;
+  for (const auto& entry : bins) {
+    squares += entry.second.score.cwiseAbs2();
+    expected += entry.second.information;
+  }
+  const auto count = static_cast<double>(bins.size());
+  for (int c = 0; c < 3; ++c) {
+    double uncertainty = 0.0;
+    secondDifferences(c, uncertainty);
+    const double used = spline_.count() - uncertainty / (c < 2 ? plan_ : height_);
+    const double free = std::max(count - used, kLeastFree * count);
+    if (expected[c] > 0.0 && count > kFewestBins)
+      inflation_[c] = std::max(1.0, squares[c] / expected[c] * count / free);
+  }
 }
 
 /// The variance of the roll's Gauss-Markov process.

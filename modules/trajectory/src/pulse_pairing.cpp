@@ -12,10 +12,10 @@ constexpr double kLargestSlope = 2.0;       // tangent of a pulse's angle from t
 constexpr std::size_t kMostOfOneTime = 64;  // points of one time of which each is compared
 
 /// A number that looks random, the same for all returns of a pulse (splitmix64).
-std::uint64_t hashOf(double time, std::uint8_t returns) {
+std::uint64_t hashOf(const LidarReturn& point) {
   std::uint64_t bits = 0;
-  std::memcpy(&bits, &time, sizeof bits);
-  bits += 0x9e3779b97f4a7c15ULL * (1ULL + returns);
+  std::memcpy(&bits, &point.time, sizeof bits);
+  bits += 0x9e3779b97f4a7c15ULL * (1ULL + point.number_of_returns + 256ULL * point.channel);
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9ULL;
   bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebULL;
   return bits ^ (bits >> 31U);
@@ -43,7 +43,8 @@ PulsePairing::Chain* PulsePairing::chainFor(const LidarReturn& point) {
   std::size_t candidates = 0;
   for (std::size_t i = chains_.size(); i-- > 0;) {
     Chain& chain = chains_[i];
-    const bool fits = chain.last.number_of_returns == point.number_of_returns &&
+    const bool fits = chain.last.channel == point.channel &&
+                      chain.last.number_of_returns == point.number_of_returns &&
                       chain.last.return_number < point.return_number;
     if (!fits) continue;
     const double distance = planDistance(chain.last, point);
@@ -114,7 +115,7 @@ void PulsePairing::finish(const Sink& sink) {
 
 void PulsePairing::wait(const LidarReturn& point, const Sink& sink) {
   const bool first = point.return_number == 1, last = point.isLast();
-  const std::uint64_t hash = hashOf(point.time, point.number_of_returns);
+  const std::uint64_t hash = hashOf(point);
   if (first == last || hash > sample_) return;
   const auto [known, added] = open_.try_emplace(hash, point);
   if (added) {

@@ -15,11 +15,11 @@ namespace pcl_als::detail {
 /** \brief Finds first and last return of pulses in a stream of points.
  *
  * Consecutive points of one time are divided into pulses: returns with increasing numbers of one
- * number of returns, of several candidates (channels that fire at one time) the nearest in plan.
- * Points without return numbers (1 of 1) that share a time are one pulse where one lies below the
- * other. First and last returns that are not consecutive (files sorted by place) are matched by
- * time while at most kMostOpen of them wait; beyond that a sample by time is kept, which holds both
- * returns of a pulse or none.
+ * channel and number of returns, of several candidates (channels that fire at one time) the nearest
+ * in plan. Points without return numbers (1 of 1) that share a time are one pulse where one lies
+ * below the other. First and last returns that are not consecutive (files sorted by place) are
+ * matched by time while at most kMostOpen of them wait; beyond that a sample by time is kept, which
+ * holds both returns of a pulse or none.
  */
 class PulsePairing {
  public:

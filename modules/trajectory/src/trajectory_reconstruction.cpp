@@ -41,6 +41,19 @@ double largestShare(const ReconstructedPath& path) {
                            : std::numeric_limits<double>::infinity();
 }
 
+/// Leaves out samples that are not determined.
+void trim(ReconstructedPath& path) {
+  const double limit = TrajectoryReconstruction::kLargestShare * path.height;
+  const std::size_t all = path.samples.size();
+  const auto uncertain = [limit](const PathSample& sample) {
+    return !(sample.covariance.diagonal().maxCoeff() <= limit * limit);
+  };
+  path.samples.erase(std::remove_if(path.samples.begin(), path.samples.end(), uncertain),
+                     path.samples.end());
+  path.determined = static_cast<double>(path.samples.size()) / static_cast<double>(all);
+  path.found = path.samples.size() > 1;
+}
+
 /// Why a strip has no evidence at all; empty where it has.
 std::string whyNone(const PathEvidence::Counts& counts) {
   if (counts.points == counts.timeless)
@@ -132,8 +145,8 @@ std::vector<ReconstructedPath> TrajectoryReconstruction::reconstruct() {
   return paths;
 }
 
-ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip,
-                                                        const TimeRange& span, bool first) const {
+ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip, const TimeRange& span,
+                                                        bool first) const {
   ReconstructedPath path;
   path.name = strip.name;
   path.times = span;
@@ -151,14 +164,17 @@ ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip,
     }
   }
   adjustment.describe(path);
-  const double share = solved ? largestShare(path) : 1.0;
-  path.found = solved && share <= kLargestShare;
+  if (solved) trim(path);
   if (!path.found)
     path.reason = solved ? formatted(
-                               "the path is uncertain by %.0f %% of the height above ground "
-                               "(%.0f m)",
-                               100.0 * share, path.height)
+                               "the path is uncertain by more than %.0f %% of the height "
+                               "above ground (%.0f m)",
+                               100.0 * kLargestShare, path.height)
                          : "rays and recorded scan angles do not determine a path";
+  if (path.found && path.determined < 1.0)
+    path.warnings.emplace_back("strip " + path.name +
+                               formatted(": the path is not determined for %.0f %% of the time",
+                                         std::ceil(100.0 * (1.0 - path.determined))));
   if (first) addFindings(strip.evidence, path);
   return path;
 }

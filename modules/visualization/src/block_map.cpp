@@ -19,6 +19,7 @@ constexpr double kMostCells = 16e6, kMostSide = 1000.0;
 constexpr double kPanel = 220.0, kLeft = 100.0, kFoot = 44.0, kTitleHeight = 64.0;  // pixels
 constexpr double kRim = 3.0;  // cells around the block, so that outlines are complete
 const Color kAreaColor = Color::rgb(0xd55e00);
+const Color kPathColor = Color::rgb(0xcc0033);
 
 Color overlapColor(int strips) {
   static const std::array<Color, 5> shades = {ink::white, Color::rgb(0xe9eef2),
@@ -119,6 +120,23 @@ void drawAreas(Canvas& canvas, const std::vector<BlockMap::Area>& areas, const M
   }
 }
 
+/// A path with a cross of its enlarged standard deviations at about \a kCrosses places.
+void drawPath(Canvas& canvas, const BlockMap::Path& path, double enlargement,
+              const MapFrame& frame) {
+  constexpr std::size_t kCrosses = 12;
+  for (std::size_t i = 1; i < path.places.size(); ++i)
+    canvas.line(frame.pixel(path.places[i - 1]), frame.pixel(path.places[i]), 3.0, ink::black);
+  const std::size_t step = std::max<std::size_t>(1, path.places.size() / kCrosses);
+  for (std::size_t i = 0; i < path.places.size(); i += step) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d arm =
+          enlargement * path.std[i][axis] * Eigen::Vector2d(Eigen::Vector2d::Unit(axis));
+      canvas.line(frame.pixel(path.places[i] - arm), frame.pixel(path.places[i] + arm), 2.0,
+                  kPathColor);
+    }
+  }
+}
+
 /// Legends of strips and of the number of strips, from \a corner downwards; returns the height
 /// below them.
 double drawStripLegends(Canvas& canvas, const std::vector<std::string>& names,
@@ -208,6 +226,7 @@ Canvas BlockMap::draw(const StripCoverage& coverage, const std::vector<std::stri
     canvas.marker(Marker::triangle, frame.pixel(point), 14.0, ink::white);
     canvas.marker(Marker::triangle, frame.pixel(point), 10.0, ink::black);
   }
+  for (const Path& path : paths_) drawPath(canvas, path, enlargement_, frame);
   canvas.clearClip();
   canvas.frame(frame.box, 1.0, ink::gray);
   drawCoordinates(canvas, frame.north_west, frame.metres_per_pixel, frame.box);

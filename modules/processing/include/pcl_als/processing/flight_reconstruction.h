@@ -9,6 +9,7 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/common/warning.h>
 #include <pcl_als/processing/flight_file.h>
+#include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 
@@ -19,6 +20,7 @@ struct ReconstructionOptions {
   StripChoice strips;  ///< strips that are used; default all
   /// Read the points again to recover pitch and crab (AttitudeRecovery), and so the heading.
   bool attitude = true;
+  SurveyObserver observer;  ///< called during the first reading
 };
 
 /// The flight of a survey, from its points.
@@ -46,6 +48,12 @@ struct ReconstructedFlight {
 ReconstructedFlight reconstructFlight(SurveyReader& survey,
                                       const ReconstructionOptions& options = {},
                                       const ProgressCallback& progress = {});
+
+/// The trajectory of point files, positions only, as one that was read from a file. UsageError
+/// without any file.
+FlightFile reconstructFlight(const std::vector<std::string>& points,
+                             const FlightFileOptions& options, int threads,
+                             const ProgressCallback& progress = {});
 
 /// Writes it as .csv with columns of standard deviations, or as .sbet or .out with NAME_smrmsg.out;
 /// returns the files. UsageError for another extension, and for an SBET without a CRS; InputError

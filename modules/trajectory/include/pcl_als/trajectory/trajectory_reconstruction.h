@@ -29,9 +29,11 @@ struct ReconstructedPath {
   std::string name;     ///< of the strip, or of strips that were measured at the same times
   TimeRange times;      ///< of its points, seconds
   double points = 0.0;  ///< with a time
-  /// Whether the positions are determined to kLargestShare of the height above ground.
+  /// Whether positions are determined to kLargestShare of the height above ground, and for which
+  /// share of the time; samples are left out elsewhere.
   bool found = false;
-  std::string reason;  ///< why not; empty where found
+  double determined = 0.0;
+  std::string reason;  ///< why it is not found; empty otherwise
   std::vector<PathSample> samples;
   Warnings warnings;  ///< findings and assumptions about the points
 
@@ -92,7 +94,7 @@ struct ReconstructedPath {
  */
 class TrajectoryReconstruction {
  public:
-  /// Standard deviation over the height above ground beyond which a path is not determined.
+  /// Standard deviation over the height above ground beyond which a position is not determined.
   static constexpr double kLargestShare = 0.1;
   static constexpr double kGap = 4.0;  ///< seconds
 

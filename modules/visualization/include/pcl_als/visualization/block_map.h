@@ -38,7 +38,7 @@ class StripCoverage {
 };
 
 /** \brief A map of a block: number of strips at each place, outlines of the strips with their
- * names, chosen areas and control points.
+ * names, chosen areas, control points and flight paths.
  */
 class BlockMap {
  public:
@@ -46,9 +46,19 @@ class BlockMap {
   struct Area {
     Eigen::Vector2d minimum, maximum;
   };
+  /// A flight path with its standard deviations east and north, metres; as many as places.
+  struct Path {
+    std::vector<Eigen::Vector2d> places, std;
+  };
   void setTitle(std::string title) { title_ = std::move(title); }
   void setAreas(std::vector<Area> areas) { areas_ = std::move(areas); }
   void setControl(std::vector<Eigen::Vector2d> points) { control_ = std::move(points); }
+
+  /// Standard deviations are drawn as bars, enlarged by a factor, at some places of each path.
+  void setPaths(std::vector<Path> paths, double enlargement) {
+    paths_ = std::move(paths);
+    enlargement_ = enlargement;
+  }
 
   /// The height of the picture for a width, within limits.
   static int heightFor(const StripCoverage& coverage, int width, int lowest = 560,
@@ -61,6 +71,8 @@ class BlockMap {
   std::string title_;
   std::vector<Area> areas_;
   std::vector<Eigen::Vector2d> control_;
+  std::vector<Path> paths_;
+  double enlargement_ = 1.0;
 };
 
 }  // namespace pcl_als

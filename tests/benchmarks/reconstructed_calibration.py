@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+"""reconstructed_calibration.py BIN_DIR FOLDER SEEDS [PRESET [DENSITY]]: simulates blocks with
+realistic noise, calibrates each with its trajectory and with the one reconstructed from its points,
+and prints estimates, their deviations from the truth in standard deviations, and the misfit of the
+strips after the correction; see trajectory_reconstruction.md."""
+import json
+import pathlib
+import subprocess
+import sys
+
+NAMES = ["boresight_pitch", "boresight_roll", "boresight_heading", "scan_angle_scale"]
+
+
+def run(tool, *arguments):
+    done = subprocess.run([f"{sys.argv[1]}/pcl_als_{tool}", *map(str, arguments), "-quiet"],
+                          capture_output=True, text=True)
+    if done.returncode not in (0, 3):
+        sys.exit(done.stderr)
+
+
+def misfit(result, key):
+    """RMS of the normal distances of all pairs, millimetres."""
+    pairs = result["pairs"]
+    count = sum(pair["correspondences"] for pair in pairs)
+    return 1e3 * (sum(pair["correspondences"] * pair[key] ** 2 for pair in pairs) / count) ** 0.5
+
+
+def main():
+    folder, seeds = pathlib.Path(sys.argv[2]), int(sys.argv[3])
+    preset = sys.argv[4] if len(sys.argv) > 4 else "small"
+    density = sys.argv[5] if len(sys.argv) > 5 else "1"
+    inside = dict.fromkeys(NAMES, 0)
+    print("seed  " + "  ".join(f"{name} (std)" for name in NAMES) + "  RMS own, reconstructed (mm)")
+    for seed in range(1, seeds + 1):
+        block = folder / f"block{seed}"
+        run("simulate", "-output", block, "-preset", preset, "-noise", "realistic", "-seed", seed,
+            "-density", density)
+        truth = json.loads((block / "truth.json").read_text())["bias"]
+        strips = sorted(block.glob("strip*.las"))
+        fits, line = [], f"{seed:4d}"
+        for trajectory in (block / "trajectory.csv", "reconstruct"):
+            output = folder / "calibration.json"
+            run("calibrate", *strips, "-trajectory", trajectory, "-model", "quasi_rigorous",
+                "-control", block / "control.csv", "-output", output)
+            result = json.loads(output.read_text())
+            fits.append(misfit(result, "rms_after_m"))
+        for name in NAMES:
+            estimate = result["parameters"][name]
+            value = truth[name] if name in truth else truth[name + "_arcsec"]
+            if estimate["status"] != "estimated":
+                line += "  " + estimate["status"]
+                continue
+            deviation = (estimate["bias"] - value) / estimate["std"]
+            inside[name] += abs(deviation) < 1.96
+            line += f"  {estimate['bias']:.5g} ({deviation:+.2f})"
+        print(line + "  %.1f %.1f" % tuple(fits), flush=True)
+        for file in block.iterdir():
+            file.unlink()
+        block.rmdir()
+    print("within the 95 % interval: " + ", ".join(f"{n} {inside[n]} of {seeds}" for n in NAMES))
+
+
+main()
