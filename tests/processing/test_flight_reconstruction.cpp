@@ -12,6 +12,7 @@
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulator.h>
 
+#include "real_data.h"
 #include "test_files.h"
 
 namespace pcl_als {
@@ -81,6 +82,44 @@ TEST(FlightReconstruction, FindsPositionAndAttitudeOfABlock) {
     EXPECT_NEAR(sample.roll, truth->roll, 4.0 * flight.accuracy[i].angles.x());
   }
   EXPECT_GT(compared, 300U);
+}
+
+/// RMS difference in the worst coordinate to the trajectory that comes with real data, metres.
+double rmsDifference(const std::vector<std::string>& files, const fs::path& reference,
+                     std::size_t& compared) {
+  ReconstructionOptions options;
+  options.attitude = false;
+  const ReconstructedFlight flight = reconstructed(files, options);
+  const Trajectory other(readTrajectory(reference));
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  std::size_t cursor = 0;
+  for (const TrajectorySample& sample : flight.samples) {
+    PathSpan span;
+    if (!other.pathAt(sample.time, span, cursor)) continue;
+    ++compared;
+    squares += (sample.position - span.at(sample.time)).cwiseAbs2();
+  }
+  return std::sqrt(squares.maxCoeff() / static_cast<double>(compared));
+}
+
+// The reference is one quadratic for each strip, good to 1 to 2 m.
+TEST(FlightReconstruction, AgreesWithTheTrajectoriesOfRealStrips) {
+  const auto first = test::unpacked("delft_ahn3/ahn3_cropped_1.las.xz");
+  PCL_ALS_REQUIRE_DATA(first);
+  const auto second = test::unpacked("delft_ahn3/ahn3_cropped_2.las.xz");
+  PCL_ALS_REQUIRE_DATA(second);
+  std::size_t compared = 0;
+  EXPECT_LT(rmsDifference({first->string(), second->string()},
+                          *test::testData("delft_ahn3/trajectory.csv"), compared),
+            2.0);
+  EXPECT_GT(compared, 100U);
+  const auto conical = test::unpacked("real/stbarth/stbarth.las.xz");
+  PCL_ALS_REQUIRE_DATA(conical);
+  compared = 0;
+  EXPECT_LT(
+      rmsDifference({conical->string()}, *test::testData("real/stbarth/trajectory.csv"), compared),
+      2.0);
+  EXPECT_GT(compared, 20U);
 }
 
 TEST(FlightReconstruction, WritesWhatItReads) {

@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
 
@@ -54,6 +55,20 @@ std::string summaryOf(const ReconstructedPath& path) {
   return "strip " + path.name + text;
 }
 
+/// What was assumed and found about recorded scan angles; empty where they are not used.
+std::string anglesOf(const ReconstructedPath& path) {
+  const ReconstructedPath::Angles& angles = path.angles;
+  if (!angles.used) return {};
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "strip %s: recorded scan angles are positive to the %s; scale %+.2f %% (std %.2f), "
+                "offset %+.2f degrees (std %.2f), changes with time %.2f degrees (roll)",
+                path.name.c_str(), angles.right_positive ? "right" : "left", 100.0 * angles.scale,
+                100.0 * angles.scale_std, angles.offset / kRadiansPerDegree,
+                angles.offset_std / kRadiansPerDegree, angles.roll / kRadiansPerDegree);
+  return text;
+}
+
 /// Warnings of all paths; reasons of those that were not found.
 void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
   double all = 0.0, found = 0.0;
@@ -64,6 +79,7 @@ void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
     if (path.found) {
       found += path.determined * path.points;
       progress.remark(summaryOf(path));
+      progress.remark(anglesOf(path));
       continue;
     }
     const std::string text = "strip " + path.name + ": no trajectory: " + path.reason;
