@@ -17,7 +17,7 @@ done
 fuzz() {  # FUZZER ROUND: one run
   local target=${1##*/fuzz_}
   mkdir -p "$work/corpus/$target"
-  TMPDIR=$work/tmp "$1" "$work/corpus/$target" "$work/seeds/$target" -max_total_time="$seconds" -timeout=20 \
+  TMPDIR=$work/tmp "$1" "$work/corpus/$target" "$work/seeds/$target" -max_total_time="$seconds" -timeout=120 \
     -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$work/findings/$target." \
     >"$work/logs/$target.$2.log" 2>&1 || echo "$target, round $2: see $work/logs/$target.$2.log"
 }

@@ -3,11 +3,15 @@
 #include <cstdlib>
 #include <string_view>
 
+#include <pcl_als/common/thread_limit.h>
+
 #include "fuzz_targets.h"
 
 namespace {
 
+/// On one thread: inputs of some hundred bytes are handed to others more slowly than they are read.
 const pcl_als::fuzz::Target& target() {
+  pcl_als::limitThreads(1);
   for (const auto& each : pcl_als::fuzz::PCL_ALS_FUZZ_TARGETS())
     if (std::string_view(PCL_ALS_FUZZ_TARGET) == each.name) return each;
   std::abort();

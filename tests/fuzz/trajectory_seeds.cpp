@@ -19,8 +19,9 @@ std::vector<std::string> exportSeeds() {
           "# TerraPOS\n# Time X-ECEF Y-ECEF Z-ECEF\n1 4000000 600000 4900000\n2 4000060 600000 "
           "4900000\n",
           "Time;Easting;Northing;Height [m];roll_rad;pitch_rad;heading_gon\n1;2;3;4;0.1;0.1;200\n",
-          // 2026-11-23, found by fuzz_trajectory_csv: a comment without text was a null pointer.
-          "#\n# *\ntime x y z\n1 2 3 4\n2 3 4 5\n", "1 2 3 4 5 6 7\n2 3 4 5 6 7 8\n"};
+          // 2026-11-23, found by fuzz_trajectory_csv: a comment without text and a field of blanks
+          // were null pointers.
+          "#\n# *\n, \t,\ntime x y z\n1 2 3 4\n2 3 4 5\n", "1 2 3 4 5 6 7\n2 3 4 5 6 7 8\n"};
 }
 
 std::vector<std::string> terrascanSeeds() {

@@ -18,7 +18,8 @@ constexpr std::string_view kBlanks = " \t\v\f";
 
 std::string_view trimmed(std::string_view text, std::string_view what) {
   const std::size_t first = text.find_first_not_of(what);
-  if (first == std::string_view::npos) return {};
+  // What is empty remains a part of the text: a view of its own would have no address.
+  if (first == std::string_view::npos) return text.substr(text.size());
   return text.substr(first, text.find_last_not_of(what) - first + 1);
 }
 
