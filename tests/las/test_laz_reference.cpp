@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <gtest/gtest.h>
 
+#include <pcl_als/las/las_compatibility.h>
+#include <pcl_als/las/las_record.h>
+
 #include "laz_file.h"
 #include "laz_records.h"
 
@@ -70,6 +73,39 @@ const Reference kReferences[] = {
     {"tableless1", 1, 0, PointKind::survey, 250, 2},
     {"tableless6", 6, 0, PointKind::survey, 250, 3},
 };
+
+/// Files that LASzip wrote in LAS 1.4 compatibility mode from records of formats 6 and 8.
+TEST(LazCompatibility, ColumnsHaveTheValuesOfLas14) {
+  for (const int format : {6, 8}) {
+    const LasFile file(std::string(PCL_ALS_LAZ_FILES) + "/compatible" + std::to_string(format) +
+                       ".laz");
+    EXPECT_EQ(file.header().point_format, format == 6 ? 1 : 3);
+    const auto compatibility = LasCompatibility::of(file);
+    ASSERT_TRUE(compatibility.has_value());
+    const auto columns = [](const void* records, std::size_t length, int of_format) {
+      PointChunk chunk;
+      decodeLasRecords(static_cast<const std::byte*>(records), 250, length,
+                       LasRecordLayout::of(of_format), Eigen::Vector3d::Ones(),
+                       Eigen::Vector3d::Zero(), chunk);
+      return chunk;
+    };
+    const std::size_t length = file.header().record_length;
+    std::vector<std::byte> stored(250 * length);
+    file.readRecords(0, 250, stored.data());
+    PointChunk read = columns(stored.data(), length, file.header().point_format);
+    compatibility->restore(stored.data(), length, read);
+    test::LazRecords records(format, 0, PointKind::channels, 1000U * static_cast<unsigned>(format));
+    const PointChunk right = columns(records.make(250).data(), records.length(), format);
+    EXPECT_EQ(read.return_number, right.return_number);
+    EXPECT_EQ(read.number_of_returns, right.number_of_returns);
+    EXPECT_EQ(read.classification, right.classification);
+    EXPECT_EQ(read.flags, right.flags);
+    EXPECT_EQ(read.scan_angle, right.scan_angle);
+    EXPECT_EQ(read.x, right.x);
+    EXPECT_EQ(read.gps_time, right.gps_time);
+  }
+  EXPECT_FALSE(LasCompatibility::of(LasFile(std::string(PCL_ALS_LAZ_FILES) + "/format1_v2.laz")));
+}
 
 class LazReference : public testing::TestWithParam<Reference> {};
 

@@ -18,9 +18,11 @@ constexpr std::size_t kMostNodes = 64;  ///< read at once; each may be decoded b
 LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWindow& window,
                                OtherCoordinates other, unsigned fields)
     : file_(path, fields, window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
+      compatibility_(LasCompatibility::of(file_)),
       window_(window),
       info_(file_.info()) {
   if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
+  if (compatibility_) info_.format += ", LAS 1.4 compatibility mode";
   const Eigen::Vector3d metres = info_.units.metres();
   scaling_ = {file_.header().scale.cwiseProduct(metres),
               file_.header().offset.cwiseProduct(metres)};
@@ -111,6 +113,7 @@ bool LasPointReader::read(PointChunk& chunk) {
   next_ = more ? std::min(held_, given_ + kChunk) : given_;
   decodeLasRecords(records(), next_ - given_, file_.header().record_length, file_.layout(),
                    scaling_.scale, scaling_.offset, chunk);
+  if (compatibility_) compatibility_->restore(records(), file_.header().record_length, chunk);
   return more;
 }
 

@@ -8,11 +8,15 @@
 #include <vector>
 
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_compatibility.h>
 #include <pcl_als/las/las_file.h>
 
 namespace pcl_als {
 
 /** \brief Reads the points of a .las or .laz as columns, with their raw records beside them.
+ *
+ * Of a file in LAS 1.4 compatibility mode the columns have the values of LAS 1.4
+ * (LasCompatibility), the records are as they are stored.
  *
  * As PointReader::open() of such a file; for jobs that also need what a PointChunk has no columns
  * for.
@@ -42,6 +46,7 @@ class LasPointReader : public PointReader {
   std::size_t keepInside(std::size_t count);
 
   LasFile file_;
+  std::optional<LasCompatibility> compatibility_;
   PointWindow window_;
   PointFileInfo info_;
   LasScaling scaling_;
