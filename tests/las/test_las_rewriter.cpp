@@ -95,32 +95,44 @@ TEST(LasRewriter, OneThreadEqualsEight) {
   EXPECT_EQ(test::readBytes(folder / "one.las"), test::readBytes(folder / "eight.las"));
 }
 
-/// Compressed files are coded in their order, but edited by all threads.
-TEST(LasRewriter, CompressedBlocksAreEditedAtOnceByTwoThreads) {
+/// Compressed files are coded in their order, but blocks between are edited on several threads.
+TEST(LasRewriter, BlocksOfCompressedFilesAreEditedAtOnce) {
   const auto folder = test::scratch("las_rewriter_laz");
   LasBytes las;
   las.count = 200000;
   test::writeBytes(folder / "in.las", las.str());
-  rewriteLas(folder / "in.las", folder / "in.laz", kNothing);
   std::vector<std::atomic<int>> seen(las.count);
   std::atomic<int> running{0}, together{0};
-  const LasEdit edit = [&](const LasRecordBlock& block) {
-    ++running;
-    // Seconds for a machine under load: a second thread comes, or never will.
-    for (int i = 0; i < 5000 && running < 2 && together == 0; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (running > 1) together = 1;
-    for (std::size_t i = 0; i < block.count; ++i) ++seen[block.first + i];
-    addToX(block, static_cast<int>(block.first % 1000));
-    --running;
-  };
-  rewriteLas(folder / "in.laz", folder / "two.laz", edit, 2);
+  rewriteLas(
+      folder / "in.las", folder / "in.laz",
+      [&](const LasRecordBlock& block) {
+        ++running;
+        // Seconds for a machine under load: a second thread comes, or never will.
+        for (int i = 0; i < 5000 && running < 2 && together == 0; ++i)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (running > 1) together = 1;
+        for (std::size_t i = 0; i < block.count; ++i) ++seen[block.first + i];
+        --running;
+      },
+      2);
   EXPECT_EQ(together, 1);
   for (const auto& count : seen) ASSERT_EQ(count, 1);
+}
+
+TEST(LasRewriter, CompressedAndPlainFilesAreEditedAlike) {
+  const auto folder = test::scratch("las_rewriter_both");
+  LasBytes las;
+  las.count = 200000;
+  test::writeBytes(folder / "in.las", las.str());
+  const LasEdit edit = [](const LasRecordBlock& block) {
+    addToX(block, static_cast<int>(block.first % 1000));
+  };
+  rewriteLas(folder / "in.las", folder / "in.laz", kNothing);
+  rewriteLas(folder / "in.laz", folder / "four.laz", edit, 4);
   rewriteLas(folder / "in.laz", folder / "one.laz", edit, 1);
-  EXPECT_EQ(test::readBytes(folder / "one.laz"), test::readBytes(folder / "two.laz"));
+  EXPECT_EQ(test::readBytes(folder / "one.laz"), test::readBytes(folder / "four.laz"));
   rewriteLas(folder / "in.las", folder / "plain.las", edit, 1);
-  rewriteLas(folder / "two.laz", folder / "unpacked.las", kNothing, 2);
+  rewriteLas(folder / "four.laz", folder / "unpacked.las", kNothing, 2);
   EXPECT_EQ(test::readBytes(folder / "plain.las"), test::readBytes(folder / "unpacked.las"));
 }
 

@@ -7,6 +7,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/crs/crs.h>
+#include <pcl_als/las/damaged_file.h>
 #include <pcl_als/las/las_file.h>
 
 #include "copc.h"
@@ -89,9 +90,13 @@ void readExtendedEntries(const InputFile& file, const LasHeader& header,
   const std::uint64_t points_end =
       header.offset_to_points + (header.compressed ? 0 : header.point_count * header.record_length);
   if (header.evlr_start < points_end)
-    throw InputError(file.name() + ": the extended VLRs are said to begin at byte " +
-                     std::to_string(header.evlr_start) + ", before the end of the points");
-  readEntries(file, true, header.evlr_start, header.evlr_count, file.size(), entries);
+    throw DamagedFile(file.name() + ": the extended VLRs are said to begin at byte " +
+                      std::to_string(header.evlr_start) + ", before the end of the points");
+  try {
+    readEntries(file, true, header.evlr_start, header.evlr_count, file.size(), entries);
+  } catch (const InputError& error) {
+    throw DamagedFile(error.what());
+  }
 }
 
 /// The extended VLRs up to the first one that is lost; returns the number of those lost.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/las/damaged_file.h>
 #include <pcl_als/las/las_header.h>
 #include <pcl_als/las/las_record.h>
 
@@ -99,8 +100,8 @@ void checkExtent(const LasHeader& h, std::uint64_t file_size, const std::string&
   if (h.compressed || truncated) return;
   const std::uint64_t room = (file_size - h.offset_to_points) / h.record_length;
   if (h.point_count > room)
-    fail(name, "the header declares " + std::to_string(h.point_count) +
-                   " points but the file holds " + std::to_string(room) + " (truncated copy?)");
+    throw DamagedFile(name + ": the header declares " + std::to_string(h.point_count) +
+                      " points but the file holds " + std::to_string(room) + " (truncated copy?)");
 }
 
 void writeNewerFields(const LasHeader& h, std::byte* bytes) {
@@ -141,7 +142,8 @@ LasHeader parseLasHeader(const std::byte* bytes, std::size_t available, std::uin
   h.version_minor = loadLas<std::uint8_t>(bytes + 25);
   if (major != 1 || h.version_minor > 4)
     fail(name, "LAS version " + std::to_string(major) + "." + std::to_string(h.version_minor) +
-                   " is not supported (1.2 to 1.4 are)");
+                   " is not supported (1.0 to 1.4 are); write it as LAS 1.4 with the software that "
+                   "made it");
   h.header_size = loadLas<std::uint16_t>(bytes + 94);
   const std::uint16_t needed = LasHeader::sizeOf(h.version_minor);
   if (h.header_size < needed)

@@ -5,12 +5,14 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/las/damaged_file.h>
 #include <pcl_als/las/laz_point_reader.h>
 
 #include "byte_source.h"
 #include "chunk_coder.h"
 #include "chunk_table.h"
 #include "intact_chunks.h"
+#include "ordered_work.h"
 
 namespace pcl_als {
 namespace {
@@ -18,13 +20,13 @@ namespace {
 using laz::Chunk;
 
 constexpr std::size_t kLargestDecodedChunk = std::size_t{1} << 26;  ///< bytes of records
-constexpr std::size_t kReadAheadBytes = std::size_t{1} << 20;       ///< at least, if chunks allow
-constexpr std::size_t kReadAheadPerThread = 2;                      ///< chunks
+constexpr std::size_t kReadAheadPerThread = 2;                      ///< runs of chunks
 constexpr std::size_t kRunBytes = std::size_t{1} << 18;             ///< of records, for one thread
 constexpr std::size_t kSkippedRecords = 4096;
 
-/// Consecutive chunks in memory.
+/// Consecutive chunks [begin, end) in memory.
 struct Decoded {
+  std::size_t begin = 0, end = 0;
   std::uint64_t first = 0, count = 0;  ///< points
   std::vector<std::uint8_t> records;
   bool holds(std::uint64_t point) const { return point >= first && point - first < count; }
@@ -50,10 +52,14 @@ struct LazPointReader::State {
   bool in_order = false;  ///< chunks too large for memory, or found in decoding only
   std::mutex mutex;
   Decoded decoded;
-  std::uint64_t expected = 0;  ///< the next point of a reader that proceeds in order
+  std::uint64_t expected = 0;    ///< the next point of a reader that proceeds in order
+  std::size_t next_ahead = 0;    ///< the chunk behind those that are decoded ahead
+  std::uint64_t ahead_from = 0;  ///< the first point of these
+  std::vector<std::vector<std::uint8_t>> spare;
   Cursor cursor;
   std::mutex pool_mutex;
   std::vector<std::unique_ptr<laz::ChunkDecoder>> pool;
+  std::unique_ptr<laz::OrderedWork<Decoded>> ahead;  ///< ends before the pool does
 
   void open();
   bool holdsLargeChunk() const;
@@ -61,9 +67,12 @@ struct LazPointReader::State {
   [[noreturn]] void refuse(std::size_t chunk, const char* what) const;
   std::unique_ptr<laz::ChunkDecoder> takeDecoder();
   void decodeChunk(laz::ChunkDecoder& decoder, std::size_t index, std::uint8_t* out) const;
-  void decodeRun(std::size_t begin, std::size_t end);
-  std::size_t batchEnd(std::size_t first, std::uint64_t wanted_end, bool in_sequence) const;
-  void decodeFrom(std::uint64_t point, std::uint64_t wanted_end, bool in_sequence);
+  Decoded placed(std::size_t begin, std::size_t end) const;
+  std::size_t runEnd(std::size_t begin) const;
+  void decodeChunks(std::size_t begin, std::size_t end, Decoded& to);
+  void decodeFrom(std::uint64_t point, std::uint64_t wanted_end);
+  void decodeAhead();
+  void takeNext(std::uint64_t point);
   void readDecoded(std::uint64_t first, std::size_t count, std::uint8_t* out);
   void readInOrder(std::uint64_t first, std::size_t count, std::uint8_t* out);
   void readRanges(const std::vector<LasRecordRange>& ranges, std::uint8_t* out);
@@ -80,7 +89,7 @@ void LazPointReader::State::open() {
                                 {points.offset_to_points, points.file_size, points.point_count},
                                 points.keep_intact);
   } catch (const laz::Damage& damage) {
-    throw InputError(name + ": " + damage.what() + " (is the file complete?)");
+    throw DamagedFile(name + ": " + damage.what() + " (is the file complete?)");
   }
   in_order = !table.complete || holdsLargeChunk();
 }
@@ -100,9 +109,9 @@ std::size_t LazPointReader::State::chunkOf(std::uint64_t point) const {
 
 void LazPointReader::State::refuse(std::size_t chunk, const char* what) const {
   const Chunk& c = table.chunks[chunk];
-  throw InputError(name + ": chunk " + std::to_string(chunk + 1) + " (points " +
-                   std::to_string(c.first + 1) + " to " + std::to_string(c.first + c.points) +
-                   "): " + what + " (damaged or truncated copy?)");
+  throw DamagedFile(name + ": chunk " + std::to_string(chunk + 1) + " (points " +
+                    std::to_string(c.first + 1) + " to " + std::to_string(c.first + c.points) +
+                    "): " + what + " (damaged or truncated copy?)");
 }
 
 std::unique_ptr<laz::ChunkDecoder> LazPointReader::State::takeDecoder() {
@@ -130,59 +139,104 @@ void LazPointReader::State::decodeChunk(laz::ChunkDecoder& decoder, std::size_t 
   }
 }
 
-/// Decodes the chunks [begin, end) of those in `decoded`.
-void LazPointReader::State::decodeRun(std::size_t begin, std::size_t end) {
+/// The chunks [begin, end), not yet decoded.
+Decoded LazPointReader::State::placed(std::size_t begin, std::size_t end) const {
+  Decoded chunks;
+  chunks.begin = begin, chunks.end = end;
+  chunks.first = table.chunks[begin].first;
+  const Chunk& last = table.chunks[end - 1];
+  chunks.count = last.first + last.points - chunks.first;
+  return chunks;
+}
+
+/// The end of a run of chunks for one thread.
+std::size_t LazPointReader::State::runEnd(std::size_t begin) const {
+  std::size_t end = begin + 1;
+  std::uint64_t count = table.chunks[begin].points;
+  for (; end < table.chunks.size() && count * record_length < kRunBytes; ++end)
+    count += table.chunks[end].points;
+  return end;
+}
+
+/// Decodes some of the chunks that have their place.
+void LazPointReader::State::decodeChunks(std::size_t begin, std::size_t end, Decoded& to) {
   auto decoder = takeDecoder();
   for (std::size_t i = begin; i < end; ++i) {
-    const std::uint64_t before = table.chunks[i].first - decoded.first;
-    decodeChunk(*decoder, i, decoded.records.data() + before * record_length);
+    const std::uint64_t before = table.chunks[i].first - to.first;
+    decodeChunk(*decoder, i, to.records.data() + before * record_length);
   }
   const std::lock_guard<std::mutex> lock(pool_mutex);
   pool.push_back(std::move(decoder));
 }
 
-/// The end of the chunks to decode together from \a first on: those that reach up to \a wanted_end
-/// and, for a reader in order, enough for all threads.
-std::size_t LazPointReader::State::batchEnd(std::size_t first, std::uint64_t wanted_end,
-                                            bool in_sequence) const {
-  const std::size_t ahead = kReadAheadPerThread * threadCount(points.threads);
+/// Decodes the chunks from that of \a point on that reach up to \a wanted_end.
+void LazPointReader::State::decodeFrom(std::uint64_t point, std::uint64_t wanted_end) {
+  const std::size_t first = chunkOf(point);
+  std::vector<std::size_t> runs{first};
   std::uint64_t count = 0;
-  std::size_t end = first;
-  for (; end < table.chunks.size(); ++end) {
-    const Chunk& chunk = table.chunks[end];
-    if (end > first && (count + chunk.points) * record_length > kLargestDecodedChunk) break;
-    const bool enough = end - first >= ahead && count * record_length >= kReadAheadBytes;
-    if (in_sequence ? enough : chunk.first >= wanted_end) break;
-    count += chunk.points;
+  for (std::size_t i = first; i < table.chunks.size(); i = runs.back()) {
+    if (count > 0 &&
+        (table.chunks[i].first >= wanted_end || count * record_length >= kLargestDecodedChunk))
+      break;
+    runs.push_back(runEnd(i));
+    count = placed(first, runs.back()).count;
   }
-  return end;
+  decoded.count = 0;  // nothing is held if an exception leaves from here
+  Decoded chunks = placed(first, runs.back());
+  chunks.records = std::move(decoded.records);
+  chunks.records.resize(chunks.count * record_length);
+  parallelFor(runs.size() - 1, points.threads,
+              [&](std::size_t i) { decodeChunks(runs[i], runs[i + 1], chunks); });
+  decoded = std::move(chunks);
 }
 
-/// Decodes chunks from that of \a point on.
-void LazPointReader::State::decodeFrom(std::uint64_t point, std::uint64_t wanted_end,
-                                       bool in_sequence) {
-  const std::size_t first = chunkOf(point), end = batchEnd(first, wanted_end, in_sequence);
-  const Chunk& last = table.chunks[end - 1];
-  decoded.count = 0;  // nothing is held if an exception leaves from here
-  decoded.first = table.chunks[first].first;
-  const std::uint64_t count = last.first + last.points - decoded.first;
-  decoded.records.resize(count * record_length);
-  std::vector<std::size_t> runs{first};
-  for (std::size_t i = first; i < end; ++i) {
-    const std::uint64_t run =
-        table.chunks[i].first + table.chunks[i].points - table.chunks[runs.back()].first;
-    if (run * record_length >= kRunBytes || i + 1 == end) runs.push_back(i + 1);
+/// Hands runs of chunks to the threads that decode ahead.
+void LazPointReader::State::decodeAhead() {
+  const std::size_t most = kReadAheadPerThread * ahead->threads();
+  while (next_ahead < table.chunks.size() && ahead->size() < most) {
+    Decoded run = placed(next_ahead, runEnd(next_ahead));
+    const std::uint64_t held = run.first + run.count - ahead_from;
+    if (ahead->size() > 0 && held * record_length > kLargestDecodedChunk) return;
+    next_ahead = run.end;
+    if (!spare.empty()) {
+      run.records = std::move(spare.back());
+      spare.pop_back();
+    }
+    ahead->submit(std::move(run));
   }
-  parallelFor(runs.size() - 1, points.threads,
-              [&](std::size_t i) { decodeRun(runs[i], runs[i + 1]); });
-  decoded.count = count;
+}
+
+/// The run of chunks with \a point, of a reader that proceeds in order.
+void LazPointReader::State::takeNext(std::uint64_t point) {
+  if (!ahead) {
+    ahead = std::make_unique<laz::OrderedWork<Decoded>>(points.threads, [this](Decoded& run) {
+      run.records.resize(run.count * record_length);
+      decodeChunks(run.begin, run.end, run);
+    });
+  }
+  const std::size_t chunk = chunkOf(point);
+  if (ahead->size() == 0 || table.chunks[chunk].first != ahead_from) {
+    ahead->clear();
+    next_ahead = chunk;
+    ahead_from = table.chunks[chunk].first;
+  }
+  if (!decoded.records.empty()) spare.push_back(std::move(decoded.records));
+  decoded = Decoded();
+  decodeAhead();
+  ahead_from = ~std::uint64_t{0};  // nothing is known if an exception leaves from here
+  decoded = ahead->take();
+  ahead_from = decoded.first + decoded.count;
+  decodeAhead();
 }
 
 void LazPointReader::State::readDecoded(std::uint64_t first, std::size_t count, std::uint8_t* out) {
   const std::uint64_t end = first + count;
   const bool in_sequence = first == expected;
   while (first < end) {
-    if (!decoded.holds(first)) decodeFrom(first, end, in_sequence);
+    if (!decoded.holds(first) && in_sequence)
+      takeNext(first);
+    else if (!decoded.holds(first))
+      decodeFrom(first, end);
     const std::uint64_t part = std::min(end, decoded.first + decoded.count) - first;
     const std::uint8_t* from = decoded.records.data() + (first - decoded.first) * record_length;
     out = std::copy(from, from + part * record_length, out);
@@ -326,6 +380,7 @@ void LazPointReader::read(const std::vector<LasRecordRange>& ranges, void* out) 
 
 LazIntact LazPointReader::findIntact() {
   const std::lock_guard<std::mutex> lock(state_->mutex);
+  if (state_->ahead) state_->ahead->clear();
   LazIntact found =
       laz::findIntactChunks(state_->schema, state_->read_at, state_->points, state_->table);
   state_->in_order = state_->holdsLargeChunk();
