@@ -52,11 +52,10 @@ CommandLine commandLine() {
                "with quasi_rigorous: assume a vertical sensor aligned with the flight line, as "
                "published, instead of recovering pitch and crab from the points");
   line.addOptional("output", "calibration.json to write (needed)");
-  line.addOptional("corrected", "folder for corrected copies of all strips, with all their points");
+  line.addOptional("corrected", "folder for corrected copies of all strips, also beyond -bounds");
   line.addFlag("strip_corrections",
-               "with -corrected: also correct the estimated trajectory errors of each strip");
-  line.addOptional("report",
-                   "folder for report.html (pictures inside), report.md and tables as CSV");
+               "with -corrected: also correct the estimated trajectory errors (not with -bounds)");
+  line.addOptional("report", "folder for report.html (with pictures), report.md, tables as CSV");
   app::addErrorOptions(line);
   app::addAccuracyOption(line,
                          "their root mean squares over the strips are the prior standard "
@@ -123,6 +122,10 @@ CalibrationSettings settingsOf(const CommandLine& line) {
 /// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
   if (!line.has("output")) throw UsageError("option -output is needed");
+  if (line.has("corrected") && line.has("keep_readable"))
+    throw UsageError("options -corrected and -keep_readable exclude each other (see -h)");
+  if (line.has("strip_corrections") && line.has("bounds"))
+    throw UsageError("options -strip_corrections and -bounds exclude each other (see -h)");
   app::checkWritable(line.text("output"));
   for (const char* option : {"corrected", "report"}) {
     if (line.has(option)) app::makeOutputFolder(option, line.text(option));

@@ -26,9 +26,7 @@ CommandLine commandLine() {
   line.addFlag("split",
                "write a file for each strip into the output folder; points are divided into flight "
                "lines at gaps in time, changes of course and turns, points in turns are left out");
-  line.addOptional("format",
-                   "las, laz or pcd: of the files in an output folder (default: that of "
-                   "the input)");
+  line.addOptional("format", "las, laz or pcd: files in an output folder (default: as the input)");
   return line;
 }
 

@@ -21,13 +21,12 @@ namespace {
 
 ListedFlight flightOf(const CommandLine& line) {
   ListedFlight flight;
-  if (line.has("trajectory")) {
-    const TrajectoryReading reading = trajectoryReading(line, {});
-    for (const std::filesystem::path& file : trajectoryPaths(trajectoryFiles(line)))
-      flight.trajectories.emplace_back(file.string(), inspectTrajectory(file, reading));
-  }
   if (line.has("accuracy")) flight.accuracy_path = line.text("accuracy");
   flight.accuracy = accuracies(line);
+  if (!line.has("trajectory")) return flight;
+  const TrajectoryReading reading = trajectoryReading(line, {});
+  for (const auto& file : trajectoryPaths(trajectoryFiles(line)))
+    flight.trajectories.emplace_back(file.string(), inspectTrajectory(file, reading));
   return flight;
 }
 

@@ -33,9 +33,8 @@ void addTrajectoryOptions(CommandLine& line, const char* use) {
   const std::string help =
       std::string(
           "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet), TerraScan (.trj), RIEGL "
-          "(.pof) or Leica (.sol); "
-          "several files or a folder are joined in order of time; \"reconstruct\": from "
-          "the points (") +
+          "(.pof) or Leica (.sol); several files or a folder are joined in order of time; "
+          "\"reconstruct\": from the points (") +
       use + ")";
   line.addList("trajectory", help.c_str());
   line.addOptional("crs",

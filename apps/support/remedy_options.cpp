@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "remedy_options.h"
 
+#include <pcl_als/las/damaged_file.h>
+
 namespace pcl_als::app {
 namespace {
 
@@ -43,6 +45,8 @@ const RemedyOption* optionFor(Remedy remedy) {
 }  // namespace
 
 std::string withOption(const Error& error) {
+  if (dynamic_cast<const DamagedFile*>(&error) != nullptr)
+    return error.what() + std::string("; pcl_als_convert -keep_readable saves what is intact");
   const RemedyOption* option = optionFor(error.remedy());
   return option == nullptr ? error.what() : std::string(error.what()) + "; " + option->text;
 }

@@ -52,14 +52,15 @@ expect 1 "same file" convert own.las "$PWD"
 check "the input is as it was" cmp "$strip" own.las
 expect 2 "there is no such file" convert missing.las out.las
 head -c 100000 packed.laz >cut.laz
-expect 2 "cut.laz: " convert cut.laz out.las
+expect 2 "cut.laz: *; pcl_als_convert -keep_readable saves what is intact" convert cut.laz out.las
+expect 2 "-keep_readable" apply cut.laz out.las -trajectory "$block/trajectory.csv" -biases range_bias=1
 
 # What is intact of a truncated or damaged file.
 expect 2 "cut.laz: none of its points can be read: " convert cut.laz out.las -keep_readable
 expect 0 "points" convert "$strip" whole.las -keep_readable
 check "an undamaged file is the same" cmp whole.las "$strip"
 head -c 200000 "$strip" >cut.las
-expect 2 "cut.las: the header declares" convert cut.las out.las
+expect 2 "cut.las: the header declares*; pcl_als_convert -keep_readable saves" convert cut.las out.las
 expect 0 "cut.las: 5 8?? of 17 206 points" convert cut.las kept.laz -keep_readable
 expect 0 "5 8" info kept.laz
 expect 0 "cut.las: 5 8?? of 17 206 points" info cut.las -keep_readable

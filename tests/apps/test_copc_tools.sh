@@ -44,6 +44,13 @@ check "profile of a window" cmp copc.profile.png plain.profile.png
 same "check of a window" copc.quality.json plain.quality.json
 same "calibration of a window" copc.calibration.json plain.calibration.json
 check "the calibration has numbers" grep -q '"pairs"' copc.calibration.json
+# Parameters of a part correct whole files; errors of strips are known within the part only.
+calibrate=(calibrate plain/* -bounds "$bounds" -trajectory "$block/trajectory.csv" -output part.json -corrected all)
+run "${calibrate[@]}" -force -quiet
+check "corrected copies have all points" test "$(stat -c %s all/1.las)" = "$(stat -c %s plain/1.las)"
+check "all of them are moved" test "$(cmp -l all/1.las plain/1.las | wc -l)" -gt "$(($(stat -c %s plain/1.las) / 60))"
+expect 1 "-strip_corrections and -bounds exclude each other" "${calibrate[@]}" -strip_corrections
+expect 1 "-corrected and -keep_readable exclude each other" "${calibrate[@]}" -keep_readable
 
 # Conversion of the window, and levels of the octree.
 expect 0 "points" convert copc/1.copc.laz window.laz -bounds "$bounds"

@@ -37,6 +37,7 @@ damaged truncated_vlr "" keep 400
 damaged truncated_point "" keep 100001
 damaged no_signature "" set signature 0
 damaged version "version" set version_minor 9
+damaged version_5 "LAS version 1.5 is not supported (1.0 to 1.4 are)" set version_minor 5
 damaged format "format" set point_format 11
 damaged record_length "record" set record_length 12
 damaged count_too_large "" set point_count 99999999
