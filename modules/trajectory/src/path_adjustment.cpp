@@ -37,7 +37,8 @@ PathAdjustment::PathAdjustment(const PathEvidence& evidence, const TimeRange& sp
       normal_(spline_.count() * kBlock, 4 * kBlock - 1, kCommon),
       across_(kAcross * kAcross),
       roll_(kRoll * kRoll),
-      noise_(kAngleNoise * kAngleNoise) {
+      noise_(kAngleNoise * kAngleNoise),
+      scale_(kScale) {
   const double cube = std::pow(spline_.step(), 3.0);
   plan_ = height_ = kAgility * kAgility * cube;
   takeRays();
@@ -144,7 +145,7 @@ void PathAdjustment::addPrior() {
     if (knot > 0) normal_.add(i, i - kBlock, -inner * keep);
     for (int c = 0; c < 3; ++c) normal_.add(i - 3 + c, i - 3 + c, kRegular);
   }
-  Eigen::Vector4d priors(kScale, kOffset, evidence_.counts().whole_degrees ? kTruncation : 1e-4,
+  Eigen::Vector4d priors(scale_, kOffset, evidence_.counts().whole_degrees ? kTruncation : 1e-4,
                          kPitch);
   normal_.addCorner(priors.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix(),
                     Eigen::Vector4d::Zero());
@@ -176,6 +177,8 @@ bool PathAdjustment::adjustRays() {
 /// without such a path, the path from angles alone is the start.
 bool PathAdjustment::adjustWithAngles() {
   if (angles_.empty()) return false;
+  const bool started = startFromAngles();
+  if (started) allowForSkew();
   const double slope = solved_ ? angleSlope() : 0.0;
   if (std::abs(std::abs(slope) - 1.0) < kSlopeTolerance) {
     sign_ = slope > 0.0 ? 1.0 : -1.0;
@@ -184,7 +187,7 @@ bool PathAdjustment::adjustWithAngles() {
   }
   solved_ = false;
   for (AdjustedRay& ray : rays_) ray.weight = 0.0;
-  if (!startFromAngles()) return false;
+  if (!started) return false;
   with_angles_ = true;
   for (int i = 0; i < kRobustSteps; ++i) {
     if (!solve()) return false;

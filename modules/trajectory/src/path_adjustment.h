@@ -99,6 +99,7 @@ class PathAdjustment {
   /// Unit vector of the course; that of the points before there is a path.
   Eigen::Vector2d courseAt(const UniformCubicSpline::Weights& at) const;
   bool startFromAngles();
+  void allowForSkew();
   /// The observation of a class: row . (path, roll) + common . unknowns = value, metres.
   struct AngleRow {
     Eigen::Matrix<double, kBlock, 1> path;
@@ -135,6 +136,9 @@ class PathAdjustment {
   // coefficients in plan and height (m^2); of the roll in recorded angles and of the mean angle of
   // a class (rad^2).
   double across_, apart_ = 0.0, plan_ = 0.0, height_ = 0.0, roll_, noise_;
+  double scale_;  ///< prior standard deviation of the scale of recorded angles
+  double skew_cosine_ =
+      1.0;  ///< of the angle between scan lines and the perpendicular of the course
 };
 
 }  // namespace pcl_als::detail

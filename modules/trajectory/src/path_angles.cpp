@@ -49,8 +49,8 @@ void PathAdjustment::takeAngles() {
   });
 }
 
-/// Course from the movement of the points of one class, height and sign from the lateral positions
-/// of the classes of one time.
+/// Course from the movement of the points of one class; height, sign and the skew of the scan lines
+/// (crab, or a scanner turned in its mount) from the positions of the classes of one time.
 bool PathAdjustment::startFromAngles() {
   struct Means {
     double n = 0.0, time = 0.0, tangent = 0.0;
@@ -79,15 +79,20 @@ bool PathAdjustment::startFromAngles() {
   }
   if (!(times > 0.0) || !(moved.norm() > kSlowest * times)) return false;
   start_course_ = moved.normalized();
-  double slope = 0.0, tangents = 0.0;
+  const double speed = moved.norm() / times;
+  double slope = 0.0, tangents = 0.0, skewed = 0.0, across = 0.0;
   for (const AdjustedAngle& angle : angles_) {
     const Means& m = bins.at(angle.bin);
-    slope +=
-        (angle.tangent - m.tangent) * rightOf(start_course_).dot(angle.mean.head<2>() - m.place);
+    const Eigen::Vector2d offset = angle.mean.head<2>() - m.place;
+    const double lateral = rightOf(start_course_).dot(offset);
+    slope += (angle.tangent - m.tangent) * lateral;
     tangents += (angle.tangent - m.tangent) * (angle.tangent - m.tangent);
+    skewed += lateral * (start_course_.dot(offset) - speed * (angle.time - m.time));
+    across += lateral * lateral;
   }
-  if (!(tangents > 0.0)) return false;
-  start_height_ = std::abs(slope) / tangents;
+  if (!(tangents > 0.0) || !(across > 0.0)) return false;
+  skew_cosine_ = std::cos(std::atan(skewed / across));
+  start_height_ = std::abs(slope) / (tangents * skew_cosine_);
   sign_ = slope > 0.0 ? 1.0 : -1.0;
   return start_height_ > 1.0;
 }
@@ -120,6 +125,15 @@ double PathAdjustment::heightOf(const AdjustedAngle& angle) const {
   constexpr double kLowest = 5.0;
   if (!solved_) return start_height_;
   return std::max(kLowest, valueAt(angle.at).z() - angle.mean.z());
+}
+
+/// Recorded angles are those in the scan plane, whose tangent across the course is smaller.
+void PathAdjustment::allowForSkew() {
+  for (AdjustedAngle& angle : angles_) {
+    angle.tangent *= skew_cosine_;
+    angle.tangent_z *= skew_cosine_;
+  }
+  scale_ = std::hypot(kScale, kSkewShare * (1.0 - skew_cosine_));
 }
 
 /// right . (mean - X) = sign (Z T - mean(z T)) (1 + scale)

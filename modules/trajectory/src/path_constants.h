@@ -19,8 +19,9 @@ inline constexpr double kRollTime = 3.0;  // s, correlation time of the roll
 inline constexpr double kAngleNoise =
     0.15 * kRadiansPerDegree;  // rad, mean of a class, at the start
 inline constexpr double kLeastAngleNoise = 0.02 * kRadiansPerDegree;
-inline constexpr double kScale = 0.005;                     // 1, prior of recorded angles' scale
-inline constexpr double kOffset = 1.0 * kRadiansPerDegree;  // rad, prior of their offset
+inline constexpr double kScale = 0.005;    // 1, prior of recorded angles' scale
+inline constexpr double kSkewShare = 0.5;  // 1, uncertainty of the effect of skewed scan lines
+inline constexpr double kOffset = 1.0 * kRadiansPerDegree;       // rad, prior of their offset
 inline constexpr double kTruncation = 0.25 * kRadiansPerDegree;  // rad, of whole degrees
 inline constexpr double kPitch = 3.0 * kRadiansPerDegree;        // rad, prior of the mean pitch
 inline constexpr double kPitchMotion = 4.0 * kRadiansPerDegree;  // rad, of a quarter of a second
