@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/tin/patch_surface.h>
+#include <pcl_als/tin/surface_criterion.h>
 
 #include "surface_sets.h"
 
@@ -29,6 +30,23 @@ TEST(PatchQuality, TiltedPlaneByHand) {
   EXPECT_FALSE(q.on_hull);
   // All diagonals of a tied grid run one way: three rings of six around a triangle hold 12 points.
   EXPECT_EQ(q.vertices, 12);
+}
+
+TEST(TypicalPlanEdge, IsTheMedianOfAGrid) {
+  EXPECT_EQ(typicalPlanEdge(Tin()), 0.0);
+  // Edges of 1, 1 and 1.41421 m.
+  EXPECT_NEAR(typicalPlanEdge(Tin(test::planePoints(0.0, 0.0, 20.0, 1.0))), 1.0, 1e-9);
+}
+
+TEST(TypicalPlanEdge, ClustersDoNotSetTheScaleOfTheGapsBetweenThem) {
+  // 800 triangles of 1 m and 1,800 of 0.1 m: the median edge is 0.1 m, while seven tenths of the
+  // plane, and more than a tenth of the triangles, have edges of 1 and 1.41421 m.
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 20; ++i)
+    for (int j = 0; j <= 20; ++j) points.emplace_back(i, j, 0.0);
+  for (int i = 0; i <= 30; ++i)
+    for (int j = 0; j <= 30; ++j) points.emplace_back(8.05 + 0.1 * i, 8.05 + 0.1 * j, 0.0);
+  EXPECT_NEAR(typicalPlanEdge(Tin(points)), 1.41421 / 2.3, 0.01);
 }
 
 TEST(PatchQuality, BorderIsMarkedAndOnlyThere) {

@@ -54,7 +54,7 @@ void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candida
       continue;
     }
     part.surface = PatchSurface(Tin(part.biased, resolution));
-    part.median_edge = medianPlanEdge(part.surface.tin());
+    part.median_edge = typicalPlanEdge(part.surface.tin());
     chooseCandidates(part, candidates);
   }
 }

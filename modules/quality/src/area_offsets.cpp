@@ -59,7 +59,7 @@ void AreaOffsets::build(const SurfaceLimits& limits, double resolution) {
     positions.reserve(part.points.size());
     for (const LidarReturn& point : part.points) positions.push_back(point.position);
     part.surface = PatchSurface(Tin(std::move(positions), resolution));
-    part.median_edge = medianPlanEdge(part.surface.tin());
+    part.median_edge = typicalPlanEdge(part.surface.tin());
     choosePlaces(part);
   }
 }

@@ -20,7 +20,7 @@ constexpr std::size_t kEdgeSamples = 3000;
 SurfaceSide::SurfaceSide(std::vector<Eigen::Vector3d> points, const Eigen::AlignedBox2d& box,
                          double resolution)
     : surface_(Tin(std::move(points), resolution)), box_(box) {
-  median_edge_ = medianPlanEdge(surface_.tin(), kEdgeSamples);
+  median_edge_ = typicalPlanEdge(surface_.tin(), kEdgeSamples);
   verdicts_.assign(surface_.tin().triangles().size(), kUnknown);
 }
 

@@ -67,7 +67,7 @@ void judge(const Square& square, const std::vector<std::size_t>& members,
   positions.reserve(members.size());
   for (const std::size_t i : members) positions.push_back(points[i]);
   const PatchSurface surface(Tin(std::move(positions), settings.resolution));
-  const double median_edge = medianPlanEdge(surface.tin());
+  const double median_edge = typicalPlanEdge(surface.tin());
   const std::vector<std::int32_t> triangles = trianglesOf(surface.tin());
   for (std::size_t k = 0; k < members.size(); ++k) {
     const Eigen::Vector3d& p = points[members[k]];

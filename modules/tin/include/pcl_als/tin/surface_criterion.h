@@ -19,7 +19,7 @@ namespace pcl_als {
  * Limits that are infinite (or zero vertices) are not applied.
  */
 struct SurfaceCriterion {
-  /// Longest edge against the median edge of the TIN, both in plan: longer ones span gaps.
+  /// Longest edge against typicalPlanEdge(), both in plan: longer ones span gaps.
   double edge_factor = 3.0;
   double slope = 1.05;        ///< radians: steeper are walls or triangles across an eave
   double roughness = 0.08;    ///< metres, RMS of the neighbourhood's vertices about their plane
@@ -32,7 +32,7 @@ struct SurfaceCriterion {
   /// uncertainty of a plane from below.
   double plain_roughness = 0.0;
 
-  /// Without slope and roughness. \a median_edge: metres in plan, medianPlanEdge().
+  /// Without slope and roughness. \a median_edge: typicalPlanEdge(), metres.
   bool isSound(const PatchQuality& quality, double median_edge) const;
   bool isSatisfiedBy(const PatchQuality& quality, double median_edge) const;
   /// Standard deviation of the tilt of the neighbourhood's plane, radians.
@@ -42,10 +42,16 @@ struct SurfaceCriterion {
 /// Radians (15 degrees): slope limit of plain ground, whose roughness is that of the noise.
 inline constexpr double kGentleSlope = 0.26;
 
-/// Median length in plan of the edges of a TIN, metres, from a limited number of its triangles; 0
-/// for an empty one.
-double medianPlanEdge(const Tin& tin,
-                      std::size_t triangles = std::numeric_limits<std::size_t>::max());
+/** \brief Typical length in plan of the edges of a TIN, metres, from a limited number of its
+ * triangles; 0 for an empty one.
+ *
+ * The median length, or, where the points form clusters and lines (rosette scanners), the 90th
+ * percentile of the longest edges of the triangles divided by 2.3 (independent points: 2.0 times the
+ * median edge). In a rosette the median edge is the distance of consecutive pulses; the gaps between
+ * its petals, in its outer half up to 60 % of the area, are several times as wide.
+ */
+double typicalPlanEdge(const Tin& tin,
+                       std::size_t triangles = std::numeric_limits<std::size_t>::max());
 
 /** \brief One triangle for each vertex that \a wanted accepts, by orientation class (every step-th
  * triangle).
