@@ -8,6 +8,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_census.h>
+#include <pcl_als/processing/scanner_survey.h>
 #include <pcl_als/report/census_report.h>
 #include <pcl_als/survey/arranged_files.h>
 
@@ -30,6 +31,19 @@ ListedFlight flightOf(const CommandLine& line) {
   return flight;
 }
 
+/// A trajectory that does not fit the points is no obstacle to listing both.
+void listScanners(const CommandLine& line, const std::vector<std::string>& files,
+                  ListedFlight& flight) {
+  try {
+    SurveyReader survey(files, line.threads(), windowOf(line));
+    const auto track = readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given);
+    flight.scanners = detectScanners(survey, stripChoice(line), {track.get(), std::nullopt, true});
+    for (const std::string& text : describe(flight.scanners)) remark(line, "scanner of " + text);
+  } catch (const Error& error) {
+    remark(line, std::string("no scanner is detected: ") + error.what());
+  }
+}
+
 int info(int argc, char** argv) {
   CommandLine line("pcl_als_info",
                    "lists the contents of point files: strips, times, density, returns, overlaps",
@@ -39,7 +53,7 @@ int info(int argc, char** argv) {
   line.addOptional("json", "also write the facts as JSON");
   addWindowOptions(line);
   addStripOptions(line);
-  addTrajectoryOptions(line, "listed: format, datum, times, attitude");
+  addTrajectoryOptions(line, "listed, and used to detect the scanner");
   addAccuracyOption(line, "listed");
   if (!line.parse(argc, argv)) return kDone;
 
@@ -47,7 +61,7 @@ int info(int argc, char** argv) {
   const double cell = line.number("cell", 0.0, 10000.0, "m");
   const bool only_flight = line.has("trajectory") || line.has("accuracy");
   const auto& inputs = line.inputs(only_flight ? 0 : 1, std::numeric_limits<std::size_t>::max());
-  const ListedFlight flight = flightOf(line);
+  ListedFlight flight = flightOf(line);
   if (!line.quiet()) std::cout << flightText(flight);
   if (inputs.empty()) {
     if (line.has("json")) writeFile(line.text("json"), censusJson({}, {}, flight));
@@ -72,6 +86,7 @@ int info(int argc, char** argv) {
   for (const FileCensus& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
   if (!line.quiet()) std::cout << '\n' << censusText(survey, left_out);
+  if (line.has("trajectory") && !flight.trajectories.empty()) listScanners(line, inputs, flight);
   if (line.has("json")) writeFile(line.text("json"), censusJson(survey, left_out, flight));
   return kDone;
 }

@@ -9,6 +9,7 @@
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/trajectory_io.h>
+#include <pcl_als/processing/scanner_survey.h>
 
 namespace pcl_als {
 
@@ -20,6 +21,7 @@ struct ListedFlight {
   std::vector<std::pair<std::string, TrajectoryFacts>> trajectories;  ///< path and facts
   std::string accuracy_path;
   std::vector<TrajectoryAccuracy> accuracy;  ///< empty: no file of accuracies
+  std::vector<StripScanner> scanners;        ///< detected from points and trajectory; may be empty
 };
 
 /// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
