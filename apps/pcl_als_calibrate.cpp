@@ -40,6 +40,7 @@ CommandLine commandLine() {
   app::addUnitsOption(line, "control", "the control file");
   app::addWindowOptions(line);
   app::addStripOptions(line);
+  app::addChannelOption(line);
   line.addOptional("pairs",
                    "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
                    "strips are used for control only");

@@ -45,6 +45,7 @@ CommandLine commandLine() {
                    "both are reported side by side");
   app::addWindowOptions(line);
   app::addStripOptions(line);
+  app::addChannelOption(line);
   line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
   app::addUnitsOption(line, "control", "the control file");
   line.addOptional("output", "quality.json to write (needed)");

@@ -31,19 +31,6 @@ ListedFlight flightOf(const CommandLine& line) {
   return flight;
 }
 
-/// A trajectory that does not fit the points is no obstacle to listing both.
-void listScanners(const CommandLine& line, const std::vector<std::string>& files,
-                  ListedFlight& flight) {
-  try {
-    SurveyReader survey(files, line.threads(), windowOf(line));
-    const auto track = readFlight(line, survey.reference().crs, 0.0, AttitudeUse::where_given);
-    flight.scanners = detectScanners(survey, stripChoice(line), {track.get(), std::nullopt, true});
-    for (const std::string& text : describe(flight.scanners)) remark(line, "scanner of " + text);
-  } catch (const Error& error) {
-    remark(line, std::string("no scanner is detected: ") + error.what());
-  }
-}
-
 int info(int argc, char** argv) {
   CommandLine line("pcl_als_info",
                    "lists the contents of point files: strips, times, density, returns, overlaps",
@@ -86,7 +73,9 @@ int info(int argc, char** argv) {
   for (const FileCensus& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
   if (!line.quiet()) std::cout << '\n' << censusText(survey, left_out);
-  if (line.has("trajectory") && !flight.trajectories.empty()) listScanners(line, inputs, flight);
+  if (line.has("trajectory"))
+    remarks(line, detectScanners(inputs, window, stripChoice(line), trajectoryFiles(line),
+                                 trajectoryReading(line, {}), line.threads(), flight.scanners));
   if (line.has("json")) writeFile(line.text("json"), censusJson(survey, left_out, flight));
   return kDone;
 }

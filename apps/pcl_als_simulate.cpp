@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <string>
-#include <system_error>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
@@ -13,6 +9,7 @@
 
 #include "command_line.h"
 #include "output_check.h"
+#include "window_options.h"
 
 namespace {
 
@@ -120,19 +117,6 @@ void setIntensity(const CommandLine& line, SimulationOptions& options) {
   if (line.has("strip_gains")) options.setGains(line.text("strip_gains"));
 }
 
-Eigen::Vector3d parseOrigin(const std::string& text) {
-  const std::vector<std::string> parts = splitList(text);
-  Eigen::Vector3d origin;
-  bool good = parts.size() == 3;
-  for (int i = 0; good && i < 3; ++i) {
-    const auto value = app::decimalNumber(parts[i]);
-    good = value.has_value();
-    origin[i] = value.value_or(0.0);
-  }
-  if (good) return origin;
-  throw UsageError("option -origin: '" + text + "' is not X,Y,Z in metres");
-}
-
 SimulationOptions optionsFrom(const CommandLine& line) {
   auto options =
       SimulationOptions::preset(line.text("preset"), line.number("scale", 0.05, 10.0, "(factor)"),
@@ -148,7 +132,8 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.noise.process = simulation::errorProcessNamed(line.text("error_process"));
   if (line.has("bias")) simulation::setBiases(line.text("bias"), options.bias);
   options.vertical = line.has("vertical");
-  if (line.has("origin")) options.origin = parseOrigin(line.text("origin"));
+  if (line.has("origin"))
+    options.origin = Eigen::Vector3d(numbersOf(line, "origin", ',', 3, kFarthest).data());
   options.crs = line.text("crs");
   requireProjectedCrs(options.crs, "option -crs");
   options.scene.relief *= line.number("relief", 0.0, 1.5, "(factor)");

@@ -3,7 +3,6 @@
 #include "command_line.h"
 
 #include <algorithm>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>

@@ -27,12 +27,19 @@ void addStripOptions(CommandLine& line, bool split) {
                "for files without source ids (lines are named line1, line2, ... in order of time)");
 }
 
+void addChannelOption(CommandLine& line) {
+  line.addOptional("channels",
+                   "the channels of the scanner are strips of their own (3.ch0, 3.ch1, ...): "
+                   "scanner_channel (LAS 1.4), user_data or an extra-bytes field");
+}
+
 bool choosesStrips(const CommandLine& line) {
   return line.has("strips") || line.has("without") || line.has("split");
 }
 
 StripChoice stripChoice(const CommandLine& line) {
   StripChoice choice{namesOf(line, "strips"), namesOf(line, "without"), line.has("split")};
+  choice.by_channel = line.has("channels");
   for (const std::string& name : choice.without) {
     if (std::find(choice.only.begin(), choice.only.end(), name) != choice.only.end())
       throw UsageError("options -strips and -without: both name strip '" + name + "'");

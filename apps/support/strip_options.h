@@ -14,6 +14,8 @@ namespace pcl_als::app {
 /// Adds -strips, -without and, where \a split, -split, which mean the same in every tool that takes
 /// strips.
 void addStripOptions(CommandLine& line, bool split = true);
+/// Adds -channels, which windowOf() and stripChoice() take into account.
+void addChannelOption(CommandLine& line);
 /// Whether any of them is given.
 bool choosesStrips(const CommandLine& line);
 /// Their values. UsageError for an option without a name, and for a name in both lists.

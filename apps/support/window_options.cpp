@@ -58,6 +58,7 @@ PointWindow windowOf(const CommandLine& line) {
   PointWindow window;
   if (line.has("bounds")) window.bounds = rectangleOf(line, "bounds");
   window.keep_readable = line.has("keep_readable");
+  if (line.has("channels")) window.channel_field = line.text("channels");
   if (line.has("resolution"))
     window.resolution = numberIn(line.text("resolution"), "option -resolution", 1e-6, 1e6);
   return window;

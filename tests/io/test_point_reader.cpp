@@ -4,6 +4,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_writer.h>
 
 #include "las_bytes.h"
 #include "real_data.h"
@@ -40,6 +41,66 @@ TEST(PointReader, RefusesOtherExtensions) {
   EXPECT_THROW(PointReader::open(folder / "a.xyz"), InputError);
   EXPECT_THROW(PointReader::open(folder / "missing.las"), InputError);
   EXPECT_THROW(PointReader::open(folder / "missing.pcd"), InputError);
+}
+
+/// Channels in three places: 0 to 3 as scanner channel, 0 to 5 in the user data, 10 to 15 in a
+/// field.
+std::filesystem::path fileWithChannels(const char* name, double first) {
+  PointChunk points;
+  points.resize(6);
+  LasWriterOptions options;
+  LasExtraField field;
+  field.name = "beam";
+  field.type = LasExtraType::i16;
+  options.extra_fields.push_back(field);
+  std::vector<double> beam;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points.x[i] = static_cast<double>(i);
+    points.return_number[i] = points.number_of_returns[i] = 1;
+    points.flags[i] = static_cast<std::uint8_t>((i % 4) << 6U);
+    points.channel[i] = static_cast<std::uint8_t>(5 - i);
+    beam.push_back(first + static_cast<double>(i));
+  }
+  const auto path = test::scratch("point_reader_channels") / name;
+  LasWriter writer(path, options);
+  writer.append(points, {beam});
+  writer.finish();
+  return path;
+}
+
+std::vector<std::uint8_t> channelsIn(const std::filesystem::path& path, const char* field) {
+  PointWindow window;
+  window.channel_field = field;
+  PointChunk chunk;
+  PointReader::open(path, window)->read(chunk);
+  return chunk.channel;
+}
+
+TEST(PointReader, ChannelsAreThoseOfTheFieldThatIsNamed) {
+  using Channels = std::vector<std::uint8_t>;
+  for (const char* name : {"a.las", "a.laz"}) {
+    const auto path = fileWithChannels(name, 10.0);
+    EXPECT_EQ(channelsIn(path, ""), (Channels{0, 1, 2, 3, 0, 1}));
+    EXPECT_EQ(channelsIn(path, "scanner_channel"), (Channels{0, 1, 2, 3, 0, 1}));
+    EXPECT_EQ(channelsIn(path, "user_data"), (Channels{5, 4, 3, 2, 1, 0}));
+    EXPECT_EQ(channelsIn(path, "beam"), (Channels{10, 11, 12, 13, 14, 15}));
+  }
+}
+
+TEST(PointReader, AFieldWithoutChannelsIsNamed) {
+  const auto message = [](const std::filesystem::path& path, const char* field) {
+    try {
+      channelsIn(path, field);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string missing = message(fileWithChannels("b.las", 10.0), "laser");
+  EXPECT_NE(missing.find("'laser'"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("user_data, beam"), std::string::npos) << missing;
+  const std::string negative = message(fileWithChannels("c.las", -1.0), "beam");
+  EXPECT_NE(negative.find("'beam' holds -1"), std::string::npos) << negative;
 }
 
 TEST(PointReader, ReadsARealTile) {

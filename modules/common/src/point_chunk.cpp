@@ -12,4 +12,24 @@ void PointChunk::resize(std::size_t count) {
     column->resize(count);
 }
 
+PointChunk PointChunk::select(const std::vector<std::size_t>& rows) const {
+  const auto part = [&rows](const auto& column) {
+    std::decay_t<decltype(column)> selected(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) selected[i] = column[rows[i]];
+    return selected;
+  };
+  return {part(x),
+          part(y),
+          part(z),
+          part(gps_time),
+          part(intensity),
+          part(scan_angle),
+          part(point_source_id),
+          part(return_number),
+          part(number_of_returns),
+          part(classification),
+          part(flags),
+          part(channel)};
+}
+
 }  // namespace pcl_als

@@ -13,16 +13,24 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
 constexpr std::size_t kMostNodes = 64;  ///< read at once; each may be decoded by a thread
 
+/// LazField bits of a field with the channel.
+unsigned fieldsFor(const std::string& channel_field) {
+  if (channel_field.empty() || channel_field == "scanner_channel") return 0;
+  return channel_field == "user_data" ? kLazUserData : kLazExtraBytes;
+}
+
 }  // namespace
 
 LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWindow& window,
                                OtherCoordinates other, unsigned fields)
-    : file_(path, fields, window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
+    : file_(path, fields | fieldsFor(window.channel_field),
+            window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
       compatibility_(LasCompatibility::of(file_)),
       window_(window),
       info_(file_.info()) {
   if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
   if (compatibility_) info_.format += ", LAS 1.4 compatibility mode";
+  findChannelField();
   const Eigen::Vector3d metres = info_.units.metres();
   scaling_ = {file_.header().scale.cwiseProduct(metres),
               file_.header().offset.cwiseProduct(metres)};
@@ -39,6 +47,36 @@ LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWin
   std::uint64_t candidates = 0;
   for (const LasRecordRange& range : ranges_) candidates += range.count;
   info_.point_count = std::min(info_.point_count, candidates);
+}
+
+void LasPointReader::findChannelField() {
+  if (fieldsFor(window_.channel_field) != kLazExtraBytes) return;
+  std::string names = "user_data";
+  for (const LasExtraField& field : file_.extraFields()) {
+    if (field.name == window_.channel_field) channel_field_ = field;
+    names += ", " + field.name;
+  }
+  if (!channel_field_)
+    throw InputError(info_.path.string() + ": has no field '" + window_.channel_field +
+                     "' with the channel of the scanner; it has " + names);
+}
+
+void LasPointReader::fillChannel(PointChunk& chunk) {
+  const std::size_t length = file_.header().record_length;
+  if (channel_field_) {
+    std::vector<double> values;
+    decodeLasExtraField(records(), chunk.size(), length, *channel_field_, values);
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      if (!(values[i] >= 0.0 && values[i] <= 255.0))
+        throw InputError(info_.path.string() + ": field '" + window_.channel_field + "' holds " +
+                         std::to_string(values[i]) + ", which is no channel (0 to 255)");
+      chunk.channel[i] = static_cast<std::uint8_t>(values[i]);
+    }
+  } else if (fieldsFor(window_.channel_field) != 0) {
+    const std::byte* at = records() + file_.layout().user_data;
+    for (std::size_t i = 0; i < chunk.size(); ++i, at += length)
+      chunk.channel[i] = std::to_integer<std::uint8_t>(*at);
+  }
 }
 
 std::string LasPointReader::damage() const {
@@ -114,6 +152,7 @@ bool LasPointReader::read(PointChunk& chunk) {
   decodeLasRecords(records(), next_ - given_, file_.header().record_length, file_.layout(),
                    scaling_.scale, scaling_.offset, chunk);
   if (compatibility_) compatibility_->restore(records(), file_.header().record_length, chunk);
+  fillChannel(chunk);
   return more;
 }
 

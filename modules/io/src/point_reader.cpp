@@ -63,6 +63,9 @@ std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path
     if (window.resolution > 0.0)
       throw InputError(path.string() +
                        ": is no COPC file; only these can be read at a lower resolution");
+    if (!window.channel_field.empty() && window.channel_field != "scanner_channel")
+      throw InputError(path.string() + ": a PCD has no field '" + window.channel_field +
+                       "' with the channel of the scanner");
     auto reader = std::make_unique<PcdPointReader>(path);
     if (!window.bounds) return reader;
     return std::make_unique<BoundedReader>(std::move(reader), window);

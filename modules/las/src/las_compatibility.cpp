@@ -52,6 +52,7 @@ void LasCompatibility::restore(const std::byte* records, std::size_t record_leng
     chunk.flags[i] =
         static_cast<std::uint8_t>(chunk.flags[i] | ((flags & kOverlap) != 0 ? kOverlapFlag : 0U) |
                                   ((flags >> 1U & 3U) << 6U));
+    chunk.channel[i] = chunk.flags[i] >> 6U;
     // Whole degrees are rounded to steps of 0.006 degrees; the field is what is missing to them.
     const double steps = std::round(static_cast<double>(chunk.scan_angle[i]) / kLasScanAngleStep) +
                          loadLas<std::int16_t>(record + angle_);

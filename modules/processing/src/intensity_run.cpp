@@ -68,7 +68,7 @@ void IntensityRun::arrangeStrips(const std::vector<std::string>& paths) {
       surveyed_.push_back(surveyFile(paths[file]));
       continue;
     }
-    surveyed_.push_back({inputs_[file]->survey().sources, {}, {}});
+    surveyed_.push_back({inputs_[file]->survey().sources, {}, {}, {}});
     for (const PointSource& source : surveyed_.back().sources.sources)
       surveyed_.back().tracks[source.id];
   }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/processing/scanner_survey.h>
 
 namespace pcl_als {
@@ -22,6 +23,24 @@ std::vector<StripScanner> detectScanners(SurveyReader& survey, const StripChoice
   return found;
 }
 
+std::vector<std::string> detectScanners(const std::vector<std::string>& files,
+                                        const PointWindow& window, const StripChoice& choice,
+                                        const std::vector<std::filesystem::path>& trajectory,
+                                        const TrajectoryReading& reading, int threads,
+                                        std::vector<StripScanner>& found) {
+  try {
+    SurveyReader survey(files, threads, window);
+    FlightFileOptions options;
+    static_cast<TrajectoryReading&>(options) = reading;
+    if (options.crs.empty()) options.crs = survey.reference().crs;
+    const FlightFile flight = readFlight(trajectory, options);
+    found = detectScanners(survey, choice, {flight.trajectory.get(), std::nullopt, true});
+    return describe(found);
+  } catch (const Error& error) {
+    return {std::string("scanner not detected: ") + error.what()};
+  }
+}
+
 std::vector<std::string> describe(const std::vector<StripScanner>& scanners) {
   std::vector<std::pair<std::string, std::string>> lines;  // text and strips
   for (const StripScanner& entry : scanners) {
@@ -35,7 +54,7 @@ std::vector<std::string> describe(const std::vector<StripScanner>& scanners) {
   }
   std::vector<std::string> texts;
   texts.reserve(lines.size());
-  for (const auto& [text, strips] : lines) texts.push_back(strips + ": " + text);
+  for (const auto& [text, strips] : lines) texts.push_back("scanner of " + strips + ": " + text);
   return texts;
 }
 

@@ -47,6 +47,7 @@ SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs)
   for (const SurveyedFile& file : files_)
     if (!file.sources.damage.empty()) reference_.remarks.push_back(file.sources.damage);
   arrangement_.emplace(files_, StripChoice(), FlownTimes());
+  divide(false);
 }
 
 std::uint64_t SurveyReader::pointCount() const {
@@ -149,8 +150,54 @@ std::vector<std::string> SurveyReader::choose(const StripChoice& choice, const F
   std::vector<std::string> remarks = alignTimes(flight);
   arrangement_.emplace(files_, choice, FlownTimes{flight.trajectory, times_, flight.needed});
   left_out_.clear();
+  divide(choice.by_channel);
   checkAnyLeft(flight);
   return remarks;
+}
+
+std::vector<std::set<std::uint8_t>> SurveyReader::channelsByStrip() const {
+  std::vector<std::set<std::uint8_t>> channels(arrangement_->names().size());
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    for (const auto& [id, present] : files_[file].channels) {
+      for (const int strip : arrangement_->stripsOf(file, id))
+        channels[static_cast<std::size_t>(strip)].insert(present.begin(), present.end());
+    }
+  }
+  return channels;
+}
+
+void SurveyReader::divide(bool by_channel) {
+  strips_ = arrangement_->names();
+  points_ = arrangement_->expectedPoints();
+  channels_.clear();
+  if (!by_channel) return;
+  const auto present = channelsByStrip();
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> points;
+  for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
+    std::map<std::uint8_t, int>& index = channels_.emplace_back();
+    for (const std::uint8_t channel : present[strip]) {
+      index[channel] = static_cast<int>(names.size());
+      names.push_back(strips_[strip] + ".ch" + std::to_string(channel));
+      points.push_back(points_[strip] / present[strip].size());
+    }
+  }
+  strips_ = std::move(names);
+  points_ = std::move(points);
+}
+
+void SurveyReader::passOn(int strip, const Run& run, const RunSink& sink) const {
+  if (channels_.empty()) {
+    sink(strip, run);
+    return;
+  }
+  std::map<std::uint8_t, std::vector<std::size_t>> rows;
+  for (std::size_t row = run.from; row < run.to; ++row) rows[run.chunk.channel[row]].push_back(row);
+  for (const auto& [channel, chosen] : rows) {
+    const PointChunk part = run.chunk.select(chosen);
+    sink(channels_[static_cast<std::size_t>(strip)].at(channel),
+         Run{part, 0, part.size(), run.time});
+  }
 }
 
 void SurveyReader::checkAnyLeft(const Flight& flight) const {
@@ -247,7 +294,7 @@ void SurveyReader::readFile(std::size_t file, const RunSink& sink,
       const auto [to, label] = sorter.run(chunk, from);
       counts[label] += to - from;
       const int strip = arrangement_->labels()[label].index;
-      if (strip >= 0) sink(strip, Run{chunk, from, to, times_[file]});
+      if (strip >= 0) passOn(strip, Run{chunk, from, to, times_[file]}, sink);
       from = to;
     }
   }

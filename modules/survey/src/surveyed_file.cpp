@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <array>
+
 #include <pcl_als/survey/surveyed_file.h>
 
 namespace pcl_als {
@@ -23,6 +25,10 @@ SurveyedFile surveyFile(const SurveyInput& input) {
       for (to = from + 1; to < chunk.size() && chunk.point_source_id[to] == id; ++to) {
       }
       file.tracks[id].add(chunk, from, to);
+      std::array<bool, 256> present{};
+      for (std::size_t i = from; i < to; ++i) present[chunk.channel[i]] = true;
+      for (std::size_t i = 0; i < present.size(); ++i)
+        if (present[i]) file.channels[id].insert(static_cast<std::uint8_t>(i));
     }
   });
   return file;

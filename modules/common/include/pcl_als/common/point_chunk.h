@@ -19,6 +19,8 @@ struct PointChunk {
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t count);
+  /// The points of these rows, in this order.
+  PointChunk select(const std::vector<std::size_t>& rows) const;
 };
 
 }  // namespace pcl_als

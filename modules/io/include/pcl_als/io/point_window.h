@@ -16,7 +16,7 @@
 
 namespace pcl_als {
 
-/// The part of point files that is read.
+/// The part of point files that is read, and how.
 struct PointWindow {
   /// Rectangle in plan, ground frame, metres; points on its edges are inside. Default: all points.
   std::optional<Eigen::AlignedBox2d> bounds;
@@ -25,6 +25,10 @@ struct PointWindow {
   double resolution = 0.0;
   /// Read what is intact of damaged or truncated .las and .laz files (PointReader::damage()).
   bool keep_readable = false;
+  /// Field of .las and .laz files with the channel of the scanner (PointChunk::channel):
+  /// "user_data" or the name of an extra-bytes field; empty or "scanner_channel": that of point
+  /// formats 6-10.
+  std::string channel_field;
 
   /// Whether all points are read and damaged files are refused.
   bool everything() const { return !bounds && !(resolution > 0.0) && !keep_readable; }

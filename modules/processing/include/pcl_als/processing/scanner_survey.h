@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/trajectory/scanner_detection.h>
 
@@ -20,7 +21,16 @@ struct StripScanner {
 std::vector<StripScanner> detectScanners(SurveyReader& survey, const StripChoice& choice,
                                          const SurveyReader::Flight& flight);
 
-/// One line for each scanner, with the strips that it measured: "1, 2: oscillating".
+/// The same from files. Nothing is found where points or trajectory are unusable or do not belong
+/// together; returns describe() of what is found, or the reason for which nothing is.
+/// \param reading with an empty crs: that of the points
+std::vector<std::string> detectScanners(const std::vector<std::string>& files,
+                                        const PointWindow& window, const StripChoice& choice,
+                                        const std::vector<std::filesystem::path>& trajectory,
+                                        const TrajectoryReading& reading, int threads,
+                                        std::vector<StripScanner>& found);
+
+/// One line for each scanner, with the strips that it measured: "scanner of 1, 2: oscillating".
 std::vector<std::string> describe(const std::vector<StripScanner>& scanners);
 
 }  // namespace pcl_als

@@ -50,7 +50,8 @@ void writeTruth(const simulation::Simulator& simulator, const std::string& noise
 /** \brief Simulates a block into a folder: the strips, the files of writeSurveyFiles(), and last
  * truth.json.
  *
- * UsageError where the folder holds strips of another block, which would be taken for part of it.
+ * The folder is made if it is missing. UsageError where it holds strips of another block, which
+ * would be taken for part of it.
  */
 void simulateSurvey(const simulation::SimulationOptions& options, const std::string& noise_name,
                     const StripFileOptions& files, int threads,

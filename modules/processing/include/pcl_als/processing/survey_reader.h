@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,8 @@ namespace pcl_als {
 /** \brief The points of a survey as strips, from files or clouds, which can be read repeatedly,
  * chunk by chunk.
  *
- * Strips are those of StripArrangement; points that it leaves out are counted and not passed on.
+ * Strips are those of StripArrangement, divided by the channel of the scanner where
+ * StripChoice::by_channel asks for it; points that it leaves out are counted and not passed on.
  * Files that share a strip are read one after the other in the given order, others in parallel: the
  * order of the points of a strip does not depend on the number of threads. A "file" is any
  * SurveyInput, such as a cloud from makeCloudInput().
@@ -63,10 +66,10 @@ class SurveyReader {
   /// each. UsageError for an unknown strip, InputError where no point remains.
   std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
 
-  const std::vector<std::string>& strips() const { return arrangement_->names(); }
+  const std::vector<std::string>& strips() const { return strips_; }
   std::uint64_t pointCount() const;
   /// Approximate number of points of each strip.
-  const std::vector<std::uint64_t>& pointsByStrip() const { return arrangement_->expectedPoints(); }
+  const std::vector<std::uint64_t>& pointsByStrip() const { return points_; }
   /// Points that the last complete reading left out.
   const std::vector<LeftOutPoints>& leftOut() const { return left_out_; }
   /// Common CRS of the files, and conversions or assumptions about their units.
@@ -97,6 +100,11 @@ class SurveyReader {
   SurveyReader(int threads, std::vector<SurveyInput> inputs);
   std::vector<std::string> alignTimes(const Flight& flight);
   void checkAnyLeft(const Flight& flight) const;
+  /// Sets names, expected points and channels of the strips.
+  void divide(bool by_channel);
+  std::vector<std::set<std::uint8_t>> channelsByStrip() const;
+  /// Passes on a run of points of one strip of the arrangement, channel by channel.
+  void passOn(int strip, const Run& run, const RunSink& sink) const;
   /// Adds the points of each label to \a counts.
   void readFile(std::size_t file, const RunSink& sink, std::vector<std::uint64_t>& counts) const;
   std::vector<std::vector<std::size_t>> groupsOfFiles() const;
@@ -107,6 +115,10 @@ class SurveyReader {
   std::optional<StripArrangement> arrangement_;
   PointReference reference_;
   std::vector<TimeAlignment> times_;
+  std::vector<std::string> strips_;
+  std::vector<std::uint64_t> points_;
+  /// Index of the strip of each channel of a strip of the arrangement; empty: one for all channels.
+  std::vector<std::map<std::uint8_t, int>> channels_;
   mutable std::vector<LeftOutPoints> left_out_;
 };
 

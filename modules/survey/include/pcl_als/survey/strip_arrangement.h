@@ -24,6 +24,8 @@ struct StripChoice {
   bool split = false;                ///< cut into flight lines by splitTrack()
   /// Without split: keep points of GPS time 0 in files that have times.
   bool keep_timeless = false;
+  /// The channels of the scanner in a strip are strips of their own: 3.ch0, 3.ch1 (SurveyReader).
+  bool by_channel = false;
 };
 
 /// Index of the strip of that name; UsageError that names the option and lists the strips.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include <pcl_als/io/strip_naming.h>
@@ -19,6 +20,8 @@ struct SurveyedFile {
   PointFileSources sources;
   /// by point source id, in the time system of the file
   std::map<std::uint16_t, SwathTrack> tracks;
+  /// channels of the scanner, by point source id
+  std::map<std::uint16_t, std::set<std::uint8_t>> channels;
   std::string strip;  ///< strip of all its points; empty: strips are named by StripNaming
 };
 

@@ -46,9 +46,9 @@ inline constexpr double kGentleSlope = 0.26;
  * triangles; 0 for an empty one.
  *
  * The median length, or, where the points form clusters and lines (rosette scanners), the 90th
- * percentile of the longest edges of the triangles divided by 2.3 (independent points: 2.0 times the
- * median edge). In a rosette the median edge is the distance of consecutive pulses; the gaps between
- * its petals, in its outer half up to 60 % of the area, are several times as wide.
+ * percentile of the longest edges of the triangles divided by 2.3 (independent points: 2.0 times
+ * the median edge). In a rosette the median edge is the distance of consecutive pulses; the gaps
+ * between its petals, in its outer half up to 60 % of the area, are several times as wide.
  */
 double typicalPlanEdge(const Tin& tin,
                        std::size_t triangles = std::numeric_limits<std::size_t>::max());
