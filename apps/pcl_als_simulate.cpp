@@ -19,6 +19,9 @@ using simulation::NoiseOptions;
 using simulation::SimulationOptions;
 
 void declareScene(CommandLine& line) {
+  line.addFlag("images",
+               "also images of the block with a frame camera, in the folder images: camera.json, "
+               "images.csv, measurements.csv, checkpoints.csv and the truth");
   line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
   line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
   line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
@@ -162,6 +165,7 @@ int simulate(int argc, const char* const* argv) {
   files.adjusted_time = isSecond(line, "time", "week", "adjusted");
   files.compressed = isSecond(line, "format", "las", "laz");
   files.bias_columns = line.has("truth_points");
+  files.images = line.has("images");
   if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_simulate -h)");
   files.folder = line.text("output");
   makeOutputFolder("output", files.folder);

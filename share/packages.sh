@@ -13,7 +13,7 @@ pcl_als_build=${PCL_ALS_BUILD_DIR:-$pcl_als_root/build}
 pcl_als_packages_build=(
   g++:c++ cmake:cmake ninja-build:ninja ccache:ccache mawk:awk
   libpcl-dev libeigen3-dev libboost-program-options-dev libproj-dev libgdal-dev
-  nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
+  libceres-dev nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
   fonts-dejavu-core:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf xvfb:Xvfb
 )
 pcl_als_packages_test=(libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz chromium:chromium)

@@ -56,6 +56,10 @@ part extent 0,0,@,9 "${classify[@]}"
 part priors tree=@ "${classify[@]}"
 part ground_classes 2,@ "${classify[@]}"
 numbers "search_distance determined_std points pairs iterations" icpatch "${strips[@]}" -output x.json
+numbers "length area angle noise same_distance strip_sigma" lines "$one" -output x.csv
+if [[ -x $bin/pcl_als_orient ]]; then
+  numbers "assign image_sigma" orient -images x -lines x -camera x -output x.json
+fi
 numbers "cell resolution" info "$one"
 part bounds 0,0,@,9 info "$one"
 part bounds 0,0,@,9 check "${strips[@]}" -output x.json

@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# test_reduced_build.sh BIN_DIR SCRATCH_DIR SOURCE_DIR: the tools without PROJ, VTK and GDAL are built
-# and linked, do their work, and say what they cannot do. BIN_DIR is not used.
+# test_reduced_build.sh BIN_DIR SCRATCH_DIR SOURCE_DIR: the tools without PROJ, VTK, GDAL and Ceres are
+# built and linked, do their work, and say what they cannot do. BIN_DIR is not used.
 # Compiled without optimisation, for what is tested here is the few sources that differ.
 set -euo pipefail
 build=$2/reduced_build
 mkdir -p -- "$build"
 cmake -S "$3" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF \
-  -DPCL_ALS_WITH_PROJ=OFF -DPCL_ALS_WITH_VTK=OFF -DPCL_ALS_WITH_GDAL=OFF >"$build/configure.log" 2>&1 ||
+  -DPCL_ALS_WITH_PROJ=OFF -DPCL_ALS_WITH_VTK=OFF -DPCL_ALS_WITH_GDAL=OFF -DPCL_ALS_WITH_CERES=OFF >"$build/configure.log" 2>&1 ||
   { cat "$build/configure.log"; exit 1; }
 cmake --build "$build" --target pcl_als_tools >"$build/build.log" 2>&1 ||
   { tail -n 40 "$build/build.log"; exit 1; }
@@ -23,7 +23,7 @@ for tool in "$bin"/pcl_als_*; do
   verb=${tool##*/pcl_als_}
   expect 0 'Usage' "$verb" -h
 done
-for verb in view profile plot; do
+for verb in view profile plot orient; do
   check "no pcl_als_$verb" test ! -e "$bin/pcl_als_$verb"
 done
 

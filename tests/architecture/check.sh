@@ -19,11 +19,12 @@ declare -A may=(
   [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common adjustment"
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
   [calibration]="common adjustment trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
+  [photogrammetry]="common adjustment tin"
   [filters]="common trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [planning]="common trajectory survey tin calibration"
-  [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification visualization simulation"
-  [report]="common io survey registration calibration planning radiometry quality classification processing visualization"
+  [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification photogrammetry visualization simulation"
+  [report]="common io survey registration calibration planning radiometry quality photogrammetry classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"
 )
 
@@ -33,12 +34,12 @@ declared() {
   awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
          for (i = 1; i <= NF; ++i) {
            if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
-           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage|simulation)}/CMakeLists.txt"
+           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage|simulation|bundle)}/CMakeLists.txt"
 }
 declare -A reach
 closure() {  # X and all that it declares, directly or through others
   [[ -n ${reach[$1]:-} ]] && return
-  local all=" $1 ${1%_@(raster|picture|page|coverage|simulation)} " next
+  local all=" $1 ${1%_@(raster|picture|page|coverage|simulation|bundle)} " next
   reach[$1]=$all  # a cycle of declarations ends here and is reported as a breach
   for next in $(declared "$1"); do
     closure "$next"
@@ -55,7 +56,7 @@ for folder in modules/*/; do
   module=$(basename -- "$folder")
   [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
   for other in $(declared "$module"); do
-    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage|simulation)} "* ]] ||
+    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage|simulation|bundle)} "* ]] ||
       breach "modules/$module/CMakeLists.txt" "must not use module $other"
   done
   grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&
@@ -69,8 +70,8 @@ for folder in modules/*/; do
           used=${target#<pcl_als/}
           [[ ${reach[$module]} == *" ${used%%/*} "* ]] ||
             breach "$file" "includes $target, but $module does not declare module ${used%%/*}"
-          [[ $used != simulation/* || $module == simulation || $file == */simulated_survey.* ]] ||
-            breach "$file" "includes $target: only the writer of simulated surveys uses module simulation"
+          [[ $used != simulation/* || $module == simulation || $file == */simulated_@(survey|images).* ]] ||
+            breach "$file" "includes $target: only the writers of simulated surveys use module simulation"
           [[ $module != @(calibration|planning) || $used != @(io|las)/* ]] ||
             breach "$file" "includes $target: module $module reads no files" ;;
         *'../'*) breach "$file" "includes $target across folders" ;;
@@ -128,7 +129,7 @@ done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
 
 # The tools only parse options, call one job, print and save: they are short altogether.
 lines=$(find apps \( -name '*.cpp' -o -name '*.h' \) -exec cat {} + | wc -l)
-((lines <= 4000)) || breach apps "has $lines lines, more than 4000"
+((lines <= 4200)) || breach apps "has $lines lines, more than 4200"
 
 # Every table of the glossary has the same columns.
 if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |

@@ -12,6 +12,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/las_writer.h>
+#include <pcl_als/processing/simulated_images.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/radiometry.h>
 
@@ -312,6 +313,12 @@ void simulateSurvey(const SimulationOptions& options, const std::string& noise_n
     strips.push_back(writeStrip(simulator, i, files, threads,
                                 [&progress](double share) { progress.advance(share); }));
     progress.end(grouped(strips.back().points) + " points");
+  }
+  if (files.images) {
+    progress.begin("Taking images");
+    const auto images = simulation::simulateImages(
+        simulator.scene(), options, imageFlightOver(options), simulator.controlPoints());
+    progress.end(writeImageFiles(images, files.folder / "images"));
   }
   writeTruth(simulator, noise_name, files, strips);
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <iostream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/image_block_io.h>
+#include <pcl_als/processing/line_extraction.h>
+
+#include "command_line.h"
+#include "output_check.h"
+#include "strip_options.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+
+CommandLine commandLine() {
+  const LineExtractionOptions defaults;
+  CommandLine line("pcl_als_lines",
+                   "finds straight roof lines (ridges, valleys, eaves) of strips with their "
+                   "covariance.",
+                   "STRIP... -output lines.csv|.geojson",
+                   "pcl_als_lines strip*.las -output lines.csv");
+  line.addOptional("output", "lines to write: .csv or .geojson (needed)");
+  app::addStripOptions(line);
+  line.addFlag("eaves", "also the lower edges of roof faces (known to the spacing of the points)");
+  line.add("length", "least length of a line, m", defaults.settings.least_length);
+  line.add("area", "least area of a roof face, m2", defaults.settings.least_area);
+  line.add("angle", "least angle between the faces of a line, degrees",
+           std::round(defaults.settings.least_angle / kRadiansPerDegree));
+  line.add("noise", "standard deviation of points about a roof, m; 0: from the points",
+           defaults.settings.noise);
+  line.add("same_distance", "lines of different strips closer than this are the same, m",
+           defaults.same_distance);
+  line.add("strip_sigma",
+           "least standard deviation of the errors of a strip, which are estimated from lines of "
+           "several strips, m",
+           defaults.least.plan);
+  return line;
+}
+
+LineExtractionOptions optionsOf(const CommandLine& line) {
+  LineExtractionOptions options;
+  options.settings.eaves = line.has("eaves");
+  options.settings.least_length = line.number("length", 0.5, 100.0, "m");
+  options.settings.least_area = line.number("area", 0.5, 10000.0, "m2");
+  options.settings.least_angle = line.number("angle", 3.0, 90.0, "degrees") * kRadiansPerDegree;
+  options.settings.noise = line.number("noise", 0.0, 1.0, "m");
+  options.settings.threads = line.threads();
+  options.same_distance = line.number("same_distance", 0.05, 20.0, "m");
+  options.least.plan = options.least.height = line.number("strip_sigma", 0.0, 10.0, "m");
+  options.strips = app::stripChoice(line);
+  return options;
+}
+
+int lines(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  const auto& inputs = line.inputs(1, 100000);
+  const LineExtractionOptions options = optionsOf(line);
+  if (!line.has("output")) throw UsageError("option -output is needed");
+  const std::filesystem::path output = line.text("output");
+  if (output.extension() != ".csv" && output.extension() != ".geojson")
+    throw UsageError("option -output: '" + output.string() + "' is neither .csv nor .geojson");
+  app::checkWritable(output);
+  const ExtractedLines found =
+      extractLines({inputs.begin(), inputs.end()}, options, app::progressOf(line));
+  writeLines(output, found.lines, found.crs);
+  if (!line.quiet()) std::cout << describe(found) << std::flush;
+  if (!found.lines.empty()) return app::kDone;
+  std::cerr << "pcl_als_lines: no reliable answer: no roof line was found" << std::endl;
+  return app::kNoReliableAnswer;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_lines", [argc, argv] { return lines(argc, argv); });
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <iostream>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/processing/image_orientation.h>
+#include <pcl_als/report/orientation_page.h>
+#include <pcl_als/report/orientation_report.h>
+
+#include "command_line.h"
+#include "output_check.h"
+#include "report_options.h"
+
+namespace {
+
+using namespace pcl_als;
+using app::CommandLine;
+
+CommandLine commandLine() {
+  const ImageOrientationOptions defaults;
+  CommandLine line(
+      "pcl_als_orient",
+      "orients an image block by a bundle adjustment with lines as control, and "
+      "compares it with check points.",
+      "-images images.csv -lines lines.csv -camera camera.json -output "
+      "orientation.json",
+      "pcl_als_orient -images images.csv -lines lines.csv -camera camera.json "
+      "-checkpoints checkpoints.csv -assign 3 -output orientation.json -report report");
+  line.addOptional("images",
+                   "approximate orientations: CSV image,x,y,z,omega,phi,kappa[,sigma_position,"
+                   "sigma_angle], m and degrees; with standard deviations they are observations "
+                   "(needed)");
+  line.addOptional("measurements",
+                   "image coordinates: CSV image,kind,feature,x,y[,sigma], kind point or line, in "
+                   "the unit of the camera (default: measurements.csv beside the images)");
+  line.addOptional("lines", "control: CSV as pcl_als_lines writes it (needed)");
+  line.addOptional("camera", "camera.json: focal length, principal point, distortion (needed)");
+  line.addOptional("checkpoints", "surveyed points that are not control: CSV id,x,y,z[,sigma]");
+  line.addOptional("output", "orientation.json to write (needed)");
+  line.addOptional("report", "folder for report.html with pictures, report.md and tables as CSV");
+  line.add("assign",
+           "assign lines whose names are not in the control by position, up to this distance on "
+           "the ground, m; 0: by name only",
+           defaults.assign_distance);
+  line.add<std::string>("formulation",
+                        "coplanarity, or expanded (end points with a covariance expanded along "
+                        "the line)",
+                        "coplanarity");
+  line.add("image_sigma", "standard deviation of image coordinates without one, their unit",
+           defaults.image_sigma);
+  line.addFlag("no_rejection", "least squares with all observations");
+  return line;
+}
+
+ImageOrientationOptions optionsOf(const CommandLine& line) {
+  ImageOrientationOptions options;
+  const std::string formulation = line.text("formulation");
+  if (formulation != "coplanarity" && formulation != "expanded")
+    throw UsageError("option -formulation: '" + formulation +
+                     "' is neither coplanarity nor expanded");
+  if (formulation == "expanded") options.bundle.formulation = LineFormulation::expanded_covariance;
+  options.bundle.robust = !line.has("no_rejection");
+  options.assign_distance = line.number("assign", 0.0, 100.0, "m");
+  options.image_sigma = line.number("image_sigma", 1e-5, 100.0, "(unit of the camera)");
+  return options;
+}
+
+ImageBlockFiles filesOf(const CommandLine& line) {
+  for (const char* option : {"images", "lines", "camera", "output"})
+    if (!line.has(option)) throw UsageError(std::string("option -") + option + " is needed");
+  ImageBlockFiles files;
+  files.images = line.text("images");
+  files.measurements = line.has("measurements") ? std::filesystem::path(line.text("measurements"))
+                                                : ImageBlockFiles::besideImages(files.images);
+  files.lines = line.text("lines");
+  files.camera = line.text("camera");
+  if (line.has("checkpoints")) files.check_points = line.text("checkpoints");
+  return files;
+}
+
+int orient(int argc, char** argv) {
+  CommandLine line = commandLine();
+  if (!line.parse(argc, argv)) return app::kDone;
+  line.inputs(0, 0);
+  const ImageOrientationOptions options = optionsOf(line);
+  const ImageBlockFiles files = filesOf(line);
+  app::checkWritable(line.text("output"));
+  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
+  const ImageOrientationResult result = orientImages(files, options, app::progressOf(line));
+  writeOrientation(line.text("output"), result);
+  if (!line.quiet()) std::cout << orientationText(result) << std::flush;
+  if (line.has("report")) {
+    writeOrientationPage(
+        app::reportOrigin(line, {"images", "measurements", "lines", "camera", "checkpoints"}),
+        result);
+  }
+  if (result.bundle.reliable()) return app::kDone;
+  std::cerr << "pcl_als_orient: no reliable answer: " << result.bundle.message << std::endl;
+  return app::kNoReliableAnswer;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run("pcl_als_orient", [argc, argv] { return orient(argc, argv); });
+}

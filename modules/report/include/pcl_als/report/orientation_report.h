@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <pcl_als/processing/image_orientation.h>
+
+namespace pcl_als {
+
+/// Result for the terminal: precision, blunders, and differences at check points.
+std::string orientationText(const ImageOrientationResult& result);
+
+/// Writes orientation.json (module photogrammetry's README has the format). Through AtomicFile.
+void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result);
+
+}  // namespace pcl_als
