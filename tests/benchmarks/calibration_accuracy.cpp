@@ -155,8 +155,9 @@ void runSeed(const Options& given, int seed, bench::AccuracyTable& table,
     request.settings.candidates = static_cast<std::size_t>(given.candidates);
   request.settings.pair_budget = static_cast<std::size_t>(given.budget);
   if (given.known_ranging) {
-    request.settings.shared_errors.ranging_incidence = 1e-6;
-    request.settings.shared_errors.range_scale = 1e-10;
+    for (SharedErrorModel::SourcePrior& prior : request.settings.shared_errors.sources)
+      prior = {1e-10, 0.5};
+    request.settings.diagnose = false;
   }
   const double start = secondsNow();
   const auto calibration = survey.loaded(request);

@@ -178,7 +178,7 @@ struct DenseSystem {
         };
         place(o.a, o.time_a, o.row_a, 1.0);
         place(o.b, o.time_b, o.row_b, -1.0);
-        row[instrument] = ranging ? o.stretch : 0.0;
+        row[instrument] = ranging ? o.sources[indexOf(ErrorSource::slope_ranging)] : 0.0;
         normal += row * row.transpose() / o.variance;
         right += row * o.misclosure / o.variance;
       }
@@ -226,8 +226,9 @@ TEST(Adjustment, BelievesInARangingErrorAsFarAsItIsSeen) {
     std::uniform_real_distribution<double> uniform;
     for (AreaObservations& area : areas) {
       for (PairObservation& o : area) {
-        o.stretch = 0.1 * uniform(random) + 1e-4 * o.row()[indexOf(P::scan_angle_scale)];
-        o.misclosure += share * o.stretch;
+        double& stretch = o.sources[indexOf(ErrorSource::slope_ranging)];
+        stretch = 0.1 * uniform(random) + 1e-4 * o.row()[indexOf(P::scan_angle_scale)];
+        o.misclosure += share * stretch;
       }
     }
     const DenseSystem with(errors, areas, true), without(errors, areas, false);
@@ -250,8 +251,44 @@ TEST(Adjustment, BelievesInARangingErrorAsFarAsItIsSeen) {
       EXPECT_GE(solution.covariance(i, i), variance * (1.0 - 1e-5)) << infoOf(p).name;
       EXPECT_LT(solution.covariance(i, i), variance * 2.0) << infoOf(p).name;  // the jackknife's
     }
-    const int ranging = errors.rangingUnknown();
+    const int ranging = errors.sourceUnknown(ErrorSource::slope_ranging);
     EXPECT_NEAR(solution.shared[ranging], expected[8 + ranging], 1e-6);
+  }
+}
+
+/// Observations with an error source: it is found with its size, and no other one is.
+TEST(Adjustment, FindsTheErrorSourceThatIsPresent) {
+  for (const ErrorSourceInfo& info : errorSources()) {
+    SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+    std::vector<ErrorSource> all;
+    for (const ErrorSourceInfo& source : errorSources()) all.push_back(source.source);
+    errors.considerSources(all);
+    auto areas = simulated(someBiases(), 0.02, 5);
+    std::mt19937_64 random(6);
+    std::normal_distribution<double> normal;
+    const double value = 0.5 * errors.model().sources[indexOf(info.source)].std;
+    for (AreaObservations& area : areas) {
+      for (PairObservation& o : area) {
+        // Effects of 5 cm for one prior standard deviation.
+        for (const ErrorSource source : all)
+          o.sources[indexOf(source)] =
+              0.05 * normal(random) / errors.model().sources[indexOf(source)].std;
+        o.misclosure += value * o.sources[indexOf(info.source)];
+      }
+    }
+    const auto weights = unitWeights(areas);
+    Adjustment adjustment(errors);
+    adjustment.accumulate(areas, weights);
+    const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+    for (const ErrorSource source : all) {
+      const int i = indexOf(source);
+      if (source == info.source) {
+        EXPECT_GT(solution.source_probability[i], 0.99) << info.name;
+        EXPECT_NEAR(solution.source_value[i], value, 4.0 * solution.source_std[i]) << info.name;
+      } else {
+        EXPECT_LT(solution.source_probability[i], 0.5) << info.name << ' ' << infoOf(source).name;
+      }
+    }
   }
 }
 
@@ -297,7 +334,7 @@ TEST(Adjustment, ReducedRowsMakeUpTheReducedEquations) {
   SharedErrorModel loose = model();
   loose.position = 100.0;
   loose.roll_pitch = loose.heading = 0.1;
-  loose.ranging_incidence = loose.range_scale = 1e3;
+  for (SharedErrorModel::SourcePrior& prior : loose.sources) prior = {1e3, 0.5};
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, loose);
   const auto areas = simulated(someBiases(), 0.02, 7);
   const auto weights = unitWeights(areas);

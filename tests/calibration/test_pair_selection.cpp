@@ -73,7 +73,7 @@ struct Block {
     SharedErrorModel model;
     model.position = model.local = 1e-5;
     model.roll_pitch = model.heading = 1e-8;
-    model.ranging_incidence = model.range_scale = 1e-8;
+    for (SharedErrorModel::SourcePrior& prior : model.sources) prior = {1e-8, 0.5};
     return model;
   }
   AdjustmentSolution solution() const { return adjustment.solve(kShown, SystemVector::Zero()); }
@@ -153,7 +153,8 @@ Shown shownBy(const Block& block) {
   Shown sum = Shown::Zero();
   for (const PairObservation& o : block.areas[0]) {
     Shown row;
-    row << o.normal, o.time_a * o.normal, o.time_b * o.normal, o.stretch;
+    row << o.normal, o.time_a * o.normal, o.time_b * o.normal,
+        o.sources[indexOf(ErrorSource::slope_ranging)];
     sum += row * block.adjustment.residual(o, zero) / o.variance;
   }
   return sum;
@@ -168,7 +169,7 @@ TEST(PairSelection, ChosenResidualsSumToThoseOfAll) {
     const Eigen::Vector3d up(0.4 * normal(random), 0.4 * normal(random), 1.0);
     PairObservation o = pairAt(100.0, up.normalized());
     o.time_a = uniform(random), o.time_b = 10.0 + uniform(random);
-    o.stretch = 0.1 * normal(random);
+    o.sources[indexOf(ErrorSource::slope_ranging)] = 0.1 * normal(random);
     o.misclosure = 0.02 * normal(random);
     areas[0].push_back(o);
   }

@@ -23,8 +23,8 @@ using Records = std::vector<std::byte>;
 const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
 
 /// Records as LAS point format 6 has them, 3 extra bytes: X Y Z at 0, time at 22.
-const IntegerBiasCorrection::Layout kLayout{33, 22, Eigen::Vector3d(0.001, 0.001, 0.01),
-                                            Eigen::Vector3d(583000.0, 5283000.0, 0.0)};
+const IntegerBiasCorrection::Layout kLayout{
+    33, 22, 12, 14, Eigen::Vector3d(0.001, 0.001, 0.01), Eigen::Vector3d(583000.0, 5283000.0, 0.0)};
 
 Records recordsOf(const std::vector<SwathPoint>& points) {
   Records records(points.size() * kLayout.record_length);

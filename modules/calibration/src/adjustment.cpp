@@ -12,13 +12,14 @@
 #include "block_cholesky.h"
 #include "chosen_parameters.h"
 #include "error_normal.h"
-#include "possibly_absent.h"
+#include "spike_and_slab.h"
 
 namespace pcl_als {
 namespace {
 
 constexpr int kKnot = SharedErrors::kPerKnot;
 constexpr int kGlobal = kSystemParameterCount;
+constexpr double kDetermined = 0.25;  // posterior over prior variance of an error source
 
 SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double>& weights) {
   SystemMatrix sum = SystemMatrix::Zero();
@@ -39,26 +40,34 @@ SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double
 struct Adjustment::Reduced {
   SystemMatrix normal, prior_share;
   SystemVector right;
-  Eigen::Matrix<double, Eigen::Dynamic, kGlobal> elimination;  ///< N_tt^-1 N_tg
-  Eigen::VectorXd eliminated_right;                            ///< N_tt^-1 h_t
-  Eigen::VectorXd with_ranging;  ///< N_tt^-1, the column of the ranging share
+  Eigen::Matrix<double, Eigen::Dynamic, kGlobal> elimination;             ///< N_tt^-1 N_tg
+  Eigen::VectorXd eliminated_right;                                       ///< N_tt^-1 h_t
+  Eigen::Matrix<double, Eigen::Dynamic, kErrorSourceCount> with_sources;  ///< N_tt^-1, columns of
+                                                                          ///< the error sources
 };
 
 Adjustment::Adjustment(const SharedErrors& errors, int threads)
     : errors_(errors), threads_(threads) {}
 Adjustment::~Adjustment() = default;
 
+Adjustment::Adjustment(const Adjustment& whole, const std::vector<bool>& areas)
+    : errors_(whole.errors_), threads_(whole.threads_) {
+  for (std::size_t area = 0; area < areas.size(); ++area) {
+    if (!areas[area]) continue;
+    area_normals_.push_back(whole.area_normals_[area]);
+    slope_noise_.push_back(whole.slope_noise_[area]);
+  }
+  setLevels(whole.levels_);
+}
+
 void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
                             const std::vector<std::vector<double>>& weights) {
-  areas_ = &areas;
-  weights_ = &weights;
   std::vector<std::unique_ptr<AreaNormal>> normals(areas.size());
-  std::vector<SystemMatrix> noise(areas.size());
+  slope_noise_.resize(areas.size());
   parallelFor(areas.size(), threads_, [&](std::size_t area) {
     normals[area] = std::make_unique<AreaNormal>(areas[area], weights[area], errors_);
-    noise[area] = slopeNoiseOf(areas[area], weights[area]);
+    slope_noise_[area] = slopeNoiseOf(areas[area], weights[area]);
   });
-  slope_noise_ = std::accumulate(noise.begin(), noise.end(), SystemMatrix(SystemMatrix::Zero()));
   area_normals_.clear();
   for (auto& normal : normals) area_normals_.push_back(std::move(*normal));
   setLevels(levels_);
@@ -79,7 +88,7 @@ std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) c
 
 void Adjustment::setLevels(const SharedErrorLevels& levels) {
   levels_ = levels;
-  if (areas_ == nullptr) return;
+  if (area_normals_.empty()) return;
   normal_ = assemble(errors_.localVariance(levels_));
   reduced_ = std::make_unique<Reduced>(reduce(*normal_, levels_));
 }
@@ -91,8 +100,9 @@ Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
   Reduced reduced;
   reduced.elimination = factor.solve(normal.tg);
   reduced.eliminated_right = factor.solve(normal.right_t);
-  reduced.with_ranging =
-      factor.solve(Eigen::VectorXd::Unit(errors_.unknowns(), errors_.rangingUnknown()));
+  Eigen::MatrixXd sources = Eigen::MatrixXd::Zero(errors_.unknowns(), kErrorSourceCount);
+  sources.middleRows<kErrorSourceCount>(errors_.instrumentBlock() * kKnot).setIdentity();
+  reduced.with_sources = factor.solve(sources);
   reduced.normal = normal.gg - normal.tg.transpose() * reduced.elimination;
   reduced.normal = (0.5 * (reduced.normal + reduced.normal.transpose())).eval();
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
@@ -163,8 +173,8 @@ std::vector<double> Adjustment::informationShares(
 SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
                                    const std::vector<SystemParameter>& estimate) const {
   const Eigen::MatrixXd normal = sub(reduced_->normal, estimate);
-  std::vector<Eigen::VectorXd> moves(areas_->size());
-  parallelFor(areas_->size(), threads_, [&](std::size_t area) {
+  std::vector<Eigen::VectorXd> moves(area_normals_.size());
+  parallelFor(moves.size(), threads_, [&](std::size_t area) {
     const Share share = shareOf(area, solution);
     Eigen::VectorXd score(estimate.size());
     for (std::size_t i = 0; i < estimate.size(); ++i) score[i] = share.score[indexOf(estimate[i])];
@@ -179,7 +189,7 @@ SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(normal.rows(), normal.rows());
   double groups = 0.0;
   for (std::size_t area = 0; area < moves.size(); ++area) {
-    if (!(*areas_)[area].empty()) groups += 1.0;
+    if (!area_normals_[area].knots().empty()) groups += 1.0;
     scatter += moves[area] * moves[area].transpose();
   }
   if (groups > 1.0) scatter *= (groups - 1.0) / groups;
@@ -191,8 +201,9 @@ Eigen::VectorXd Adjustment::slopeNoise(const Eigen::MatrixXd& independent,
   constexpr double kCaution = 2.0, kLeast = 1e-4;
   const Eigen::VectorXd scale = independent.diagonal().cwiseSqrt().cwiseInverse();
   const CholeskyFactor cholesky(scale.asDiagonal() * independent * scale.asDiagonal());
-  const Eigen::MatrixXd noise =
-      scale.asDiagonal() * sub(slope_noise_, estimate) * scale.asDiagonal();
+  const SystemMatrix sum = std::accumulate(slope_noise_.begin(), slope_noise_.end(),
+                                           SystemMatrix(SystemMatrix::Zero()));
+  const Eigen::MatrixXd noise = scale.asDiagonal() * sub(sum, estimate) * scale.asDiagonal();
   const Eigen::MatrixXd half = cholesky.solveLower(noise);
   const Eigen::MatrixXd share = cholesky.solveLower(Eigen::MatrixXd(half.transpose()));
   const auto eigen = symmetricEigen(0.5 * (share + share.transpose()));
@@ -234,24 +245,100 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
     inflation[i] =
         slopes[static_cast<Eigen::Index>(k)] * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
   }
-  const SystemMatrix averaged = model + averageRangingModels(model, solution);
+  const SystemMatrix averaged = model + averageSources(model, solution);
   solution.covariance = inflation.asDiagonal() * averaged * inflation.asDiagonal();
   solution.solved = true;
   return solution;
 }
 
-SystemMatrix Adjustment::averageRangingModels(const SystemMatrix& model,
-                                              AdjustmentSolution& solution) const {
-  const int at = errors_.rangingUnknown();
-  const SystemVector coupling = reduced_->elimination.row(at).transpose();
-  const SystemVector with_biases = -model * coupling;
-  const Eigen::VectorXd with_shared = reduced_->with_ranging - reduced_->elimination * with_biases;
-  const PossiblyAbsent ranging(errors_.model().ranging_absent,
-                               std::pow(errors_.model().ranging_incidence, 2), solution.shared[at],
-                               with_shared[at]);
-  solution.biases += ranging.move(with_biases);
-  solution.shared += ranging.move(with_shared);
-  return ranging.change(with_biases);
+namespace {
+
+/// Columns of all error sources for those of \a sources.
+template <class Matrix>
+Eigen::MatrixXd columnsOf(const Matrix& all, const std::vector<ErrorSource>& sources) {
+  Eigen::MatrixXd columns(all.rows(), sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    columns.col(static_cast<Eigen::Index>(i)) = all.col(indexOf(sources[i]));
+  return columns;
+}
+
+}  // namespace
+
+Adjustment::SourceInfluence Adjustment::sourceInfluence(const SystemMatrix& model) const {
+  const std::vector<ErrorSource>& sources = errors_.consideredSources();
+  const Eigen::MatrixXd elimination =
+      reduced_->elimination.middleRows<kErrorSourceCount>(errors_.instrumentBlock() * kKnot)
+          .transpose();
+  SourceInfluence influence;
+  influence.biases = columnsOf(Eigen::MatrixXd(-model * elimination), sources);
+  influence.shared =
+      columnsOf(reduced_->with_sources, sources) - reduced_->elimination * influence.biases;
+  return influence;
+}
+
+double Adjustment::sourceOverdispersion(const SourceInfluence& influence,
+                                        const AdjustmentSolution& solution) const {
+  std::vector<Eigen::VectorXd> moves(area_normals_.size());
+  parallelFor(moves.size(), threads_, [&](std::size_t area) {
+    const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
+    const std::vector<int>& knots = area_normals_[area].knots();
+    Eigen::VectorXd unknowns(own.right.size());
+    Eigen::MatrixXd on_sources(own.right.size(), influence.biases.cols());
+    unknowns.head<kGlobal>() = solution.biases;
+    on_sources.topRows<kGlobal>() = influence.biases;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      const auto at = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
+      unknowns.segment<kKnot>(at) = solution.shared.segment<kKnot>(knots[i] * kKnot);
+      on_sources.middleRows<kKnot>(at) = influence.shared.middleRows<kKnot>(knots[i] * kKnot);
+    }
+    moves[area] = on_sources.transpose() * (own.right - own.matrix * unknowns);
+  });
+  Eigen::VectorXd scatter = Eigen::VectorXd::Zero(influence.biases.cols());
+  for (const Eigen::VectorXd& move : moves) scatter += move.cwiseAbs2();
+  const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels_);
+  double factor = 1.0;
+  for (Eigen::Index i = 0; i < scatter.size(); ++i) {
+    const ErrorSource source = errors_.consideredSources()[static_cast<std::size_t>(i)];
+    const double slab = errors_.model().sources[static_cast<std::size_t>(indexOf(source))].std;
+    const double variance = influence.shared(errors_.sourceUnknown(source), i);
+    const double of_prior = influence.shared.col(i).dot(prior * influence.shared.col(i));
+    // Of what the observations determine: the part of the variance that the model ascribes to them.
+    if (variance < kDetermined * slab * slab)
+      factor = std::max(factor, scatter[i] / (variance - of_prior));
+  }
+  return factor;
+}
+
+SystemMatrix Adjustment::averageSources(const SystemMatrix& model,
+                                        AdjustmentSolution& solution) const {
+  const std::vector<ErrorSource>& sources = errors_.consideredSources();
+  const SourceInfluence influence = sourceInfluence(model);
+  std::vector<SpikeAndSlab::Prior> priors;
+  Eigen::VectorXd mean(sources.size());
+  Eigen::MatrixXd covariance(sources.size(), sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const SharedErrorModel::SourcePrior& prior =
+        errors_.model().sources[static_cast<std::size_t>(indexOf(sources[i]))];
+    priors.push_back({prior.absent, prior.std_absent * prior.std_absent, prior.std * prior.std});
+    const auto row = static_cast<Eigen::Index>(i);
+    mean[row] = solution.shared[errors_.sourceUnknown(sources[i])];
+    covariance.row(row) = influence.shared.row(errors_.sourceUnknown(sources[i]));
+  }
+  // The scatter between areas limits what is said of further sources; that of the ranging error on
+  // slopes, which every solution contains, is in the standard deviations of the parameters.
+  const double overdispersion =
+      sources.size() > 1 ? sourceOverdispersion(influence, solution) : 1.0;
+  const SpikeAndSlab mixture(priors, mean, 0.5 * (covariance + covariance.transpose()),
+                             overdispersion);
+  solution.biases += mixture.move(influence.biases);
+  solution.shared += mixture.move(influence.shared);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    solution.source_probability[indexOf(sources[i])] = mixture.presence()[row];
+    solution.source_value[indexOf(sources[i])] = mixture.valueIfPresent()[row];
+    solution.source_std[indexOf(sources[i])] = mixture.stdIfPresent()[row];
+  }
+  return mixture.change(influence.biases);
 }
 
 AdjustmentSolution Adjustment::solveNearZero(const std::vector<SystemParameter>& estimate,

@@ -8,6 +8,7 @@
 #include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/orientation_classes.h>
+#include <pcl_als/trajectory/source_effect.h>
 
 #include "noise_shares.h"
 
@@ -25,6 +26,8 @@ void AreaMatcher::add(int strip, const LidarReturn& point) {
   part.biased.push_back(point.position);
   part.times.push_back(point.time);
   part.single.push_back(point.isSingle());
+  part.intensity.push_back(point.intensity);
+  part.turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
 }
 
 std::size_t AreaMatcher::pointCount() const {
@@ -53,6 +56,10 @@ void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candida
       part = StripPart();
       continue;
     }
+    // A polygon turns one way, and many files do not say which: a constant sign says nothing.
+    const auto constant = [&](std::int8_t sign) { return sign == part.turning.front(); };
+    if (std::all_of(part.turning.begin(), part.turning.end(), constant))
+      std::fill(part.turning.begin(), part.turning.end(), std::int8_t{0});
     part.surface = PatchSurface(Tin(part.biased, resolution));
     part.median_edge = typicalPlanEdge(part.surface.tin());
     chooseCandidates(part, candidates);
@@ -85,6 +92,20 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   }
   part.candidates = chosenEvenly(classes, count);
   std::sort(part.candidates.begin(), part.candidates.end());
+}
+
+void AreaMatcher::collectSourceScale(const Trajectory& trajectory, double& largest_angle,
+                                     std::vector<double>& intensities) const {
+  constexpr std::size_t kEvery = 16;  // points
+  std::size_t cursor = 0;
+  SensorPose pose;
+  for (const StripPart& part : strips_) {
+    for (std::size_t i = 0; i < part.biased.size(); i += kEvery) {
+      intensities.push_back(part.intensity[i]);
+      if (trajectory.poseAt(part.times[i], pose, cursor))
+        largest_angle = std::max(largest_angle, std::abs(scanGeometry(pose, part.biased[i]).beta));
+    }
+  }
 }
 
 void AreaMatcher::collectRoughness(std::vector<double>& values) const {
@@ -128,8 +149,10 @@ void AreaMatcher::correct(const BiasEvaluator& biases) {
 /// Design block and covariance of one point of a strip, or of the interpolated foot in a patch.
 class AreaMatcher::PointGeometry {
  public:
-  PointGeometry(const Trajectory& trajectory, const NoiseModel& noise)
-      : trajectory_(trajectory), noise_(noise) {}
+  /// \param scale null: sources are not considered
+  PointGeometry(const Trajectory& trajectory, const NoiseModel& noise,
+                const ErrorSourceScale* scale)
+      : trajectory_(trajectory), noise_(noise), effects_(trajectory), scale_(scale) {}
 
   bool atPoint(const StripPart& part, std::int32_t index, const PatchQuality& surface) {
     time = part.times[index];
@@ -143,6 +166,11 @@ class AreaMatcher::PointGeometry {
     range = geometry.range();
     lateral = std::abs(geometry.x);
     height = std::abs(geometry.z);
+    sources.setZero();
+    sources.col(indexOf(ErrorSource::range_scale)) = range * beam;
+    if (scale_ != nullptr)
+      effects_.add({time, part.intensity[index], part.turning[index]}, pose_, geometry, *scale_,
+                   sources);
     return true;
   }
 
@@ -151,6 +179,7 @@ class AreaMatcher::PointGeometry {
     time = 0.0;
     position.setZero();
     design.setZero();
+    sources.setZero();
     covariance.setZero();
     pointing.setZero();
     for (int i = 0; i < 3; ++i) {
@@ -160,6 +189,7 @@ class AreaMatcher::PointGeometry {
       time += weight * vertex.time;
       position += weight * vertex.position;
       design += weight * vertex.design;
+      sources += weight * vertex.sources;
       covariance += weight * weight * vertex.covariance;
       pointing += weight * weight * vertex.pointing;
     }
@@ -173,12 +203,17 @@ class AreaMatcher::PointGeometry {
   double time = 0.0;
   Eigen::Vector3d position;  ///< corrected
   DesignBlock design;
+  SourceEffects sources;                            ///< except slope_ranging
   Eigen::Matrix3d covariance, pointing;             ///< pointing: its part of the covariance
   Eigen::Vector3d beam;                             ///< unit, downward
   double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
 
-  double stretch(const Eigen::Vector3d& normal) const {
-    return stretchEffect(range, beam, normal, noise_.beam_divergence);
+  /// Effects of the error sources along the normal of a surface, metres.
+  ErrorSourceRow sourcesAlong(const Eigen::Vector3d& normal) const {
+    ErrorSourceRow row = normal.transpose() * sources;
+    row[indexOf(ErrorSource::slope_ranging)] =
+        stretchEffect(range, beam, normal, noise_.beam_divergence);
+    return row;
   }
 
  private:
@@ -196,6 +231,8 @@ class AreaMatcher::PointGeometry {
 
   const Trajectory& trajectory_;
   const NoiseModel& noise_;
+  SourceEffect effects_;
+  const ErrorSourceScale* scale_;
   SensorPose pose_;
   std::size_t cursor_ = 0;
 };
@@ -217,8 +254,7 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
       normal.dot(point.position - foot.position) + observation.row() * corrected_for_;
   observation.variance = normalVariance(point.covariance + foot.covariance, normal);
   observation.pointing = normalVariance(point.pointing + foot.pointing, normal);
-  observation.stretch = point.stretch(normal) - foot.stretch(normal);
-  observation.ranges = point.range * normal.dot(point.beam) - foot.range * normal.dot(foot.beam);
+  observation.sources = point.sourcesAlong(normal) - foot.sourcesAlong(normal);
 }
 
 AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
@@ -228,7 +264,9 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
   std::vector<std::size_t> points;
   for (const StripPart& part : strips_) points.push_back(part.biased.size());
   NoiseShares shares(points);
-  PointGeometry point(trajectory, noise), foot(trajectory, noise), vertex(trajectory, noise);
+  const ErrorSourceScale* scale = source_scale_ ? &*source_scale_ : nullptr;
+  PointGeometry point(trajectory, noise, scale), foot(trajectory, noise, scale),
+      vertex(trajectory, noise, scale);
   const bool all = chosen == Points::candidates;
   for (std::size_t k = 0; k < 2 * pairs.size(); ++k) {
     const StripPair& pair = pairs[k / 2];
@@ -286,7 +324,8 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
                                            double threshold, const Trajectory& trajectory,
                                            const NoiseModel& noise, double default_sigma) const {
   AreaObservations found;
-  PointGeometry foot(trajectory, noise), vertex(trajectory, noise);
+  const ErrorSourceScale* scale = source_scale_ ? &*source_scale_ : nullptr;
+  PointGeometry foot(trajectory, noise, scale), vertex(trajectory, noise, scale);
   for (const ControlPoint& point : control) {
     if (!area_.contains(point.position)) continue;
     const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
@@ -311,8 +350,7 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.row_b = observation.normal.transpose() * foot.design;
       observation.misclosure = observation.normal.dot(point.position - foot.position) +
                                observation.row() * corrected_for_;
-      observation.stretch = -foot.stretch(observation.normal);
-      observation.ranges = -foot.range * observation.normal.dot(foot.beam);
+      observation.sources = -foot.sourcesAlong(observation.normal);
       const double up = observation.normal.z();
       observation.variance =
           normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;

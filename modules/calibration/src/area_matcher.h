@@ -12,8 +12,8 @@
 
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/common/error_source.h>
 #include <pcl_als/common/lidar_return.h>
-#include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/tin/patch_surface.h>
@@ -53,6 +53,12 @@ class AreaMatcher {
     criterion_.plain_roughness = plain;
   }
 
+  /// Sums for the scale of the error sources: the largest scan angle and all intensities.
+  void collectSourceScale(const Trajectory& trajectory, double& largest_angle,
+                          std::vector<double>& intensities) const;
+  /// From now on pairs have the effects of all error sources.
+  void considerSources(const ErrorSourceScale& scale) { source_scale_ = scale; }
+
   /// Which points are paired with patches: all candidates, or those of the observations last kept.
   enum class Points { candidates, kept };
   /// Keeps the points of these observations (of match()) for further pairs with the same strips;
@@ -82,6 +88,8 @@ class AreaMatcher {
     std::vector<Eigen::Vector3d> biased;  ///< ground frame, as read
     std::vector<double> times;
     std::vector<bool> single;
+    std::vector<float> intensity;
+    std::vector<std::int8_t> turning;  ///< of the mirror: 1 to the left, -1 to the right
     PatchSurface surface;
     std::vector<std::int32_t> candidates;
     std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
@@ -113,6 +121,7 @@ class AreaMatcher {
   std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;
   SurfaceCriterion criterion_;
   SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
+  std::optional<ErrorSourceScale> source_scale_;       ///< empty: sources are not considered
 };
 
 }  // namespace pcl_als

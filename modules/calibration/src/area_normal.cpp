@@ -12,6 +12,7 @@
 namespace pcl_als {
 
 TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
+  knots.fill(-1);
   row.head<kSystemParameterCount>() = o.row();
   if (o.a != PairObservation::kControl) {
     place(0, errors.placeOf(o.a, o.time_a), o.normal, o.row_a, 1.0);
@@ -21,9 +22,9 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   place(2, errors.placeOf(o.b, o.time_b), o.normal, o.row_b, -1.0);
   strips[1] = o.b;
   row.segment<kShift>(shift(1)) = -o.normal.transpose();
-  knots[4] = errors.instrumentBlock();
-  row[slot(4)] = o.stretch;
-  row[slot(4) + 1] = o.ranges;
+  for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
+    knots[kKnots + i] = errors.instrumentBlock() + i;
+  row.segment<kErrorSourceCount>(kInstrument) = o.sources;
 }
 
 void TouchedRow::place(int index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
@@ -43,9 +44,31 @@ using LocalMatrix = Eigen::Matrix<double, TouchedRow::kSize, TouchedRow::kSize>;
 using LocalVector = Eigen::Matrix<double, TouchedRow::kSize, 1>;
 
 /// Sums over observations of the same knots and strips; successive observations mostly share them.
-struct Partial {
+/// Their rows are collected, so that the products are those of matrices and not of vectors.
+class Partial {
+ public:
+  void add(const TouchedRow& touched, double misclosure, double weight) {
+    const double root = std::sqrt(weight);
+    rows_.row(count_) = root * touched.row;
+    columns_ = touched.used();
+    misclosures_[count_] = root * misclosure;
+    if (++count_ == kRows) flush();
+  }
+  void flush() {
+    const auto rows = rows_.topLeftCorner(count_, columns_);
+    matrix.topLeftCorner(columns_, columns_).noalias() += rows.transpose() * rows;
+    right.head(columns_).noalias() += rows.transpose() * misclosures_.head(count_);
+    count_ = 0;
+  }
+
   LocalMatrix matrix = LocalMatrix::Zero();
   LocalVector right = LocalVector::Zero();
+
+ private:
+  static constexpr int kRows = 32;
+  Eigen::Matrix<double, kRows, TouchedRow::kSize> rows_;
+  Eigen::Matrix<double, kRows, 1> misclosures_;
+  int count_ = 0, columns_ = 0;
 };
 using PartialKey = std::pair<std::array<int, TouchedRow::kSlots>, std::array<int, 2>>;
 
@@ -56,11 +79,10 @@ std::map<PartialKey, Partial> partialSums(const AreaObservations& observations,
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (weights[i] == 0.0) continue;
     const TouchedRow touched(observations[i], errors);
-    Partial& sums = partial[{touched.knots, touched.strips}];
-    const LocalVector weighted = (weights[i] / observations[i].variance) * touched.row.transpose();
-    sums.matrix.noalias() += weighted * touched.row;
-    sums.right += observations[i].misclosure * weighted;
+    partial[{touched.knots, touched.strips}].add(touched, observations[i].misclosure,
+                                                 weights[i] / observations[i].variance);
   }
+  for (auto& [key, sums] : partial) sums.flush();
   return partial;
 }
 

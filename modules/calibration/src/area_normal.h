@@ -12,22 +12,29 @@
 
 namespace pcl_als {
 
-/// Row of one observation: the eight parameters; four knots and the instrument, six each; the
-/// shifts of its two strips, three each.
+/// Row of one observation: the eight parameters; four knots, six each; the shifts of its two
+/// strips, three each; the blocks of the instrument, six each. The last one is mostly unused.
 struct TouchedRow {
   static constexpr int kKnot = SharedErrors::kPerKnot;
-  static constexpr int kSlots = 5;
+  static constexpr int kKnots = 4;
+  static constexpr int kSlots = kKnots + SharedErrors::kInstrumentBlocks;
   static constexpr int kShift = 3;
-  static constexpr int kShifts = kSystemParameterCount + kSlots * kKnot;
-  static constexpr int kSize = kShifts + 2 * kShift;
+  static constexpr int kShifts = kSystemParameterCount + kKnots * kKnot;
+  static constexpr int kInstrument = kShifts + 2 * kShift;
+  static constexpr int kSize = kInstrument + SharedErrors::kInstrumentBlocks * kKnot;
 
   TouchedRow(const PairObservation& observation, const SharedErrors& errors);
 
-  static constexpr int slot(int index) { return kSystemParameterCount + index * kKnot; }
+  static constexpr int slot(int index) {
+    return index < kKnots ? kSystemParameterCount + index * kKnot
+                          : kInstrument + (index - kKnots) * kKnot;
+  }
   static constexpr int shift(int index) { return kShifts + index * kShift; }
+  /// Columns that may differ from zero.
+  int used() const { return knots[kSlots - 1] < 0 ? kSize - kKnot : kSize; }
 
   Eigen::Matrix<double, 1, kSize> row = Eigen::Matrix<double, 1, kSize>::Zero();
-  std::array<int, kSlots> knots{-1, -1, -1, -1, -1};  ///< -1: not used
+  std::array<int, kSlots> knots;  ///< -1: not used
   std::array<int, 2> strips{-1, -1};
 
  private:

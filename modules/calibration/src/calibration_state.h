@@ -17,7 +17,7 @@ namespace pcl_als {
 
 /// Variables of the iteration.
 struct SystemCalibrationEngine::State {
-  explicit State(const SharedErrors& errors, int threads) : adjustment(errors, threads) {}
+  State(SharedErrors& shared, int threads) : errors(shared), adjustment(shared, threads) {}
 
   std::size_t observationCount() const {
     std::size_t count = 0;
@@ -81,8 +81,10 @@ struct SystemCalibrationEngine::State {
     }
   };
 
+  SharedErrors& errors;
   Adjustment adjustment;
   ParameterChoice choice;
+  AdjustmentSolution diagnosed;  ///< the last solution with all error sources
   Phase phase = Phase::initial;
   int coarse_iterations = 0;
   VarianceComponents components;

@@ -100,8 +100,8 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
     const SystemRow row = adjustment.reducedRow(o);
     group.influence += weight / o.sharing * (row * worth * row.transpose()).value();  // w^2 v
     const Eigen::Array2d times(sign > 0.0 ? o.time_a : o.time_b, sign > 0.0 ? o.time_b : o.time_a);
-    group.members.push_back({i, o.normal, sign * o.stretch, weight,
-                             sign * adjustment.residual(o, solution), times, sign});
+    group.members.push_back({i, o.normal, sign * o.sources[indexOf(ErrorSource::slope_ranging)],
+                             weight, sign * adjustment.residual(o, solution), times, sign});
   }
   std::vector<Group> groups;
   for (auto& [key, group] : here) {

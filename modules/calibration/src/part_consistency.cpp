@@ -38,37 +38,28 @@ std::vector<bool> secondHalf(const AreaAdjustment& adjustment, int axis) {
   return second;
 }
 
-AdjustmentSolution solutionOf(const AreaAdjustment& adjustment,
-                              const std::vector<AreaObservations>& observations) {
-  std::vector<std::vector<double>> weights = adjustment.weights;
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i].resize(observations[i].size());
-  Adjustment solver(adjustment.errors, adjustment.threads);
-  solver.setLevels(adjustment.levels);
-  solver.accumulate(observations, weights);
-  return solver.solve(adjustment.estimate, SystemVector::Zero());
-}
-
-AdjustmentSolution halfOf(const AreaAdjustment& adjustment, const std::vector<bool>& second,
-                          bool which) {
-  std::vector<AreaObservations> half = adjustment.observations;
-  for (std::size_t i = 0; i < half.size(); ++i) {
-    if (second[i] != which) half[i].clear();
-  }
-  return solutionOf(adjustment, half);
+AdjustmentSolution halfOf(const Adjustment& whole, const AreaAdjustment& adjustment,
+                          std::vector<bool> second, bool which) {
+  if (!which) second.flip();
+  const Adjustment half(whole, second);
+  return half.solve(adjustment.estimate, SystemVector::Zero());
 }
 
 }  // namespace
 
 std::vector<PartDifference> partDifferences(const AreaAdjustment& adjustment) {
   std::vector<PartDifference> found;
-  const AdjustmentSolution all = solutionOf(adjustment, adjustment.observations);
+  Adjustment whole(adjustment.errors, adjustment.threads);
+  whole.setLevels(adjustment.levels);
+  whole.accumulate(adjustment.observations, adjustment.weights);
+  const AdjustmentSolution all = whole.solve(adjustment.estimate, SystemVector::Zero());
   const char* const names[] = {"the western and the eastern half",
                                "the southern and the northern half"};
   for (int axis = 0; all.solved && axis < 2; ++axis) {
     const std::vector<bool> second = secondHalf(adjustment, axis);
     if (second.empty()) continue;
-    const AdjustmentSolution low = halfOf(adjustment, second, false);
-    const AdjustmentSolution high = halfOf(adjustment, second, true);
+    const AdjustmentSolution low = halfOf(whole, adjustment, second, false);
+    const AdjustmentSolution high = halfOf(whole, adjustment, second, true);
     if (!low.solved || !high.solved) continue;
     for (const SystemParameter parameter : adjustment.estimate) {
       const int i = indexOf(parameter);

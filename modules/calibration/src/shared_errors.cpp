@@ -41,16 +41,21 @@ void SharedErrorModel::validate() const {
       {"share of constant trajectory errors", constant_share},
       {"share of smooth trajectory errors", smooth_share},
       {"share of Gauss-Markov trajectory errors", 1.0 - constant_share - smooth_share},
-      {"local shift sigma (m)", local},
-      {"ranging share", ranging_incidence},
-      {"range scale", range_scale}};
-  if (!(ranging_absent >= 0.0 && ranging_absent < 1.0))
-    throw UsageError("probability of no ranging error must be in [0, 1)");
+      {"local shift sigma (m)", local}};
   for (const auto& [name, value] : values) {
     if (std::isfinite(value) && value > 0.0) continue;
     std::ostringstream text;
     text << name << " must be positive, is " << value;
     throw UsageError(text.str());
+  }
+  for (const ErrorSourceInfo& info : errorSources()) {
+    const SourcePrior& prior = sources[static_cast<std::size_t>(indexOf(info.source))];
+    if (prior.std > prior.std_absent && prior.std_absent >= 0.0 && prior.absent >= 0.0 &&
+        prior.absent < 1.0)
+      continue;
+    throw UsageError("prior of " + std::string(info.name) +
+                     ": the probability must be in [0, 1), and the standard deviation larger than "
+                     "that of an absent error");
   }
 }
 
@@ -141,7 +146,7 @@ void SharedErrors::addCoefficients(StripKnots& strip) {
       if (strip.nodes.empty() || strip.nodes.back() < i) strip.nodes.push_back(i);
     }
   }
-  strip.first_node = instrumentBlock() + 1 + coefficient_count_;
+  strip.first_node = instrumentBlock() + kInstrumentBlocks + coefficient_count_;
   strip.constant = strip.first_node + static_cast<int>(strip.nodes.size());
   coefficient_count_ += static_cast<int>(strip.nodes.size()) + 1;
 }
@@ -242,11 +247,25 @@ SharedErrors::Variances SharedErrors::shareOf(double share,
 }
 
 SharedErrors::PriorVariances SharedErrors::priorVariances(const SharedErrorLevels& levels) const {
-  const double ranging = model_.ranging_incidence, scale = model_.range_scale;
+  std::array<double, kInstrumentBlocks * kPerKnot> instrument;
+  instrument.fill(1.0);  // of unknowns without effect
+  for (const ErrorSourceInfo& info : errorSources()) {
+    const auto i = static_cast<std::size_t>(indexOf(info.source));
+    const SharedErrorModel::SourcePrior& prior = model_.sources[i];
+    const bool considered =
+        std::find(considered_.begin(), considered_.end(), info.source) != considered_.end();
+    const double std = considered ? prior.std : prior.std_absent;
+    if (std > 0.0) instrument[i] = std * std;
+  }
   return {shareOf(1.0 - model_.smooth_share - model_.constant_share, levels.gauss_markov),
           shareOf(model_.smooth_share, levels.smooth),
-          shareOf(model_.constant_share, levels.constant),
-          {ranging * ranging, scale * scale, 1.0, 1.0, 1.0, 1.0}};
+          shareOf(model_.constant_share, levels.constant), instrument};
+}
+
+int SharedErrors::observedInstrumentBlocks() const {
+  const bool second = std::any_of(considered_.begin(), considered_.end(),
+                                  [](ErrorSource source) { return indexOf(source) >= kPerKnot; });
+  return second ? 2 : 1;
 }
 
 SharedErrors::Variances SharedErrors::variances(const SharedErrorLevels& levels) const {
@@ -270,7 +289,8 @@ SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const SharedErrorLevel
     for (int i = 0; i < kPerKnot; ++i)
       information[block * kPerKnot + i] = 1.0 / (variances[i] * factors[i]);
   };
-  add(diagonals.own, instrumentBlock(), prior.instrument, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0});
+  for (std::size_t i = 0; i < prior.instrument.size(); ++i)
+    diagonals.own[instrumentBlock() * kPerKnot + static_cast<int>(i)] = 1.0 / prior.instrument[i];
   for (const StripKnots& strip : strips_) {
     const Variances& factors = strip.variance_factors;
     for (std::size_t k = 0; k < strip.at.size(); ++k)
@@ -346,7 +366,7 @@ Eigen::MatrixXd SharedErrors::contributions(const Eigen::VectorXd& solution) con
 
 double SharedErrors::priorLogDeterminant(const SharedErrorLevels& levels) const {
   const PriorVariances prior = priorVariances(levels);
-  const auto logOf = [](const Variances& variances) {
+  const auto logOf = [](const auto& variances) {
     double sum = 0.0;
     for (const double variance : variances) sum += std::log(variance);
     return sum;

@@ -14,6 +14,7 @@
 #include "calibration_report.h"
 #include "calibration_state.h"
 #include "control_consistency.h"
+#include "error_diagnosis.h"
 #include "misfit_comparison.h"
 #include "pair_selection.h"
 #include "pair_weights.h"
@@ -194,6 +195,19 @@ std::vector<std::vector<TimeSpan>> SystemCalibrationEngine::measuredTimes() cons
   return times;
 }
 
+double SystemCalibrationEngine::meanSpeed(const std::vector<TimeSpan>& spans) const {
+  double length = 0.0, duration = 0.0;
+  for (const auto& [from, to] : spans) {
+    SensorPose start, end;
+    std::size_t cursor = 0;
+    if (!trajectory_->poseAt(from, start, cursor) || !trajectory_->poseAt(to, end, cursor))
+      continue;
+    length += (end.position - start.position).norm();
+    duration += to - from;
+  }
+  return duration > 0.0 ? length / duration : 0.0;
+}
+
 CalibrationResult SystemCalibrationEngine::calibrate() {
   prepare();
   std::vector<TimeSpan> spans;
@@ -213,9 +227,14 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   const CalibrationReport report(ids_, !control_covered_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
   const MisfitComparison misfit(state.observations);
-  while (mayContinue(state, result)) {
-    iterate(state, result);
-    if (!result.converged) formPairs(state);
+  constexpr int kMostSelections = 3;
+  for (int selections = 0; selections == 0 || !result.converged; ++selections) {
+    while (mayContinue(state, result)) {
+      iterate(state, result);
+      if (!result.converged) formPairs(state);
+    }
+    if (!result.converged || !selectSources(state) || selections == kMostSelections) break;
+    continueWithSources(state, result);
   }
   const bool open = !result.converged;
   result.sigma0 = state.weights.sigma0();
@@ -227,6 +246,8 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   report.addStrips(errors, used_, state.choice.solution, result);
+  addErrorSources(errors, state.choice, state.diagnosed, swathEdge(state.observations),
+                  source_scale_, meanSpeed(spans), result);
   const std::vector<PriorEffect> effects = priorEffects(
       largeStripErrors(result.strip_errors, settings_.shared_errors, kNoticeableCorrection), ids_,
       errors, state.adjustment, state.choice);
@@ -240,9 +261,11 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   formPairs(state);
   report.addControlPoints(control_, state.observations, used,
                           std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
-  report.addFit(state.observations, result.biases(), true, result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
+  removeCorrectedSources(result, state.observations);
+  report.addFit(state.observations, result.biases(), true, result);
   result.misfit = misfit.change(state.observations, result.biases());
+  restoreCorrectedSources(result, state.observations);
   diagnose(result);
   assessControl(state, errors, result);
   assessStripErrors(settings_.shared_errors, effects, result);

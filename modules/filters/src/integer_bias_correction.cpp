@@ -62,6 +62,8 @@ bool move(double steps_per_metre, Column& change, IntegerColumn& raw, std::size_
 struct IntegerBiasCorrection::Tile {
   IntegerColumn raw[3];
   Column time, x, y, z, change[3];
+  std::array<float, kTile> intensity;
+  std::array<std::int8_t, kTile> turning;
 };
 
 IntegerBiasCorrection::IntegerBiasCorrection(std::string name, SystemCorrection correction,
@@ -80,6 +82,9 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
     tile.raw[1][i] = load<std::int32_t>(records + 4);
     tile.raw[2][i] = load<std::int32_t>(records + 8);
     tile.time[i] = load<double>(time);
+    tile.intensity[i] = load<std::uint16_t>(records + layout_.intensity_position);
+    tile.turning[i] =
+        (load<std::uint8_t>(records + layout_.scan_direction_position) & 64) != 0 ? -1 : 1;
   }
   toMetres(tile.raw[0], layout_.scale.x(), layout_.offset.x(), tile.x, count);
   toMetres(tile.raw[1], layout_.scale.y(), layout_.offset.y(), tile.y, count);
@@ -117,7 +122,8 @@ CoverageCount IntegerBiasCorrection::apply(std::byte* records, std::size_t count
                                            std::uint64_t first) const {
   CoverageCount coverage;
   Tile tile;
-  const PointColumns points{tile.time.data(), tile.x.data(), tile.y.data(), tile.z.data()};
+  const PointColumns points{tile.time.data(), tile.x.data(),         tile.y.data(),
+                            tile.z.data(),    tile.intensity.data(), tile.turning.data()};
   const EffectColumns change{tile.change[0].data(), tile.change[1].data(), tile.change[2].data()};
   for (std::size_t at = 0; at < count; at += kTile) {
     const std::size_t size = std::min(kTile, count - at);

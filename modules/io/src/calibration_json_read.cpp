@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
-#include <limits>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +9,7 @@
 
 #include "calibration_json.h"
 #include "csv_table.h"
+#include "diagnosis_json.h"
 #include "json_node.h"
 #include "json_parse.h"
 
@@ -18,7 +17,6 @@ namespace pcl_als {
 namespace detail {
 namespace {
 
-using Json = nlohmann::json;
 using Node = JsonNode;
 
 ParameterStatus statusOf(const Node& node) {
@@ -258,7 +256,7 @@ void checkFormat(const Node& root, const std::string& name) {
 constexpr double kLongestWindow = 60.0;  // seconds, half of it; the tools' limit of -line_fit
 
 CalibrationResult calibrationFromJson(const std::string& text, const std::string& name) {
-  const Json json = parseJson(text, name);
+  const nlohmann::json json = parseJson(text, name);
   const Node root(json, name);
   checkFormat(root, name);
   CalibrationResult result;
@@ -289,6 +287,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   if (root.has("recovered_attitude")) {
     readRecoveredAttitude(root["recovered_attitude"], result);
   }
+  readDiagnosis(root, result);
   if (root.has("observability")) result.observability = textsOf(root["observability"]);
   if (root.has("warnings")) {
     for (const std::string& text : textsOf(root["warnings"])) result.warnings.emplace_back(text);

@@ -9,6 +9,7 @@
 #include <pcl_als/io/survey_io.h>
 
 #include "calibration_json.h"
+#include "diagnosis_json.h"
 
 namespace pcl_als {
 namespace detail {
@@ -216,6 +217,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   if (!result.recovered_attitude.empty()) {
     root["recovered_attitude"] = recoveredAttitudeOf(result);
   }
+  writeDiagnosis(result, root);
   root["observability"] = result.observability;
   root["warnings"] = textsOf(result.warnings);
   root["left_out"] = leftOutOf(result);

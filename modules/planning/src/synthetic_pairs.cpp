@@ -151,7 +151,8 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
                             std::sqrt(b.density) / kSpread;
   const double tilt = std::hypot(sample.normal.x(), sample.normal.y());
   o.normal = tilt < tilt_noise ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : sample.normal;
-  o.variance = o.stretch = o.ranges = 0.0;
+  o.variance = 0.0;
+  o.sources.setZero();
   for (const StripGeometry* strip : {a, &b}) {
     if (strip == nullptr) continue;
     const double along = strip->along(place);
@@ -164,9 +165,10 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
     (patch ? o.time_b : o.time_a) = strip->timeAbeam(place);
     o.variance +=
         (patch ? kFootShare : 1.0) * normalVariance(settings_.noise.pointCovariance(g), o.normal);
-    o.stretch += (patch ? -1.0 : 1.0) *
-                 stretchEffect(g.range(), g.beam(), o.normal, settings_.noise.beam_divergence);
-    o.ranges += (patch ? -1.0 : 1.0) * g.range() * o.normal.dot(g.beam());
+    const double sign = patch ? -1.0 : 1.0;
+    o.sources[indexOf(ErrorSource::slope_ranging)] +=
+        sign * stretchEffect(g.range(), g.beam(), o.normal, settings_.noise.beam_divergence);
+    o.sources[indexOf(ErrorSource::range_scale)] += sign * g.range() * o.normal.dot(g.beam());
     o.lateral = std::abs(g.x);
     o.height = std::abs(g.z);
   }

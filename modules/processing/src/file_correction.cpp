@@ -117,11 +117,13 @@ class Tally {
 };
 
 void rewrite(Job& job, const LasFile& file) {
+  // Bytes of a record, which all formats up to 5, and all later ones, have in common.
+  constexpr std::size_t kIntensity = 12, kReturns = 14, kFlags = 15;
   const LasScaling metres = file.toMetres();
   const IntegerBiasCorrection engine(
       job.name(), correctionOf(job),
-      {file.header().record_length, static_cast<std::size_t>(file.layout().gps_time), metres.scale,
-       metres.offset});
+      {file.header().record_length, static_cast<std::size_t>(file.layout().gps_time), kIntensity,
+       file.layout().format < 6 ? kReturns : kFlags, metres.scale, metres.offset});
   Tally tally(file.header().point_count, job);
   const LasEdit edit = [&](const LasRecordBlock& block) {
     tally.add(engine.apply(block.records, block.count, block.first));

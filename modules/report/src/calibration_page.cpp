@@ -93,6 +93,39 @@ void addParameters(HtmlReport& report, const CalibrationResult& result) {
   }
 }
 
+/// With four significant digits: the units of the errors differ by orders of magnitude.
+std::string significant(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+void addDiagnosis(HtmlReport& report, const CalibrationResult& result) {
+  if (result.diagnosis.empty()) return;
+  report.addSection("Diagnosis");
+  report.addText(
+      "Probability that each error is present, given the data; its size (assumed - true) where it "
+      "is; and how far it moves points at the edge of the highest swath.");
+  ReportTable table{
+      "",
+      "Possible causes of the misfit",
+      {"error", "probability", "value", "std", "unit", "effect, mm", "corrected", "evidence"},
+      {}};
+  std::vector<std::string> remedies;
+  for (const ErrorFinding& f : result.diagnosis) {
+    if (f.determined) {
+      table.rows.push_back({f.title, numberText(f.probability, 3), significant(f.value),
+                            significant(f.std), f.unit, numberText(1000.0 * f.effect, 1),
+                            f.corrected ? "yes" : "no", f.evidence});
+    } else {
+      table.rows.push_back({f.title, "not determined", "", "", f.unit, "", "no", f.evidence});
+    }
+    if (f.probability > 0.5 && f.determined) remedies.push_back(f.title + ": " + f.remedy);
+  }
+  report.addTable(table);
+  if (!remedies.empty()) report.addList(remedies);
+}
+
 void addFits(HtmlReport& report, const CalibrationResult& result) {
   report.addSection("Fit");
   report.addTable(pairTable(result));
@@ -187,6 +220,7 @@ void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult&
   addVerdict(verdictOf(result), report);
   addSummary(report, result);
   addParameters(report, result);
+  addDiagnosis(report, result);
   addFits(report, result);
 
   addProfile(report, *state_->survey, result, trajectory);

@@ -98,6 +98,42 @@ void stripTable(const CalibrationResult& result, std::ostream& out) {
   }
 }
 
+/// The remedy of an error that is probably present, by name.
+void remedies(const CalibrationResult& result, std::ostringstream& out) {
+  for (const ErrorFinding& finding : result.diagnosis) {
+    if (finding.probability <= 0.5 || !finding.determined) continue;
+    out << "- " << finding.source << ": " << finding.remedy
+        << (finding.corrected ? "; the correction of points removes it\n" : "\n");
+  }
+}
+
+void diagnosisTable(const CalibrationResult& result, std::ostringstream& out) {
+  if (result.diagnosis.empty()) return;
+  out << "\nDiagnosis: probability of each error, its size, and its effect at the edge of the "
+         "swath\n\n"
+         "| error                | probability |        value |          std | unit   | effect mm "
+         "|\n"
+         "|----------------------|-------------|--------------|--------------|--------|-----------|"
+         "\n";
+  for (const ErrorFinding& f : result.diagnosis) {
+    out << "| " << std::left << std::setw(20) << f.source << " | " << std::right << std::fixed
+        << std::setprecision(3) << std::setw(11);
+    if (!f.determined) {
+      out << "not determ."
+          << " | " << std::setw(12) << '-' << " | " << std::setw(12) << '-' << " | " << std::left
+          << std::setw(6) << f.unit << " | " << std::right << std::setw(9) << '-';
+    } else {
+      out << f.probability << " | " << std::defaultfloat << std::setprecision(3) << std::setw(12)
+          << f.value << " | " << std::setw(12) << f.std << " | " << std::left << std::setw(6)
+          << f.unit << " | " << std::right << std::fixed << std::setprecision(1) << std::setw(9)
+          << 1000.0 * f.effect;
+    }
+    out << " |\n";
+  }
+  out << '\n';
+  remedies(result, out);
+}
+
 std::string pairsCsv(const CalibrationResult& result) {
   std::ostringstream out;
   out << "a,b,correspondences,rms_before_m,rms_after_m,mean_before_m,mean_after_m\n"
@@ -141,6 +177,7 @@ std::string calibrationTables(const CalibrationResult& result) {
   pairTable(result, out);
   controlTable(result, out);
   stripTable(result, out);
+  diagnosisTable(result, out);
   if (!result.observability.empty()) out << "\nWhat the block determines\n\n";
   for (const std::string& text : result.observability) out << "- " << text << '\n';
   out << "\nsigma0 " << std::setprecision(3) << result.sigma0 << ", redundancy "

@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/trajectory/system_correction.h>
+
+#include "source_correction.h"
 
 namespace pcl_als {
 namespace {
@@ -67,6 +70,9 @@ SystemCorrection::SystemCorrection(const CalibrationResult& calibration, Flight 
   flight_ = flightFor(calibration.attitude, std::move(flight), attitude_);
   evaluator_ = std::make_shared<const BiasEvaluator>(
       flight_, calibration.biases(), errorsOf(calibration, options.strip_corrections));
+  if (calibration.sources.isZero(0.0)) return;
+  sources_ = std::make_shared<const detail::SourceCorrection>(flight_, calibration.sources,
+                                                              calibration.source_scale);
 }
 
 SystemCorrection::SystemCorrection(const SystemVector& biases, Flight flight, bool invert)
@@ -81,6 +87,13 @@ bool SystemCorrection::knowsAttitude(double flight_time) const {
 
 void SystemCorrection::change(const PointColumns& points, std::size_t count,
                               const EffectColumns& change, CoverageCount& coverage) const {
+  // Before the columns of the points may be overwritten.
+  std::vector<double> by_sources[3];
+  if (sources_ != nullptr) {
+    for (std::vector<double>& axis : by_sources) axis.assign(count, 0.0);
+    sources_->add(points, count, invert_,
+                  {by_sources[0].data(), by_sources[1].data(), by_sources[2].data()});
+  }
   if (invert_) {
     evaluator_->inverseEffect(points, count, change, coverage);
   } else {
@@ -88,6 +101,10 @@ void SystemCorrection::change(const PointColumns& points, std::size_t count,
     for (double* column : {change.x, change.y, change.z}) {
       for (std::size_t i = 0; i < count; ++i) column[i] = -column[i];
     }
+  }
+  double* const columns[3] = {change.x, change.y, change.z};
+  for (int axis = 0; axis < 3 && sources_ != nullptr; ++axis) {
+    for (std::size_t i = 0; i < count; ++i) columns[axis][i] += by_sources[axis][i];
   }
   if (needs_recovered_) keepUnknown(points, count, change, coverage);
 }

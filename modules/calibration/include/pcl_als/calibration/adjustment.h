@@ -20,6 +20,10 @@ struct AdjustmentSolution {
   SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): noise of points only
   SystemMatrix covariance = SystemMatrix::Zero();  ///< includes shared errors, see Adjustment
   Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
+  /// By error source: probability that it is present; value and standard deviation where it is.
+  ErrorSourceVector source_probability = ErrorSourceVector::Zero();
+  ErrorSourceVector source_value = ErrorSourceVector::Zero();
+  ErrorSourceVector source_std = ErrorSourceVector::Zero();
 };
 
 class AreaNormal;    // normal equations of one area
@@ -61,10 +65,12 @@ struct RestrictedLikelihood {
 class Adjustment {
  public:
   explicit Adjustment(const SharedErrors& errors, int threads = 0);
+  /// The adjustment of some areas of another one that has accumulated them, with its variance
+  /// components. Its normal equations are not computed again.
+  Adjustment(const Adjustment& whole, const std::vector<bool>& areas);
   ~Adjustment();
 
-  /// \param weights one for every observation of every area: robust weight / noise scale^2. Both
-  /// vectors must exist until solve() returns.
+  /// \param weights one for every observation of every area: robust weight / noise scale^2
   void accumulate(const std::vector<AreaObservations>& areas,
                   const std::vector<std::vector<double>>& weights);
   void setLevels(const SharedErrorLevels& levels);
@@ -117,19 +123,27 @@ class Adjustment {
   /// Factors by which noise of the slopes may have made standard deviations too small.
   Eigen::VectorXd slopeNoise(const Eigen::MatrixXd& independent,
                              const std::vector<SystemParameter>& estimate) const;
-  /// Averages over the models with and without a ranging error on slopes: changes the solution,
+  /// Averages over the models with and without each of the error sources: changes the solution,
   /// returns the change of its covariance.
-  SystemMatrix averageRangingModels(const SystemMatrix& model, AdjustmentSolution& solution) const;
+  SystemMatrix averageSources(const SystemMatrix& model, AdjustmentSolution& solution) const;
+  /// Covariances of all unknowns to the considered error sources: the influence of the equations
+  /// on their values.
+  struct SourceInfluence {
+    Eigen::MatrixXd biases, shared;  ///< a column for each source
+  };
+  SourceInfluence sourceInfluence(const SystemMatrix& model) const;
+  /// Factor by which the scatter between areas makes the variances of the error sources larger than
+  /// those of the model.
+  double sourceOverdispersion(const SourceInfluence& influence,
+                              const AdjustmentSolution& solution) const;
   SystemMatrix jackknife(const AdjustmentSolution& solution,
                          const std::vector<SystemParameter>& estimate) const;
 
   const SharedErrors& errors_;
   int threads_;
   SharedErrorLevels levels_;
-  const std::vector<AreaObservations>* areas_ = nullptr;
-  const std::vector<std::vector<double>>* weights_ = nullptr;
   std::vector<AreaNormal> area_normals_;
-  SystemMatrix slope_noise_ = SystemMatrix::Zero();  ///< information that may stem from noise
+  std::vector<SystemMatrix> slope_noise_;  ///< by area: information that may stem from noise
   std::unique_ptr<const ErrorNormal> normal_;
   std::unique_ptr<Reduced> reduced_;
 };

@@ -36,6 +36,8 @@ struct CalibrationSettings {
   /// Without attitude in the trajectory: recover pitch and crab from the points (AttitudeRecovery);
   /// false: a vertical system aligned with the flight line, as in the paper.
   bool recover_attitude = true;
+  /// Look for further error sources (ErrorSource) and estimate those that the data support.
+  bool diagnose = true;
   double resolution = 0.001;  ///< metres, step of the coordinates in the files
   /// Iterations after the coarse stage, which has at most 12; twice as many with a pair_budget,
   /// because most of these are of few pairs.

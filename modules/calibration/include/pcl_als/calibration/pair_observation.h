@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/error_source.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -47,8 +48,9 @@ struct PairObservation {
   /// variance: a point may form pairs in several strips and be a vertex of several patches, see
   /// NoiseShares.
   double sharing = 1.0;
-  double stretch = 0.0;  ///< effect of the ranging share, n'(u_A d_A - u_B d_B), metres
-  double ranges = 0.0;   ///< effect of a range scale, n'(u_A r_A - u_B r_B), metres
+  /// Effects of the error sources on the distance, in the order of ErrorSource. Those that are not
+  /// considered are zero, except for that of the range scale.
+  ErrorSourceRow sources = ErrorSourceRow::Zero();
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 

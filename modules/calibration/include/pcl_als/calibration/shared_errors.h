@@ -11,6 +11,7 @@
 
 #include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/error_source.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -28,11 +29,11 @@ namespace pcl_als {
  * Local: the remaining errors of a strip between the knots, and those of the surface, are one shift
  * of the strip (east, north, up) in every area, independent from area to area.
  *
- * Ranging: a pulse that hits a surface at incidence theta returns stretched over d = range *
- * divergence * tan(theta), and the recorded time shifts with it, by an unknown share of d common to
- * all points. In addition, all ranges have a common scale error, because the refractive index,
- * which changes by 1 ppm with a degree or 3 hPa, is the mean over a column of air that is measured
- * at its ends only.
+ * Error sources (ErrorSource) are common to all points, and each may be absent. slope_ranging: a
+ * pulse that hits a surface at incidence theta returns stretched over d = range * divergence *
+ * tan(theta), and the recorded time shifts with it, by an unknown share of d. range_scale: also
+ * where it is absent, the refractive index, which changes by 1 ppm with a degree or 3 hPa, is the
+ * mean over a column of air that is measured at its ends only.
  */
 struct SharedErrorModel {
   double position = 0.02;                       ///< metres, each axis
@@ -44,9 +45,22 @@ struct SharedErrorModel {
   double knot_spacing = 1.0;                    ///< seconds, at least, between knots of the
                                                 ///< linear splines used for the trajectory
   double local = 0.01;                          ///< metres, each axis
-  double ranging_incidence = 0.1;               ///< share of the stretch d
-  double ranging_absent = 0.5;                  ///< probability that there is no such error
-  double range_scale = 3e-6;                    ///< of ranges, common to all points
+
+  /// Prior of the value of an error source: normal, mean zero.
+  struct SourcePrior {
+    double std;               ///< where it is present
+    double absent;            ///< probability that it is absent, [0, 1)
+    double std_absent = 0.0;  ///< where it is absent
+  };
+  std::array<SourcePrior, kErrorSourceCount> sources{{
+      {0.1, 0.5},                       // slope_ranging
+      {1e-4, 0.9, 3e-6},                // range_scale
+      {5e-3, 0.9},                      // time_offset
+      {30.0 * kRadiansPerArcsec, 0.9},  // mirror_torsion
+      {30.0 * kRadiansPerArcsec, 0.9},  // encoder_cubic
+      {0.01, 0.9},                      // intensity_ranging
+      {30.0 * kRadiansPerArcsec, 0.9},  // encoder_quadratic
+  }};
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };
@@ -72,8 +86,8 @@ struct SharedErrorLevels {
 };
 
 /** \brief The unknowns of the model: six at every knot of every strip (linear in time between
- * knots), then one block of six for the instrument (the ranging share, the range scale, and four
- * unused), then six for each coefficient of the strips' smooth and constant components.
+ * knots), then two blocks of six for the instrument (the error sources, in the order
+ * of ErrorSource), then six for each coefficient of the strips' smooth and constant components.
  *
  * An error at a knot is the sum of all components, so that observations depend on knots and the
  * instrument only. Knots are a knot_spacing apart, and exist only where something was observed; the
@@ -83,6 +97,8 @@ struct SharedErrorLevels {
 class SharedErrors {
  public:
   static constexpr int kPerKnot = 6;
+  static constexpr int kInstrumentBlocks = 2;
+  static_assert(kErrorSourceCount <= kInstrumentBlocks * kPerKnot);
 
   /// \param spans firing times of every strip
   /// \param observed by strip, when observations are made, in any order; empty: always
@@ -91,10 +107,19 @@ class SharedErrors {
 
   int knotCount() const { return knot_count_; }
   int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
-  int rangingUnknown() const { return instrumentBlock() * kPerKnot; }
+  /// The blocks of the instrument of which observations depend: the second one holds sources that
+  /// are rarely considered.
+  int observedInstrumentBlocks() const;
+  int sourceUnknown(ErrorSource source) const {
+    return instrumentBlock() * kPerKnot + indexOf(source);
+  }
+  /// The error sources that are unknowns, by default slope_ranging only; the others are absent.
+  /// Observations must have been formed with their effects.
+  void considerSources(std::vector<ErrorSource> sources) { considered_ = std::move(sources); }
+  const std::vector<ErrorSource>& consideredSources() const { return considered_; }
   const SharedErrorModel& model() const { return model_; }
   /// Unknowns of knots and instrument, on which observations depend.
-  int observedUnknowns() const { return (knot_count_ + 1) * kPerKnot; }
+  int observedUnknowns() const { return (knot_count_ + kInstrumentBlocks) * kPerKnot; }
   int unknowns() const { return observedUnknowns() + coefficient_count_ * kPerKnot; }
 
   /// Position of a time between two knots of its strip.
@@ -166,7 +191,8 @@ class SharedErrors {
   /// a coefficient.
   Variances shareOf(double share, const SharedErrorLevels::Trajectory& levels) const;
   struct PriorVariances {
-    Variances gauss_markov, smooth, constant, instrument;
+    Variances gauss_markov, smooth, constant;
+    std::array<double, kInstrumentBlocks * kPerKnot> instrument;
   };
   PriorVariances priorVariances(const SharedErrorLevels& levels) const;
   /// Information of every unknown: of a Gauss-Markov component of its strip, and its own.
@@ -182,6 +208,7 @@ class SharedErrors {
   Eigen::SparseMatrix<double> gauss_markov_;
   double gauss_markov_log_ = 0.0;
   SharedErrorModel model_;
+  std::vector<ErrorSource> considered_{ErrorSource::slope_ranging};
 };
 
 }  // namespace pcl_als

@@ -13,6 +13,7 @@
 #include <pcl_als/calibration/calibration_settings.h>
 #include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/error_source.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
@@ -128,7 +129,16 @@ class SystemCalibrationEngine {
   int stripNamed(const std::string& id) const;
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
+  /// Forms pairs with the effects of all error sources.
+  void measureSources(State& state);
+  /// Finds the error sources that the data support, by an adjustment with all of them, and
+  /// estimates these. Returns whether they differ from those estimated before.
+  bool selectSources(State& state);
+  /// Lets the iteration continue after a change of the error sources that are estimated.
+  static void continueWithSources(State& state, CalibrationResult& result);
   void formPairs(State& state) const;
+  /// Of the strips, metres per second.
+  double meanSpeed(const std::vector<TimeSpan>& spans) const;
   /// Finds whether any control point is covered by a strip, and warns where none is.
   void warnOfUncoveredControl(const State& state);
   /// Selects a reduced set of the pairs in the state that gives nearly the estimates of all.
@@ -194,6 +204,7 @@ class SystemCalibrationEngine {
   std::vector<std::string> attitude_remarks_;
   std::vector<LeftOutPoints> left_out_;
   HeightError height_error_;  ///< of the trajectory, from recorded scan angles
+  ErrorSourceScale source_scale_;
   std::function<void(const CalibrationIteration&)> progress_;
 };
 

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/calibration_verdict.h>
+#include <pcl_als/common/error_source.h>
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/common/system_parameters.h>
@@ -104,8 +105,13 @@ struct CalibrationResult {
   AttitudeSource attitude = AttitudeSource::none;
   RecoveredAttitude recovered_attitude;  ///< of the strips; where attitude is that of points
   std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
-  std::vector<SystemParameter> correlation_order;                   ///< the estimated ones
-  Eigen::MatrixXd correlation;                                      ///< in that order
+  /// Values (assumed - true) of the error sources that are corrected; zero for the others.
+  ErrorSourceVector sources = ErrorSourceVector::Zero();
+  ErrorSourceScale source_scale;
+  /// Possible causes of the misfit, those of the system parameters first.
+  std::vector<ErrorFinding> diagnosis;
+  std::vector<SystemParameter> correlation_order;  ///< the estimated ones
+  Eigen::MatrixXd correlation;                     ///< in that order
   double sigma0 = 0.0;
   long redundancy = 0;
   bool converged = false;

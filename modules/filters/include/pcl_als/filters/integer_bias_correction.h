@@ -31,7 +31,9 @@ class IntegerBiasCorrection {
   struct Layout {
     std::size_t record_length = 0;  ///< bytes
     std::size_t time_position = 0;  ///< byte of the GPS time (double, little-endian) in a record
-    Eigen::Vector3d scale, offset;  ///< metres
+    std::size_t intensity_position = 0;       ///< byte of the intensity (16 bits)
+    std::size_t scan_direction_position = 0;  ///< byte whose bit 6 is the scan direction flag
+    Eigen::Vector3d scale, offset;            ///< metres
   };
   /// Points that are computed together; their columns fit the first-level cache.
   static constexpr std::size_t kTile = 256;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
+
 namespace pcl_als {
 
 /// Points as columns: time in the time system of the trajectory, metres in the ground frame.
@@ -10,6 +12,10 @@ struct PointColumns {
   const double* x = nullptr;
   const double* y = nullptr;
   const double* z = nullptr;
+  /// Digital numbers; null: none. Needed where a range error depends on it (ErrorSource).
+  const float* intensity = nullptr;
+  /// Of the mirror: 1 to the left, -1 to the right; null: unknown. Needed for its torsion.
+  const std::int8_t* turning = nullptr;
 };
 
 }  // namespace pcl_als

@@ -12,8 +12,12 @@
 
 namespace pcl_als {
 
+namespace detail {
+class SourceCorrection;
+}
+
 /** \brief Corrects points by a calibration: the one class that applies model, attitude, biases,
- * strip corrections and alignment of times, for every consumer.
+ * error sources, strip corrections and alignment of times, for every consumer.
  *
  * corrected = biased - A(biased) delta (Habib et al. 2011, Eq. (13), not linearised), with the
  * attitude by which the calibration was estimated: that of the trajectory, nominal, none, or the
@@ -78,6 +82,7 @@ class SystemCorrection {
   bool invert_ = false;
   TimeAlignment alignment_;
   std::shared_ptr<const BiasEvaluator> evaluator_;
+  std::shared_ptr<const detail::SourceCorrection> sources_;  ///< null: none
 };
 
 }  // namespace pcl_als

@@ -7,6 +7,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/point_fields.h>
+#include <pcl_als/common/point_flag.h>
 #include <pcl_als/filters/system_bias_correction.h>
 
 namespace pcl_als {
@@ -50,6 +52,8 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
                                                          PointCloud& output) const {
   std::vector<std::size_t> chosen;
   std::vector<double> columns[4], changes[3];
+  std::vector<float> intensity;
+  std::vector<std::int8_t> turning;
   chosen.reserve(last - first);
   for (std::vector<double>& column : columns) column.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
@@ -61,10 +65,17 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
     columns[1].push_back(frame_.origin.x() + static_cast<double>(point.x));
     columns[2].push_back(frame_.origin.y() + static_cast<double>(point.y));
     columns[3].push_back(frame_.origin.z() + static_cast<double>(point.z));
+    if constexpr (HasIntensity<PointT>::value) intensity.push_back(point.intensity);
+    if constexpr (HasFlags<PointT>::value)
+      turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
   }
   for (std::vector<double>& change : changes) change.resize(chosen.size());
-  const PointColumns points{columns[0].data(), columns[1].data(), columns[2].data(),
-                            columns[3].data()};
+  const PointColumns points{columns[0].data(),
+                            columns[1].data(),
+                            columns[2].data(),
+                            columns[3].data(),
+                            HasIntensity<PointT>::value ? intensity.data() : nullptr,
+                            HasFlags<PointT>::value ? turning.data() : nullptr};
   const EffectColumns change{changes[0].data(), changes[1].data(), changes[2].data()};
   CoverageCount coverage;
   correction.change(points, chosen.size(), change, coverage);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The error sources of SystemCalibrationEngine: which of them the data support.
+#include <algorithm>
+
+#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/common/statistics.h>
+
+#include "calibration_state.h"
+#include "error_diagnosis.h"
+
+namespace pcl_als {
+namespace {
+
+std::vector<ErrorSource> allSources() {
+  std::vector<ErrorSource> sources;
+  for (const ErrorSourceInfo& info : errorSources()) sources.push_back(info.source);
+  return sources;
+}
+
+}  // namespace
+
+void SystemCalibrationEngine::measureSources(State& state) {
+  if (source_scale_.largest_angle == 0.0) {
+    std::vector<double> intensities;
+    for (std::size_t i = 0; i < pair_areas_; ++i)
+      matchers_[i].collectSourceScale(*trajectory_, source_scale_.largest_angle, intensities);
+    if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
+    for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
+  }
+  formPairs(state);
+}
+
+bool SystemCalibrationEngine::selectSources(State& state) {
+  if (!settings_.diagnose || !state.choice.solution.solved || state.observationCount() == 0)
+    return false;
+  measureSources(state);
+  const std::vector<ErrorSource> before = state.errors.consideredSources();
+  state.errors.considerSources(allSources());
+  adjust(state, false);
+  state.diagnosed = state.choice.solution;
+  std::vector<ErrorSource> supported{ErrorSource::slope_ranging};
+  for (const ErrorSource source : allSources()) {
+    if (isCorrected(source, state.diagnosed, settings_.shared_errors)) supported.push_back(source);
+  }
+  state.errors.considerSources(supported);
+  state.adjustment.setLevels(state.adjustment.levels());
+  choose(state);
+  return supported != before;
+}
+
+void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {
+  state.phase = State::Phase::refinement;
+  state.components = {};
+  state.coarse_iterations = static_cast<int>(result.iterations.size());
+  result.converged = false;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "error_diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "spike_and_slab.h"
+
+namespace pcl_als {
+namespace {
+
+constexpr double kSupported = 0.5;  // probability from which a source is corrected
+
+/// Standard deviation of a bias of a new system, for the probability that it is present.
+double slabOf(SystemParameter p) {
+  constexpr double kLever = 0.1, kRange = 0.1, kScale = 5e-4;
+  constexpr double kAngle = 100.0 * kRadiansPerArcsec;
+  switch (p) {
+    case SystemParameter::lever_arm_x:
+    case SystemParameter::lever_arm_y:
+    case SystemParameter::lever_arm_z:
+      return kLever;
+    case SystemParameter::range_bias:
+      return kRange;
+    case SystemParameter::scan_angle_scale:
+      return kScale;
+    default:
+      return kAngle;
+  }
+}
+
+std::string evidenceOf(const ErrorFinding& finding) {
+  char text[160];
+  if (!finding.determined) {
+    std::snprintf(text, sizeof text,
+                  "the data cannot tell it from other errors: standard deviation %.3g %s",
+                  finding.std, finding.unit.c_str());
+    return text;
+  }
+  const double deviations = finding.std > 0.0 ? std::abs(finding.value) / finding.std : 0.0;
+  std::snprintf(text, sizeof text, "%.1f standard deviations from zero", deviations);
+  return text;
+}
+
+bool isDetermined(double std, const SharedErrorModel::SourcePrior& prior) {
+  return std < 0.5 * prior.std;
+}
+
+/// Movement of a point at the edge of the swath by one internal unit of a source, metres.
+double effectOf(ErrorSource source, const ScanGeometry& edge, double speed) {
+  constexpr double kDivergence = 3e-4;       // radians
+  constexpr double kIntensities = 2.302585;  // a target of a tenth of the reflectance
+  const double range = edge.range();
+  switch (source) {
+    case ErrorSource::slope_ranging:
+      return range * kDivergence;  // on a slope of 45 degrees
+    case ErrorSource::time_offset:
+      return speed;
+    case ErrorSource::intensity_ranging:
+      return kIntensities;
+    default:
+      return range;
+  }
+}
+
+ErrorFinding findingOf(SystemParameter p, const ParameterEstimate& estimate,
+                       const ScanGeometry& edge) {
+  constexpr double kAbsent = 0.5;
+  const SystemParameterInfo& info = infoOf(p);
+  const double slab = slabOf(p) * slabOf(p), variance = estimate.std * estimate.std;
+  // The estimate has no prior: with the slab its precision is the sum of both.
+  const double posterior = 1.0 / (1.0 / slab + 1.0 / variance);
+  const SpikeAndSlab mixture({{kAbsent, 0.0, slab}},
+                             Eigen::VectorXd::Constant(1, posterior * estimate.bias / variance),
+                             Eigen::MatrixXd::Constant(1, 1, posterior));
+  ErrorFinding finding;
+  finding.source = finding.title = info.name;
+  std::replace(finding.title.begin(), finding.title.end(), '_', ' ');
+  finding.unit = info.unit;
+  finding.probability = mixture.presence()[0];
+  finding.value = estimate.bias / info.internal_per_unit;
+  finding.std = estimate.std / info.internal_per_unit;
+  finding.effect = (designBlock(edge).col(indexOf(p)) * estimate.bias).norm();
+  finding.determined = finding.corrected = true;
+  finding.remedy = "apply this calibration";
+  finding.evidence = evidenceOf(finding);
+  return finding;
+}
+
+ErrorFinding findingOf(ErrorSource source, const AdjustmentSolution& solution,
+                       const SharedErrorModel::SourcePrior& prior, double unit_effect) {
+  const ErrorSourceInfo& info = infoOf(source);
+  const int i = indexOf(source);
+  ErrorFinding finding;
+  finding.source = info.name;
+  finding.title = info.title;
+  finding.unit = info.unit;
+  finding.probability = solution.source_probability[i];
+  finding.value = solution.source_value[i] / info.internal_per_unit;
+  finding.std = solution.source_std[i] / info.internal_per_unit;
+  finding.effect = std::abs(solution.source_value[i]) * unit_effect;
+  finding.determined = isDetermined(solution.source_std[i], prior);
+  finding.remedy = info.remedy;
+  finding.evidence = evidenceOf(finding);
+  return finding;
+}
+
+}  // namespace
+
+ScanGeometry swathEdge(const std::vector<AreaObservations>& observations) {
+  ScanGeometry edge;
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      edge.x = std::max(edge.x, o.lateral);
+      edge.z = std::min(edge.z, -o.height);
+    }
+  }
+  edge.beta = -std::atan2(edge.x, -edge.z);
+  return edge;
+}
+
+bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
+                 const SharedErrorModel& model) {
+  const int i = indexOf(source);
+  return source != ErrorSource::slope_ranging && diagnosed.source_probability[i] > kSupported &&
+         isDetermined(diagnosed.source_std[i], model.sources[static_cast<std::size_t>(i)]);
+}
+
+void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
+                     const AdjustmentSolution& diagnosed, const ScanGeometry& edge,
+                     const ErrorSourceScale& scale, double speed, CalibrationResult& result) {
+  result.source_scale = scale;
+  if (!choice.solution.solved) return;
+  for (const SystemParameter p : choice.estimate)
+    result.diagnosis.push_back(findingOf(p, result[p], edge));
+  for (const ErrorSourceInfo& info : errorSources()) {
+    const int i = indexOf(info.source);
+    ErrorFinding finding =
+        findingOf(info.source, diagnosed, errors.model().sources[static_cast<std::size_t>(i)],
+                  effectOf(info.source, edge, speed));
+    const std::vector<ErrorSource>& used = errors.consideredSources();
+    finding.corrected = info.source != ErrorSource::slope_ranging &&
+                        std::find(used.begin(), used.end(), info.source) != used.end();
+    if (finding.corrected)
+      result.sources[i] = choice.solution.shared[errors.sourceUnknown(info.source)];
+    result.diagnosis.push_back(std::move(finding));
+  }
+}
+
+namespace {
+
+void addSources(const ErrorSourceVector& values, std::vector<AreaObservations>& observations) {
+  if (values.isZero(0.0)) return;
+  for (AreaObservations& area : observations) {
+    for (PairObservation& o : area) o.misclosure += o.sources * values;
+  }
+}
+
+}  // namespace
+
+void removeCorrectedSources(const CalibrationResult& result,
+                            std::vector<AreaObservations>& observations) {
+  addSources(-result.sources, observations);
+}
+
+void restoreCorrectedSources(const CalibrationResult& result,
+                             std::vector<AreaObservations>& observations) {
+  addSources(result.sources, observations);
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <vector>
+
+#include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/calibration/shared_errors.h>
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/trajectory/scan_geometry.h>
+
+namespace pcl_als {
+
+/// Geometry at the edge of the highest swath: the largest lateral distance and height of a pair.
+ScanGeometry swathEdge(const std::vector<AreaObservations>& observations);
+
+/// Whether the data support a source and points are corrected for it.
+bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
+                 const SharedErrorModel& model);
+
+/** \brief Adds the diagnosis: for every estimated system parameter and every error source that was
+ * considered, the probability that it is present (SpikeAndSlab), its value, its effect at the edge
+ * of the swath, the evidence and the remedy.
+ *
+ * Sources with a probability above one half are corrected, slope_ranging excepted, which depends on
+ * the surface. A source is determined where its standard deviation is less than half of the one
+ * before the observations.
+ */
+/// \param diagnosed solution with all sources
+void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
+                     const AdjustmentSolution& diagnosed, const ScanGeometry& edge,
+                     const ErrorSourceScale& scale, double speed, CalibrationResult& result);
+
+/// Takes the effects of the sources that are corrected out of the observations, and adds them
+/// again.
+void removeCorrectedSources(const CalibrationResult& result,
+                            std::vector<AreaObservations>& observations);
+void restoreCorrectedSources(const CalibrationResult& result,
+                             std::vector<AreaObservations>& observations);
+
+}  // namespace pcl_als

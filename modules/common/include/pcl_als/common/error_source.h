@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+
+namespace pcl_als {
+
+/** \brief Errors of a LiDAR system beyond the eight system parameters, common to all its points.
+ *
+ * Each has one value (assumed - true) that moves a point by the value times an effect:
+ *
+ * | source               | value                                             | effect on a point |
+ * |----------------------|---------------------------------------------------|---------------------|
+ * | slope_ranging        | share of the stretch of a pulse on a slope        | along the pulse | |
+ * range_scale          | scale of ranges - 1                               | range, along pulse  |
+ * | time_offset          | time of the points - time of the trajectory, s    | velocity dX/dt | |
+ * mirror_torsion       | scan angle error while the mirror turns to the    | dX/d(scan angle),   |
+ * |                      | left; to the right it has the other sign, rad     | sign of the scan |
+ * | encoder_cubic        | scan angle error at the edge of the swath, rad    | dX/d(scan angle) |
+ * |                      |                                                   | P3(angle / largest)
+ * | | intensity_ranging    | range error of e times the intensity, metres      | ln(I / I0) along |
+ * |                      |                                                   | the pulse | |
+ * encoder_quadratic    | scan angle error at the edge of the swath, rad    | dX/d(scan angle)    |
+ * |                      |                                                   | P2(angle / largest)
+ * |
+ *
+ * P2 and P3 are the Legendre polynomials (3 u^2 - 1) / 2 and (5 u^3 - 3 u) / 2, orthogonal to a
+ * boresight roll and to a scan angle scale. The scan angle is positive to the left, as in Habib et
+ * al. 2011, Eq. (2).
+ */
+enum class ErrorSource {
+  slope_ranging,
+  range_scale,
+  time_offset,
+  mirror_torsion,
+  encoder_cubic,
+  intensity_ranging,
+  encoder_quadratic,
+};
+
+inline constexpr int kErrorSourceCount = 7;
+using ErrorSourceRow = Eigen::Matrix<double, 1, kErrorSourceCount>;
+using ErrorSourceVector = Eigen::Matrix<double, kErrorSourceCount, 1>;
+using ErrorSourceMatrix = Eigen::Matrix<double, kErrorSourceCount, kErrorSourceCount>;
+
+inline int indexOf(ErrorSource source) {
+  return static_cast<int>(source);
+}
+
+/// Name, interface unit and factor of one source: interface value = internal value /
+/// internal_per_unit.
+struct ErrorSourceInfo {
+  ErrorSource source;
+  std::string_view name;   ///< as in calibration.json
+  std::string_view title;  ///< for people
+  std::string_view unit;   ///< "ms", "arcsec", "m", "ppm" or "1"
+  double internal_per_unit;
+  std::string_view remedy;  ///< what to do about it
+};
+
+/// All, in order.
+const std::array<ErrorSourceInfo, kErrorSourceCount>& errorSources();
+inline const ErrorSourceInfo& infoOf(ErrorSource source) {
+  return errorSources()[static_cast<std::size_t>(indexOf(source))];
+}
+
+/// What the correction of points for the sources needs besides their values.
+struct ErrorSourceScale {
+  double largest_angle = 0.0;     ///< radians, the largest scan angle; 0: unknown
+  double median_intensity = 0.0;  ///< digital number I0; 0: unknown
+};
+
+/// One entry of the diagnosis of a calibration: a possible cause of a misfit.
+struct ErrorFinding {
+  std::string source;        ///< name of the source or of the system parameter
+  std::string title;         ///< for people
+  std::string unit;          ///< of value and std
+  double probability = 0.0;  ///< that the error is present, given the data
+  double value = 0.0;        ///< assumed - true, where it is present
+  double std = 0.0;          ///< standard deviation of value
+  double effect = 0.0;       ///< metres, on the ground at the edge of the highest swath
+  bool determined = false;   ///< whether the data can tell presence from absence
+  bool corrected = false;    ///< whether the correction of points removes it
+  std::string evidence, remedy;
+};
+
+}  // namespace pcl_als

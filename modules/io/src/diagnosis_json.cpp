@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "diagnosis_json.h"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <pcl_als/common/error_source.h>
+
+#include "json_node.h"
+
+namespace pcl_als::detail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+constexpr const char* kLargestAngle = "largest_scan_angle_deg";
+constexpr const char* kMedianIntensity = "median_intensity";
+
+/// Values beyond these are refused, internal units: an error of the file.
+double largestOf(ErrorSource source) {
+  switch (source) {
+    case ErrorSource::slope_ranging:
+    case ErrorSource::intensity_ranging:
+      return 1.0;
+    case ErrorSource::time_offset:
+      return 10.0;
+    case ErrorSource::range_scale:
+      return 0.01;
+    default:
+      return kRadiansPerDegree;
+  }
+}
+
+}  // namespace
+
+void writeDiagnosis(const CalibrationResult& result, Json& root) {
+  if (result.diagnosis.empty()) return;
+  Json values = Json::object();
+  for (const ErrorSourceInfo& info : errorSources()) {
+    const double value = result.sources[indexOf(info.source)];
+    if (value == 0.0) continue;
+    values[std::string(info.name)] =
+        Json{{"value", number(value / info.internal_per_unit)}, {"unit", info.unit}};
+  }
+  values[kLargestAngle] = number(result.source_scale.largest_angle / kRadiansPerDegree);
+  values[kMedianIntensity] = number(result.source_scale.median_intensity);
+  root["error_sources"] = std::move(values);
+  Json findings = Json::array();
+  for (const ErrorFinding& f : result.diagnosis) {
+    findings.push_back(Json{{"source", f.source},
+                            {"title", f.title},
+                            {"probability", number(f.probability)},
+                            {"value", number(f.value)},
+                            {"std", number(f.std)},
+                            {"unit", f.unit},
+                            {"effect_m", number(f.effect)},
+                            {"determined", f.determined},
+                            {"corrected", f.corrected},
+                            {"evidence", f.evidence},
+                            {"remedy", f.remedy}});
+  }
+  root["diagnosis"] = std::move(findings);
+}
+
+void readDiagnosis(const JsonNode& root, CalibrationResult& result) {
+  if (root.has("error_sources")) {
+    const JsonNode values = root["error_sources"];
+    for (const ErrorSourceInfo& info : errorSources()) {
+      const std::string name(info.name);
+      if (!values.has(name.c_str())) continue;
+      const JsonNode node = values[name];
+      if (node["unit"].text() != info.unit)
+        node["unit"].refuse("must be '" + std::string(info.unit) + "'");
+      const double most = largestOf(info.source) / info.internal_per_unit;
+      result.sources[indexOf(info.source)] =
+          node["value"].within(most, std::string(info.unit).c_str()) * info.internal_per_unit;
+    }
+    result.source_scale.largest_angle =
+        values[kLargestAngle].within(90.0, "degrees") * kRadiansPerDegree;
+    result.source_scale.median_intensity = values[kMedianIntensity].number();
+  }
+  if (!root.has("diagnosis")) return;
+  for (const JsonNode& node : root["diagnosis"].items()) {
+    ErrorFinding f;
+    f.source = node["source"].text();
+    f.title = node["title"].text();
+    f.probability = node["probability"].numberOrNan();
+    f.value = node["value"].numberOrNan();
+    f.std = node["std"].numberOrNan();
+    f.unit = node["unit"].text();
+    f.effect = node["effect_m"].numberOrNan();
+    f.determined = node["determined"].truth();
+    f.corrected = node["corrected"].truth();
+    f.evidence = node["evidence"].text();
+    f.remedy = node["remedy"].text();
+    result.diagnosis.push_back(std::move(f));
+  }
+}
+
+}  // namespace pcl_als::detail
