@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
@@ -41,6 +42,8 @@ CommandLine commandLine() {
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
+  line.addOptional("prior",
+                   "known biases with standard deviations: boresight_roll=0:5,… (m, arcsec)");
   line.addOptional("pairs",
                    "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
                    "strips are used for control only");
@@ -107,6 +110,7 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   settings.estimate = app::parametersToEstimate(line);
   settings.noise = app::noiseOf(line);
   settings.shared_errors = app::sharedErrorsOf(line);
+  if (line.has("prior")) settings.shared_errors.biases = biasPrior(line.text("prior"));
   settings.control_sigma = app::controlSigmaOf(line);
   settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
   settings.selection.point_budget =

@@ -256,42 +256,6 @@ TEST(Adjustment, BelievesInARangingErrorAsFarAsItIsSeen) {
   }
 }
 
-/// Observations with an error source: it is found with its size, and no other one is.
-TEST(Adjustment, FindsTheErrorSourceThatIsPresent) {
-  for (const ErrorSourceInfo& info : errorSources()) {
-    SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
-    std::vector<ErrorSource> all;
-    for (const ErrorSourceInfo& source : errorSources()) all.push_back(source.source);
-    errors.considerSources(all);
-    auto areas = simulated(someBiases(), 0.02, 5);
-    std::mt19937_64 random(6);
-    std::normal_distribution<double> normal;
-    const double value = 0.5 * errors.model().sources[indexOf(info.source)].std;
-    for (AreaObservations& area : areas) {
-      for (PairObservation& o : area) {
-        // Effects of 5 cm for one prior standard deviation.
-        for (const ErrorSource source : all)
-          o.sources[indexOf(source)] =
-              0.05 * normal(random) / errors.model().sources[indexOf(source)].std;
-        o.misclosure += value * o.sources[indexOf(info.source)];
-      }
-    }
-    const auto weights = unitWeights(areas);
-    Adjustment adjustment(errors);
-    adjustment.accumulate(areas, weights);
-    const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
-    for (const ErrorSource source : all) {
-      const int i = indexOf(source);
-      if (source == info.source) {
-        EXPECT_GT(solution.source_probability[i], 0.99) << info.name;
-        EXPECT_NEAR(solution.source_value[i], value, 4.0 * solution.source_std[i]) << info.name;
-      } else {
-        EXPECT_LT(solution.source_probability[i], 0.5) << info.name << ' ' << infoOf(source).name;
-      }
-    }
-  }
-}
-
 /// Two hundred blocks of white noise: the estimates scatter as the covariance says.
 TEST(Adjustment, ScattersAsItsCovarianceSays) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());

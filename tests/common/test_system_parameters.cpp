@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -58,6 +61,22 @@ TEST(ParameterStatus, NamesAreThoseOfTheFile) {
   EXPECT_EQ(toString(ParameterStatus::estimated), "estimated");
   EXPECT_EQ(toString(ParameterStatus::fixed), "fixed");
   EXPECT_EQ(toString(ParameterStatus::not_estimable), "not_estimable");
+}
+
+TEST(BiasPrior, ReadsValuesAndStandardDeviations) {
+  const BiasPrior prior = biasPrior("boresight_roll=-90:5, lever_arm_x=0.12:0.01");
+  const int roll = indexOf(SystemParameter::boresight_roll);
+  EXPECT_DOUBLE_EQ(prior.mean[roll], -90.0 * kRadiansPerArcsec);
+  EXPECT_DOUBLE_EQ(prior.information[roll], 1.0 / std::pow(5.0 * kRadiansPerArcsec, 2));
+  EXPECT_TRUE(prior.of(SystemParameter::lever_arm_x));
+  EXPECT_FALSE(prior.of(SystemParameter::range_bias));
+  EXPECT_FALSE(BiasPrior().any());
+  for (const char* wrong :
+       {"roll=0:5", "boresight_roll=0", "boresight_roll:5", "boresight_roll=0:0",
+        "boresight_roll=0:-1", "boresight_roll=x:1", "boresight_roll=0:nan",
+        "boresight_roll=0:5,boresight_roll=1:5", "lever_arm_x=1e6:1"}) {
+    EXPECT_THROW(biasPrior(wrong), UsageError) << wrong;
+  }
 }
 
 }  // namespace

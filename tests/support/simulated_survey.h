@@ -37,6 +37,8 @@ struct SimulatedSurvey {
     point.position = (p.position * 1000.0).array().round() / 1000.0;
     point.time = p.time;
     point.scan_angle = p.scan_angle;
+    point.intensity = static_cast<float>(p.intensity);
+    point.flags = p.flags;
     point.return_number = p.return_number;
     point.number_of_returns = p.number_of_returns;
     return point;

@@ -79,6 +79,9 @@ std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) c
     reduced[area] = area_normals_[area].reduced(shift_variance);
   });
   auto normal = std::make_unique<ErrorNormal>(errors_.unknowns());
+  const BiasPrior& prior = errors_.model().biases;
+  normal->gg.diagonal() += prior.information;
+  normal->right_g += prior.information.cwiseProduct(prior.mean);
   for (std::size_t area = 0; area < reduced.size();
        ++area) {  // in this order for any number of threads
     normal->add(reduced[area], area_normals_[area].knots());
@@ -171,8 +174,9 @@ std::vector<double> Adjustment::informationShares(
 }
 
 SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
-                                   const std::vector<SystemParameter>& estimate) const {
-  const Eigen::MatrixXd normal = sub(reduced_->normal, estimate);
+                                   const std::vector<SystemParameter>& estimate,
+                                   const SystemMatrix& all) const {
+  const Eigen::MatrixXd normal = sub(all, estimate);
   std::vector<Eigen::VectorXd> moves(area_normals_.size());
   parallelFor(moves.size(), threads_, [&](std::size_t area) {
     const Share share = shareOf(area, solution);
@@ -201,8 +205,8 @@ Eigen::VectorXd Adjustment::slopeNoise(const Eigen::MatrixXd& independent,
   constexpr double kCaution = 2.0, kLeast = 1e-4;
   const Eigen::VectorXd scale = independent.diagonal().cwiseSqrt().cwiseInverse();
   const CholeskyFactor cholesky(scale.asDiagonal() * independent * scale.asDiagonal());
-  const SystemMatrix sum = std::accumulate(slope_noise_.begin(), slope_noise_.end(),
-                                           SystemMatrix(SystemMatrix::Zero()));
+  const SystemMatrix sum =
+      std::accumulate(slope_noise_.begin(), slope_noise_.end(), SystemMatrix(SystemMatrix::Zero()));
   const Eigen::MatrixXd noise = scale.asDiagonal() * sub(sum, estimate) * scale.asDiagonal();
   const Eigen::MatrixXd half = cholesky.solveLower(noise);
   const Eigen::MatrixXd share = cholesky.solveLower(Eigen::MatrixXd(half.transpose()));
@@ -221,23 +225,27 @@ AdjustmentSolution Adjustment::unsolved(const SystemVector& held) const {
 }
 
 AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimate,
-                                     const SystemVector& held) const {
+                                     const SystemVector& held,
+                                     const SystemVector& prior_information) const {
   AdjustmentSolution solution = unsolved(held);
   for (const SystemParameter p : estimate) solution.biases[indexOf(p)] = 0.0;
-  SystemMatrix independent = SystemMatrix::Zero();
+  const SystemVector known = prior_information + errors_.model().biases.information;
+  SystemMatrix independent = known.asDiagonal(), normal = reduced_->normal;
+  normal.diagonal() += prior_information;
   for (std::size_t area = 0; area < area_normals_.size(); ++area)
     independent += area_normals_[area].parameters();
   Eigen::MatrixXd inverse, formal;
   double ignored = 0.0;
-  if (!invert(sub(reduced_->normal, estimate), inverse, ignored) ||
+  if (!invert(sub(normal, estimate), inverse, ignored) ||
       !invert(sub(independent, estimate), formal, ignored)) {
     return solution;
   }
   const SystemMatrix model = expanded(inverse, estimate);
-  solution.biases += model * (reduced_->right - reduced_->normal * solution.biases);
+  solution.biases += model * (reduced_->right - normal * solution.biases);
   solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
   solution.formal = expanded(formal, estimate);
-  const SystemMatrix robust = jackknife(solution, estimate) + model * reduced_->prior_share * model;
+  const SystemMatrix of_priors = reduced_->prior_share + SystemMatrix(known.asDiagonal());
+  const SystemMatrix robust = jackknife(solution, estimate, normal) + model * of_priors * model;
   const Eigen::VectorXd slopes = slopeNoise(sub(independent, estimate), estimate);
   SystemVector inflation = SystemVector::Ones();
   for (std::size_t k = 0; k < estimate.size(); ++k) {

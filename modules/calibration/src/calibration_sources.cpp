@@ -8,6 +8,7 @@
 #include <pcl_als/common/statistics.h>
 
 #include "calibration_state.h"
+#include "chosen_parameters.h"
 #include "error_diagnosis.h"
 
 namespace pcl_als {
@@ -38,8 +39,20 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   measureSources(state);
   const std::vector<ErrorSource> before = state.errors.consideredSources();
   state.errors.considerSources(allSources());
-  adjust(state, false);
-  state.diagnosed = state.choice.solution;
+  weigh(state);
+  state.adjustment.accumulate(state.observations, state.weights.weights());
+  // A parameter that the block does not determine, or that was not asked for, must not appear as a
+  // source with a similar effect.
+  std::vector<SystemParameter> parameters;
+  SystemVector information = SystemVector::Zero();
+  const std::vector<SystemParameter>& estimated = state.choice.estimate;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    parameters.push_back(info.parameter);
+    if (std::find(estimated.begin(), estimated.end(), info.parameter) != estimated.end()) continue;
+    const double std = widePriorStd()[indexOf(info.parameter)];
+    information[indexOf(info.parameter)] = 1.0 / (std * std);
+  }
+  state.diagnosed = state.adjustment.solve(parameters, SystemVector::Zero(), information);
   std::vector<ErrorSource> supported{ErrorSource::slope_ranging};
   for (const ErrorSource source : allSources()) {
     if (isCorrected(source, state.diagnosed, settings_.shared_errors)) supported.push_back(source);
@@ -47,6 +60,7 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   state.errors.considerSources(supported);
   state.adjustment.setLevels(state.adjustment.levels());
   choose(state);
+  weigh(state);
   return supported != before;
 }
 

@@ -24,6 +24,13 @@ SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParam
   return matrix;
 }
 
+SystemVector widePriorStd() {
+  constexpr double kAngle = 0.5 * kRadiansPerDegree;
+  SystemVector sigma;
+  sigma << 1.0, 1.0, 1.0, kAngle, kAngle, kAngle, 1.0, 2e-3;
+  return sigma;
+}
+
 bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log_determinant) {
   if (matrix.size() == 0 || !matrix.allFinite()) return false;
   if ((matrix.diagonal().array() <= 0.0).any()) return false;

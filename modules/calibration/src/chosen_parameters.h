@@ -16,6 +16,10 @@ Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParamete
 /// The inverse of sub(): zero for the other parameters.
 SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParameter>& chosen);
 
+/// Standard deviations of the biases of an uncalibrated system, of which nothing is known: half a
+/// degree, metres.
+SystemVector widePriorStd();
+
 /// Inverse of a symmetric matrix whose parameters have different units, and the logarithm of its
 /// determinant; false when it is numerically singular.
 bool invert(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse, double& log_determinant);

@@ -132,7 +132,7 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
                      const AdjustmentSolution& diagnosed, const ScanGeometry& edge,
                      const ErrorSourceScale& scale, double speed, CalibrationResult& result) {
   result.source_scale = scale;
-  if (!choice.solution.solved) return;
+  if (!choice.solution.solved || !diagnosed.solved) return;
   for (const SystemParameter p : choice.estimate)
     result.diagnosis.push_back(findingOf(p, result[p], edge));
   for (const ErrorSourceInfo& info : errorSources()) {

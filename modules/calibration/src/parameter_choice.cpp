@@ -233,11 +233,12 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
   return choice;
 }
 
-std::vector<P> automaticParameters(bool with_control) {
+std::vector<P> automaticParameters(bool with_control, const SharedErrorModel& model) {
   std::vector<P> parameters;
   for (const SystemParameterInfo& info : systemParameters()) {
-    if (info.parameter == P::lever_arm_z) continue;
-    if (info.parameter == P::range_bias && !with_control) continue;
+    const bool known = model.biases.of(info.parameter);
+    if (info.parameter == P::lever_arm_z && !known) continue;
+    if (info.parameter == P::range_bias && !with_control && !known) continue;
     parameters.push_back(info.parameter);
   }
   return parameters;

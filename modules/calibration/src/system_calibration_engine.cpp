@@ -13,6 +13,7 @@
 #include "calibration_judgement.h"
 #include "calibration_report.h"
 #include "calibration_state.h"
+#include "chosen_parameters.h"
 #include "control_consistency.h"
 #include "error_diagnosis.h"
 #include "misfit_comparison.h"
@@ -29,14 +30,6 @@ constexpr int kFirstWeightings = 3;
 constexpr std::size_t kEnoughForScale = 30;
 // times the median of plain ground: rougher neighbourhoods are no planes
 constexpr double kRoughnessFactor = 3.0;
-
-/// Prior standard deviations of the biases of an uncalibrated system: half a degree, metres.
-SystemVector widePrior() {
-  constexpr double kAngle = 0.5 * kRadiansPerDegree;
-  SystemVector sigma;
-  sigma << 1.0, 1.0, 1.0, kAngle, kAngle, kAngle, 1.0, 2e-3;
-  return sigma;
-}
 
 }  // namespace
 
@@ -118,17 +111,20 @@ void SystemCalibrationEngine::weigh(State& state) const {
 
 void SystemCalibrationEngine::choose(State& state) const {
   std::vector<SystemParameter> wanted =
-      settings_.estimate.empty() ? automaticParameters(control_covered_) : settings_.estimate;
+      settings_.estimate.empty() ? automaticParameters(control_covered_, settings_.shared_errors)
+                                 : settings_.estimate;
   const auto left_out = [&](SystemParameter p) { return state.excluded.count(p) > 0; };
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
   if (state.isCoarse()) {
     state.choice.estimate = wanted;
-    state.choice.solution = state.adjustment.solveNearZero(wanted, widePrior());
+    state.choice.solution = state.adjustment.solveNearZero(wanted, widePriorStd());
   } else {
     // Parameters requested by name are left out at three times their limit only.
     const double factor = settings_.estimate.empty() ? 1.0 : 3.0;
     std::vector<SystemParameter> unknown;
-    if (settings_.estimate.empty() && !control_covered_ && !left_out(SystemParameter::range_bias)) {
+    const bool known = settings_.shared_errors.biases.of(SystemParameter::range_bias);
+    if (settings_.estimate.empty() && !control_covered_ && !known &&
+        !left_out(SystemParameter::range_bias)) {
       unknown.push_back(SystemParameter::range_bias);
     }
     for (const auto& [p, reason] : state.excluded) unknown.push_back(p);
@@ -208,14 +204,31 @@ double SystemCalibrationEngine::meanSpeed(const std::vector<TimeSpan>& spans) co
   return duration > 0.0 ? length / duration : 0.0;
 }
 
-CalibrationResult SystemCalibrationEngine::calibrate() {
-  prepare();
+std::vector<TimeSpan> SystemCalibrationEngine::flownTimes() const {
   std::vector<TimeSpan> spans;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const int strip = static_cast<int>(i);
     spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
                              : std::pair(0.0, 0.0));
   }
+  return spans;
+}
+
+void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResult& result) {
+  constexpr int kMostSelections = 3;
+  for (int selections = 0; selections == 0 || !result.converged; ++selections) {
+    while (mayContinue(state, result)) {
+      iterate(state, result);
+      if (!result.converged) formPairs(state);
+    }
+    if (!result.converged || !selectSources(state) || selections == kMostSelections) break;
+    continueWithSources(state, result);
+  }
+}
+
+CalibrationResult SystemCalibrationEngine::calibrate() {
+  prepare();
+  const std::vector<TimeSpan> spans = flownTimes();
   SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
   State state(errors, settings_.threads);
   state.excluded = settings_.undeterminable;
@@ -227,15 +240,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   const CalibrationReport report(ids_, !control_covered_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
   const MisfitComparison misfit(state.observations);
-  constexpr int kMostSelections = 3;
-  for (int selections = 0; selections == 0 || !result.converged; ++selections) {
-    while (mayContinue(state, result)) {
-      iterate(state, result);
-      if (!result.converged) formPairs(state);
-    }
-    if (!result.converged || !selectSources(state) || selections == kMostSelections) break;
-    continueWithSources(state, result);
-  }
+  iterateToConvergence(state, result);
   const bool open = !result.converged;
   result.sigma0 = state.weights.sigma0();
   result.redundancy = state.redundancy();

@@ -25,7 +25,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-void setBias(std::string_view entry, SystemVector& bias, std::set<SystemParameter>& given) {
+/// The parameter of an entry NAME=…, which is left in \a entry without it.
+SystemParameter parameterOf(std::string_view& entry, std::set<SystemParameter>& given) {
   const auto equals = entry.find('=');
   if (equals == std::string_view::npos)
     throw UsageError("bias '" + std::string(entry) + "': expected NAME=VALUE");
@@ -39,23 +40,57 @@ void setBias(std::string_view entry, SystemVector& bias, std::set<SystemParamete
   }
   if (!given.insert(*parameter).second)
     throw UsageError("bias '" + std::string(name) + "' is given twice");
-  bias[indexOf(*parameter)] =
-      numberIn(trimmed(entry.substr(equals + 1)), entry) * infoOf(*parameter).internal_per_unit;
+  entry = trimmed(entry.substr(equals + 1));
+  return *parameter;
+}
+
+/// Takes the first entry, up to a comma, from a list.
+std::string_view nextEntry(std::string_view& list) {
+  const auto comma = list.find(',');
+  const std::string_view entry = trimmed(list.substr(0, comma));
+  list = comma == std::string_view::npos ? std::string_view() : list.substr(comma + 1);
+  return entry;
 }
 
 }  // namespace
 
+BiasPrior biasPrior(std::string_view text) {
+  BiasPrior prior;
+  std::set<SystemParameter> given;
+  while (!text.empty()) {
+    const std::string_view entry = nextEntry(text);
+    if (entry.empty()) continue;
+    std::string_view values = entry;
+    const SystemParameter p = parameterOf(values, given);
+    const auto colon = values.find(':');
+    if (colon == std::string_view::npos)
+      throw UsageError("prior '" + std::string(entry) + "': expected NAME=VALUE:STD");
+    const double unit = infoOf(p).internal_per_unit;
+    const double mean = numberIn(trimmed(values.substr(0, colon)), entry) * unit;
+    const double std = numberIn(trimmed(values.substr(colon + 1)), entry) * unit;
+    if (!(std > 0.0))
+      throw UsageError("prior '" + std::string(entry) +
+                       "': the standard deviation must be positive");
+    const std::string refused = refusedBias(p, mean);
+    if (!refused.empty()) throw UsageError("prior '" + std::string(entry) + "': " + refused);
+    prior.mean[indexOf(p)] = mean;
+    prior.information[indexOf(p)] = 1.0 / (std * std);
+  }
+  return prior;
+}
+
 void setBiases(std::string_view text, SystemVector& bias) {
   std::set<SystemParameter> given;
   for (bool first = true; !text.empty(); first = false) {
-    const auto comma = text.find(',');
-    const std::string_view entry = trimmed(text.substr(0, comma));
-    text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
+    std::string_view entry = nextEntry(text);
     if (entry.empty()) continue;
-    if (first && entry == "none")
+    if (first && entry == "none") {
       bias.setZero();
-    else
-      setBias(entry, bias, given);
+      continue;
+    }
+    const std::string_view whole = entry;
+    const SystemParameter p = parameterOf(entry, given);
+    bias[indexOf(p)] = numberIn(entry, whole) * infoOf(p).internal_per_unit;
   }
 }
 

@@ -83,8 +83,9 @@ class Adjustment {
                                             const std::vector<SystemParameter>& estimate) const;
 
   /// Solves for the parameters in \a estimate; the others are held at their values in \a held.
-  AdjustmentSolution solve(const std::vector<SystemParameter>& estimate,
-                           const SystemVector& held) const;
+  /// \a prior_information: inverse variances of priors of mean zero, zero for none.
+  AdjustmentSolution solve(const std::vector<SystemParameter>& estimate, const SystemVector& held,
+                           const SystemVector& prior_information = SystemVector::Zero()) const;
 
   /// Solves for all of \a estimate with a prior of mean zero and standard deviations \a prior, so
   /// that parameters that are not determined stay near zero. Used during the iteration; its
@@ -136,8 +137,10 @@ class Adjustment {
   /// those of the model.
   double sourceOverdispersion(const SourceInfluence& influence,
                               const AdjustmentSolution& solution) const;
+  /// \param all the reduced normal matrix, with priors
   SystemMatrix jackknife(const AdjustmentSolution& solution,
-                         const std::vector<SystemParameter>& estimate) const;
+                         const std::vector<SystemParameter>& estimate,
+                         const SystemMatrix& all) const;
 
   const SharedErrors& errors_;
   int threads_;

@@ -58,8 +58,10 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
                                  double limit_factor,
                                  const std::vector<SystemParameter>& unknown = {});
 
-/// The parameters of an automatic choice: all but lever_arm_z; range_bias with control only.
-std::vector<SystemParameter> automaticParameters(bool with_control);
+/// The parameters of an automatic choice: all but lever_arm_z; range_bias with control only; either
+/// where something is known of it (SharedErrorModel::biases).
+std::vector<SystemParameter> automaticParameters(bool with_control,
+                                                 const SharedErrorModel& model = {});
 
 /// Puts estimates, standard deviations, correlations and statuses into a result, with a warning for
 /// every parameter that is not determined. \a requested is empty where the choice was automatic.

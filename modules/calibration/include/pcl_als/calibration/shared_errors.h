@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 
 #include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/system_parameters.h>
@@ -61,6 +62,8 @@ struct SharedErrorModel {
       {0.01, 0.9},                      // intensity_ranging
       {30.0 * kRadiansPerArcsec, 0.9},  // encoder_quadratic
   }};
+
+  BiasPrior biases;  ///< what is known of the system parameters
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
 };

@@ -129,6 +129,7 @@ class SystemCalibrationEngine {
   int stripNamed(const std::string& id) const;
   void prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
+  std::vector<TimeSpan> flownTimes() const;                  ///< by strip
   /// Forms pairs with the effects of all error sources.
   void measureSources(State& state);
   /// Finds the error sources that the data support, by an adjustment with all of them, and
@@ -158,6 +159,8 @@ class SystemCalibrationEngine {
   /// automatically, the one that changes most is left out and the iteration continues.
   bool mayContinue(State& state, const CalibrationResult& result) const;
   void iterate(State& state, CalibrationResult& result);
+  /// Iterates until convergence, also with the error sources that the data support.
+  void iterateToConvergence(State& state, CalibrationResult& result);
   // Transitions between the phases of the iteration, see State::Phase.
   void openIteration(State& state, std::size_t done) const;
   void leaveCoarse(State& state) const;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// What an adjustment makes of prior information: of parameters, and of error sources.
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/calibration/adjustment.h>
+
+#include "simulated_observations.h"
+
+namespace pcl_als {
+namespace {
+
+/// A prior of a parameter acts like one more observation of it.
+TEST(Adjustment, PriorsOfParametersAreObservations) {
+  const auto areas = simulated(someBiases(), 0.02, 3);
+  const auto weights = unitWeights(areas);
+  const auto solved = [&](const SharedErrorModel& errors_model) {
+    const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, errors_model);
+    Adjustment adjustment(errors);
+    adjustment.accumulate(areas, weights);
+    return adjustment.solve(kSix, SystemVector::Zero());
+  };
+  const AdjustmentSolution without = solved(model());
+  const int roll = indexOf(P::boresight_roll);
+  SharedErrorModel known = model();
+  const double std = std::sqrt(without.covariance(roll, roll));
+  known.biases.information[roll] = 1.0 / (std * std);
+  known.biases.mean[roll] = without.biases[roll] + std;
+  const AdjustmentSolution with = solved(known);
+  // Two values of about equal weight: the mean, with a standard deviation smaller by the root of 2.
+  // The standard deviation without the prior may be that of the jackknife, larger than the model's.
+  EXPECT_GT(with.biases[roll], without.biases[roll] + 0.1 * std);
+  EXPECT_LT(with.biases[roll], without.biases[roll] + 0.55 * std);
+  EXPECT_LT(with.covariance(roll, roll), 0.9 * without.covariance(roll, roll));
+  known.biases.information[roll] = 1e20;
+  EXPECT_NEAR(solved(known).biases[roll], known.biases.mean[roll], 1e-6 * std);
+}
+
+/// Observations with an error source: it is found with its size, and no other one is.
+TEST(Adjustment, FindsTheErrorSourceThatIsPresent) {
+  for (const ErrorSourceInfo& info : errorSources()) {
+    SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+    std::vector<ErrorSource> all;
+    for (const ErrorSourceInfo& source : errorSources()) all.push_back(source.source);
+    errors.considerSources(all);
+    auto areas = simulated(someBiases(), 0.02, 5);
+    std::mt19937_64 random(6);
+    std::normal_distribution<double> normal;
+    const double value = 0.5 * errors.model().sources[indexOf(info.source)].std;
+    for (AreaObservations& area : areas) {
+      for (PairObservation& o : area) {
+        // Effects of 5 cm for one prior standard deviation.
+        for (const ErrorSource source : all)
+          o.sources[indexOf(source)] =
+              0.05 * normal(random) / errors.model().sources[indexOf(source)].std;
+        o.misclosure += value * o.sources[indexOf(info.source)];
+      }
+    }
+    const auto weights = unitWeights(areas);
+    Adjustment adjustment(errors);
+    adjustment.accumulate(areas, weights);
+    const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+    for (const ErrorSource source : all) {
+      const int i = indexOf(source);
+      if (source == info.source) {
+        EXPECT_GT(solution.source_probability[i], 0.99) << info.name;
+        EXPECT_NEAR(solution.source_value[i], value, 4.0 * solution.source_std[i]) << info.name;
+      } else {
+        EXPECT_LT(solution.source_probability[i], 0.5) << info.name << ' ' << infoOf(source).name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pcl_als
