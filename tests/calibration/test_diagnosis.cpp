@@ -77,7 +77,7 @@ TEST(Diagnosis, FindsTwoErrorsAtOnce) {
 /// Without attitude in the trajectory, a time offset and a lever arm forward have the same effect.
 TEST(Diagnosis, NamesWhatTheBlockCannotDetermine) {
   auto options = simulation::SimulationOptions::preset("small");
-  options.noise = simulation::NoiseOptions::named("range");
+  options.noise = simulation::NoiseOptions::named("realistic");
   options.vertical = true;
   options.errors.add("time_offset=3");
   const test::SimulatedSurvey survey(options);

@@ -19,7 +19,6 @@ namespace {
 
 constexpr int kKnot = SharedErrors::kPerKnot;
 constexpr int kGlobal = kSystemParameterCount;
-constexpr double kDetermined = 0.25;  // posterior over prior variance of an error source
 
 SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double>& weights) {
   SystemMatrix sum = SystemMatrix::Zero();
@@ -311,7 +310,7 @@ double Adjustment::sourceOverdispersion(const SourceInfluence& influence,
     const double variance = influence.shared(errors_.sourceUnknown(source), i);
     const double of_prior = influence.shared.col(i).dot(prior * influence.shared.col(i));
     // Of what the observations determine: the part of the variance that the model ascribes to them.
-    if (variance < kDetermined * slab * slab)
+    if (std::sqrt(variance) < SharedErrorModel::kDetermined * slab)
       factor = std::max(factor, scatter[i] / (variance - of_prior));
   }
   return factor;

@@ -45,7 +45,7 @@ std::string evidenceOf(const ErrorFinding& finding) {
 }
 
 bool isDetermined(double std, const SharedErrorModel::SourcePrior& prior) {
-  return std < 0.5 * prior.std;
+  return std < SharedErrorModel::kDetermined * prior.std;
 }
 
 /// Movement of a point at the edge of the swath by one internal unit of a source, metres.

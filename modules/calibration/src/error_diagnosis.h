@@ -24,7 +24,7 @@ bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
  * of the swath, the evidence and the remedy.
  *
  * Sources with a probability above one half are corrected, slope_ranging excepted, which depends on
- * the surface. A source is determined where its standard deviation is less than half of the one
+ * the surface. A source is determined where its standard deviation is less than a quarter of the one
  * before the observations.
  */
 /// \param diagnosed solution with all sources

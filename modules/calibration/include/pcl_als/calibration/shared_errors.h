@@ -53,6 +53,9 @@ struct SharedErrorModel {
     double absent;            ///< probability that it is absent, [0, 1)
     double std_absent = 0.0;  ///< where it is absent
   };
+  /// An error source is determined where its standard deviation is less than this share of the
+  /// prior's.
+  static constexpr double kDetermined = 0.25;
   std::array<SourcePrior, kErrorSourceCount> sources{{
       {0.1, 0.5},                       // slope_ranging
       {1e-4, 0.9, 3e-6},                // range_scale
