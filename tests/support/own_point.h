@@ -6,6 +6,7 @@
 
 #include <pcl/point_types.h>
 
+#include <pcl_als/common/point_fields.h>
 #include <pcl_als/common/point_types.h>
 
 namespace pcl_als::test {
@@ -31,6 +32,8 @@ typename pcl::PointCloud<PointT>::ConstPtr cloudOf(const pcl::PointCloud<PointLi
     to.return_number = from.return_number;
     to.number_of_returns = from.number_of_returns;
     to.classification = from.classification;
+    if constexpr (HasIntensity<PointT>::value) to.intensity = from.intensity;
+    if constexpr (HasFlags<PointT>::value) to.flags = from.flags;
     cloud->push_back(to);
   }
   return cloud;

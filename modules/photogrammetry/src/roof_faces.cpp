@@ -31,7 +31,7 @@ class Growth {
          std::vector<std::int32_t>& face_of)
       : surface_(surface), tin_(surface.tin()), settings_(settings), face_of_(face_of) {
     face_of_.assign(tin_.triangles().size(), -1);
-    median_edge_ = medianPlanEdge(tin_);
+    median_edge_ = typicalPlanEdge(tin_);
   }
   std::vector<RoofFace> run();
 

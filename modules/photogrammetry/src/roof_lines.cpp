@@ -95,7 +95,7 @@ class LineFinder {
  public:
   LineFinder(const PatchSurface& surface, const RoofLineSettings& settings)
       : surface_(surface), settings_(settings), faces_(findFaces(surface, settings, face_of_)) {
-    median_edge_ = medianPlanEdge(surface.tin());
+    median_edge_ = typicalPlanEdge(surface.tin());
   }
   std::vector<StripLine> run() const;
 
