@@ -23,7 +23,7 @@ void compare(const std::vector<ControlPoint>& check_points, ImageOrientationResu
       result.missing_points.push_back(surveyed.id);
       continue;
     }
-    CheckedPoint& point = result.check_points.emplace_back();
+    ImageCheckPoint& point = result.check_points.emplace_back();
     point.id = surveyed.id;
     point.position = surveyed.position;
     point.difference = found->second->position - surveyed.position;
@@ -48,11 +48,11 @@ std::filesystem::path ImageBlockFiles::besideImages(const std::filesystem::path&
   return images.parent_path() / "measurements.csv";
 }
 
-CheckSummary summaryOf(const std::vector<CheckedPoint>& points) {
+CheckSummary summaryOf(const std::vector<ImageCheckPoint>& points) {
   CheckSummary summary;
   for (int axis = 0; axis < 3; ++axis) {
     RunningStatistics statistics;
-    for (const CheckedPoint& point : points) statistics.add(point.difference[axis]);
+    for (const ImageCheckPoint& point : points) statistics.add(point.difference[axis]);
     summary.mean[axis] = statistics.mean();
     summary.std[axis] = statistics.standardDeviation();
     summary.rmse[axis] = statistics.rms();

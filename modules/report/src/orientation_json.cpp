@@ -117,7 +117,7 @@ Json checkOf(const ImageOrientationResult& result) {
   json["rmse_m"] = listOf(summary.rmse);
   json["rmse_total_m"] = summary.total;
   json["points"] = Json::array();
-  for (const CheckedPoint& point : result.check_points) {
+  for (const ImageCheckPoint& point : result.check_points) {
     json["points"].push_back({{"point", point.id},
                               {"difference_m", listOf(point.difference)},
                               {"std_m", listOf(point.std, result.bundle.reliable())},

@@ -53,7 +53,7 @@ void addCheckPoints(const ImageOrientationResult& result, HtmlReport& report) {
   const auto row = [&](const std::string& name, const Eigen::Vector3d& v) {
     table.rows.push_back({name, metres(v.x()), metres(v.y()), metres(v.z())});
   };
-  for (const CheckedPoint& p : result.check_points) {
+  for (const ImageCheckPoint& p : result.check_points) {
     row(p.id, p.difference);
     for (int i = 0; i < 3; ++i) table.rows.back().push_back(metres(p.std[i]));
     table.rows.back().push_back(std::to_string(p.rays));

@@ -47,16 +47,16 @@ class MapFrame {
 };
 
 /// Pixels of a metre of difference: the largest arrow is a fourteenth of the map.
-double arrowScale(const std::vector<CheckedPoint>& points) {
+double arrowScale(const std::vector<ImageCheckPoint>& points) {
   double largest = 1e-4;
-  for (const CheckedPoint& point : points)
+  for (const ImageCheckPoint& point : points)
     largest = std::max(largest, point.difference.head<2>().norm());
   return kMap.width / 14.0 / largest;
 }
 
 void drawCheckPoints(const ImageOrientationResult& result, const MapFrame& at, Canvas& canvas) {
   const double scale = arrowScale(result.check_points);
-  for (const CheckedPoint& point : result.check_points) {
+  for (const ImageCheckPoint& point : result.check_points) {
     const Eigen::Vector2d from = at(point.position);
     const Eigen::Vector2d to =
         from + scale * Eigen::Vector2d(point.difference.x(), -point.difference.y());

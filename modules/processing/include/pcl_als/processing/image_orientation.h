@@ -29,7 +29,7 @@ struct ImageOrientationOptions {
 };
 
 /// A check point against the image block.
-struct CheckedPoint {
+struct ImageCheckPoint {
   std::string id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< surveyed, metres
   Eigen::Vector3d difference = Eigen::Vector3d::Zero();  ///< image block - surveyed, metres
@@ -43,13 +43,13 @@ struct CheckSummary {
                   rmse = Eigen::Vector3d::Zero();
   double total = 0.0;  ///< RMSE of the three coordinates together
 };
-CheckSummary summaryOf(const std::vector<CheckedPoint>& points);
+CheckSummary summaryOf(const std::vector<ImageCheckPoint>& points);
 
 struct ImageOrientationResult {
   ImageBlock block;
   BundleResult bundle;
   std::vector<LineAssignment> assignments;
-  std::vector<CheckedPoint> check_points;
+  std::vector<ImageCheckPoint> check_points;
   std::vector<std::string> unknown_lines;   ///< measured, without a line of the control
   std::vector<std::string> missing_points;  ///< check points that the block does not have
 };
