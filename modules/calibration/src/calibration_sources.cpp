@@ -30,11 +30,13 @@ void SystemCalibrationEngine::measureSources(State& state) {
     if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
     for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
   }
+  state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
 }
 
 bool SystemCalibrationEngine::selectSources(State& state) {
-  if (!settings_.diagnose || !state.choice.solution.solved || state.observationCount() == 0)
+  if (!settings_.diagnose || !state.choice.solution.solved || state.observationCount() == 0 ||
+      !state.held_sources.isZero(0.0))
     return false;
   measureSources(state);
   const std::vector<ErrorSource> before = state.errors.consideredSources();
@@ -57,11 +59,19 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   for (const ErrorSource source : allSources()) {
     if (isCorrected(source, state.diagnosed, settings_.shared_errors)) supported.push_back(source);
   }
+  if (settings_.pair_budget > 0) {
+    for (const ErrorSource source : supported) {
+      if (source != ErrorSource::slope_ranging)
+        state.held_sources[indexOf(source)] =
+            state.diagnosed.shared[state.errors.sourceUnknown(source)];
+    }
+    supported = before;
+  }
   state.errors.considerSources(supported);
   state.adjustment.setLevels(state.adjustment.levels());
   choose(state);
   weigh(state);
-  return supported != before;
+  return supported != before || !state.held_sources.isZero(0.0);
 }
 
 void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {

@@ -85,6 +85,9 @@ struct SystemCalibrationEngine::State {
   Adjustment adjustment;
   ParameterChoice choice;
   AdjustmentSolution diagnosed;  ///< the last solution with all error sources
+  /// With a pair budget: values of the error sources that all pairs support, taken out of the
+  /// observations. A selection of pairs does not represent the effects of sources.
+  ErrorSourceVector held_sources = ErrorSourceVector::Zero();
   Phase phase = Phase::initial;
   int coarse_iterations = 0;
   VarianceComponents components;

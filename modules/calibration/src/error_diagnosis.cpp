@@ -149,25 +149,20 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
   }
 }
 
-namespace {
-
-void addSources(const ErrorSourceVector& values, std::vector<AreaObservations>& observations) {
-  if (values.isZero(0.0)) return;
-  for (AreaObservations& area : observations) {
-    for (PairObservation& o : area) o.misclosure += o.sources * values;
+void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result) {
+  for (ErrorFinding& finding : result.diagnosis) {
+    for (const ErrorSourceInfo& info : errorSources()) {
+      const int i = indexOf(info.source);
+      if (finding.source != info.name || values[i] == 0.0) continue;
+      finding.corrected = true;
+      result.sources[i] = values[i];
+    }
   }
 }
 
-}  // namespace
-
-void removeCorrectedSources(const CalibrationResult& result,
-                            std::vector<AreaObservations>& observations) {
-  addSources(-result.sources, observations);
-}
-
-void restoreCorrectedSources(const CalibrationResult& result,
-                             std::vector<AreaObservations>& observations) {
-  addSources(result.sources, observations);
+void removeSources(const ErrorSourceVector& values, AreaObservations& observations) {
+  if (values.isZero(0.0)) return;
+  for (PairObservation& o : observations) o.misclosure -= o.sources * values;
 }
 
 }  // namespace pcl_als

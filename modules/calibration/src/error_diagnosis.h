@@ -24,19 +24,18 @@ bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
  * of the swath, the evidence and the remedy.
  *
  * Sources with a probability above one half are corrected, slope_ranging excepted, which depends on
- * the surface. A source is determined where its standard deviation is less than a quarter of the one
- * before the observations.
+ * the surface. A source is determined where its standard deviation is less than a quarter of the
+ * one before the observations.
  */
 /// \param diagnosed solution with all sources
 void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
                      const AdjustmentSolution& diagnosed, const ScanGeometry& edge,
                      const ErrorSourceScale& scale, double speed, CalibrationResult& result);
 
-/// Takes the effects of the sources that are corrected out of the observations, and adds them
-/// again.
-void removeCorrectedSources(const CalibrationResult& result,
-                            std::vector<AreaObservations>& observations);
-void restoreCorrectedSources(const CalibrationResult& result,
-                             std::vector<AreaObservations>& observations);
+/// Marks sources as corrected with these values, where they are not zero.
+void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result);
+
+/// Takes the effects of sources with these values out of the observations.
+void removeSources(const ErrorSourceVector& values, AreaObservations& observations);
 
 }  // namespace pcl_als

@@ -82,6 +82,7 @@ void SystemCalibrationEngine::formPairs(State& state) const {
                             state.chosen_points)
             : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
                                    settings_.noise, settings_.control_sigma);
+    removeSources(state.held_sources, state.observations[i]);
   });
 }
 
@@ -253,6 +254,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   report.addStrips(errors, used_, state.choice.solution, result);
   addErrorSources(errors, state.choice, state.diagnosed, swathEdge(state.observations),
                   source_scale_, meanSpeed(spans), result);
+  addHeldSources(state.held_sources, result);
   const std::vector<PriorEffect> effects = priorEffects(
       largeStripErrors(result.strip_errors, settings_.shared_errors, kNoticeableCorrection), ids_,
       errors, state.adjustment, state.choice);
@@ -267,10 +269,11 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   report.addControlPoints(control_, state.observations, used,
                           std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
-  removeCorrectedSources(result, state.observations);
+  const ErrorSourceVector in_observations = result.sources - state.held_sources;
+  for (AreaObservations& area : state.observations) removeSources(in_observations, area);
   report.addFit(state.observations, result.biases(), true, result);
   result.misfit = misfit.change(state.observations, result.biases());
-  restoreCorrectedSources(result, state.observations);
+  for (AreaObservations& area : state.observations) removeSources(-in_observations, area);
   diagnose(result);
   assessControl(state, errors, result);
   assessStripErrors(settings_.shared_errors, effects, result);
