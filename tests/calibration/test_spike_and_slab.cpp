@@ -102,9 +102,28 @@ TEST(SpikeAndSlab, OverdispersionMakesPresenceLessCertain) {
   problem.solve({4.0, 4.0, 4.0}, mean, covariance);
   const std::vector<SpikeAndSlab::Prior> priors(3, {0.9, 0.0, 4.0});
   const SpikeAndSlab stated(priors, mean.head<3>(), covariance.topLeftCorner<3, 3>());
-  const SpikeAndSlab larger(priors, mean.head<3>(), covariance.topLeftCorner<3, 3>(), 4.0);
+  const SpikeAndSlab larger(priors, mean.head<3>(), covariance.topLeftCorner<3, 3>(),
+                            SpikeAndSlab::Certainty{4.0});
   EXPECT_GT(stated.presence()[0], larger.presence()[0]);
   EXPECT_NEAR(larger.stdIfPresent()[0] / stated.stdIfPresent()[0], 2.0, 0.2);
+}
+
+/// One value observed with the variance v, slab s: the odds of presence by hand.
+TEST(SpikeAndSlab, FewDegreesOfFreedomMakePresenceLessCertain) {
+  constexpr double kValue = 3.6, kVariance = 1.0, kSlab = 64.0, kFreedom = 10.0;
+  const double posterior = 1.0 / (1.0 / kVariance + 1.0 / kSlab);
+  const Eigen::VectorXd mean = Eigen::VectorXd::Constant(1, posterior * kValue / kVariance);
+  const Eigen::MatrixXd covariance = Eigen::MatrixXd::Constant(1, 1, posterior);
+  const double explained = kValue * kValue / kVariance * kSlab / (kSlab + kVariance);
+  const double prior_odds = 0.1 / 0.9 * std::sqrt(kVariance / (kVariance + kSlab));
+  const double normal = prior_odds * std::exp(0.5 * explained);
+  const double student = prior_odds * std::pow(1.0 + explained / kFreedom, 0.5 * (kFreedom + 1.0));
+  const std::vector<SpikeAndSlab::Prior> prior{{0.9, 0.0, kSlab}};
+  EXPECT_NEAR(SpikeAndSlab(prior, mean, covariance).presence()[0], normal / (1.0 + normal), 1e-6);
+  EXPECT_NEAR(
+      SpikeAndSlab(prior, mean, covariance, SpikeAndSlab::Certainty{1.0, kFreedom}).presence()[0],
+      student / (1.0 + student), 1e-6);
+  EXPECT_LT(student, 0.2 * normal);
 }
 
 /// A prior that the observations do not change leaves the probability as it was.

@@ -11,13 +11,15 @@
 
 namespace pcl_als::test {
 
-/// A point type of a user: other layout, other integer types, no more fields than are needed.
+/// A point type of a user: other layout, other integer types, no more fields than are used.
 struct EIGEN_ALIGN16 OwnPoint {
   PCL_ADD_POINT4D;
   std::uint16_t classification = 0;
   std::uint16_t number_of_returns = 1;
   double gps_time = 0.0;
   std::uint16_t return_number = 1;
+  float intensity = 0.0F;
+  std::uint8_t flags = 0;
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
@@ -44,5 +46,6 @@ typename pcl::PointCloud<PointT>::ConstPtr cloudOf(const pcl::PointCloud<PointLi
 POINT_CLOUD_REGISTER_POINT_STRUCT(
     pcl_als::test::OwnPoint,
     (float, x, x)(float, y, y)(float, z, z)(std::uint16_t, classification, classification)(
-        std::uint16_t, number_of_returns,
-        number_of_returns)(double, gps_time, gps_time)(std::uint16_t, return_number, return_number))
+        std::uint16_t, number_of_returns, number_of_returns)(double, gps_time, gps_time)(
+        std::uint16_t, return_number, return_number)(float, intensity, intensity)(std::uint8_t,
+                                                                                  flags, flags))

@@ -283,8 +283,8 @@ Adjustment::SourceInfluence Adjustment::sourceInfluence(const SystemMatrix& mode
   return influence;
 }
 
-double Adjustment::sourceOverdispersion(const SourceInfluence& influence,
-                                        const AdjustmentSolution& solution) const {
+Adjustment::SourceCertainty Adjustment::sourceCertainty(const SourceInfluence& influence,
+                                                        const AdjustmentSolution& solution) const {
   std::vector<Eigen::VectorXd> moves(area_normals_.size());
   parallelFor(moves.size(), threads_, [&](std::size_t area) {
     const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
@@ -301,9 +301,13 @@ double Adjustment::sourceOverdispersion(const SourceInfluence& influence,
     moves[area] = on_sources.transpose() * (own.right - own.matrix * unknowns);
   });
   Eigen::VectorXd scatter = Eigen::VectorXd::Zero(influence.biases.cols());
-  for (const Eigen::VectorXd& move : moves) scatter += move.cwiseAbs2();
+  double groups = 0.0;
+  for (const Eigen::VectorXd& move : moves) {
+    scatter += move.cwiseAbs2();
+    if (!move.isZero(0.0)) groups += 1.0;
+  }
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels_);
-  double factor = 1.0;
+  SourceCertainty certainty{1.0, std::max(1.0, groups - 1.0)};
   for (Eigen::Index i = 0; i < scatter.size(); ++i) {
     const ErrorSource source = errors_.consideredSources()[static_cast<std::size_t>(i)];
     const double slab = errors_.model().sources[static_cast<std::size_t>(indexOf(source))].std;
@@ -311,9 +315,10 @@ double Adjustment::sourceOverdispersion(const SourceInfluence& influence,
     const double of_prior = influence.shared.col(i).dot(prior * influence.shared.col(i));
     // Of what the observations determine: the part of the variance that the model ascribes to them.
     if (std::sqrt(variance) < SharedErrorModel::kDetermined * slab)
-      factor = std::max(factor, scatter[i] / (variance - of_prior));
+      certainty.overdispersion =
+          std::max(certainty.overdispersion, scatter[i] / (variance - of_prior));
   }
-  return factor;
+  return certainty;
 }
 
 SystemMatrix Adjustment::averageSources(const SystemMatrix& model,
@@ -333,10 +338,12 @@ SystemMatrix Adjustment::averageSources(const SystemMatrix& model,
   }
   // The scatter between areas limits what is said of further sources; that of the ranging error on
   // slopes, which every solution contains, is in the standard deviations of the parameters.
-  const double overdispersion =
-      sources.size() > 1 ? sourceOverdispersion(influence, solution) : 1.0;
-  const SpikeAndSlab mixture(priors, mean, 0.5 * (covariance + covariance.transpose()),
-                             overdispersion);
+  SpikeAndSlab::Certainty certainty;
+  if (sources.size() > 1) {
+    const SourceCertainty found = sourceCertainty(influence, solution);
+    certainty = {found.overdispersion, found.freedom};
+  }
+  const SpikeAndSlab mixture(priors, mean, 0.5 * (covariance + covariance.transpose()), certainty);
   solution.biases += mixture.move(influence.biases);
   solution.shared += mixture.move(influence.shared);
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kSupported = 0.5;  // probability from which a source is corrected
+constexpr double kSupported = 0.9;  // probability from which a source is corrected
 
 /// Standard deviation of a bias of a new system, for the probability that it is present.
 double slabOf(SystemParameter p) {

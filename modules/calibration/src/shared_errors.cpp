@@ -248,14 +248,16 @@ SharedErrors::Variances SharedErrors::shareOf(double share,
 
 SharedErrors::PriorVariances SharedErrors::priorVariances(const SharedErrorLevels& levels) const {
   std::array<double, kInstrumentBlocks * kPerKnot> instrument;
-  instrument.fill(1.0);  // of unknowns without effect
+  constexpr double kAbsent = 1e-6;  // of the prior's standard deviation, where it must not be zero
+  instrument.fill(1.0);             // of unknowns without effect
   for (const ErrorSourceInfo& info : errorSources()) {
     const auto i = static_cast<std::size_t>(indexOf(info.source));
     const SharedErrorModel::SourcePrior& prior = model_.sources[i];
     const bool considered =
         std::find(considered_.begin(), considered_.end(), info.source) != considered_.end();
-    const double std = considered ? prior.std : prior.std_absent;
-    if (std > 0.0) instrument[i] = std * std;
+    // Observations may have been formed with the effects of sources that are no longer considered.
+    const double std = considered ? prior.std : std::max(prior.std_absent, kAbsent * prior.std);
+    instrument[i] = std * std;
   }
   return {shareOf(1.0 - model_.smooth_share - model_.constant_share, levels.gauss_markov),
           shareOf(model_.smooth_share, levels.smooth),

@@ -19,7 +19,8 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& matrix) {
 
 /// One combination of present and absent unknowns; in units of the slabs.
 struct Combination {
-  double weight = 0.0;  ///< at first the logarithm of the marginal likelihood
+  double weight = 0.0;     ///< at first the logarithm of the prior times the Occam factor
+  double explained = 0.0;  ///< decrease of the sum of squares
   Eigen::VectorXd mean;
   Eigen::MatrixXd covariance;
 };
@@ -42,12 +43,28 @@ Combination combination(std::size_t set, const std::vector<SpikeAndSlab::Prior>&
   const CholeskyFactor factor(information);
   c.mean = factor.solve(right);
   c.covariance = factor.solve(Eigen::MatrixXd::Identity(right.size(), right.size()));
-  c.weight += 0.5 * right.dot(c.mean) - 0.5 * factor.logDeterminant();
+  c.weight -= 0.5 * factor.logDeterminant();
+  c.explained = right.dot(c.mean);
   return c;
 }
 
-/// Weights of sum one from logarithms.
-void normalise(std::vector<Combination>& combinations) {
+/// Logarithm of a likelihood ratio whose Gaussian value is half the difference of two sums of
+/// squares, where their unit has been estimated: that of Student's t distribution.
+double logRatio(double difference, double freedom) {
+  if (std::isinf(freedom)) return 0.5 * difference;
+  const double size = 0.5 * (freedom + 1.0) * std::log1p(std::abs(difference) / freedom);
+  return std::copysign(size, difference);
+}
+
+/// Weights of sum one from logarithms. All combinations are compared with the most probable one.
+void normalise(std::vector<Combination>& combinations, double freedom) {
+  const double reference =
+      std::max_element(combinations.begin(), combinations.end(),
+                       [](const Combination& a, const Combination& b) {
+                         return a.weight + 0.5 * a.explained < b.weight + 0.5 * b.explained;
+                       })
+          ->explained;
+  for (Combination& c : combinations) c.weight += logRatio(c.explained - reference, freedom);
   double largest = combinations.front().weight, sum = 0.0;
   for (const Combination& c : combinations) largest = std::max(largest, c.weight);
   for (Combination& c : combinations) sum += (c.weight = std::exp(c.weight - largest));
@@ -57,7 +74,7 @@ void normalise(std::vector<Combination>& combinations) {
 }  // namespace
 
 SpikeAndSlab::SpikeAndSlab(const std::vector<Prior>& priors, const Eigen::VectorXd& mean,
-                           const Eigen::MatrixXd& covariance, double overdispersion) {
+                           const Eigen::MatrixXd& covariance, const Certainty& certainty) {
   const auto n = static_cast<Eigen::Index>(priors.size());
   // In units of the slabs, so that a prior of the slab is the identity matrix.
   Eigen::VectorXd unit(n);
@@ -67,13 +84,13 @@ SpikeAndSlab::SpikeAndSlab(const std::vector<Prior>& priors, const Eigen::Vector
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
   const Eigen::MatrixXd inverse =
       inverseOf(per_unit.asDiagonal() * covariance * per_unit.asDiagonal());
-  const Eigen::MatrixXd information = (inverse - identity) / overdispersion;
+  const Eigen::MatrixXd information = (inverse - identity) / certainty.overdispersion;
   const Eigen::VectorXd stated = per_unit.cwiseProduct(mean);
-  const Eigen::VectorXd right = inverse * stated / overdispersion;
+  const Eigen::VectorXd right = inverse * stated / certainty.overdispersion;
   std::vector<Combination> combinations;
   for (std::size_t set = 0; set < std::size_t{1} << priors.size(); ++set)
     combinations.push_back(combination(set, priors, information, right));
-  normalise(combinations);
+  normalise(combinations, certainty.freedom);
 
   Eigen::VectorXd mixed = Eigen::VectorXd::Zero(n), square = Eigen::VectorXd::Zero(n);
   presence_ = value_ = Eigen::VectorXd::Zero(n);

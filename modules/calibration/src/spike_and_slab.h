@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,10 +26,20 @@ class SpikeAndSlab {
     double slab = 1.0;    ///< variance where it is present, > spike
   };
 
+  /// What is known of the certainty of the observations.
+  struct Certainty {
+    /// Factor >= 1 by which their covariance is larger than stated.
+    double overdispersion = 1.0;
+    /// Degrees of freedom of its estimate. With few of them the likelihood ratio to the most
+    /// probable combination is that of Student's t distribution instead of the normal distribution.
+    double freedom = std::numeric_limits<double>::infinity();
+  };
   /// \param mean and \param covariance posterior with all priors at their slabs; n <= 12.
-  /// \param overdispersion factor >= 1 by which the observations' covariance is larger than stated
   SpikeAndSlab(const std::vector<Prior>& priors, const Eigen::VectorXd& mean,
-               const Eigen::MatrixXd& covariance, double overdispersion = 1.0);
+               const Eigen::MatrixXd& covariance, const Certainty& certainty);
+  SpikeAndSlab(const std::vector<Prior>& priors, const Eigen::VectorXd& mean,
+               const Eigen::MatrixXd& covariance)
+      : SpikeAndSlab(priors, mean, covariance, Certainty()) {}
 
   /// Probability that each is present, given the observations.
   const Eigen::VectorXd& presence() const { return presence_; }

@@ -102,7 +102,8 @@ void stripTable(const CalibrationResult& result, std::ostream& out) {
 void remedies(const CalibrationResult& result, std::ostringstream& out) {
   for (const ErrorFinding& finding : result.diagnosis) {
     if (finding.probability <= 0.5 || !finding.determined) continue;
-    out << "- " << finding.source << ": " << finding.remedy
+    out << "- " << finding.source
+        << (finding.probability > 0.9 ? ": " : " (possible, not certain): ") << finding.remedy
         << (finding.corrected ? "; the correction of points removes it\n" : "\n");
   }
 }

@@ -134,9 +134,12 @@ class Adjustment {
   };
   SourceInfluence sourceInfluence(const SystemMatrix& model) const;
   /// Factor by which the scatter between areas makes the variances of the error sources larger than
-  /// those of the model.
-  double sourceOverdispersion(const SourceInfluence& influence,
-                              const AdjustmentSolution& solution) const;
+  /// those of the model, with the degrees of freedom of this scatter.
+  struct SourceCertainty {
+    double overdispersion = 1.0, freedom = 1.0;
+  };
+  SourceCertainty sourceCertainty(const SourceInfluence& influence,
+                                  const AdjustmentSolution& solution) const;
   /// \param all the reduced normal matrix, with priors
   SystemMatrix jackknife(const AdjustmentSolution& solution,
                          const std::vector<SystemParameter>& estimate,
