@@ -100,6 +100,15 @@ std::string biasText(const SystemVector& biases) {
   return text.tellp() > 0 ? text.str() : "all biases are zero";
 }
 
+/// The biases of all systems.
+std::string biasText(const CalibrationResult& calibration) {
+  std::string text;
+  for (const SystemEstimate& system : calibration.systems)
+    text += (text.empty() ? "" : "; ") + system.group.name + ": " +
+            biasText(SystemVector(system.values().head<kSystemParameterCount>()));
+  return text.empty() ? biasText(calibration.biases()) : text;
+}
+
 FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult& calibration) {
   FileCorrectionOptions options;
   options.strip_corrections = line.has("strip_corrections");
@@ -132,8 +141,7 @@ int apply(int argc, char** argv) {
   const auto flight = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
                                       attitudeUse(line, calibration));
   if (line.has("biases")) calibration.attitude = attitudeOf(*flight);
-  app::remark(line,
-              (options.invert ? "putting in: " : "taking out: ") + biasText(calibration.biases()));
+  app::remark(line, (options.invert ? "putting in: " : "taking out: ") + biasText(calibration));
 
   const FileCorrectionResult result =
       correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(line));

@@ -44,6 +44,7 @@ CommandLine commandLine() {
   app::addChannelOption(line);
   line.addOptional("prior",
                    "known biases with standard deviations: boresight_roll=0:5,… (m, arcsec)");
+  app::addSystemOptions(line);
   line.addOptional("pairs",
                    "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
                    "strips are used for control only");
@@ -111,6 +112,7 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   settings.noise = app::noiseOf(line);
   settings.shared_errors = app::sharedErrorsOf(line);
   if (line.has("prior")) settings.shared_errors.biases = biasPrior(line.text("prior"));
+  app::readSystems(line, settings);
   settings.control_sigma = app::controlSigmaOf(line);
   settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
   settings.selection.point_budget =

@@ -80,4 +80,23 @@ std::string notDetermined(const CalibrationResult& result, const std::string& ve
   return why;
 }
 
+void addSystemOptions(CommandLine& line) {
+  line.addList("system",
+               "NAME=STRIPS[:CHANNEL] ...: systems with biases of their own, e.g. north=1-4 "
+               "south=5-9, or a=1-9:0 b=1-9:1 with -channels; strips that none names are of the "
+               "first one");
+  line.addOptional("own",
+                   "with -system: what a system has of its own: boresight, lever_arm, names of "
+                   "parameters, offset of coordinates (default: boresight,range_bias,"
+                   "scan_angle_scale)");
+}
+
+void readSystems(const CommandLine& line, CalibrationSettings& settings) {
+  if (line.has("system")) {
+    for (const std::string& text : line.list("system"))
+      settings.systems.push_back(stripGroup(text));
+  }
+  if (line.has("own")) settings.own = ownUnknowns(line.text("own"));
+}
+
 }  // namespace pcl_als::app

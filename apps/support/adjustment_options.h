@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/calibration/calibration_settings.h>
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
@@ -28,5 +29,9 @@ std::vector<SystemParameter> parametersToEstimate(const CommandLine& line);
 /// Every parameter that \a result does not determine, with the reason; \a verb is "is not" or "will
 /// not be".
 std::string notDetermined(const CalibrationResult& result, const std::string& verb);
+
+/// Adds -system and -own, which readSystems() takes into the settings.
+void addSystemOptions(CommandLine& line);
+void readSystems(const CommandLine& line, CalibrationSettings& settings);
 
 }  // namespace pcl_als::app

@@ -27,6 +27,28 @@ run calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -output c.
 checks=$((checks + 1))
 grep -q '"3.ch1"' c.json || failed "c.json has no strip 3.ch1: status $status"
 
+# Two systems: the second channel has its roll of 120" (four standard deviations; 1" where the noise is that of ranges),
+# and the corrected strips of both channels fit each other. A calibration of one system leaves the difference.
+expect 0 converged calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -system a=3-5:0 b=3-5:1 \
+  -own boresight -output systems.json -corrected corrected
+read -r first second < <(awk '/"boresight_roll"/ { getline; gsub(/[^-0-9.e]/, "", $2); printf "%s ", $2 }' systems.json |
+  awk '{ print $2, $3 }')
+check "roll of the first channel, $first" awk -v v="$first" 'BEGIN { exit !(v > -4 && v < 4) }'
+check "roll of the second channel, $second" awk -v v="$second" 'BEGIN { exit !(v > 116 && v < 124) }'
+expect 0 "" apply cross/strip3.las by_apply.las "${flight[@]}" -calibration systems.json
+check "apply equals -corrected" cmp by_apply.las corrected/strip3.las
+expect 0 "" check corrected/strip3.las "${flight[@]}" -channels scanner_channel -output after.json
+rms() { awk -F': ' '/"vertical_rmsd_m"/ { gsub(/,/, "", $2); print $2; exit }' "$1"; }
+run check cross/strip3.las "${flight[@]}" -channels scanner_channel -output before.json
+check "misfit of channels, $(rms before.json) before, $(rms after.json) after" \
+  awk -v b="$(rms before.json)" -v a="$(rms after.json)" 'BEGIN { exit !(a < 0.5 * b) }'
+expect 2 "belong to none of the systems" apply cross/strip1.las none.las "${flight[@]}" -calibration systems.json
+absent none.las
+expect 1 "there is no strip 9.ch1" calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel \
+  -system a=3-5:0 b=9:1 -output no.json
+expect 1 "NAME=STRIPS" calibrate "${strips[@]}" "${flight[@]}" -system a -output no.json
+absent no.json
+
 # More than four channels are in the user data; the scanner channel is 0 for all of them.
 run simulate -output multi -preset small -scale 0.3 -density 0.5 -scanner multi:6 -noise range
 run check multi/strip3.las multi/strip4.las -channels scanner_channel -output one.json

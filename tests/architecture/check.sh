@@ -129,7 +129,7 @@ done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
 
 # The tools only parse options, call one job, print and save: they are short altogether.
 lines=$(find apps \( -name '*.cpp' -o -name '*.h' \) -exec cat {} + | wc -l)
-((lines <= 4200)) || breach apps "has $lines lines, more than 4200"
+((lines <= 4500)) || breach apps "has $lines lines, more than 4500"
 
 # Every table of the glossary has the same columns.
 if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |

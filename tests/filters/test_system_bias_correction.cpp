@@ -151,6 +151,49 @@ TEST(SystemBiasCorrection, TakesTheBiasesOfACalibration) {
   EXPECT_EQ(filter.getBiases(), SystemVector::Unit(6) * 0.25);
 }
 
+/// Two systems of one swath, by turns: each point is moved as by the calibration of its system
+/// alone, and by the offset of its coordinates.
+TEST(SystemBiasCorrection, CorrectsEachPointByItsSystem) {
+  Fixture fixture;
+  CalibrationResult calibration;
+  calibration[SystemParameter::boresight_roll].bias = 1e-3;
+  calibration.systems.resize(2);
+  calibration.systems[0].group = {"first", {"7", "8.ch0"}};
+  calibration.systems[0].parameters = calibration.parameters;
+  calibration.systems[1].group = {"second", {"8.ch1"}};
+  calibration.systems[1].parameters[indexOf(SystemParameter::range_bias)].bias = 0.5;
+  calibration.systems[1].offset = {0.0, 0.0, 0.25};
+  for (std::size_t i = 0; i < fixture.cloud->size(); ++i) {
+    PointLidar& point = (*fixture.cloud)[i];
+    point.point_source_id = i % 3 == 0 ? 7 : 8;
+    point.flags = static_cast<std::uint8_t>(i % 3 == 2 ? 1U << 6U : 0U);
+  }
+  const auto corrected = [&](const CalibrationResult& by) {
+    SystemBiasCorrection<PointLidar> filter;
+    filter.setTrajectory(fixture.trajectory);
+    filter.setLocalFrame(fixture.frame);
+    filter.setCalibration(by);
+    filter.setInputCloud(fixture.cloud);
+    Cloud cloud;
+    filter.filter(cloud);
+    return cloud;
+  };
+  CalibrationResult first = calibration, second = calibration;
+  first.systems.clear();
+  second.systems.clear();
+  second.parameters = calibration.systems[1].parameters;
+  const Cloud both = corrected(calibration), a = corrected(first), b = corrected(second);
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const PointLidar& expected = i % 3 == 2 ? b[i] : a[i];
+    EXPECT_EQ(both[i].x, expected.x) << i;
+    EXPECT_EQ(both[i].y, expected.y) << i;
+    // 1e-4: floats of some hundred metres.
+    EXPECT_NEAR(both[i].z, expected.z - (i % 3 == 2 ? 0.25F : 0.0F), 1e-4F) << i;
+  }
+  (*fixture.cloud)[5].point_source_id = 9;
+  EXPECT_THROW(corrected(calibration), InputError);
+}
+
 TEST(SystemBiasCorrection, ACalibrationWithAnAdverseVerdictIsRefused) {
   CalibrationResult result;
   result.verdict.object(CalibrationStatus::no_improvement, "the misfit is larger");

@@ -129,6 +129,37 @@ TEST(CalibrationJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.inputs[0], written.inputs[0]);
 }
 
+TEST(CalibrationJson, KeepsTheSystems) {
+  CalibrationResult written = example();
+  written.channel_field = "user_data";
+  written.systems.resize(2);
+  for (SystemEstimate& system : written.systems) system.parameters = written.parameters;
+  written.systems[0].group = {"a", {"3.ch0", "4.ch0"}};
+  SystemEstimate& second = written.systems[1];
+  second.group = {"b", {"3.ch1"}};
+  second.parameters[indexOf(P::range_bias)].bias = 0.25;
+  second.difference_std[indexOf(P::range_bias)] = 0.002;
+  second.offset = {0.1, -0.2, 0.3};
+  second.offset_std = {0.01, 0.02, 0.03};
+  const auto path = test::scratch("calibration_json") / "systems.json";
+  writeCalibration(path, written);
+  const CalibrationResult read = readCalibration(path);
+  EXPECT_EQ(read.channel_field, "user_data");
+  ASSERT_EQ(read.systems.size(), 2U);
+  EXPECT_EQ(read.systems[0].group.strips, written.systems[0].group.strips);
+  EXPECT_EQ(read.systems[1].group.name, "b");
+  EXPECT_LT((read.systems[1].values() - second.values()).norm(), 1e-15);
+  EXPECT_LT((read.systems[1].difference_std - second.difference_std).norm(), 1e-15);
+  EXPECT_EQ(read.systems[1].offset_std, second.offset_std);
+  writeCalibration(path, example());
+  EXPECT_TRUE(readCalibration(path).systems.empty());
+  writeCalibration(path, written);
+  std::string text = textOf(path);
+  text.replace(text.find("-0.2"), 4, "-200");
+  std::ofstream(path, std::ios::binary) << text;
+  EXPECT_THROW(readCalibration(path), InputError);
+}
+
 TEST(CalibrationJson, UsesTheInterfacesNamesAndUnits) {
   const std::string text = exampleText();
   for (const char* part :

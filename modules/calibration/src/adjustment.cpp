@@ -8,6 +8,7 @@
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/parallel.h>
 
+#include "adjustment_reduced.h"
 #include "area_normal.h"
 #include "block_cholesky.h"
 #include "chosen_parameters.h"
@@ -34,16 +35,6 @@ SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double
 }
 
 }  // namespace
-
-/// Normal equations with all shared errors eliminated.
-struct Adjustment::Reduced {
-  SystemMatrix normal, prior_share;
-  SystemVector right;
-  Eigen::Matrix<double, Eigen::Dynamic, kGlobal> elimination;             ///< N_tt^-1 N_tg
-  Eigen::VectorXd eliminated_right;                                       ///< N_tt^-1 h_t
-  Eigen::Matrix<double, Eigen::Dynamic, kErrorSourceCount> with_sources;  ///< N_tt^-1, columns of
-                                                                          ///< the error sources
-};
 
 Adjustment::Adjustment(const SharedErrors& errors, int threads)
     : errors_(errors), threads_(threads) {}
@@ -105,6 +96,11 @@ Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
   Eigen::MatrixXd sources = Eigen::MatrixXd::Zero(errors_.unknowns(), kErrorSourceCount);
   sources.middleRows<kErrorSourceCount>(errors_.instrumentBlock() * kKnot).setIdentity();
   reduced.with_sources = factor.solve(sources);
+  const Eigen::Index systems =
+      Eigen::Index{errors_.systems().count - 1} * SharedErrors::kSystemBlocks * kKnot;
+  Eigen::MatrixXd of_systems = Eigen::MatrixXd::Zero(errors_.unknowns(), systems);
+  of_systems.middleRows(Eigen::Index{errors_.systemBlock(1)} * kKnot, systems).setIdentity();
+  if (systems > 0) reduced.with_systems = factor.solve(of_systems);
   reduced.normal = normal.gg - normal.tg.transpose() * reduced.elimination;
   reduced.normal = (0.5 * (reduced.normal + reduced.normal.transpose())).eval();
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
@@ -271,35 +267,41 @@ Eigen::MatrixXd columnsOf(const Matrix& all, const std::vector<ErrorSource>& sou
 
 }  // namespace
 
-Adjustment::SourceInfluence Adjustment::sourceInfluence(const SystemMatrix& model) const {
+Adjustment::Influence Adjustment::sourceInfluence(const SystemMatrix& model) const {
   const std::vector<ErrorSource>& sources = errors_.consideredSources();
   const Eigen::MatrixXd elimination =
       reduced_->elimination.middleRows<kErrorSourceCount>(errors_.instrumentBlock() * kKnot)
           .transpose();
-  SourceInfluence influence;
+  Influence influence;
   influence.biases = columnsOf(Eigen::MatrixXd(-model * elimination), sources);
   influence.shared =
       columnsOf(reduced_->with_sources, sources) - reduced_->elimination * influence.biases;
   return influence;
 }
 
-Adjustment::SourceCertainty Adjustment::sourceCertainty(const SourceInfluence& influence,
-                                                        const AdjustmentSolution& solution) const {
-  std::vector<Eigen::VectorXd> moves(area_normals_.size());
-  parallelFor(moves.size(), threads_, [&](std::size_t area) {
+std::vector<Eigen::VectorXd> Adjustment::areaScores(const Influence& influence,
+                                                    const AdjustmentSolution& solution) const {
+  std::vector<Eigen::VectorXd> scores(area_normals_.size());
+  parallelFor(scores.size(), threads_, [&](std::size_t area) {
     const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
     const std::vector<int>& knots = area_normals_[area].knots();
     Eigen::VectorXd unknowns(own.right.size());
-    Eigen::MatrixXd on_sources(own.right.size(), influence.biases.cols());
+    Eigen::MatrixXd on_values(own.right.size(), influence.biases.cols());
     unknowns.head<kGlobal>() = solution.biases;
-    on_sources.topRows<kGlobal>() = influence.biases;
+    on_values.topRows<kGlobal>() = influence.biases;
     for (std::size_t i = 0; i < knots.size(); ++i) {
       const auto at = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
       unknowns.segment<kKnot>(at) = solution.shared.segment<kKnot>(knots[i] * kKnot);
-      on_sources.middleRows<kKnot>(at) = influence.shared.middleRows<kKnot>(knots[i] * kKnot);
+      on_values.middleRows<kKnot>(at) = influence.shared.middleRows<kKnot>(knots[i] * kKnot);
     }
-    moves[area] = on_sources.transpose() * (own.right - own.matrix * unknowns);
+    scores[area] = on_values.transpose() * (own.right - own.matrix * unknowns);
   });
+  return scores;
+}
+
+Adjustment::SourceCertainty Adjustment::sourceCertainty(const Influence& influence,
+                                                        const AdjustmentSolution& solution) const {
+  const std::vector<Eigen::VectorXd> moves = areaScores(influence, solution);
   Eigen::VectorXd scatter = Eigen::VectorXd::Zero(influence.biases.cols());
   double groups = 0.0;
   for (const Eigen::VectorXd& move : moves) {
@@ -324,7 +326,7 @@ Adjustment::SourceCertainty Adjustment::sourceCertainty(const SourceInfluence& i
 SystemMatrix Adjustment::averageSources(const SystemMatrix& model,
                                         AdjustmentSolution& solution) const {
   const std::vector<ErrorSource>& sources = errors_.consideredSources();
-  const SourceInfluence influence = sourceInfluence(model);
+  const Influence influence = sourceInfluence(model);
   std::vector<SpikeAndSlab::Prior> priors;
   Eigen::VectorXd mean(sources.size());
   Eigen::MatrixXd covariance(sources.size(), sources.size());

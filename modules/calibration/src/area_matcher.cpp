@@ -124,9 +124,11 @@ void AreaMatcher::keep(const AreaObservations& observations,
   }
 }
 
-void AreaMatcher::correct(const BiasEvaluator& biases) {
-  corrected_for_ = biases.biases();
-  for (StripPart& part : strips_) {
+void AreaMatcher::correct(const std::vector<StripCorrection>& corrections) {
+  for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
+    StripPart& part = strips_[strip];
+    const StripCorrection& correction = corrections[strip];
+    corrected_for_[strip] << correction.biases->biases(), correction.offset;
     const std::size_t count = part.biased.size();
     if (count == 0) continue;
     std::vector<double> columns[3], effects[3];
@@ -136,11 +138,13 @@ void AreaMatcher::correct(const BiasEvaluator& biases) {
       effects[axis].resize(count);
     }
     CoverageCount ignored;  // the calibration checked that the trajectory covers every strip
-    biases.effect({part.times.data(), columns[0].data(), columns[1].data(), columns[2].data()},
-                  count, {effects[0].data(), effects[1].data(), effects[2].data()}, ignored);
+    correction.biases->effect(
+        {part.times.data(), columns[0].data(), columns[1].data(), columns[2].data()}, count,
+        {effects[0].data(), effects[1].data(), effects[2].data()}, ignored);
     std::vector<Eigen::Vector3d> moved(count);
     for (std::size_t i = 0; i < count; ++i) {
-      moved[i] = part.biased[i] - Eigen::Vector3d(effects[0][i], effects[1][i], effects[2][i]);
+      moved[i] = part.biased[i] - correction.offset -
+                 Eigen::Vector3d(effects[0][i], effects[1][i], effects[2][i]);
     }
     part.surface.movePoints(std::move(moved));
   }
@@ -251,7 +255,9 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
   observation.row_a = normal.transpose() * point.design;
   observation.row_b = normal.transpose() * foot.design;
   observation.misclosure =
-      normal.dot(point.position - foot.position) + observation.row() * corrected_for_;
+      normal.dot(point.position - foot.position) +
+      observation.effectAtPoint(corrected_for_[static_cast<std::size_t>(observation.a)]) -
+      observation.effectAtPatch(corrected_for_[static_cast<std::size_t>(observation.b)]);
   observation.variance = normalVariance(point.covariance + foot.covariance, normal);
   observation.pointing = normalVariance(point.pointing + foot.pointing, normal);
   observation.sources = point.sourcesAlong(normal) - foot.sourcesAlong(normal);
@@ -348,8 +354,8 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
       observation.tilt_variance = direction.variance;
       observation.design = (-foot.design).cast<float>();
       observation.row_b = observation.normal.transpose() * foot.design;
-      observation.misclosure = observation.normal.dot(point.position - foot.position) +
-                               observation.row() * corrected_for_;
+      observation.misclosure = observation.normal.dot(point.position - foot.position) -
+                               observation.effectAtPatch(corrected_for_[b]);
       observation.sources = -foot.sourcesAlong(observation.normal);
       const double up = observation.normal.z();
       observation.variance =

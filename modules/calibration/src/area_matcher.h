@@ -32,7 +32,8 @@ namespace pcl_als {
  */
 class AreaMatcher {
  public:
-  AreaMatcher(const SurveyArea& area, std::size_t strips) : area_(area), strips_(strips) {}
+  AreaMatcher(const SurveyArea& area, std::size_t strips)
+      : area_(area), strips_(strips), corrected_for_(strips, SystemUnknowns::Zero()) {}
 
   void add(int strip, const LidarReturn& point);
   const SurveyArea& area() const { return area_; }
@@ -70,8 +71,17 @@ class AreaMatcher {
     return strips_[static_cast<std::size_t>(strip)].surface;
   }
 
-  /// Reconstructs the points with Eq. (13); the TINs keep their topology.
-  void correct(const BiasEvaluator& biases);
+  /// The correction of the points of a strip.
+  struct StripCorrection {
+    const BiasEvaluator* biases;
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the coordinates, metres
+  };
+  /// Reconstructs the points with Eq. (13), by strip; the TINs keep their topology.
+  void correct(const std::vector<StripCorrection>& corrections);
+  /// All strips alike.
+  void correct(const BiasEvaluator& biases) {
+    correct(std::vector<StripCorrection>(strips_.size(), {&biases}));
+  }
 
   /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
   /// threshold.
@@ -120,8 +130,8 @@ class AreaMatcher {
   /// Points of the first strip that form pairs with the second.
   std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;
   SurfaceCriterion criterion_;
-  SystemVector corrected_for_ = SystemVector::Zero();  ///< biases taken out of the surfaces
-  std::optional<ErrorSourceScale> source_scale_;       ///< empty: sources are not considered
+  std::vector<SystemUnknowns> corrected_for_;     ///< by strip, taken out of the surfaces
+  std::optional<ErrorSourceScale> source_scale_;  ///< empty: sources are not considered
 };
 
 }  // namespace pcl_als

@@ -18,10 +18,12 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
     place(0, errors.placeOf(o.a, o.time_a), o.normal, o.row_a, 1.0);
     strips[0] = o.a;
     row.segment<kShift>(shift(0)) = o.normal.transpose();
+    placeSystem(0, errors.systems().of(o.a), o.normal, o.row_a, 1.0, errors);
   }
   place(2, errors.placeOf(o.b, o.time_b), o.normal, o.row_b, -1.0);
   strips[1] = o.b;
   row.segment<kShift>(shift(1)) = -o.normal.transpose();
+  placeSystem(1, errors.systems().of(o.b), o.normal, o.row_b, -1.0, errors);
   for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
     knots[kKnots + i] = errors.instrumentBlock() + i;
   row.segment<kErrorSourceCount>(kInstrument) = o.sources;
@@ -38,10 +40,17 @@ void TouchedRow::place(int index, const SharedErrors::Place& where, const Eigen:
   row.segment<kKnot>(slot(index + 1)) = sign * where.next * effect;
 }
 
-namespace {
+void TouchedRow::placeSystem(int side, int system, const Eigen::Vector3d& normal,
+                             const SystemRow& design, double sign, const SharedErrors& errors) {
+  if (system == 0) return;
+  constexpr int kBlocks = SharedErrors::kSystemBlocks;
+  const int first = kSystems + side * kBlocks;
+  for (int i = 0; i < kBlocks; ++i) knots[first + i] = errors.systemBlock(system) + i;
+  row.segment<kSystemParameterCount>(slot(first)) = sign * design;
+  row.segment<3>(slot(first) + kSystemParameterCount) = sign * normal.transpose();
+}
 
-using LocalMatrix = Eigen::Matrix<double, TouchedRow::kSize, TouchedRow::kSize>;
-using LocalVector = Eigen::Matrix<double, TouchedRow::kSize, 1>;
+namespace {
 
 /// Sums over observations of the same knots and strips; successive observations mostly share them.
 /// Their rows are collected, so that the products are those of matrices and not of vectors.
@@ -49,20 +58,24 @@ class Partial {
  public:
   void add(const TouchedRow& touched, double misclosure, double weight) {
     const double root = std::sqrt(weight);
+    if (columns_ == 0) {
+      columns_ = touched.used();
+      matrix.setZero(columns_, columns_);
+      right.setZero(columns_);
+    }
     rows_.row(count_) = root * touched.row;
-    columns_ = touched.used();
     misclosures_[count_] = root * misclosure;
     if (++count_ == kRows) flush();
   }
   void flush() {
     const auto rows = rows_.topLeftCorner(count_, columns_);
-    matrix.topLeftCorner(columns_, columns_).noalias() += rows.transpose() * rows;
-    right.head(columns_).noalias() += rows.transpose() * misclosures_.head(count_);
+    matrix.noalias() += rows.transpose() * rows;
+    right.noalias() += rows.transpose() * misclosures_.head(count_);
     count_ = 0;
   }
 
-  LocalMatrix matrix = LocalMatrix::Zero();
-  LocalVector right = LocalVector::Zero();
+  Eigen::MatrixXd matrix;  ///< columns that may differ from zero
+  Eigen::VectorXd right;
 
  private:
   static constexpr int kRows = 32;

@@ -13,15 +13,17 @@
 namespace pcl_als {
 
 /// Row of one observation: the eight parameters; four knots, six each; the shifts of its two
-/// strips, three each; the blocks of the instrument, six each. The last one is mostly unused.
+/// strips, three each; the blocks of the instrument, six each; those of the systems of its two
+/// strips. All but the first block of the instrument are mostly unused.
 struct TouchedRow {
   static constexpr int kKnot = SharedErrors::kPerKnot;
   static constexpr int kKnots = 4;
-  static constexpr int kSlots = kKnots + SharedErrors::kInstrumentBlocks;
+  static constexpr int kSystems = kKnots + SharedErrors::kInstrumentBlocks;
+  static constexpr int kSlots = kSystems + 2 * SharedErrors::kSystemBlocks;
   static constexpr int kShift = 3;
   static constexpr int kShifts = kSystemParameterCount + kKnots * kKnot;
   static constexpr int kInstrument = kShifts + 2 * kShift;
-  static constexpr int kSize = kInstrument + SharedErrors::kInstrumentBlocks * kKnot;
+  static constexpr int kSize = kInstrument + (kSlots - kKnots) * kKnot;
 
   TouchedRow(const PairObservation& observation, const SharedErrors& errors);
 
@@ -31,7 +33,11 @@ struct TouchedRow {
   }
   static constexpr int shift(int index) { return kShifts + index * kShift; }
   /// Columns that may differ from zero.
-  int used() const { return knots[kSlots - 1] < 0 ? kSize - kKnot : kSize; }
+  int used() const {
+    int last = kSlots - 1;
+    while (last > kKnots && knots[last] < 0) --last;
+    return slot(last) + kKnot;
+  }
 
   Eigen::Matrix<double, 1, kSize> row = Eigen::Matrix<double, 1, kSize>::Zero();
   std::array<int, kSlots> knots;  ///< -1: not used
@@ -40,6 +46,8 @@ struct TouchedRow {
  private:
   void place(int slot_index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
              const SystemRow& design, double sign);
+  void placeSystem(int side, int system, const Eigen::Vector3d& normal, const SystemRow& design,
+                   double sign, const SharedErrors& errors);
 };
 
 /// Normal equations of one area: parameters, the knots of its observations, the shifts of its

@@ -10,14 +10,16 @@
 #include <pcl_als/common/parallel.h>
 
 #include "calibration_state.h"
+#include "system_groups.h"
 
 namespace pcl_als {
 namespace {
 
-constexpr double kNegligible = 0.05;  // standard deviations: a smaller update is negligible
-constexpr double kSmall = 0.1;        // standard deviations: a smaller update ends a phase
-constexpr int kMostReductions = 3;    // parameters left out because the iteration does not converge
-constexpr int kAfterReduction = 10;   // iterations
+constexpr double kNegligible = 0.05;      // standard deviations: a smaller update is negligible
+constexpr double kSmall = 0.1;            // standard deviations: a smaller update ends a phase
+constexpr double kSmallMovement = 0.005;  // metres, of points by an update
+constexpr int kMostReductions = 3;   // parameters left out because the iteration does not converge
+constexpr int kAfterReduction = 10;  // iterations
 
 /// Upper bound of the movement of a ground point by a change of the biases, metres: the sum of the
 /// effects of all parameters.
@@ -62,7 +64,37 @@ double largestMovement(const std::vector<AreaObservations>& observations,
   return largest;
 }
 
+/// The same of a change of the differences between systems.
+double largestEffect(const std::vector<AreaObservations>& observations,
+                     const std::vector<SystemUnknowns>& before,
+                     const std::vector<SystemUnknowns>& after) {
+  double largest = 0.0;
+  for (std::size_t i = 1; i < after.size(); ++i) {
+    const SystemUnknowns change = before.empty() ? after[i] : SystemUnknowns(after[i] - before[i]);
+    largest =
+        std::max(largest, largestMovement(observations, change.head<kSystemParameterCount>()) +
+                              change.tail<3>().norm());
+  }
+  return largest;
+}
+
 }  // namespace
+
+void SystemCalibrationEngine::correctPoints(const State& state) {
+  std::vector<BiasEvaluator> evaluators;
+  for (const SystemUnknowns& difference : state.differences) {
+    const SystemVector biases =
+        state.choice.solution.biases + difference.head<kSystemParameterCount>();
+    evaluators.emplace_back(trajectory_, biases);
+  }
+  std::vector<AreaMatcher::StripCorrection> corrections;
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    const auto system = static_cast<std::size_t>(systems_.of(static_cast<int>(strip)));
+    corrections.push_back({&evaluators[system], state.differences[system].tail<3>()});
+  }
+  parallelFor(matchers_.size(), settings_.threads,
+              [&](std::size_t i) { matchers_[i].correct(corrections); });
+}
 
 void SystemCalibrationEngine::selectPairs(State& state) {
   PairSelectionSettings settings;
@@ -149,7 +181,6 @@ void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t d
 }
 
 void SystemCalibrationEngine::openIteration(State& state, std::size_t done) const {
-  constexpr double kSmallMovement = 0.005;  // metres
   constexpr std::size_t kCoarseAtMost = 12, kFewest = 4;
   // Combinations that the data hardly determine change with every new set of pairs, without effect
   // on the points or by a small part of their standard deviations. Neither delays the next phase.
@@ -181,6 +212,7 @@ void SystemCalibrationEngine::closeConverged(State& state) const {
 
 void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
+  const std::vector<SystemUnknowns> differences = state.differences;
   const std::size_t done = result.iterations.size();
   openIteration(state, done);
   const bool components_open = state.components.last == done + 1;
@@ -188,18 +220,19 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   closeSelection(state);
   if (settings_.pair_budget > 0 && state.all()) selectPairs(state);
   const SystemVector& biases = state.choice.solution.biases;
-  const double effect = largestEffect(state.observations, biases - before);
+  const double of_systems = largestEffect(state.observations, differences, state.differences);
+  const double effect = largestEffect(state.observations, biases - before) + of_systems;
   recordUpdate(state, before);
+  state.update.movement = std::max(state.update.movement, of_systems);
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
   if (done > 2 && !components_open && state.components.estimates > 0 &&
-      (effect < settings_.convergence || isUpdateWithin(state, before, kNegligible))) {
+      (effect < settings_.convergence ||
+       (of_systems < kSmallMovement && isUpdateWithin(state, before, kNegligible)))) {
     closeConverged(state);
   }
   result.converged = state.phase == State::Phase::converged;
-  const BiasEvaluator correction(trajectory_, biases);
-  parallelFor(matchers_.size(), settings_.threads,
-              [&](std::size_t i) { matchers_[i].correct(correction); });
+  correctPoints(state);
   shrinkThreshold(state);
 }
 

@@ -139,7 +139,7 @@ void CalibrationReport::addControlPoints(const std::vector<ControlPoint>& contro
     fit.used = used[first + i];
     double variance = 0.0;
     for (const PairObservation& o : area) {
-      fit.before -= o.distance(SystemVector::Zero()) / o.normal.z();
+      fit.before -= o.misclosure / o.normal.z();
       fit.after -= o.distance(result.biases()) / o.normal.z();
       variance += o.variance;
     }

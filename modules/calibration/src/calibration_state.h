@@ -84,7 +84,8 @@ struct SystemCalibrationEngine::State {
   SharedErrors& errors;
   Adjustment adjustment;
   ParameterChoice choice;
-  AdjustmentSolution diagnosed;  ///< the last solution with all error sources
+  std::vector<SystemUnknowns> differences;  ///< of the systems to the first, after each solution
+  AdjustmentSolution diagnosed;             ///< the last solution with all error sources
   /// With a pair budget: values of the error sources that all pairs support, taken out of the
   /// observations. A selection of pairs does not represent the effects of sources.
   ErrorSourceVector held_sources = ErrorSourceVector::Zero();

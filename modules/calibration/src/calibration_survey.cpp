@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 
 #include "area_matcher.h"
+#include "system_groups.h"
 
 namespace pcl_als {
 namespace {
@@ -230,6 +231,7 @@ void SystemCalibrationEngine::adaptLimits() {
 }
 
 void SystemCalibrationEngine::chooseAreas() {
+  systems_ = stripSystems(settings_.systems, settings_.own, ids_);
   adaptLimits();
   leaveOutUnpaired();
   leaveOutSmallStrips();

@@ -35,6 +35,8 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
 /// Marks sources as corrected with these values, where they are not zero.
 void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result);
 
+/// Adds the effects of sources with these values to PairObservation::further.
+void addSourceEffects(const ErrorSourceVector& values, AreaObservations& observations);
 /// Takes the effects of sources with these values out of the observations.
 void removeSources(const ErrorSourceVector& values, AreaObservations& observations);
 

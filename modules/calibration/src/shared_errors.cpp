@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <sstream>
 
 #include <pcl_als/calibration/shared_errors.h>
-#include <pcl_als/common/errors.h>
 
 namespace pcl_als {
 namespace {
@@ -30,69 +27,6 @@ int kindOf(int unknown) {
 constexpr double kMeanSquare = 151.0 / 315.0;  // integral of the square of the cubic B-spline
 
 }  // namespace
-
-void SharedErrorModel::validate() const {
-  const std::pair<const char*, double> values[] = {
-      {"trajectory position sigma (m)", position},
-      {"trajectory roll and pitch sigma (rad)", roll_pitch},
-      {"trajectory heading sigma (rad)", heading},
-      {"trajectory correlation time (s)", correlation_time},
-      {"trajectory knot spacing (s)", knot_spacing},
-      {"share of constant trajectory errors", constant_share},
-      {"share of smooth trajectory errors", smooth_share},
-      {"share of Gauss-Markov trajectory errors", 1.0 - constant_share - smooth_share},
-      {"local shift sigma (m)", local}};
-  for (const auto& [name, value] : values) {
-    if (std::isfinite(value) && value > 0.0) continue;
-    std::ostringstream text;
-    text << name << " must be positive, is " << value;
-    throw UsageError(text.str());
-  }
-  for (const ErrorSourceInfo& info : errorSources()) {
-    const SourcePrior& prior = sources[static_cast<std::size_t>(indexOf(info.source))];
-    if (prior.std > prior.std_absent && prior.std_absent >= 0.0 && prior.absent >= 0.0 &&
-        prior.absent < 1.0)
-      continue;
-    throw UsageError("prior of " + std::string(info.name) +
-                     ": the probability must be in [0, 1), and the standard deviation larger than "
-                     "that of an absent error");
-  }
-}
-
-std::array<double, SharedErrorLevels::kCount> SharedErrorLevels::values() const {
-  return {gauss_markov.position, gauss_markov.roll_pitch,
-          gauss_markov.heading,  smooth.position,
-          smooth.roll_pitch,     smooth.heading,
-          constant.position,     constant.roll_pitch,
-          constant.heading,      local};
-}
-
-SharedErrorLevels SharedErrorLevels::of(const std::array<double, kCount>& v) {
-  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, v[9]};
-}
-
-bool SharedErrorLevels::near(const SharedErrorLevels& other) const {
-  const auto mine = values(), theirs = other.values();
-  return std::equal(mine.begin(), mine.end(), theirs.begin(),
-                    [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); });
-}
-
-std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
-                                                 std::size_t strips) {
-  std::vector<std::vector<TimeSpan>> times(strips);
-  for (const AreaObservations& area : areas) {
-    std::map<int, TimeSpan> here;
-    for (const PairObservation& o : area) {
-      for (const auto& [strip, time] : {std::pair(o.a, o.time_a), std::pair(o.b, o.time_b)}) {
-        if (strip == PairObservation::kControl) continue;
-        TimeSpan& span = here.try_emplace(strip, time, time).first->second;
-        span = {std::min(span.first, time), std::max(span.second, time)};
-      }
-    }
-    for (const auto& [strip, span] : here) times[static_cast<std::size_t>(strip)].push_back(span);
-  }
-  return times;
-}
 
 int SharedErrors::StripKnots::before(double step) const {
   const auto after = std::upper_bound(at.begin(), at.end(), step,
@@ -124,13 +58,52 @@ SharedErrors::StripKnots SharedErrors::knotsOf(const TimeSpan& span, double spac
   return strip;
 }
 
-SharedErrors::SharedErrors(const std::vector<TimeSpan>& spans, const SharedErrorModel& model,
-                           const std::vector<std::vector<TimeSpan>>& observed)
-    : model_(model) {
-  model_.validate();
+namespace {
+
+/// Times of a pass, of all its strips.
+struct Pass {
+  TimeSpan span;
+  std::vector<TimeSpan> observed;
+};
+
+/// The strips of each pass together; \a index: the pass of each strip.
+std::vector<Pass> passesOf(const std::vector<TimeSpan>& spans,
+                           const std::vector<std::vector<TimeSpan>>& observed,
+                           const std::vector<int>& first_strip, std::vector<int>& index) {
+  std::vector<Pass> passes;
   for (std::size_t i = 0; i < spans.size(); ++i) {
+    const std::size_t first = first_strip.empty() ? i : static_cast<std::size_t>(first_strip[i]);
+    const bool is_new = first == i;
+    index.push_back(is_new ? static_cast<int>(passes.size()) : index[first]);
+    if (is_new) passes.push_back({spans[i], {}});
+    Pass& pass = passes[static_cast<std::size_t>(index[i])];
+    // A strip that is left out has no times.
+    if (pass.span.first == pass.span.second) pass.span = spans[i];
+    if (spans[i].first != spans[i].second) {
+      pass.span = {std::min(pass.span.first, spans[i].first),
+                   std::max(pass.span.second, spans[i].second)};
+    }
+    if (!observed.empty())
+      pass.observed.insert(pass.observed.end(), observed[i].begin(), observed[i].end());
+  }
+  return passes;
+}
+
+}  // namespace
+
+SharedErrors::SharedErrors(const std::vector<TimeSpan>& spans, const SharedErrorModel& model,
+                           const std::vector<std::vector<TimeSpan>>& observed,
+                           const StripSystems& systems)
+    : systems_(systems), model_(model) {
+  model_.validate();
+  std::array<bool, kSystemUnknownCount> own{};
+  for (const SystemParameter p : systems_.own.parameters)
+    own[static_cast<std::size_t>(indexOf(p))] = true;
+  std::fill(own.begin() + kSystemParameterCount, own.end(), systems_.own.offset);
+  own_.assign(static_cast<std::size_t>(systems_.count - 1), own);
+  for (const Pass& pass : passesOf(spans, observed, systems_.pass, pass_)) {
     strips_.push_back(
-        knotsOf(spans[i], model_.knot_spacing, observed.empty() ? nullptr : &observed[i]));
+        knotsOf(pass.span, model_.knot_spacing, observed.empty() ? nullptr : &pass.observed));
     strips_.back().first = knot_count_;
     knot_count_ += static_cast<int>(strips_.back().at.size());
   }
@@ -146,7 +119,7 @@ void SharedErrors::addCoefficients(StripKnots& strip) {
       if (strip.nodes.empty() || strip.nodes.back() < i) strip.nodes.push_back(i);
     }
   }
-  strip.first_node = instrumentBlock() + kInstrumentBlocks + coefficient_count_;
+  strip.first_node = systemBlock(systems_.count) + coefficient_count_;
   strip.constant = strip.first_node + static_cast<int>(strip.nodes.size());
   coefficient_count_ += static_cast<int>(strip.nodes.size()) + 1;
 }
@@ -193,8 +166,37 @@ void SharedErrors::assembleGaussMarkov() {
   gauss_markov_.setFromTriplets(entries.begin(), entries.end());
 }
 
+const SharedErrors::StripKnots& SharedErrors::passOf(int strip) const {
+  return strips_[static_cast<std::size_t>(pass_[static_cast<std::size_t>(strip)])];
+}
+
+bool SharedErrors::isOwn(int system, int unknown) const {
+  return own_[static_cast<std::size_t>(system - 1)][static_cast<std::size_t>(unknown)];
+}
+
+void SharedErrors::share(int system, int unknown) {
+  own_[static_cast<std::size_t>(system - 1)][static_cast<std::size_t>(unknown)] = false;
+}
+
+std::vector<double> SharedErrors::systemVariances() const {
+  // Of the differences to the first system, metres and radians: they limit what nothing determines.
+  constexpr double kLength = 1.0, kAngle = 0.5 * kRadiansPerDegree, kScale = 2e-3, kShared = 1e-6;
+  constexpr std::array<double, kSystemUnknownCount> kStd{kLength, kLength, kLength, kAngle,
+                                                         kAngle,  kAngle,  kLength, kScale,
+                                                         kLength, kLength, kLength};
+  std::vector<double> variances;
+  for (const auto& own : own_) {
+    for (int i = 0; i < kSystemBlocks * kPerKnot; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double std = i < kSystemUnknownCount ? kStd[k] * (own[k] ? 1.0 : kShared) : 1.0;
+      variances.push_back(std * std);
+    }
+  }
+  return variances;
+}
+
 SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
-  const StripKnots& strip = strips_[static_cast<std::size_t>(index)];
+  const StripKnots& strip = passOf(index);
   if (strip.at.size() == 1) return {strip.first, strip.first, 0.0};
   const double step =
       std::clamp((time - strip.start) / strip.spacing, static_cast<double>(strip.at.front()),
@@ -206,7 +208,7 @@ SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
 
 std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int index,
                                                         const Eigen::VectorXd& solution) const {
-  const StripKnots& strip = strips_[static_cast<std::size_t>(index)];
+  const StripKnots& strip = passOf(index);
   using Block = Eigen::Matrix<double, kPerKnot, 1>;
   const auto blockOf = [&](int block) -> Block {
     return solution.segment<kPerKnot>(static_cast<Eigen::Index>(block) * kPerKnot);
@@ -261,7 +263,7 @@ SharedErrors::PriorVariances SharedErrors::priorVariances(const SharedErrorLevel
   }
   return {shareOf(1.0 - model_.smooth_share - model_.constant_share, levels.gauss_markov),
           shareOf(model_.smooth_share, levels.smooth),
-          shareOf(model_.constant_share, levels.constant), instrument};
+          shareOf(model_.constant_share, levels.constant), instrument, systemVariances()};
 }
 
 int SharedErrors::observedInstrumentBlocks() const {
@@ -279,8 +281,8 @@ SharedErrors::Variances SharedErrors::variances(const SharedErrorLevels& levels)
 }
 
 void SharedErrors::setVarianceFactor(int strip, int component, double factor) {
-  strips_[static_cast<std::size_t>(strip)].variance_factors[static_cast<std::size_t>(component)] =
-      factor;
+  const auto pass = static_cast<std::size_t>(pass_[static_cast<std::size_t>(strip)]);
+  strips_[pass].variance_factors[static_cast<std::size_t>(component)] = factor;
 }
 
 SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const SharedErrorLevels& levels) const {
@@ -293,6 +295,8 @@ SharedErrors::PriorDiagonals SharedErrors::priorDiagonals(const SharedErrorLevel
   };
   for (std::size_t i = 0; i < prior.instrument.size(); ++i)
     diagonals.own[instrumentBlock() * kPerKnot + static_cast<int>(i)] = 1.0 / prior.instrument[i];
+  for (std::size_t i = 0; i < prior.systems.size(); ++i)
+    diagonals.own[systemBlock(1) * kPerKnot + static_cast<int>(i)] = 1.0 / prior.systems[i];
   for (const StripKnots& strip : strips_) {
     const Variances& factors = strip.variance_factors;
     for (std::size_t k = 0; k < strip.at.size(); ++k)
@@ -380,7 +384,7 @@ double SharedErrors::priorLogDeterminant(const SharedErrorLevels& levels) const 
     factors += static_cast<double>(blocks) * logOf(strip.variance_factors);
   }
   return gauss_markov_log_ - factors - knot_count_ * logOf(prior.gauss_markov) -
-         logOf(prior.instrument) - strips * logOf(prior.constant) -
+         logOf(prior.instrument) - logOf(prior.systems) - strips * logOf(prior.constant) -
          (coefficient_count_ - strips) * logOf(prior.smooth);
 }
 

@@ -20,6 +20,7 @@
 #include "pair_selection.h"
 #include "pair_weights.h"
 #include "strip_error_check.h"
+#include "system_groups.h"
 
 namespace pcl_als {
 namespace {
@@ -110,7 +111,7 @@ void SystemCalibrationEngine::weigh(State& state) const {
   state.weights.update(state.observations, residuals, state.solved());
 }
 
-void SystemCalibrationEngine::choose(State& state) const {
+void SystemCalibrationEngine::chooseParametersOf(State& state) const {
   std::vector<SystemParameter> wanted =
       settings_.estimate.empty() ? automaticParameters(control_covered_, settings_.shared_errors)
                                  : settings_.estimate;
@@ -136,6 +137,16 @@ void SystemCalibrationEngine::choose(State& state) const {
       state.choice.reason[indexOf(p)] = reason;
     }
   }
+}
+
+void SystemCalibrationEngine::choose(State& state) const {
+  chooseParametersOf(state);
+  while (!state.isCoarse() && systems_.count > 1 &&
+         shareUndetermined(state.adjustment, state.choice, settings_.limits, state.errors)) {
+    state.adjustment.setLevels(state.adjustment.levels());
+    chooseParametersOf(state);
+  }
+  state.differences = systemDifferences(state.errors, state.choice.solution.shared);
   if (state.phase == State::Phase::initial) state.phase = State::Phase::coarse;
 }
 
@@ -159,6 +170,7 @@ void SystemCalibrationEngine::shrinkThreshold(State& state) const {
   constexpr double kSmallest = 0.25;  // metres
   constexpr double kFactor = 6.0;
   double widest = 0.0;
+  addSystemEffects(state.errors, state.differences, state.observations);  // formed anew afterwards
   std::map<PairWeights::Group, std::vector<double>> distances;
   for (const AreaObservations& area : state.observations) {
     for (const PairObservation& o : area) {
@@ -230,7 +242,7 @@ void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResu
 CalibrationResult SystemCalibrationEngine::calibrate() {
   prepare();
   const std::vector<TimeSpan> spans = flownTimes();
-  SharedErrors errors(spans, settings_.shared_errors, measuredTimes());
+  SharedErrors errors(spans, settings_.shared_errors, measuredTimes(), systems_);
   State state(errors, settings_.threads);
   state.excluded = settings_.undeterminable;
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
@@ -251,6 +263,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.recovered_attitude = recovered_attitude_;
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
+  addSystems(state.adjustment, errors, state.choice, settings_.systems, ids_, result);
   report.addStrips(errors, used_, state.choice.solution, result);
   addErrorSources(errors, state.choice, state.diagnosed, swathEdge(state.observations),
                   source_scale_, meanSpeed(spans), result);
@@ -266,14 +279,14 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   state.threshold = settings_.max_normal_distance;
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
+  for (AreaObservations& area : state.observations)
+    addSourceEffects(result.sources - state.held_sources, area);
+  addSystemEffects(errors, state.differences, state.observations);
   report.addControlPoints(control_, state.observations, used,
                           std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
-  const ErrorSourceVector in_observations = result.sources - state.held_sources;
-  for (AreaObservations& area : state.observations) removeSources(in_observations, area);
   report.addFit(state.observations, result.biases(), true, result);
   result.misfit = misfit.change(state.observations, result.biases());
-  for (AreaObservations& area : state.observations) removeSources(-in_observations, area);
   diagnose(result);
   assessControl(state, errors, result);
   assessStripErrors(settings_.shared_errors, effects, result);

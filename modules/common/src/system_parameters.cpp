@@ -45,6 +45,14 @@ std::optional<SystemParameter> systemParameterNamed(std::string_view name) {
   return std::nullopt;
 }
 
+SystemUnknowns SystemEstimate::values() const {
+  SystemUnknowns values;
+  for (int i = 0; i < kSystemParameterCount; ++i)
+    values[i] = parameters[static_cast<std::size_t>(i)].bias;
+  values.tail<3>() = offset;
+  return values;
+}
+
 SystemVector CalibrationResult::biases() const {
   SystemVector biases;
   for (int i = 0; i < kSystemParameterCount; ++i) biases[i] = parameters[i].bias;

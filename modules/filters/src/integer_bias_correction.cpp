@@ -64,6 +64,7 @@ struct IntegerBiasCorrection::Tile {
   Column time, x, y, z, change[3];
   std::array<float, kTile> intensity;
   std::array<std::int8_t, kTile> turning;
+  std::array<std::uint8_t, kTile> system;
 };
 
 IntegerBiasCorrection::IntegerBiasCorrection(std::string name, SystemCorrection correction,
@@ -91,6 +92,24 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
   toMetres(tile.raw[2], layout_.scale.z(), layout_.offset.z(), tile.z, count);
   if (correction_.timeAlignment().identity()) return;
   for (std::size_t i = 0; i < count; ++i) tile.time[i] = correction_.flightTime(tile.time[i]);
+}
+
+void IntegerBiasCorrection::gatherSystems(const std::byte* records, std::size_t count,
+                                          Tile& tile) const {
+  std::uint16_t source = 0;
+  std::uint8_t channel = 0, system = 0;
+  for (std::size_t i = 0; i < count; ++i, records += layout_.record_length) {
+    const auto of_point = load<std::uint16_t>(records + layout_.source_position);
+    const auto byte = load<std::uint8_t>(records + layout_.channel_position);
+    const auto of_scanner =
+        static_cast<std::uint8_t>(byte >> layout_.channel_shift & layout_.channel_mask);
+    if (i == 0 || of_point != source || of_scanner != channel) {
+      source = of_point;
+      channel = of_scanner;
+      system = correction_.systems().of(source, channel);
+    }
+    tile.system[i] = system;
+  }
 }
 
 void IntegerBiasCorrection::scatter(std::byte* records, std::size_t count, std::uint64_t first,
@@ -122,13 +141,15 @@ CoverageCount IntegerBiasCorrection::apply(std::byte* records, std::size_t count
                                            std::uint64_t first) const {
   CoverageCount coverage;
   Tile tile;
-  const PointColumns points{tile.time.data(), tile.x.data(),         tile.y.data(),
-                            tile.z.data(),    tile.intensity.data(), tile.turning.data()};
+  const PointColumns points{tile.time.data(),  tile.x.data(),         tile.y.data(),
+                            tile.z.data(),     tile.intensity.data(), tile.turning.data(),
+                            tile.system.data()};
   const EffectColumns change{tile.change[0].data(), tile.change[1].data(), tile.change[2].data()};
   for (std::size_t at = 0; at < count; at += kTile) {
     const std::size_t size = std::min(kTile, count - at);
     std::byte* tile_records = records + at * layout_.record_length;
     gather(tile_records, size, tile);
+    if (!correction_.systems().single()) gatherSystems(tile_records, size, tile);
     correction_.change(points, size, change, coverage);
     scatter(tile_records, size, first + at, tile);
   }

@@ -50,10 +50,11 @@ AttitudeSource attitudeOf(const Node& root) {
               "'; it must be none or points (quasi_rigorous), trajectory or nominal (rigorous)");
 }
 
-void readParameters(const Node& parameters, CalibrationResult& result) {
+void readParameters(const Node& parameters,
+                    std::array<ParameterEstimate, kSystemParameterCount>& estimates) {
   for (const SystemParameterInfo& info : systemParameters()) {
     const Node node = parameters[std::string(info.name)];
-    ParameterEstimate& estimate = result[info.parameter];
+    ParameterEstimate& estimate = estimates[static_cast<std::size_t>(indexOf(info.parameter))];
     const std::string unit = node["unit"].text();
     if (unit != info.unit) {
       node["unit"].refuse("is '" + unit + "'; it must be '" + std::string(info.unit) + "'");
@@ -240,6 +241,35 @@ std::vector<std::string> textsOf(const Node& list) {
   return texts;
 }
 
+Eigen::Vector3d vectorOf(const Node& node) {
+  const std::vector<Node> items = node.items();
+  if (items.size() != 3) node.refuse("must have three numbers");
+  return {items[0].numberOrNan(), items[1].numberOrNan(), items[2].numberOrNan()};
+}
+
+void readSystems(const Node& systems, CalibrationResult& result) {
+  constexpr std::size_t kMost = 255;
+  constexpr double kLargestOffset = 100.0;  // metres
+  for (const Node& node : systems.items()) {
+    SystemEstimate& system = result.systems.emplace_back();
+    system.group.name = node["name"].text();
+    system.group.strips = textsOf(node["strips"]);
+    readParameters(node["parameters"], system.parameters);
+    for (const SystemParameterInfo& info : systemParameters()) {
+      const Node differences = node["difference_std"];
+      const std::string name(info.name);
+      if (differences.has(name.c_str()))
+        system.difference_std[indexOf(info.parameter)] =
+            differences[name].numberOrNan() * info.internal_per_unit;
+    }
+    system.offset = vectorOf(node["offset_m"]);
+    if (!(system.offset.cwiseAbs().maxCoeff() < kLargestOffset))
+      node["offset_m"].refuse("must be numbers of less than 100 m");
+    system.offset_std = vectorOf(node["offset_std_m"]);
+  }
+  if (result.systems.size() > kMost) systems.refuse("must be at most 255");
+}
+
 void checkFormat(const Node& root, const std::string& name) {
   if (!root.has("format") || root["format"].text() != kCalibrationFormat) {
     throw InputError(name + ": 'format' is not '" + std::string(kCalibrationFormat) +
@@ -260,7 +290,9 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   const Node root(json, name);
   checkFormat(root, name);
   CalibrationResult result;
-  readParameters(root["parameters"], result);
+  readParameters(root["parameters"], result.parameters);
+  if (root.has("systems")) readSystems(root["systems"], result);
+  if (root.has("channel_field")) result.channel_field = root["channel_field"].text();
   // Applying a calibration takes the parameters only: a file made by hand may stop here.
   result.attitude = attitudeOf(root);
   result.verdict = verdictOf(root);

@@ -28,10 +28,13 @@ double roundedArcseconds(double radians) {
   return std::round(1e6 * (radians / kRadiansPerArcsec)) / 1e6;
 }
 
-Json parametersOf(const CalibrationResult& result) {
+using Parameters = std::array<ParameterEstimate, kSystemParameterCount>;
+
+Json parametersOf(const Parameters& estimates) {
   Json parameters = Json::object();
   for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = result[info.parameter];
+    const ParameterEstimate& estimate =
+        estimates[static_cast<std::size_t>(indexOf(info.parameter))];
     if (!std::isfinite(estimate.bias)) {
       throw UsageError("calibration: the bias of " + std::string(info.name) +
                        " is not a finite number and cannot be written");
@@ -46,6 +49,28 @@ Json parametersOf(const CalibrationResult& result) {
     parameters[std::string(info.name)] = std::move(entry);
   }
   return parameters;
+}
+
+Json systemsOf(const CalibrationResult& result) {
+  Json systems = Json::array();
+  for (const SystemEstimate& system : result.systems) {
+    Json entry;
+    entry["name"] = system.group.name;
+    entry["strips"] = system.group.strips;
+    entry["parameters"] = parametersOf(system.parameters);
+    Json& differences = entry["difference_std"] = Json::object();
+    for (const SystemParameterInfo& info : systemParameters()) {
+      const double std = system.difference_std[indexOf(info.parameter)];
+      if (std > 0.0) differences[std::string(info.name)] = number(std / info.internal_per_unit);
+    }
+    for (const auto& [key, vector] :
+         {std::pair("offset_m", system.offset), std::pair("offset_std_m", system.offset_std)}) {
+      entry[key] = Json::array();
+      for (const double value : vector) entry[key].push_back(number(value));
+    }
+    systems.push_back(std::move(entry));
+  }
+  return systems;
 }
 
 Json correlationOf(const CalibrationResult& result) {
@@ -200,7 +225,9 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["verdict"] = verdictOf(result.verdict);
   root["model"] = modelName(result.attitude);
   root["attitude"] = toString(result.attitude);
-  root["parameters"] = parametersOf(result);
+  root["parameters"] = parametersOf(result.parameters);
+  if (!result.systems.empty()) root["systems"] = systemsOf(result);
+  if (!result.channel_field.empty()) root["channel_field"] = result.channel_field;
   root["correlation"] = correlationOf(result);
   root["sigma0"] = number(result.sigma0);
   root["redundancy"] = result.redundancy;

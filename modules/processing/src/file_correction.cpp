@@ -54,6 +54,7 @@ SystemCorrection correctionOf(const Job& job) {
   }
   SystemCorrection correction(job.level ? nominal : job.calibration, job.flight, options);
   correction.setTimeAlignment(job.alignment);
+  correction.setStrip(job.input.stem().string());
   return correction;
 }
 
@@ -116,14 +117,51 @@ class Tally {
   Job& job_;
 };
 
-void rewrite(Job& job, const LasFile& file) {
+/// Sets where a record has the channel of the scanner, which divided the strips of the calibration.
+void setChannel(const Job& job, const LasFile& file, IntegerBiasCorrection::Layout& layout) {
+  constexpr std::size_t kFlags = 15;
+  const std::string& field = job.calibration.channel_field;
+  if (field.empty() || field == "scanner_channel") {
+    layout.channel_position = kFlags;
+    layout.channel_shift = 4;
+    layout.channel_mask = file.layout().format < 6 ? 0U : 3U;
+    return;
+  }
+  layout.channel_mask = 0xFF;
+  layout.channel_position = file.layout().user_data;
+  if (field == "user_data") return;
+  for (const LasExtraField& extra : file.extraFields()) {
+    if (extra.name != field) continue;
+    if (lasExtraSize(extra) != 1)
+      throw InputError(job.name() + ": field '" + field +
+                       "' with the channel has more than a byte");
+    layout.channel_position = extra.position;
+    return;
+  }
+  throw InputError(job.name() + ": has no field '" + field +
+                   "' with the channel of the scanner, by which the calibration divides strips");
+}
+
+IntegerBiasCorrection::Layout layoutOf(const Job& job, const LasFile& file) {
   // Bytes of a record, which all formats up to 5, and all later ones, have in common.
-  constexpr std::size_t kIntensity = 12, kReturns = 14, kFlags = 15;
+  constexpr std::size_t kIntensity = 12, kReturns = 14, kFlags = 15, kSource = 18,
+                        kLaterSource = 20;
   const LasScaling metres = file.toMetres();
-  const IntegerBiasCorrection engine(
-      job.name(), correctionOf(job),
-      {file.header().record_length, static_cast<std::size_t>(file.layout().gps_time), kIntensity,
-       file.layout().format < 6 ? kReturns : kFlags, metres.scale, metres.offset});
+  const bool early = file.layout().format < 6;
+  IntegerBiasCorrection::Layout layout;
+  layout.record_length = file.header().record_length;
+  layout.time_position = static_cast<std::size_t>(file.layout().gps_time);
+  layout.intensity_position = kIntensity;
+  layout.scan_direction_position = early ? kReturns : kFlags;
+  layout.scale = metres.scale;
+  layout.offset = metres.offset;
+  layout.source_position = early ? kSource : kLaterSource;
+  if (!job.calibration.systems.empty()) setChannel(job, file, layout);
+  return layout;
+}
+
+void rewrite(Job& job, const LasFile& file) {
+  const IntegerBiasCorrection engine(job.name(), correctionOf(job), layoutOf(job, file));
   Tally tally(file.header().point_count, job);
   const LasEdit edit = [&](const LasRecordBlock& block) {
     tally.add(engine.apply(block.records, block.count, block.first));

@@ -164,6 +164,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
     if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);
   for (const SurveyedFile& file : survey.files())
     made.result.inputs.push_back(file.sources.info.path.string());
+  if (!settings.systems.empty()) made.result.channel_field = survey.channelField();
   made.areas = calibration.areas();
   made.information = calibration.informationShares();
   made.flight = calibration.trajectory();

@@ -8,6 +8,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/processing/survey_reader.h>
 
 namespace pcl_als {
@@ -25,6 +26,7 @@ std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths,
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads,
                            const PointWindow& window)
     : SurveyReader(threads, inputsOf(paths, window)) {
+  channel_field_ = window.channel_field;
   if (!window.everything() && pointCount() == 0)
     refuseEmptyWindow({paths.begin(), paths.end()}, window);
 }
@@ -166,6 +168,11 @@ std::vector<std::set<std::uint8_t>> SurveyReader::channelsByStrip() const {
   return channels;
 }
 
+std::string SurveyReader::channelField() const {
+  if (channels_.empty()) return {};
+  return channel_field_.empty() ? "scanner_channel" : channel_field_;
+}
+
 void SurveyReader::divide(bool by_channel) {
   strips_ = arrangement_->names();
   points_ = arrangement_->expectedPoints();
@@ -178,7 +185,7 @@ void SurveyReader::divide(bool by_channel) {
     std::map<std::uint8_t, int>& index = channels_.emplace_back();
     for (const std::uint8_t channel : present[strip]) {
       index[channel] = static_cast<int>(names.size());
-      names.push_back(strips_[strip] + ".ch" + std::to_string(channel));
+      names.push_back(channelStrip(strips_[strip], channel));
       points.push_back(points_[strip] / present[strip].size());
     }
   }

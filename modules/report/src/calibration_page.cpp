@@ -76,9 +76,51 @@ ReportTable controlPointTable(const CalibrationResult& result) {
   return table;
 }
 
+/// With four significant digits: the units of the errors differ by orders of magnitude.
+std::string significant(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// What differs between the systems of a block; the parameters of the first one have their own
+/// table.
+ReportTable systemTable(const CalibrationResult& result) {
+  ReportTable table{"systems",
+                    "Systems with biases of their own, assumed − true (offsets: to the first one)",
+                    {"system", "strips", "parameter", "unit", "bias", "std", "std of difference"},
+                    {}};
+  for (const SystemEstimate& system : result.systems) {
+    const auto add = [&](std::string_view name, std::string_view unit, double value, double std,
+                         double difference_std) {
+      table.rows.push_back({system.group.name, countText(system.group.strips.size()),
+                            std::string(name), std::string(unit), significant(value),
+                            significant(std),
+                            difference_std > 0.0 ? significant(difference_std) : ""});
+    };
+    for (const SystemParameterInfo& info : systemParameters()) {
+      const auto i = static_cast<std::size_t>(indexOf(info.parameter));
+      const double here = system.parameters[i].bias, first = result.parameters[i].bias;
+      const bool differs = std::any_of(
+          result.systems.begin(), result.systems.end(),
+          [&](const SystemEstimate& other) { return other.parameters[i].bias != first; });
+      if (differs)
+        add(info.name, info.unit, here / info.internal_per_unit,
+            system.parameters[i].std / info.internal_per_unit,
+            system.difference_std[indexOf(info.parameter)] / info.internal_per_unit);
+    }
+    constexpr std::array<const char*, 3> kAxes{"offset east", "offset north", "offset up"};
+    for (int i = 0; i < 3 && !system.offset_std.isZero(0.0); ++i)
+      add(kAxes[static_cast<std::size_t>(i)], "m", system.offset[i], system.offset_std[i],
+          system.offset_std[i]);
+  }
+  return table;
+}
+
 void addParameters(HtmlReport& report, const CalibrationResult& result) {
   report.addSection("Parameters");
   report.addTable(parameterTable(result));
+  if (!result.systems.empty()) report.addTable(systemTable(result));
   report.addPicture(drawParameters(result, {1400, 900}).image(),
                     "Estimated biases with 95 % intervals; an interval shorter than its dot is not "
                     "visible; the figures on the right state it.");
@@ -91,13 +133,6 @@ void addParameters(HtmlReport& report, const CalibrationResult& result) {
     report.addText("What the block determines:");
     report.addList(result.observability);
   }
-}
-
-/// With four significant digits: the units of the errors differ by orders of magnitude.
-std::string significant(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
 }
 
 void addDiagnosis(HtmlReport& report, const CalibrationResult& result) {

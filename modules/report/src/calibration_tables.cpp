@@ -16,11 +16,14 @@ int digitsOf(const SystemParameterInfo& info) {
   return info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
 }
 
-void parameterTable(const CalibrationResult& result, std::ostream& out) {
+using Parameters = std::array<ParameterEstimate, kSystemParameterCount>;
+
+void parameterTable(const Parameters& parameters, std::ostream& out) {
   out << "| parameter          |         bias |          std | formal std   | unit   |\n"
       << "|--------------------|--------------|--------------|--------------|--------|\n";
   for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = result[info.parameter];
+    const ParameterEstimate& estimate =
+        parameters[static_cast<std::size_t>(indexOf(info.parameter))];
     out << "| " << std::left << std::setw(18) << info.name << std::right << " | ";
     if (estimate.status == ParameterStatus::estimated) {
       out << std::fixed << std::setprecision(digitsOf(info));
@@ -31,6 +34,56 @@ void parameterTable(const CalibrationResult& result, std::ostream& out) {
       out << std::setw(12) << toString(estimate.status) << " |            - |            - | ";
     }
     out << std::left << std::setw(6) << info.unit << std::right << " |\n";
+  }
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
+  return all;
+}
+
+/// The parameters of a system after the first one that are its own.
+void differenceTable(const SystemEstimate& system, const CalibrationResult& result,
+                     std::ostream& out) {
+  out << "| parameter          |         bias |          std |   difference |   std of it  | unit  "
+         " "
+         "|\n"
+      << "|--------------------|--------------|--------------|--------------|--------------|-------"
+         "-"
+         "|\n";
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const int i = indexOf(info.parameter);
+    if (!(system.difference_std[i] > 0.0)) continue;
+    const ParameterEstimate& p = system.parameters[static_cast<std::size_t>(i)];
+    out << "| " << std::left << std::setw(18) << info.name << std::right << " | " << std::fixed
+        << std::setprecision(digitsOf(info));
+    const double difference = p.bias - result[info.parameter].bias;
+    for (const double value : {p.bias, p.std, difference, system.difference_std[i]})
+      out << std::setw(12) << value / info.internal_per_unit << " | ";
+    out << std::left << std::setw(6) << info.unit << std::right << " |\n";
+  }
+}
+
+/// Biases of every system where there are several.
+void systemTables(const CalibrationResult& result, std::ostream& out) {
+  for (const SystemEstimate& system : result.systems) {
+    const bool first = &system == &result.systems.front();
+    out << (first ? "" : "\n") << "System " << system.group.name << " (strips "
+        << joined(system.group.strips) << "): biases (assumed - true)"
+        << (first ? "" : ", differences to system " + result.systems.front().group.name) << "\n\n";
+    if (first)
+      parameterTable(system.parameters, out);
+    else
+      differenceTable(system, result, out);
+    if (system.offset_std.isZero(0.0)) continue;
+    out << std::fixed << std::setprecision(4) << "\nOffset of its coordinates to those of the "
+        << "first system (m): ";
+    const char* const names[3] = {"east", "north", "up"};
+    for (int i = 0; i < 3; ++i)
+      out << (i > 0 ? ", " : "") << names[i] << ' ' << system.offset[i] << " +- "
+          << system.offset_std[i];
+    out << '\n';
   }
 }
 
@@ -173,8 +226,11 @@ std::string areasCsv(const std::vector<SurveyArea>& areas, const std::vector<dou
 
 std::string calibrationTables(const CalibrationResult& result) {
   std::ostringstream out;
-  out << "Biases (assumed - true)\n\n";
-  parameterTable(result, out);
+  if (result.systems.empty()) {
+    out << "Biases (assumed - true)\n\n";
+    parameterTable(result.parameters, out);
+  }
+  systemTables(result, out);
   pairTable(result, out);
   controlTable(result, out);
   stripTable(result, out);

@@ -68,8 +68,14 @@ SystemCorrection::SystemCorrection(const CalibrationResult& calibration, Flight 
   if (!options.force) requireUsable(calibration);
   attitude_.addPasses(options.further_attitude);
   flight_ = flightFor(calibration.attitude, std::move(flight), attitude_);
-  evaluator_ = std::make_shared<const BiasEvaluator>(
-      flight_, calibration.biases(), errorsOf(calibration, options.strip_corrections));
+  const auto errors = errorsOf(calibration, options.strip_corrections);
+  const auto add = [&](const SystemVector& biases, const Eigen::Vector3d& offset) {
+    evaluators_.push_back({std::make_shared<const BiasEvaluator>(flight_, biases, errors), offset});
+  };
+  if (calibration.systems.empty()) add(calibration.biases(), Eigen::Vector3d::Zero());
+  for (const SystemEstimate& system : calibration.systems)
+    add(system.values().head<kSystemParameterCount>(), system.offset);
+  systems_ = SystemLookup(calibration.systems);
   if (calibration.sources.isZero(0.0)) return;
   sources_ = std::make_shared<const detail::SourceCorrection>(flight_, calibration.sources,
                                                               calibration.source_scale);
@@ -78,15 +84,83 @@ SystemCorrection::SystemCorrection(const CalibrationResult& calibration, Flight 
 SystemCorrection::SystemCorrection(const SystemVector& biases, Flight flight, bool invert)
     : flight_(std::move(flight)), invert_(invert) {
   if (!flight_) throw UsageError("correction: no trajectory is set");
-  evaluator_ = std::make_shared<const BiasEvaluator>(flight_, biases);
+  evaluators_.push_back(
+      {std::make_shared<const BiasEvaluator>(flight_, biases), Eigen::Vector3d::Zero()});
 }
 
 bool SystemCorrection::knowsAttitude(double flight_time) const {
   return !needs_recovered_ || attitude_.covers(flight_time);
 }
 
+namespace {
+
+/// The columns of chosen points.
+class Gathered {
+ public:
+  Gathered(const PointColumns& from, const std::vector<std::size_t>& chosen) : from_(from) {
+    const double* const columns[4] = {from.time, from.x, from.y, from.z};
+    for (int c = 0; c < 4; ++c) {
+      for (const std::size_t i : chosen) columns_[c].push_back(columns[c][i]);
+    }
+    for (const std::size_t i : chosen) {
+      if (from.intensity != nullptr) intensity_.push_back(from.intensity[i]);
+      if (from.turning != nullptr) turning_.push_back(from.turning[i]);
+    }
+    for (std::vector<double>& change : changes_) change.resize(chosen.size());
+  }
+  PointColumns points() const {
+    return {columns_[0].data(),
+            columns_[1].data(),
+            columns_[2].data(),
+            columns_[3].data(),
+            from_.intensity != nullptr ? intensity_.data() : nullptr,
+            from_.turning != nullptr ? turning_.data() : nullptr,
+            nullptr};
+  }
+  EffectColumns change() { return {changes_[0].data(), changes_[1].data(), changes_[2].data()}; }
+
+ private:
+  const PointColumns& from_;
+  std::vector<double> columns_[4], changes_[3];
+  std::vector<float> intensity_;
+  std::vector<std::int8_t> turning_;
+};
+
+}  // namespace
+
 void SystemCorrection::change(const PointColumns& points, std::size_t count,
                               const EffectColumns& change, CoverageCount& coverage) const {
+  if (evaluators_.size() == 1) {
+    changeOf(evaluators_.front(), points, count, change, coverage);
+  } else {
+    changeBySystem(points, count, change, coverage);
+  }
+}
+
+void SystemCorrection::changeBySystem(const PointColumns& points, std::size_t count,
+                                      const EffectColumns& change, CoverageCount& coverage) const {
+  if (points.system == nullptr)
+    throw UsageError(
+        "the calibration has several systems: points need a point source id, or the id of their "
+        "strip");
+  // The columns may be the same: all are gathered before the first one is written.
+  std::vector<std::vector<std::size_t>> chosen(evaluators_.size());
+  for (std::size_t i = 0; i < count; ++i) chosen[points.system[i]].push_back(i);
+  std::vector<Gathered> parts;
+  for (const std::vector<std::size_t>& indices : chosen) parts.emplace_back(points, indices);
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    const EffectColumns part = parts[s].change();
+    changeOf(evaluators_[s], parts[s].points(), chosen[s].size(), part, coverage);
+    for (std::size_t k = 0; k < chosen[s].size(); ++k) {
+      change.x[chosen[s][k]] = part.x[k];
+      change.y[chosen[s][k]] = part.y[k];
+      change.z[chosen[s][k]] = part.z[k];
+    }
+  }
+}
+
+void SystemCorrection::changeOf(const System& system, const PointColumns& points, std::size_t count,
+                                const EffectColumns& change, CoverageCount& coverage) const {
   // Before the columns of the points may be overwritten.
   std::vector<double> by_sources[3];
   if (sources_ != nullptr) {
@@ -95,9 +169,9 @@ void SystemCorrection::change(const PointColumns& points, std::size_t count,
                   {by_sources[0].data(), by_sources[1].data(), by_sources[2].data()});
   }
   if (invert_) {
-    evaluator_->inverseEffect(points, count, change, coverage);
+    system.evaluator->inverseEffect(points, count, change, coverage);
   } else {
-    evaluator_->effect(points, count, change, coverage);
+    system.evaluator->effect(points, count, change, coverage);
     for (double* column : {change.x, change.y, change.z}) {
       for (std::size_t i = 0; i < count; ++i) column[i] = -column[i];
     }
@@ -105,6 +179,11 @@ void SystemCorrection::change(const PointColumns& points, std::size_t count,
   double* const columns[3] = {change.x, change.y, change.z};
   for (int axis = 0; axis < 3 && sources_ != nullptr; ++axis) {
     for (std::size_t i = 0; i < count; ++i) columns[axis][i] += by_sources[axis][i];
+  }
+  for (std::size_t i = 0; i < count && !system.offset.isZero(0.0); ++i) {
+    if (flight_->coverage(points.time[i]) != Trajectory::Coverage::covered) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      columns[axis][i] += invert_ ? system.offset[axis] : -system.offset[axis];
   }
   if (needs_recovered_) keepUnknown(points, count, change, coverage);
 }

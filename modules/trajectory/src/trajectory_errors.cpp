@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/trajectory/trajectory_errors.h>
 
 namespace pcl_als {
@@ -36,7 +37,13 @@ TrajectoryErrors::TrajectoryErrors(const std::vector<StripErrors>& strips) {
   std::sort(in_order.begin(), in_order.end(), [](const StripErrors* a, const StripErrors* b) {
     return a->knots.front().time < b->knots.front().time;
   });
+  std::string pass;
   for (const StripErrors* strip : in_order) {
+    // Channels of a scanner have the errors of their pass.
+    if (!strips_.empty() && passOfStrip(strip->id) == pass && strip->id != pass &&
+        strip->knots.front().time == strips_.back().front().time)
+      continue;
+    pass = passOfStrip(strip->id);
     if (!strips_.empty() && strip->knots.front().time < strips_.back().back().time) {
       throw InputError(
           "strip corrections: strip " + strip->id +

@@ -93,6 +93,14 @@ class Adjustment {
   AdjustmentSolution solveNearZero(const std::vector<SystemParameter>& estimate,
                                    const SystemVector& prior) const;
 
+  /// The unknowns of a system after the first; system > 0.
+  struct SystemSolution {
+    SystemUnknowns difference, difference_std;  ///< to those of the first system
+    SystemUnknowns std;                         ///< of the system's own values
+  };
+  SystemSolution systemSolution(int system, const std::vector<SystemParameter>& estimate,
+                                const AdjustmentSolution& solution) const;
+
   /// A solution without estimates: all parameters are held, and there are no shared errors.
   AdjustmentSolution unsolved(const SystemVector& held) const;
 
@@ -127,18 +135,24 @@ class Adjustment {
   /// Averages over the models with and without each of the error sources: changes the solution,
   /// returns the change of its covariance.
   SystemMatrix averageSources(const SystemMatrix& model, AdjustmentSolution& solution) const;
-  /// Covariances of all unknowns to the considered error sources: the influence of the equations
-  /// on their values.
-  struct SourceInfluence {
-    Eigen::MatrixXd biases, shared;  ///< a column for each source
+  /// Covariances of all unknowns to some values: the influence of the equations on these.
+  struct Influence {
+    Eigen::MatrixXd biases, shared;  ///< a column for each value
   };
-  SourceInfluence sourceInfluence(const SystemMatrix& model) const;
+  /// On the considered error sources.
+  Influence sourceInfluence(const SystemMatrix& model) const;
+  /// The contributions of each area to the values at a solution.
+  std::vector<Eigen::VectorXd> areaScores(const Influence& influence,
+                                          const AdjustmentSolution& solution) const;
+  /// Variances of the values, of which the observations' contribution is the scatter of the areas.
+  Eigen::VectorXd scatterVariance(const Influence& influence,
+                                  const AdjustmentSolution& solution) const;
   /// Factor by which the scatter between areas makes the variances of the error sources larger than
   /// those of the model, with the degrees of freedom of this scatter.
   struct SourceCertainty {
     double overdispersion = 1.0, freedom = 1.0;
   };
-  SourceCertainty sourceCertainty(const SourceInfluence& influence,
+  SourceCertainty sourceCertainty(const Influence& influence,
                                   const AdjustmentSolution& solution) const;
   /// \param all the reduced normal matrix, with priors
   SystemMatrix jackknife(const AdjustmentSolution& solution,

@@ -10,6 +10,7 @@
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/tin/surface_criterion.h>
 
@@ -22,6 +23,10 @@ struct CalibrationSettings {
   /// Parameters that the trajectory does not allow to determine, with the reason: not estimated;
   /// the uncertainty of the others includes their possible size (DeterminationLimits::whenHeld()).
   std::map<SystemParameter, std::string> undeterminable;
+  /// Systems with parameters of their own; strips that no group names are of the first one. Empty:
+  /// one system. UsageError from the engine for a strip that does not exist or is in two groups.
+  std::vector<StripGroup> systems;
+  OwnUnknowns own;  ///< what systems have of their own
   NoiseModel noise;
   SharedErrorModel shared_errors;
   DeterminationLimits limits;

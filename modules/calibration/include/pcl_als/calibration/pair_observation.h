@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -51,12 +52,24 @@ struct PairObservation {
   /// Effects of the error sources on the distance, in the order of ErrorSource. Those that are not
   /// considered are zero, except for that of the range scale.
   ErrorSourceRow sources = ErrorSourceRow::Zero();
+  /// Of the distance, metres: effect of what is corrected besides the biases of the first system
+  /// (error sources, differences between systems). Set after the adjustment only.
+  double further = 0.0;
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 
   SystemRow row() const { return row_a - row_b; }
   /// Normal distance of the corrected point above the corrected patch, metres.
-  double distance(const SystemVector& biases) const { return misclosure - row() * biases; }
+  double distance(const SystemVector& biases) const {
+    return misclosure - row() * biases - further;
+  }
+  /// Effect on the distance of the unknowns of a system that measured the point, or the patch.
+  double effectAtPoint(const SystemUnknowns& u) const {
+    return row_a * u.head<kSystemParameterCount>() + normal.dot(u.tail<3>());
+  }
+  double effectAtPatch(const SystemUnknowns& u) const {
+    return row_b * u.head<kSystemParameterCount>() + normal.dot(u.tail<3>());
+  }
 };
 
 /// The pairs of one area. Areas are the units of computation, and the clusters of the jackknife.

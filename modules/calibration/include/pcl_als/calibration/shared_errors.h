@@ -13,6 +13,7 @@
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -91,9 +92,22 @@ struct SharedErrorLevels {
   bool near(const SharedErrorLevels& other) const;
 };
 
+/// Which strips share a system, and which share a trajectory.
+struct StripSystems {
+  std::vector<int> system;  ///< by strip, from 0; empty: one system
+  int count = 1;            ///< of systems
+  OwnUnknowns own;          ///< what systems have of their own
+  /// By strip, the first strip of the same pass: channels of one scanner have the same trajectory
+  /// errors. Empty: every strip is a pass.
+  std::vector<int> pass;
+
+  int of(int strip) const { return system.empty() ? 0 : system[static_cast<std::size_t>(strip)]; }
+};
+
 /** \brief The unknowns of the model: six at every knot of every strip (linear in time between
  * knots), then two blocks of six for the instrument (the error sources, in the order
- * of ErrorSource), then six for each coefficient of the strips' smooth and constant components.
+ * of ErrorSource), then two for each system after the first (differences to the first:
+ * SystemUnknowns), then six for each coefficient of the strips' smooth and constant components.
  *
  * An error at a knot is the sum of all components, so that observations depend on knots and the
  * instrument only. Knots are a knot_spacing apart, and exist only where something was observed; the
@@ -105,17 +119,29 @@ class SharedErrors {
   static constexpr int kPerKnot = 6;
   static constexpr int kInstrumentBlocks = 2;
   static_assert(kErrorSourceCount <= kInstrumentBlocks * kPerKnot);
+  static constexpr int kSystemBlocks = 2;
+  static_assert(kSystemUnknownCount <= kSystemBlocks * kPerKnot);
 
   /// \param spans firing times of every strip
   /// \param observed by strip, when observations are made, in any order; empty: always
   SharedErrors(const std::vector<TimeSpan>& spans, const SharedErrorModel& model,
-               const std::vector<std::vector<TimeSpan>>& observed = {});
+               const std::vector<std::vector<TimeSpan>>& observed = {},
+               const StripSystems& systems = {});
 
   int knotCount() const { return knot_count_; }
   int instrumentBlock() const { return knot_count_; }  ///< counted as a knot after all knots
   /// The blocks of the instrument of which observations depend: the second one holds sources that
   /// are rarely considered.
   int observedInstrumentBlocks() const;
+  const StripSystems& systems() const { return systems_; }
+  /// The first block of a system's differences to the first system; system > 0.
+  int systemBlock(int system) const {
+    return knot_count_ + kInstrumentBlocks + (system - 1) * kSystemBlocks;
+  }
+  /// Whether a system after the first has an unknown of its own.
+  bool isOwn(int system, int unknown) const;
+  /// A system shares this unknown with the first one, because the data do not determine it.
+  void share(int system, int unknown);
   int sourceUnknown(ErrorSource source) const {
     return instrumentBlock() * kPerKnot + indexOf(source);
   }
@@ -124,8 +150,8 @@ class SharedErrors {
   void considerSources(std::vector<ErrorSource> sources) { considered_ = std::move(sources); }
   const std::vector<ErrorSource>& consideredSources() const { return considered_; }
   const SharedErrorModel& model() const { return model_; }
-  /// Unknowns of knots and instrument, on which observations depend.
-  int observedUnknowns() const { return (knot_count_ + kInstrumentBlocks) * kPerKnot; }
+  /// Unknowns of knots, instrument and systems, on which observations depend.
+  int observedUnknowns() const { return systemBlock(systems_.count) * kPerKnot; }
   int unknowns() const { return observedUnknowns() + coefficient_count_ * kPerKnot; }
 
   /// Position of a time between two knots of its strip.
@@ -199,6 +225,7 @@ class SharedErrors {
   struct PriorVariances {
     Variances gauss_markov, smooth, constant;
     std::array<double, kInstrumentBlocks * kPerKnot> instrument;
+    std::vector<double> systems;  ///< of their blocks
   };
   PriorVariances priorVariances(const SharedErrorLevels& levels) const;
   /// Information of every unknown: of a Gauss-Markov component of its strip, and its own.
@@ -207,7 +234,13 @@ class SharedErrors {
   };
   PriorDiagonals priorDiagonals(const SharedErrorLevels& levels) const;
 
-  std::vector<StripKnots> strips_;
+  const StripKnots& passOf(int strip) const;
+  std::vector<double> systemVariances() const;
+
+  std::vector<StripKnots> strips_;  ///< by pass
+  std::vector<int> pass_;           ///< by strip: index in strips_
+  StripSystems systems_;
+  std::vector<std::array<bool, kSystemUnknownCount>> own_;  ///< by system after the first
   int knot_count_ = 0, coefficient_count_ = 0;
   /// Information of the Gauss-Markov components with a variance of one, and the logarithm of its
   /// determinant.

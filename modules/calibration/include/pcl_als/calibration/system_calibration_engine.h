@@ -146,6 +146,10 @@ class SystemCalibrationEngine {
   void selectPairs(State& state);
   void weigh(State& state) const;
   void choose(State& state) const;
+  /// Chooses the parameters that all systems share, or those of the first one.
+  void chooseParametersOf(State& state) const;
+  /// Reconstructs the points with the biases of their systems.
+  void correctPoints(const State& state);
   void adjust(State& state, bool estimate_components) const;
   void shrinkThreshold(State& state) const;
   /// Whether no parameter changed by more than a number of its standard deviations.
@@ -193,6 +197,7 @@ class SystemCalibrationEngine {
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is needed
   std::vector<std::string> ids_;
   std::vector<bool> used_;
+  StripSystems systems_;
   std::vector<ControlPoint> control_;
   bool control_covered_ = false;  ///< whether any strip has a patch at a control point
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;

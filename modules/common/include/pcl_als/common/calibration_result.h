@@ -13,6 +13,7 @@
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/common/warning.h>
 
@@ -99,12 +100,29 @@ struct StripErrors {
   std::vector<TrajectoryErrorKnot> knots;
 };
 
+/// One of several systems of a calibration. Parameters that it shares with the others have the
+/// same values in all systems.
+struct SystemEstimate {
+  StripGroup group;
+  std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
+  /// Standard deviations of the differences to the first system, which are mostly better determined
+  /// than the parameters; zero for shared parameters.
+  SystemVector difference_std = SystemVector::Zero();
+  /// Of its coordinates, assumed - true, relative to the first system; east, north, up, metres.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero(), offset_std = Eigen::Vector3d::Zero();
+
+  SystemUnknowns values() const;
+};
+
 /// The content of calibration.json.
 struct CalibrationResult {
   CalibrationVerdict verdict;  ///< whether to apply it
   AttitudeSource attitude = AttitudeSource::none;
   RecoveredAttitude recovered_attitude;  ///< of the strips; where attitude is that of points
   std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
+  /// All systems, where there are several: parameters are those of the first one.
+  std::vector<SystemEstimate> systems;
+  std::string channel_field;  ///< of files, where strips are divided by the scanner's channel
   /// Values (assumed - true) of the error sources that are corrected; zero for the others.
   ErrorSourceVector sources = ErrorSourceVector::Zero();
   ErrorSourceScale source_scale;

@@ -40,6 +40,11 @@ template <typename PointT>
 struct HasIntensity<PointT, std::void_t<decltype(PointT::intensity)>> : std::true_type {};
 
 template <typename PointT, typename = void>
+struct HasSourceId : std::false_type {};
+template <typename PointT>
+struct HasSourceId<PointT, std::void_t<decltype(PointT::point_source_id)>> : std::true_type {};
+
+template <typename PointT, typename = void>
 struct HasScanAngle : std::false_type {};
 template <typename PointT>
 struct HasScanAngle<PointT, std::void_t<decltype(PointT::scan_angle)>> : std::true_type {};
@@ -48,7 +53,7 @@ struct HasScanAngle<PointT, std::void_t<decltype(PointT::scan_angle)>> : std::tr
  *
  * Fields are found by their names in PointLidar and have its units: gps_time (seconds),
  * return_number and number_of_returns (both or none; 1), classification (ASPRS code; 0), flags
- * (bits of PointFlag; 0), intensity (0), scan_angle (degrees; 0).
+ * (bits of PointFlag; 0), intensity (0), scan_angle (degrees; 0), point_source_id (0).
  */
 template <typename PointT>
 struct PointFields {
@@ -93,6 +98,12 @@ struct PointFields {
       return static_cast<float>(point.intensity);
     else
       return 0.0F;
+  }
+  std::uint16_t sourceId() const {
+    if constexpr (HasSourceId<PointT>::value)
+      return static_cast<std::uint16_t>(point.point_source_id);
+    else
+      return 0;
   }
   float scanAngle() const {
     if constexpr (HasScanAngle<PointT>::value)

@@ -31,9 +31,12 @@ class IntegerBiasCorrection {
   struct Layout {
     std::size_t record_length = 0;  ///< bytes
     std::size_t time_position = 0;  ///< byte of the GPS time (double, little-endian) in a record
-    std::size_t intensity_position = 0;       ///< byte of the intensity (16 bits)
-    std::size_t scan_direction_position = 0;  ///< byte whose bit 6 is the scan direction flag
-    Eigen::Vector3d scale, offset;            ///< metres
+    std::size_t intensity_position = 0;            ///< byte of the intensity (16 bits)
+    std::size_t scan_direction_position = 0;       ///< byte whose bit 6 is the scan direction flag
+    Eigen::Vector3d scale, offset;                 ///< metres
+    std::size_t source_position = 0;               ///< byte of the point source id (16 bits)
+    std::size_t channel_position = 0;              ///< byte with the channel of the scanner
+    unsigned channel_shift = 0, channel_mask = 0;  ///< channel = (byte >> shift) & mask
   };
   /// Points that are computed together; their columns fit the first-level cache.
   static constexpr std::size_t kTile = 256;
@@ -49,6 +52,8 @@ class IntegerBiasCorrection {
  private:
   struct Tile;
   void gather(const std::byte* records, std::size_t count, Tile& tile) const;
+  /// The systems of points, where there are several.
+  void gatherSystems(const std::byte* records, std::size_t count, Tile& tile) const;
   void scatter(std::byte* records, std::size_t count, std::uint64_t first, Tile& tile) const;
   [[noreturn]] void refuseOverflow(const double* values, std::uint64_t first, int axis) const;
 

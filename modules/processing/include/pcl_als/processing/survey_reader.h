@@ -67,6 +67,9 @@ class SurveyReader {
   std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
 
   const std::vector<std::string>& strips() const { return strips_; }
+  /// The field that divides strips by the channel of the scanner (PointWindow::channel_field);
+  /// empty where they are not divided.
+  std::string channelField() const;
   std::uint64_t pointCount() const;
   /// Approximate number of points of each strip.
   const std::vector<std::uint64_t>& pointsByStrip() const { return points_; }
@@ -110,6 +113,7 @@ class SurveyReader {
   std::vector<std::vector<std::size_t>> groupsOfFiles() const;
 
   int threads_;
+  std::string channel_field_;
   std::vector<SurveyInput> inputs_;
   std::vector<SurveyedFile> files_;
   std::optional<StripArrangement> arrangement_;

@@ -16,6 +16,8 @@ struct PointColumns {
   const float* intensity = nullptr;
   /// Of the mirror: 1 to the left, -1 to the right; null: unknown. Needed for its torsion.
   const std::int8_t* turning = nullptr;
+  /// Index of the system that measured the point (CalibrationResult::systems); null: the first one.
+  const std::uint8_t* system = nullptr;
 };
 
 }  // namespace pcl_als

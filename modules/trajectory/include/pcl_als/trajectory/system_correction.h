@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/system_lookup.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 
@@ -17,7 +19,7 @@ class SourceCorrection;
 }
 
 /** \brief Corrects points by a calibration: the one class that applies model, attitude, biases,
- * error sources, strip corrections and alignment of times, for every consumer.
+ * error sources, strip corrections, systems and alignment of times, for every consumer.
  *
  * corrected = biased - A(biased) delta (Habib et al. 2011, Eq. (13), not linearised), with the
  * attitude by which the calibration was estimated: that of the trajectory, nominal, none, or the
@@ -62,16 +64,33 @@ class SystemCorrection {
   const TimeAlignment& timeAlignment() const { return alignment_; }
   double flightTime(double point_time) const { return alignment_(point_time); }
 
+  /// The systems of the calibration, for PointColumns::system.
+  const SystemLookup& systems() const { return systems_; }
+  /// Id of the strip of points without a point source id.
+  void setStrip(const std::string& strip) { systems_.setStrip(strip); }
+
   /// Whether the attitude at a time of the flight is known; true for models without attitude.
   bool knowsAttitude(double flight_time) const;
 
   /// The displacements that correct the points, metres. Times are those of the flight
   /// (flightTime()). Points without trajectory or attitude are counted, and their displacement is
-  /// zero. Input and output columns of an axis may be the same.
+  /// zero. Input and output columns of an axis may be the same. UsageError for a calibration with
+  /// several systems and points without PointColumns::system.
   void change(const PointColumns& points, std::size_t count, const EffectColumns& change,
               CoverageCount& coverage) const;
 
  private:
+  /// One of the systems of the calibration.
+  struct System {
+    std::shared_ptr<const BiasEvaluator> evaluator;
+    Eigen::Vector3d offset;  ///< of the coordinates, metres
+  };
+  /// The displacements of points of one system.
+  void changeOf(const System& system, const PointColumns& points, std::size_t count,
+                const EffectColumns& change, CoverageCount& coverage) const;
+  /// Those of points of several systems, one after the other.
+  void changeBySystem(const PointColumns& points, std::size_t count, const EffectColumns& change,
+                      CoverageCount& coverage) const;
   /// The displacement is zero where the attitude is not known.
   void keepUnknown(const PointColumns& points, std::size_t count, const EffectColumns& change,
                    CoverageCount& coverage) const;
@@ -81,7 +100,8 @@ class SystemCorrection {
   bool needs_recovered_ = false;  ///< the model's attitude is that of attitude_
   bool invert_ = false;
   TimeAlignment alignment_;
-  std::shared_ptr<const BiasEvaluator> evaluator_;
+  std::vector<System> evaluators_;  ///< by system
+  SystemLookup systems_;
   std::shared_ptr<const detail::SourceCorrection> sources_;  ///< null: none
 };
 

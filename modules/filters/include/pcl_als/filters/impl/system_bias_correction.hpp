@@ -54,6 +54,7 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
   std::vector<double> columns[4], changes[3];
   std::vector<float> intensity;
   std::vector<std::int8_t> turning;
+  std::vector<std::uint8_t> system;
   chosen.reserve(last - first);
   for (std::vector<double>& column : columns) column.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
@@ -68,6 +69,11 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
     if constexpr (HasIntensity<PointT>::value) intensity.push_back(point.intensity);
     if constexpr (HasFlags<PointT>::value)
       turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
+    if (!correction.systems().single()) {
+      const PointFields<PointT> fields{point};
+      const auto channel = static_cast<std::uint8_t>(fields.flags() >> 6U);
+      system.push_back(correction.systems().of(fields.sourceId(), channel));
+    }
   }
   for (std::vector<double>& change : changes) change.resize(chosen.size());
   const PointColumns points{columns[0].data(),
@@ -75,7 +81,8 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
                             columns[2].data(),
                             columns[3].data(),
                             HasIntensity<PointT>::value ? intensity.data() : nullptr,
-                            HasFlags<PointT>::value ? turning.data() : nullptr};
+                            HasFlags<PointT>::value ? turning.data() : nullptr,
+                            correction.systems().single() ? nullptr : system.data()};
   const EffectColumns change{changes[0].data(), changes[1].data(), changes[2].data()};
   CoverageCount coverage;
   correction.change(points, chosen.size(), change, coverage);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <Eigen/Core>
+
+#include <pcl_als/calibration/adjustment.h>
+
+namespace pcl_als {
+
+/// Normal equations with all shared errors eliminated.
+struct Adjustment::Reduced {
+  SystemMatrix normal, prior_share;
+  SystemVector right;
+  Eigen::Matrix<double, Eigen::Dynamic, kSystemParameterCount> elimination;  ///< N_tt^-1 N_tg
+  Eigen::VectorXd eliminated_right;                                          ///< N_tt^-1 h_t
+  /// N_tt^-1, columns of the error sources, and of the blocks of the systems.
+  Eigen::Matrix<double, Eigen::Dynamic, kErrorSourceCount> with_sources;
+  Eigen::MatrixXd with_systems;
+};
+
+}  // namespace pcl_als

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <pcl_als/calibration/shared_errors.h>
+#include <pcl_als/common/errors.h>
+
+namespace pcl_als {
+
+void SharedErrorModel::validate() const {
+  const std::pair<const char*, double> values[] = {
+      {"trajectory position sigma (m)", position},
+      {"trajectory roll and pitch sigma (rad)", roll_pitch},
+      {"trajectory heading sigma (rad)", heading},
+      {"trajectory correlation time (s)", correlation_time},
+      {"trajectory knot spacing (s)", knot_spacing},
+      {"share of constant trajectory errors", constant_share},
+      {"share of smooth trajectory errors", smooth_share},
+      {"share of Gauss-Markov trajectory errors", 1.0 - constant_share - smooth_share},
+      {"local shift sigma (m)", local}};
+  for (const auto& [name, value] : values) {
+    if (std::isfinite(value) && value > 0.0) continue;
+    std::ostringstream text;
+    text << name << " must be positive, is " << value;
+    throw UsageError(text.str());
+  }
+  for (const ErrorSourceInfo& info : errorSources()) {
+    const SourcePrior& prior = sources[static_cast<std::size_t>(indexOf(info.source))];
+    if (prior.std > prior.std_absent && prior.std_absent >= 0.0 && prior.absent >= 0.0 &&
+        prior.absent < 1.0)
+      continue;
+    throw UsageError("prior of " + std::string(info.name) +
+                     ": the probability must be in [0, 1), and the standard deviation larger than "
+                     "that of an absent error");
+  }
+}
+
+std::array<double, SharedErrorLevels::kCount> SharedErrorLevels::values() const {
+  return {gauss_markov.position, gauss_markov.roll_pitch,
+          gauss_markov.heading,  smooth.position,
+          smooth.roll_pitch,     smooth.heading,
+          constant.position,     constant.roll_pitch,
+          constant.heading,      local};
+}
+
+SharedErrorLevels SharedErrorLevels::of(const std::array<double, kCount>& v) {
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, v[9]};
+}
+
+bool SharedErrorLevels::near(const SharedErrorLevels& other) const {
+  const auto mine = values(), theirs = other.values();
+  return std::equal(mine.begin(), mine.end(), theirs.begin(),
+                    [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); });
+}
+
+std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
+                                                 std::size_t strips) {
+  std::vector<std::vector<TimeSpan>> times(strips);
+  for (const AreaObservations& area : areas) {
+    std::map<int, TimeSpan> here;
+    for (const PairObservation& o : area) {
+      for (const auto& [strip, time] : {std::pair(o.a, o.time_a), std::pair(o.b, o.time_b)}) {
+        if (strip == PairObservation::kControl) continue;
+        TimeSpan& span = here.try_emplace(strip, time, time).first->second;
+        span = {std::min(span.first, time), std::max(span.second, time)};
+      }
+    }
+    for (const auto& [strip, span] : here) times[static_cast<std::size_t>(strip)].push_back(span);
+  }
+  return times;
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/strip_group.h>
+
+namespace pcl_als {
+
+/// The systems and passes of the strips \a ids. UsageError for a group without a strip, a strip in
+/// two groups, two groups of one name, and a strip that does not exist.
+StripSystems stripSystems(const std::vector<StripGroup>& groups, const OwnUnknowns& own,
+                          const std::vector<std::string>& ids);
+
+/// Differences of all systems to the first one according to a solution
+/// (AdjustmentSolution::shared).
+std::vector<SystemUnknowns> systemDifferences(const SharedErrors& errors,
+                                              const Eigen::VectorXd& shared);
+
+/// Adds the effect of the differences between systems to PairObservation::further.
+void addSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
+                      std::vector<AreaObservations>& observations);
+
+/// Lets systems share unknowns whose differences to the first system are less well determined than
+/// the limits, the worst one of each system. Returns whether there were any.
+bool shareUndetermined(const Adjustment& adjustment, const ParameterChoice& choice,
+                       const DeterminationLimits& limits, SharedErrors& errors);
+
+/// Adds the systems to the result of a calibration, where there are several.
+void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
+                const ParameterChoice& choice, const std::vector<StripGroup>& groups,
+                const std::vector<std::string>& ids, CalibrationResult& result);
+
+}  // namespace pcl_als

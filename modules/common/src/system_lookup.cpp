@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_lookup.h>
+
+namespace pcl_als {
+
+SystemLookup::SystemLookup(const std::vector<SystemEstimate>& systems) {
+  if (systems.size() < 2) return;
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    for (const std::string& strip : systems[i].group.strips)
+      system_[strip] = static_cast<std::uint8_t>(i);
+  }
+}
+
+std::uint8_t SystemLookup::of(std::uint16_t source, std::uint8_t channel) const {
+  if (single()) return 0;
+  const std::string number = std::to_string(source);
+  for (const std::string& strip :
+       {channelStrip(number, channel), number, channelStrip(strip_, channel), strip_}) {
+    const auto found = system_.find(strip);
+    if (found != system_.end()) return found->second;
+  }
+  throw InputError("points of strip " + (source != 0 ? number : "'" + strip_ + "'") + ", channel " +
+                   std::to_string(channel) + " belong to none of the systems of the calibration");
+}
+
+}  // namespace pcl_als
