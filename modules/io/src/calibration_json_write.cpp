@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/result_json.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "calibration_json.h"
@@ -256,9 +257,12 @@ std::string calibrationToJson(const CalibrationResult& result) {
 
 }  // namespace detail
 
+std::string calibrationJson(const CalibrationResult& result) {
+  return detail::calibrationToJson(result);
+}
+
 void writeCalibration(const std::filesystem::path& path, const CalibrationResult& result) {
-  const std::string text = detail::calibrationToJson(result);
-  writeFile(path, text);
+  writeFile(path, calibrationJson(result));
 }
 
 }  // namespace pcl_als

@@ -148,7 +148,7 @@ std::string accuracyText(const AccuracyReport& report) {
   return text;
 }
 
-void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report) {
+std::string accuracyJson(const AccuracyReport& report) {
   Json json;
   json["format"] = "pcl_als accuracy";
   json["version"] = 1;
@@ -173,7 +173,11 @@ void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& repo
   if (!report.left_out.empty()) json["left_out"] = leftOutJson(report.left_out);
   json["inputs"] = report.inputs;
   json["tool_version"] = PCL_ALS_VERSION;
-  writeFile(path, json.dump(1) + "\n");
+  return json.dump(1) + "\n";
+}
+
+void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report) {
+  writeFile(path, accuracyJson(report));
 }
 
 ConfusionMatrix matrixOf(const CountTable& table) {

@@ -145,8 +145,7 @@ std::string alignmentTable(const Result& result) {
   return table + line;
 }
 
-void writeAlignment(const std::filesystem::path& path, const Result& result,
-                    const AlignedStrips& strips) {
+std::string alignmentJson(const Result& result, const AlignedStrips& strips) {
   Json json;
   json["format"] = "pcl_als icpatch";
   json["version"] = 1;
@@ -173,7 +172,12 @@ void writeAlignment(const std::filesystem::path& path, const Result& result,
   json["vertical_distance"] =
       distancesOf(result.vertical_before, result.vertical_after, result.vertical_pairs);
   json["tool_version"] = PCL_ALS_VERSION;
-  writeFile(path, json.dump(1) + "\n");
+  return json.dump(1) + "\n";
+}
+
+void writeAlignment(const std::filesystem::path& path, const Result& result,
+                    const AlignedStrips& strips) {
+  writeFile(path, alignmentJson(result, strips));
 }
 
 }  // namespace pcl_als

@@ -222,7 +222,7 @@ double positive(const Json& json, const char* name, const std::string& file) {
 
 }  // namespace
 
-void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report) {
+std::string intensityJson(const IntensityReport& report) {
   Json json = {{"format", kFormat}, {"version", 1}, {"tool_version", PCL_ALS_VERSION}};
   json["model"] = modelJson(report.result->run->model());
   json["atmosphere"] = atmosphereJson(report.extinction);
@@ -236,7 +236,11 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
   json["left_out"] = leftOutJson(report.result->left_out);
   json["warnings"] = textsOf(report.result->warnings);
   json["report"] = reportJson(report);
-  writeFile(path, json.dump(1) + "\n");
+  return json.dump(1) + "\n";
+}
+
+void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report) {
+  writeFile(path, intensityJson(report));
 }
 
 StoredRadiometry readIntensityJson(const std::filesystem::path& path) {

@@ -145,7 +145,7 @@ Json residualsOf(const ImageOrientationResult& result) {
 
 }  // namespace
 
-void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result) {
+std::string orientationJson(const ImageOrientationResult& result) {
   const BundleResult& bundle = result.bundle;
   Json json;
   json["format"] = "pcl_als orientation";
@@ -174,7 +174,11 @@ void writeOrientation(const std::filesystem::path& path, const ImageOrientationR
   json["residuals"] = residualsOf(result);
   json["warnings"] = bundle.warnings;
   json["tool_version"] = PCL_ALS_VERSION;
-  writeFile(path, json.dump(1) + "\n");
+  return json.dump(1) + "\n";
+}
+
+void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result) {
+  writeFile(path, orientationJson(result));
 }
 
 }  // namespace pcl_als

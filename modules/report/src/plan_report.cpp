@@ -149,8 +149,7 @@ std::string planTables(const FlightPlanResult& result) {
   return out.str();
 }
 
-void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
-               const std::vector<std::string>& inputs) {
+std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs) {
   Json root;
   root["format"] = "pcl_als plan";
   root["version"] = 1;
@@ -171,7 +170,12 @@ void writePlan(const std::filesystem::path& path, const FlightPlanResult& result
   root["warnings"] = textsOf(result.expected.warnings);
   root["inputs"] = inputs;
   root["tool_version"] = PCL_ALS_VERSION;
-  writeFile(path, root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
+               const std::vector<std::string>& inputs) {
+  writeFile(path, planJson(result, inputs));
 }
 
 }  // namespace pcl_als

@@ -27,6 +27,8 @@ struct AccuracyReport {
 
 /// The tables that the tools print.
 std::string accuracyText(const AccuracyReport& report);
+/// The text of accuracy.json.
+std::string accuracyJson(const AccuracyReport& report);
 void writeAccuracy(const std::filesystem::path& path, const AccuracyReport& report);
 
 ConfusionMatrix matrixOf(const CountTable& table);

@@ -22,7 +22,9 @@ struct AlignedStrips {
 /// Table for the terminal: XT, YT, ZT (m), omega, phi, kappa (deg) and the fit of the strips.
 std::string alignmentTable(const PatchAlignmentResult& result);
 
-/// Writes the result as JSON (module registration's README has the format). Through AtomicFile.
+/// The result as JSON (module registration's README has the format).
+std::string alignmentJson(const PatchAlignmentResult& result, const AlignedStrips& strips);
+/// Writes alignmentJson() through AtomicFile.
 void writeAlignment(const std::filesystem::path& path, const PatchAlignmentResult& result,
                     const AlignedStrips& strips);
 

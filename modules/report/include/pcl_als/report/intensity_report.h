@@ -40,6 +40,7 @@ std::string slopeName(std::size_t bin);
 double meanScale(const BeforeAfter& all);
 
 /// model.json of a run; the help of the tool lists its content.
+std::string intensityJson(const IntensityReport& report);
 void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
 
 /// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv, written into a folder that is

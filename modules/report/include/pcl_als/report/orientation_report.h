@@ -12,6 +12,8 @@ namespace pcl_als {
 /// Result for the terminal: precision, blunders, and differences at check points.
 std::string orientationText(const ImageOrientationResult& result);
 
+/// The text of orientation.json.
+std::string orientationJson(const ImageOrientationResult& result);
 /// Writes orientation.json (module photogrammetry's README has the format). Through AtomicFile.
 void writeOrientation(const std::filesystem::path& path, const ImageOrientationResult& result);
 

@@ -15,6 +15,7 @@ std::string planTables(const FlightPlanResult& result);
 
 /// The same as plan.json: {"format":"pcl_als plan","version":1,…}; lengths in metres, angles of
 /// parameters in arc-seconds, courses in degrees, times in seconds.
+std::string planJson(const FlightPlanResult& result, const std::vector<std::string>& inputs);
 void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
                const std::vector<std::string>& inputs);
 
