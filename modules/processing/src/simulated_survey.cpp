@@ -281,6 +281,13 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
 
 namespace {
 
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error))
+    throw InputError(folder.string() + ": the folder cannot be made");
+}
+
 void refuseForeignStrips(const SimulationOptions& options, const StripFileOptions& files) {
   std::set<std::string> ours;
   for (const simulation::PlannedLine& line : options.lines) ours.insert(files.nameOf(line.id));
@@ -298,6 +305,7 @@ void refuseForeignStrips(const SimulationOptions& options, const StripFileOption
 
 void simulateSurvey(const SimulationOptions& options, const std::string& noise_name,
                     const StripFileOptions& files, int threads, const ProgressCallback& callback) {
+  makeFolder(files.folder);
   refuseForeignStrips(options, files);
   std::filesystem::remove(files.folder / "truth.json");  // until all is written there is no truth
   ProgressReport progress(callback);
