@@ -13,10 +13,14 @@ pcl_als_build=${PCL_ALS_BUILD_DIR:-$pcl_als_root/build}
 pcl_als_packages_build=(
   g++:c++ cmake:cmake ninja-build:ninja ccache:ccache mawk:awk
   libpcl-dev libeigen3-dev libboost-program-options-dev libproj-dev libgdal-dev
+  python3-dev pybind11-dev:/usr/include/pybind11/pybind11.h
   libceres-dev nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
   fonts-dejavu-core:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf xvfb:Xvfb
 )
-pcl_als_packages_test=(libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz chromium:chromium)
+pcl_als_packages_test=(
+  libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz chromium:chromium
+  python3-numpy python3-matplotlib python3-pip python3-venv python3-wheel
+)
 
 _pcl_als_present() {  # package[:program-or-file]
   local package=${1%%:*} witness=${1#*:}

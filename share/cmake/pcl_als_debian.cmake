@@ -1,5 +1,5 @@
 # cpack -G DEB: libpcl-als0 (libraries), pcl-als-tools (tools, manual pages), libpcl-als-dev (headers,
-# CMake package). Dependencies on libraries are found by dpkg-shlibdeps (package dpkg-dev).
+# CMake package), python3-pcl-als (where Python was found). Dependencies on libraries are found by dpkg-shlibdeps (package dpkg-dev).
 set(CPACK_PACKAGE_NAME pcl-als)
 set(CPACK_PACKAGE_VENDOR "the pcl_als authors")
 set(CPACK_PACKAGE_CONTACT "the pcl_als authors <maintainers@localhost>")
@@ -32,7 +32,19 @@ set(CPACK_DEBIAN_HEADERS_PACKAGE_DEPENDS
   "${debian_libraries} (= ${PROJECT_VERSION}), libpcl-dev, libeigen3-dev")
 set(CPACK_COMPONENT_HEADERS_DESCRIPTION "Headers and CMake package of pcl_als")
 
-foreach(entry IN ITEMS "libraries:${debian_libraries}" tools:pcl-als-tools headers:libpcl-als-dev)
+set(debian_entries "libraries:${debian_libraries}" tools:pcl-als-tools headers:libpcl-als-dev)
+if(PCL_ALS_PYTHON_FOUND)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND debian_entries python:python3-pcl-als)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pcl-als)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${debian_libraries} (= ${PROJECT_VERSION}), \
+python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), \
+python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python package of pcl_als")
+endif()
+foreach(entry IN LISTS debian_entries)
   string(REPLACE ":" ";" entry ${entry})
   list(GET entry 0 component)
   list(GET entry 1 package)

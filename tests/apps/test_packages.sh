@@ -38,6 +38,12 @@ if command -v cpack >/dev/null && command -v dpkg-shlibdeps >/dev/null && comman
   holds pcl-als-tools ' ./usr/share/man/man1/pcl_als_calibrate\.1$'
   holds libpcl-als-dev ' ./usr/include/pcl_als/common/point_types\.h$'
   holds libpcl-als-dev ' ./usr/lib/(.*/)?cmake/pcl_als/pcl_als-config\.cmake$'
+  if [[ -d $build/python ]]; then
+    holds python3-pcl-als ' ./usr/lib/python3[^/]*/dist-packages/pcl_als/_pcl_als\..*\.so$'
+    holds python3-pcl-als ' ./usr/lib/python3[^/]*/dist-packages/pcl_als/(__init__\.pyi|py\.typed)$'
+    dpkg-deb -f python3-pcl-als_*.deb Depends | grep -q 'libpcl-als0 (= .*python3-numpy' ||
+      failed "the Python package does not need libraries and numpy"
+  fi
   dpkg-deb -c libpcl-als0_*.deb >list.txt
   grep -E 'include/|bin/' list.txt && failed "libpcl-als0 holds headers or tools"
   dpkg-deb -f pcl-als-tools_*.deb Depends | grep -q 'libpcl-als0 (= ' || failed "tools do not need the libraries"

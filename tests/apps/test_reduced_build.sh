@@ -9,7 +9,8 @@ set -euo pipefail
 build=$2/reduced_build
 mkdir -p -- "$build"
 cmake -S "$3" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF \
-  -DPCL_ALS_WITH_PROJ=OFF -DPCL_ALS_WITH_VTK=OFF -DPCL_ALS_WITH_GDAL=OFF -DPCL_ALS_WITH_CERES=OFF >"$build/configure.log" 2>&1 ||
+  -DPCL_ALS_WITH_PROJ=OFF -DPCL_ALS_WITH_VTK=OFF -DPCL_ALS_WITH_GDAL=OFF -DPCL_ALS_WITH_CERES=OFF \
+  -DPCL_ALS_WITH_PYTHON=OFF >"$build/configure.log" 2>&1 ||
   { cat "$build/configure.log"; exit 1; }
 cmake --build "$build" --target pcl_als_tools >"$build/build.log" 2>&1 ||
   { tail -n 40 "$build/build.log"; exit 1; }

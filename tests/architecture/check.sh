@@ -13,7 +13,7 @@ breaches=0
 breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 
 # What a module may declare: modules of the same or a lower level; only processing and report may
-# use visualization. An estimator that used simulation would share its errors: only the writer of
+# use visualization. The Python package is above all of them. An estimator that used simulation would share its errors: only the writer of
 # simulated surveys does.
 declare -A may=(
   [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common adjustment"
@@ -26,6 +26,7 @@ declare -A may=(
   [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification photogrammetry visualization simulation"
   [report]="common io survey registration calibration planning radiometry quality photogrammetry classification processing visualization"
   [simulation]="common" [visualization]="common io trajectory tin quality"
+  [python]="common io survey trajectory registration calibration planning radiometry filters quality classification photogrammetry simulation processing report"
 )
 
 # The modules that X declares in its CMakeLists.txt: the words after MODULES. Further libraries of a

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pybind11/eigen.h>
+
+#include <pcl_als/io/plan_io.h>
+#include <pcl_als/planning/flight_plan.h>
+#include <pcl_als/report/plan_report.h>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "job.h"
+#include "keywords.h"
+
+namespace pcl_als::python {
+namespace {
+
+namespace py = pybind11;
+using LinesArgument = std::variant<std::filesystem::path, std::vector<StripGeometry>>;
+
+void bindLine(py::module_& m) {
+  using Line = StripGeometry;
+  py::class_<Line>(
+      m, "FlightLine",
+      "A planned flight line, straight and level; attributes may be given as keywords.")
+      .def(fromKeywords<Line>())
+      .def_readwrite("id", &Line::id)
+      .def_property(
+          "start", [](const Line& line) { return Eigen::Vector2d(line.start); },
+          [](Line& line, const Eigen::Vector2d& start) { line.start = start; },
+          "east, north, m, any local frame")
+      .def_property(
+          "end", [](const Line& line) { return Eigen::Vector2d(line.end); },
+          [](Line& line, const Eigen::Vector2d& end) { line.end = end; }, "east, north, m")
+      .def_readwrite("height", &Line::height, "above mean ground, m")
+      .def_readwrite("half_angle", &Line::half_angle, "half the field of view, rad")
+      .def_readwrite("speed", &Line::speed, "m/s")
+      .def_readwrite("density", &Line::density, "pulses per square metre");
+}
+
+void bindResult(py::module_& m) {
+  using Result = FlightPlanResult;
+  py::class_<Result, std::shared_ptr<Result>>(m, "PlanResult", "What a planned flight will give.")
+      .def_readonly("lines", &Result::lines)
+      .def_readonly("expected", &Result::expected,
+                    "standard deviations, correlations and statuses as of a calibration; biases "
+                    "are zero")
+      .def_readonly("control_points", &Result::control_points, "covered by a line")
+      .def_property_readonly(
+          "determined", [](const Result& r) { return r.expected.converged; },
+          "whether all requested parameters are determined")
+      .def_property_readonly(
+          "advice", [](const Result& r) { return r.observability.text(); },
+          "weak combinations of parameters, why, and which line would help")
+      .def(
+          "to_dict", [](const Result& r) { return parsedJson(planJson(r, {})); },
+          "The content of plan.json as dictionaries and lists.")
+      .def("__str__", &planTables);
+}
+
+StripGeometry lineOf(const FlightLineRecord& record) {
+  StripGeometry line;
+  line.id = record.id, line.start = record.start, line.end = record.end;
+  line.height = record.height;
+  line.speed = record.speed.value_or(line.speed);
+  line.density = record.density.value_or(line.density);
+  return line;
+}
+
+std::vector<StripGeometry> linesOf(const LinesArgument& argument) {
+  if (const auto* lines = std::get_if<std::vector<StripGeometry>>(&argument)) return *lines;
+  std::vector<StripGeometry> lines;
+  for (const FlightLineRecord& record : readFlightLines(std::get<std::filesystem::path>(argument)))
+    lines.push_back(lineOf(record));
+  return lines;
+}
+
+}  // namespace
+
+void bindPlanning(py::module_& m) {
+  bindLine(m);
+  bindResult(m);
+  m.def(
+      "plan",
+      [](const LinesArgument& lines, std::size_t control, const CalibrationSettings& settings) {
+        FlightPlan::Settings plan;
+        plan.control_points = control;
+        plan.adjustment.estimate = settings.estimate;
+        plan.adjustment.shared_errors = settings.shared_errors;
+        plan.adjustment.threads = settings.threads;
+        plan.adjustment.pairs.noise = settings.noise;
+        plan.adjustment.pairs.control_sigma = settings.control_sigma;
+        return runJob({}, [&](const ProgressCallback&) {
+          return std::make_shared<FlightPlanResult>(FlightPlan(linesOf(lines), plan).evaluate());
+        });
+      },
+      py::arg("lines"), py::kw_only(), py::arg("control") = 0,
+      py::arg_v("settings", CalibrationSettings(), "CalibrationSettings()"),
+      "Predicts the standard deviations of the parameters from a planned calibration flight, as "
+      "pcl_als_plan does. lines: FlightLines, or a CSV id,x1,y1,x2,y2,height[,speed][,density]; "
+      "control: number of control points, distributed over the block; settings: estimate, noise, "
+      "shared_errors, control_sigma and threads are used. InputError where no two lines overlap.");
+}
+
+}  // namespace pcl_als::python
