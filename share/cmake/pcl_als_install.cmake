@@ -7,6 +7,11 @@ get_property(PCL_ALS_TOOLS GLOBAL PROPERTY PCL_ALS_TOOLS)
 add_custom_target(pcl_als_tools DEPENDS ${PCL_ALS_TOOLS})
 
 get_property(PCL_ALS_EXPORTED_MODULES GLOBAL PROPERTY PCL_ALS_EXPORTED_MODULES)
+# The libraries alone: ninja pcl_als_libraries
+add_custom_target(pcl_als_libraries)
+foreach(module IN LISTS PCL_ALS_EXPORTED_MODULES)
+  add_dependencies(pcl_als_libraries pcl_als_${module})
+endforeach()
 install(EXPORT pcl_als-targets NAMESPACE pcl_als:: DESTINATION ${PCL_ALS_CONFIG_DIR}
   COMPONENT headers)
 configure_package_config_file(share/cmake/pcl_als-config.cmake.in

@@ -39,6 +39,8 @@ class CalibrationTest(FolderTest):
         self.assertEqual(result.correlation.shape, (len(result.correlation_order),) * 2)
         self.assertEqual(result.verdict.usable, tool["verdict"]["status"] == "usable")
         self.assertIn("boresight_roll", str(result))
+        self.assertEqual(list(result.parameters)[:4],
+                         ["lever_arm_x", "lever_arm_y", "lever_arm_z", "boresight_pitch"])
 
     def test_survey_and_strips_in_memory(self):
         settings = pcl_als.CalibrationSettings(**SMALL)
@@ -62,6 +64,19 @@ class CalibrationTest(FolderTest):
         self.assertEqual([(pair.a, pair.b) for pair in result.pairs], [("1", "2")])
         self.assertEqual(result.correlation_order, ["boresight_roll"])
         self.assertEqual(result.parameters["range_bias"].status, "fixed")
+
+    def test_several_systems(self):
+        settings = pcl_als.CalibrationSettings(systems=[("day1", ["1", "2", "3"]), ("day2", ["4", "5"])],
+                                               own=["boresight_roll"], **SMALL)
+        self.assertEqual(settings.own, ["boresight_roll"])
+        result = pcl_als.calibrate(STRIPS, TRAJECTORY, control=CONTROL, settings=settings)
+        self.assertEqual([system.name for system in result.systems], ["day1", "day2"])
+        self.assertEqual(result.systems[1].strips, ["4", "5"])
+        first, second = (system.parameters["boresight_roll"].bias for system in result.systems)
+        self.assertEqual(first, result.parameters["boresight_roll"].bias)
+        self.assertNotEqual(first, second)
+        with self.assertRaisesRegex(ValueError, "roll"):
+            pcl_als.CalibrationSettings(own=["roll"])
 
     def test_correction_of_files_and_strips(self):
         calibration = pcl_als.calibrate(STRIPS, TRAJECTORY, control=CONTROL)

@@ -62,7 +62,7 @@ class ExampleTest(FolderTest):
 
     def test_calibrate_a_block(self):
         out = self.run_example("calibrate_block.py", TRAJECTORY, CONTROL, "calibration.json", "plot.png", *STRIPS)
-        self.assertRegex(out, r"boresight_roll +-\d+\.\d+")
+        self.assertRegex(out, r"boresight_roll +-\d+\.\d+ arcsec")
         self.assertTrue(pcl_als.read_calibration("calibration.json").converged)
 
     def test_check_a_delivery(self):

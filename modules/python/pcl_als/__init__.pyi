@@ -157,6 +157,9 @@ class CalibrationResult:
     @property
     def sigma0(self) -> float:
         """standard deviation of unit weight, 1"""
+    @property
+    def systems(self) -> List[SystemEstimate]:
+        """all systems where there are several; parameters are those of the first one"""
     def to_dict(self) -> Any:
         """The content of calibration.json as dictionaries and lists; angles in arc-seconds."""
     @property
@@ -219,6 +222,12 @@ class CalibrationSettings:
     @noise.setter
     def noise(self, value: NoiseModel) -> None: ...
     @property
+    def own(self) -> List[str]:
+        """what systems have of their own: names of parameters, 'boresight', 'lever_arm',
+        'offset'"""
+    @own.setter
+    def own(self, value: Sequence[str]) -> None: ...
+    @property
     def pair_budget(self) -> int:
         """largest number of pairs that are adjusted; 0: all"""
     @pair_budget.setter
@@ -237,6 +246,11 @@ class CalibrationSettings:
     def shared_errors(self) -> SharedErrorModel: ...
     @shared_errors.setter
     def shared_errors(self, value: SharedErrorModel) -> None: ...
+    @property
+    def systems(self) -> List[Tuple[str, List[str]]]:
+        """systems with parameters of their own: name and strips of each; empty: one"""
+    @systems.setter
+    def systems(self, value: Sequence[Tuple[str, Sequence[str]]]) -> None: ...
     @property
     def threads(self) -> int:
         """0: all cores; results do not depend on it"""
@@ -1120,6 +1134,21 @@ class SurveyArea:
     @property
     def size(self) -> float:
         """side, m"""
+
+class SystemEstimate:
+    """One of several systems of a calibration."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def offset(self) -> numpy.ndarray:
+        """of its coordinates, assumed - true, to the first system: east, north, up, m"""
+    @property
+    def offset_std(self) -> numpy.ndarray:
+        """m"""
+    @property
+    def parameters(self) -> Dict[str, Parameter]: ...
+    @property
+    def strips(self) -> List[str]: ...
 
 class UsageError(Error, ValueError):
     """A wrong argument or an impossible value; also a ValueError."""

@@ -31,6 +31,31 @@ std::vector<SystemParameter> parametersNamed(const std::vector<std::string>& nam
   return parameters;
 }
 
+using Systems = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+Systems systemsOf(const CalibrationSettings& settings) {
+  Systems systems;
+  for (const StripGroup& group : settings.systems) systems.emplace_back(group.name, group.strips);
+  return systems;
+}
+
+void setSystems(CalibrationSettings& settings, const Systems& systems) {
+  settings.systems.clear();
+  for (const auto& [name, strips] : systems) settings.systems.push_back({name, strips});
+}
+
+std::vector<std::string> ownOf(const OwnUnknowns& own) {
+  std::vector<std::string> names = namesOf(own.parameters);
+  if (own.offset) names.emplace_back("offset");
+  return names;
+}
+
+OwnUnknowns ownNamed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+  return ownUnknowns(list);
+}
+
 void bindModels(py::module_& m) {
   py::class_<NoiseModel>(m, "NoiseModel", "Random errors of one return (standard deviations).")
       .def(fromKeywords<NoiseModel>())
@@ -60,6 +85,12 @@ void bindSettings(py::module_& m) {
             s.estimate = parametersNamed(names);
           },
           "names of the parameters to estimate; empty: all that the data determine")
+      .def_property("systems", &systemsOf, &setSystems,
+                    "systems with parameters of their own: name and strips of each; empty: one")
+      .def_property(
+          "own", [](const Settings& s) { return ownOf(s.own); },
+          [](Settings& s, const std::vector<std::string>& names) { s.own = ownNamed(names); },
+          "what systems have of their own: names of parameters, 'boresight', 'lever_arm', 'offset'")
       .def_readwrite("noise", &Settings::noise)
       .def_readwrite("shared_errors", &Settings::shared_errors)
       .def_readwrite("candidates", &Settings::candidates,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <map>
+#include <array>
 
 #include <pybind11/eigen.h>
 
@@ -17,22 +17,43 @@ namespace {
 
 namespace py = pybind11;
 
+/// A dictionary with a type of its values, for signatures.
+class ParameterDict : public py::dict {
+  using py::dict::dict;
+};
+
+}  // namespace
+}  // namespace pcl_als::python
+
+template <>
+struct pybind11::detail::handle_type_name<pcl_als::python::ParameterDict> {
+  static constexpr auto name = const_name("Dict[str, pcl_als.Parameter]");
+};
+
+namespace pcl_als::python {
+namespace {
+
 /// A parameter in the unit of interfaces.
 struct Parameter {
   std::string name, unit, status, reason;
   double bias = 0.0, std = 0.0, std_formal = 0.0;
 };
 
-std::map<std::string, Parameter> parametersOf(const CalibrationResult& result) {
-  std::map<std::string, Parameter> parameters;
+using Estimates = std::array<ParameterEstimate, kSystemParameterCount>;
+
+/// By name, in the order of SystemParameter.
+ParameterDict parametersOf(const Estimates& estimates) {
+  ParameterDict parameters;
   for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = result[info.parameter];
-    Parameter& parameter = parameters[std::string(info.name)];
+    const ParameterEstimate& estimate =
+        estimates[static_cast<std::size_t>(indexOf(info.parameter))];
+    Parameter parameter;
     parameter.name = info.name, parameter.unit = info.unit;
     parameter.status = toString(estimate.status), parameter.reason = estimate.reason;
     parameter.bias = estimate.bias / info.internal_per_unit;
     parameter.std = estimate.std / info.internal_per_unit;
     parameter.std_formal = estimate.std_formal / info.internal_per_unit;
+    parameters[py::str(parameter.name)] = parameter;
   }
   return parameters;
 }
@@ -111,13 +132,27 @@ void bindFits(py::module_& m) {
       .def_readonly("remedy", &ErrorFinding::remedy);
 }
 
+void bindSystem(py::module_& m) {
+  py::class_<SystemEstimate>(m, "SystemEstimate", "One of several systems of a calibration.")
+      .def_property_readonly("name", [](const SystemEstimate& s) { return s.group.name; })
+      .def_property_readonly("strips", [](const SystemEstimate& s) { return s.group.strips; })
+      .def_property_readonly("parameters",
+                             [](const SystemEstimate& s) { return parametersOf(s.parameters); })
+      .def_property_readonly(
+          "offset", [](const SystemEstimate& s) { return Eigen::Vector3d(s.offset); },
+          "of its coordinates, assumed - true, to the first system: east, north, up, m")
+      .def_property_readonly(
+          "offset_std", [](const SystemEstimate& s) { return Eigen::Vector3d(s.offset_std); }, "m");
+}
+
 void bindResult(py::module_& m) {
   using Result = CalibrationResult;
   py::class_<Result, std::shared_ptr<Result>>(m, "CalibrationResult",
                                               "The content of a calibration.json.")
       .def_readonly("verdict", &Result::verdict)
-      .def_property_readonly("parameters", &parametersOf,
-                             "the eight system parameters by name, such as 'boresight_roll'")
+      .def_property_readonly(
+          "parameters", [](const Result& r) { return parametersOf(r.parameters); },
+          "the eight system parameters by name, such as 'boresight_roll'")
       .def_property_readonly(
           "attitude", [](const Result& r) { return std::string(toString(r.attitude)); },
           "source of the attitude of the model: 'none', 'points', 'trajectory' or 'nominal'")
@@ -126,6 +161,8 @@ void bindResult(py::module_& m) {
       .def_property_readonly(
           "correlation", [](const Result& r) { return Eigen::MatrixXd(r.correlation); },
           "of the estimated parameters; a new array")
+      .def_readonly("systems", &Result::systems,
+                    "all systems where there are several; parameters are those of the first one")
       .def_readonly("sigma0", &Result::sigma0, "standard deviation of unit weight, 1")
       .def_readonly("redundancy", &Result::redundancy)
       .def_readonly("converged", &Result::converged)
@@ -154,6 +191,7 @@ void bindCalibrationResult(py::module_& m) {
   bindParameter(m);
   bindVerdict(m);
   bindFits(m);
+  bindSystem(m);
   bindResult(m);
   m.def("read_calibration", &readCalibration, py::arg("path"),
         "Reads a calibration.json. InputError for a file that is none.");

@@ -78,6 +78,10 @@ std::shared_ptr<Cloud> cloudOf(const py::array& points) {
   auto cloud = std::make_shared<Cloud>();
   cloud->resize(static_cast<std::size_t>(points.size()));
   py::array copy = viewOf(cloud);
+  if (points.dtype().equal(pointType())) {
+    copy[py::ellipsis()] = points;
+    return cloud;
+  }
   for (const Field& field : kFields) {
     if (names.contains(field.name)) copy[py::str(field.name)] = points[py::str(field.name)];
   }

@@ -27,7 +27,7 @@ def report(progress):
 result = pcl_als.calibrate(strips, trajectory, control=control, progress=report)
 result.write(output)
 for parameter in result.parameters.values():
-    print(f"{parameter.name:18} {parameter.bias:10.4f} {parameter.unit:6} std {parameter.std:.4f}  {parameter.status}")
+    print(f"{parameter.name:18} {parameter.bias:12.5g} {parameter.unit:6} std {parameter.std:9.2g}  {parameter.status}")
 print("verdict:", result.verdict)
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")

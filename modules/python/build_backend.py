@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+"""A PEP 517 backend that builds the package with CMake; it needs CMake, Ninja and the package wheel.
+
+Setting: build-dir=FOLDER, a build of the sources that is used and brought up to date. Without it
+the sources are built anew in a temporary folder, which takes some minutes.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+
+from wheel.wheelfile import WheelFile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def _version():
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(pcl_als VERSION ([\d.]+)", text).group(1)
+
+
+def _run(*command):
+    subprocess.run([str(part) for part in command], check=True)
+
+
+def _build(folder, given):
+    if not given:
+        _run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+             "-DBUILD_TESTING=OFF", "-DPCL_ALS_WITH_VTK=OFF", f"-DPCL_ALS_PYTHON={sys.executable}")
+    _run("cmake", "--build", folder, "--target", "pcl_als_python", "pcl_als_libraries")
+
+
+def _libraries_of(extension, stage):
+    """The libraries below the stage that an extension module needs."""
+    listed = subprocess.run(["ldd", str(extension)], capture_output=True, text=True, check=True).stdout
+    paths = [pathlib.Path(path) for path in re.findall(r"=> (/.*) \(0x", listed)]
+    return [path for path in paths if stage in path.parents or stage in path.resolve().parents]
+
+
+def _stage(build, stage):
+    """Installs into the stage and returns the folder of the package, with its libraries inside."""
+    for component in ("python", "libraries"):
+        _run("cmake", "--install", build, "--prefix", stage, "--component", component)
+    extension, = stage.glob("lib/python3*/dist-packages/pcl_als/_pcl_als*.so")
+    for library in _libraries_of(extension, stage):
+        shutil.copy(library, extension.parent / library.name)
+    return extension.parent
+
+
+def _metadata(tag):
+    metadata = (f"Metadata-Version: 2.1\nName: pcl_als\nVersion: {_version()}\n"
+                "Summary: Airborne LiDAR calibration and quality control for the Point Cloud Library\n"
+                "License: BSD-3-Clause\nRequires-Python: >=3.9\nRequires-Dist: numpy\n")
+    wheel = f"Wheel-Version: 1.0\nGenerator: pcl_als\nRoot-Is-Purelib: false\nTag: {tag}\n"
+    return {"METADATA": metadata, "WHEEL": wheel, "LICENSE": (ROOT / "LICENSE").read_text(encoding="utf-8")}
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    given = (config_settings or {}).get("build-dir")
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    tag = f"{python}-{python}-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
+    name = f"pcl_als-{_version()}-{tag}.whl"
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary).resolve()
+        build = pathlib.Path(given).resolve() if given else folder / "build"
+        _build(build, given)
+        package = _stage(build, folder / "stage")
+        with WheelFile(os.path.join(wheel_directory, name), "w") as wheel:
+            for path in sorted(package.iterdir()):
+                wheel.write(str(path), f"pcl_als/{path.name}")
+            for file, text in _metadata(tag).items():
+                wheel.writestr(f"pcl_als-{_version()}.dist-info/{file}", text)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("the sources of the package are those of the whole project")
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+"""The package where cmake --install and pip put it."""
+import importlib.util
+import os
+import site
+import subprocess
+import sys
+import unittest
+
+from support import STRIPS, TRAJECTORY, FolderTest
+
+BUILD = os.environ["PCL_ALS_BUILD"]
+ROOT = os.environ["PCL_ALS_ROOT"]
+PYTHON_DIR = os.environ["PCL_ALS_PYTHON_DIR"]
+# A job, and the folders of the package and of the libraries that are loaded.
+PROGRAM = """
+import os, sys, pcl_als
+settings = pcl_als.CalibrationSettings(candidates=5000, estimate=["boresight_roll"])
+pcl_als.calibrate(sys.argv[2:], sys.argv[1], settings=settings)
+with open("/proc/self/maps") as maps:
+    loaded = {line.split(maxsplit=5)[5].strip() for line in maps if "libpcl_als" in line}
+print(os.path.dirname(pcl_als.__file__))
+print(*sorted({os.path.dirname(path) for path in loaded}), sep="\\n")
+"""
+
+
+def clean_environment(**more):
+    kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "LD_LIBRARY_PATH")}
+    return {**kept, **more}
+
+
+class InstallTest(FolderTest):
+    def folders(self, python, **environment):
+        done = subprocess.run([python, "-c", PROGRAM, TRAJECTORY, *STRIPS[:2]], capture_output=True, text=True,
+                              env=clean_environment(**environment))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [os.path.relpath(os.path.realpath(path)) for path in done.stdout.splitlines()]
+
+    @unittest.skipUnless(sys.executable == "/usr/bin/python3", "SKIPPED: not Debian's python3")
+    def test_debian_finds_the_folder_below_its_prefixes(self):
+        for prefix in ("/usr", "/usr/local"):
+            self.assertIn(os.path.join(prefix, PYTHON_DIR), site.getsitepackages())
+
+    def test_cmake_install(self):
+        for component in ("python", "libraries"):
+            subprocess.run(["cmake", "--install", BUILD, "--prefix", "first", "--component", component],
+                           check=True, stdout=subprocess.DEVNULL)
+        os.rename("first", "moved prefix")
+        package, libraries = self.folders(sys.executable, PYTHONPATH=os.path.abspath("moved prefix/" + PYTHON_DIR))
+        self.assertEqual(package, f"moved prefix/{PYTHON_DIR}/pcl_als")
+        self.assertTrue(libraries.startswith("moved prefix/lib"))
+        names = os.listdir(package)
+        self.assertTrue({"__init__.py", "__init__.pyi", "py.typed"} <= set(names), names)
+
+    @unittest.skipUnless(importlib.util.find_spec("pip") and importlib.util.find_spec("wheel"),
+                         "SKIPPED: no pip or wheel")
+    def test_pip_in_a_virtual_environment(self):
+        subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "venv"], check=True)
+        done = subprocess.run(["venv/bin/pip", "install", "--no-build-isolation", "--no-index", "--config-settings",
+                               "build-dir=" + BUILD, os.path.join(ROOT, "modules/python")], capture_output=True,
+                              text=True, env=clean_environment())
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        package, libraries = self.folders("venv/bin/python")
+        self.assertTrue(package.startswith("venv/lib/python3"), package)
+        self.assertEqual(libraries, package)
+        shown = subprocess.run(["venv/bin/pip", "show", "pcl_als"], capture_output=True, text=True).stdout
+        self.assertIn("License: BSD-3-Clause", shown)
+        self.assertFalse(os.path.exists(os.path.join(ROOT, "modules/python/build")))
+
+
+if __name__ == "__main__":
+    unittest.main()
