@@ -11,17 +11,21 @@ import unittest
 import pcl_als
 from support import CONTROL, STRIPS, TRAJECTORY, FolderTest
 
+# A block of eleven million points, which takes longer than the test waits before it interrupts.
 INTERRUPTED = """
 import sys, pcl_als
 def progress(p):
     print(p.event, flush=True)
 try:
-    while True:
-        pcl_als.simulate("block", pcl_als.Simulation("small", density=3), progress=progress)
+    pcl_als.simulate("block", pcl_als.Simulation("paper"), threads=1, progress=progress)
 except KeyboardInterrupt:
     print("interrupted", flush=True)
     sys.exit(9)
 """
+
+
+def unfinished():
+    return [name for _, _, names in os.walk(".") for name in names if ".partial" in name]
 
 
 class ProgressTest(FolderTest):
@@ -44,6 +48,19 @@ class ProgressTest(FolderTest):
                 job(lambda progress: False)
         self.assertEqual([name for _, _, names in os.walk(".") for name in names], [])
 
+    def test_jobs_end_while_they_read(self):
+        survey = pcl_als.Survey(STRIPS)
+        for phase, job in (("Surveying the block", lambda p: pcl_als.calibrate(survey, TRAJECTORY, progress=p)),
+                           ("Reading the areas", lambda p: pcl_als.calibrate(survey, TRAJECTORY, progress=p)),
+                           ("Surveying the block", lambda p: pcl_als.check(survey, progress=p)),
+                           ("Reading the areas", lambda p: pcl_als.check(survey, progress=p)),
+                           ("Collecting rays and scan angles",
+                            lambda p: pcl_als.reconstruct_trajectory(survey, progress=p))):
+            with self.assertRaises(pcl_als.Cancelled):
+                job(lambda p: not (p.event == "advance" and p.phase == phase))
+        # The survey serves further jobs.
+        self.assertGreater(len(pcl_als.check(survey).block.pairs), 0)
+
     def test_exceptions_pass_through(self):
         class Own(Exception):
             pass
@@ -58,7 +75,8 @@ class ProgressTest(FolderTest):
 
 class InterruptTest(FolderTest):
     def interrupt(self, program, seconds):
-        process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                                   text=True)
         process.stdout.readline()  # the job has begun
         time.sleep(seconds)
         process.send_signal(signal.SIGINT)
@@ -70,15 +88,16 @@ class InterruptTest(FolderTest):
             status, out = self.interrupt(INTERRUPTED, seconds)
             self.assertEqual(status, 9, out)
             self.assertTrue(out.endswith("interrupted\n"), out)
-            left = [name for _, _, names in os.walk(".") for name in names if ".partial" in name]
-            self.assertEqual(left, [])
+            self.assertEqual(unfinished(), [])
+            self.assertFalse(os.path.exists("block/truth.json"), "the job was not interrupted")
 
     def test_interrupt_without_a_callback(self):
         program = ("import pcl_als\nprint('begin', flush=True)\n"
-                   "while True: pcl_als.simulate('block', pcl_als.Simulation('small', density=3))\n")
-        status, _ = self.interrupt(program, 0.5)
+                   "pcl_als.simulate('block', pcl_als.Simulation('paper'), threads=1)\n")
+        status, _ = self.interrupt(program, 1.0)
         self.assertIn(status, (-signal.SIGINT, 1, 130))
-        self.assertEqual([name for _, _, names in os.walk(".") for name in names if ".partial" in name], [])
+        self.assertEqual(unfinished(), [])
+        self.assertFalse(os.path.exists("block/truth.json"), "the job was not interrupted")
 
 
 if __name__ == "__main__":

@@ -98,6 +98,7 @@ void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
 ReconstructedFlight reconstructFlight(SurveyReader& survey, const ReconstructionOptions& options,
                                       const ProgressCallback& callback) {
   ProgressReport progress(callback);
+  const ReadingProgress reading(survey, progress);
   for (const std::string& text : survey.choose(options.strips, {nullptr, std::nullopt, false}))
     progress.remark(text);
   TrajectoryReconstruction reconstruction(options.settings);

@@ -139,6 +139,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
                                   const ProgressCallback& callback) {
   if (!flight) throw UsageError("calibration: no trajectory is given");
   ProgressReport progress(callback);
+  const ReadingProgress reading(survey, progress);
   for (const std::string& text :
        survey.choose(options.strips, {flight.get(), options.gps_week, true})) {
     progress.remark(text);

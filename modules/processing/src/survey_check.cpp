@@ -75,6 +75,7 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
     throw UsageError("check: the quality level must be 0, 1, 2 or 3");
   }
   ProgressReport progress(callback);
+  const ReadingProgress reading(survey, progress);
   // The trajectory serves for scan angles only: points that it does not cover are compared, too.
   for (const std::string& text :
        survey.choose(options.strips, {trajectory.get(), options.gps_week, false})) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <numeric>
 
 #include <pcl_als/common/errors.h>
@@ -282,8 +283,16 @@ void SurveyReader::readRuns(const RunSink& sink) const {
   const auto groups = groupsOfFiles();
   const std::size_t labels = arrangement_->labels().size();
   std::vector<std::vector<std::uint64_t>> counts(groups.size(), std::vector<std::uint64_t>(labels));
+  std::mutex reporting;
+  std::uint64_t read = 0;
+  const auto done = [&](std::size_t points) {
+    if (!progress_) return;
+    const std::lock_guard<std::mutex> lock(reporting);
+    read += points;
+    progress_(std::min(1.0, static_cast<double>(read) / static_cast<double>(pointCount())));
+  };
   parallelFor(groups.size(), threads_, [&](std::size_t group) {
-    for (const std::size_t file : groups[group]) readFile(file, sink, counts[group]);
+    for (const std::size_t file : groups[group]) readFile(file, sink, done, counts[group]);
   });
   for (std::size_t group = 1; group < groups.size(); ++group) {
     for (std::size_t i = 0; i < labels; ++i) counts[0][i] += counts[group][i];
@@ -292,6 +301,7 @@ void SurveyReader::readRuns(const RunSink& sink) const {
 }
 
 void SurveyReader::readFile(std::size_t file, const RunSink& sink,
+                            const std::function<void(std::size_t points)>& done,
                             std::vector<std::uint64_t>& counts) const {
   StripArrangement::Sorter sorter(*arrangement_, file);
   const auto reader = inputs_[file].open();
@@ -304,6 +314,7 @@ void SurveyReader::readFile(std::size_t file, const RunSink& sink,
       if (strip >= 0) passOn(strip, Run{chunk, from, to, times_[file]}, sink);
       from = to;
     }
+    done(chunk.size());
   }
 }
 

@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/progress.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/survey/strip_arrangement.h>
@@ -93,6 +94,10 @@ class SurveyReader {
   const std::vector<SurveyedFile>& files() const { return files_; }
   const StripArrangement& arrangement() const { return *arrangement_; }
 
+  /// Called during read() and readRuns(), by one thread at a time, with the share of the points
+  /// that were read, 0 … 1; an exception of it ends the reading. Empty: none.
+  void setProgress(std::function<void(double share)> progress) { progress_ = std::move(progress); }
+
   /// Calls \a sink with all points, in runs of one strip; from several threads for different
   /// strips.
   void read(const Sink& sink) const;
@@ -109,7 +114,10 @@ class SurveyReader {
   /// Passes on a run of points of one strip of the arrangement, channel by channel.
   void passOn(int strip, const Run& run, const RunSink& sink) const;
   /// Adds the points of each label to \a counts.
-  void readFile(std::size_t file, const RunSink& sink, std::vector<std::uint64_t>& counts) const;
+  /// \a done: called with the number of points of every chunk.
+  void readFile(std::size_t file, const RunSink& sink,
+                const std::function<void(std::size_t points)>& done,
+                std::vector<std::uint64_t>& counts) const;
   std::vector<std::vector<std::size_t>> groupsOfFiles() const;
 
   int threads_;
@@ -123,7 +131,22 @@ class SurveyReader {
   std::vector<std::uint64_t> points_;
   /// Index of the strip of each channel of a strip of the arrangement; empty: one for all channels.
   std::vector<std::map<std::uint8_t, int>> channels_;
+  std::function<void(double share)> progress_;
   mutable std::vector<LeftOutPoints> left_out_;
+};
+
+/// Reports the readings of a survey to the phases of a job as long as it exists.
+class ReadingProgress {
+ public:
+  ReadingProgress(SurveyReader& survey, ProgressReport& progress) : survey_(survey) {
+    survey_.setProgress([&progress](double share) { progress.advance(share); });
+  }
+  ~ReadingProgress() { survey_.setProgress({}); }
+  ReadingProgress(const ReadingProgress&) = delete;
+  ReadingProgress& operator=(const ReadingProgress&) = delete;
+
+ private:
+  SurveyReader& survey_;
 };
 
 }  // namespace pcl_als
