@@ -60,11 +60,22 @@ def _metadata(tag):
     return {"METADATA": metadata, "WHEEL": wheel, "LICENSE": (ROOT / "LICENSE").read_text(encoding="utf-8")}
 
 
+def _tag():
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{python}-{python}-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    folder = pathlib.Path(metadata_directory) / f"pcl_als-{_version()}.dist-info"
+    folder.mkdir()
+    for file, text in _metadata(_tag()).items():
+        (folder / file).write_text(text, encoding="utf-8")
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     given = (config_settings or {}).get("build-dir")
-    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    tag = f"{python}-{python}-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
-    name = f"pcl_als-{_version()}-{tag}.whl"
+    name = f"pcl_als-{_version()}-{_tag()}.whl"
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary).resolve()
         build = pathlib.Path(given).resolve() if given else folder / "build"
@@ -73,7 +84,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         with WheelFile(os.path.join(wheel_directory, name), "w") as wheel:
             for path in sorted(package.iterdir()):
                 wheel.write(str(path), f"pcl_als/{path.name}")
-            for file, text in _metadata(tag).items():
+            for file, text in _metadata(_tag()).items():
                 wheel.writestr(f"pcl_als-{_version()}.dist-info/{file}", text)
     return name
 

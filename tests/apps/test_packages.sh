@@ -43,6 +43,12 @@ if command -v cpack >/dev/null && command -v dpkg-shlibdeps >/dev/null && comman
     holds python3-pcl-als ' ./usr/lib/python3[^/]*/dist-packages/pcl_als/(__init__\.pyi|py\.typed)$'
     dpkg-deb -f python3-pcl-als_*.deb Depends | grep -q 'libpcl-als0 (= .*python3-numpy' ||
       failed "the Python package does not need libraries and numpy"
+    for package in libpcl-als0 python3-pcl-als; do dpkg-deb -x "$package"_*.deb root; done
+    PYTHONPATH=$(echo "$PWD"/root/usr/lib/python3*/dist-packages) /usr/bin/python3 -c '
+import pcl_als
+with open("/proc/self/maps") as maps:
+    assert not [line for line in maps if "libpcl_als" in line and "/root/usr/lib/" not in line]' ||
+      failed "the Python package does not run with the libraries of the package"
   fi
   dpkg-deb -c libpcl-als0_*.deb >list.txt
   grep -E 'include/|bin/' list.txt && failed "libpcl-als0 holds headers or tools"

@@ -119,6 +119,21 @@ class ThreadTest(FolderTest):
         for name in jobs:
             self.assertEqual(results[name].to_dict(), single[name].to_dict())
 
+    def test_one_survey_in_two_threads(self):
+        settings = pcl_als.CalibrationSettings(**SMALL)
+        survey, results = pcl_als.Survey(STRIPS), []
+        single = pcl_als.calibrate(survey, TRAJECTORY, settings=settings).to_dict()
+
+        def run():
+            results.append(pcl_als.calibrate(survey, TRAJECTORY, settings=settings).to_dict())
+
+        threads = [threading.Thread(target=run) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(results, [single, single])
+
     def test_other_threads_run_during_a_job(self):
         ticks, done = [], threading.Event()
 
