@@ -33,7 +33,8 @@ CalibrationResult example() {
   result.control = {{"1", 37, 0.1, 0.2, 0.3, 0.4}};
   result.pairs[0].rms_strips = 0.015;
   result.residuals = {{-0.5, 0.0, 0.5}, {3, 4}, {0, 9}};
-  result.strip_errors = {{"7", {{401000.5, {0.01, -0.02, 0.03}, {1e-5, -2e-5, 3e-5}}}}, {"8", {}}};
+  result.strip_errors = {{"7", {{401000.5, {0.01, -0.02, 0.03}, {1e-5, -2e-5, 3e-5}}}, {}},
+                         {"8", {}, {}}};
   result.observability = {"weak: lever_arm_y with boresight_pitch"};
   result.warnings = {"quoted \"text\""};
   result.inputs = {"strip1.las", "a\xff.las"};  // the second is no UTF-8
@@ -156,6 +157,49 @@ TEST(CalibrationJson, KeepsTheSystems) {
   writeCalibration(path, written);
   std::string text = textOf(path);
   text.replace(text.find("-0.2"), 4, "-200");
+  std::ofstream(path, std::ios::binary) << text;
+  EXPECT_THROW(readCalibration(path), InputError);
+}
+
+TEST(CalibrationJson, KeepsCovariancesOfStripsToFourDigits) {
+  CalibrationResult written = example();
+  StripErrors& strip = written.strip_errors[0];
+  strip.knots[0].position_std = {0.0123456, 0.01, 0.02};
+  strip.knots[0].angles_std = {1e-5, 2e-5, 3e-5};
+  StripErrorCorrelation& correlation = strip.correlations.emplace_back();
+  correlation.time = 401000.5;
+  correlation.errors.setIdentity();
+  correlation.errors(4, 0) = correlation.errors(0, 4) = -0.98765;
+  correlation.parameters.setConstant(6, static_cast<int>(written.correlation_order.size()), 0.25);
+  written.error_levels = ErrorLevels{0.01, 1e-5, 2e-5, 0.003, 0.02, 3e-5, 6e-5};
+  const auto path = test::scratch("calibration_json") / "covariances.json";
+  writeCalibration(path, written);
+  const CalibrationResult read = readCalibration(path);
+  const TrajectoryErrorKnot& knot = read.strip_errors[0].knots[0];
+  EXPECT_DOUBLE_EQ(knot.position_std.x(), 0.01235);
+  EXPECT_NEAR(knot.angles_std.z(), 3e-5, 1e-4 * 3e-5);
+  ASSERT_EQ(read.strip_errors[0].correlations.size(), 1U);
+  const StripErrorCorrelation& back = read.strip_errors[0].correlations[0];
+  EXPECT_EQ(back.time, 401000.5);
+  EXPECT_NEAR(back.errors(0, 4), -0.9877, 1e-9);
+  EXPECT_NEAR(back.errors(4, 0), -0.9877, 1e-9);
+  EXPECT_EQ(back.parameters, correlation.parameters);
+  ASSERT_TRUE(read.error_levels.has_value());
+  EXPECT_DOUBLE_EQ(read.error_levels->range, 0.01);
+  EXPECT_NEAR(read.error_levels->trajectory_heading, 6e-5, 1e-15);
+  EXPECT_NE(textOf(path).find("\"up_std_m\": 0.02"), std::string::npos);
+}
+
+TEST(CalibrationJson, RefusesCovariancesThatAreNone) {
+  CalibrationResult written = example();
+  StripErrors& strip = written.strip_errors[0];
+  strip.knots[0].position_std = strip.knots[0].angles_std = {0.01, 0.01, 0.01};
+  const auto path = test::scratch("calibration_json") / "covariances.json";
+  writeCalibration(path, written);
+  std::string text = textOf(path);
+  const std::size_t at = text.find("\"up_std_m\": 0.01");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 16, "\"up_std_m\": -0.1");
   std::ofstream(path, std::ios::binary) << text;
   EXPECT_THROW(readCalibration(path), InputError);
 }

@@ -70,7 +70,7 @@ struct Block {
       knot.time = time;
       knot.position = {0.1, -0.2 - 0.01 * (time - start), 0.3};
       knot.angles = Eigen::Vector3d(20.0, -30.0, 40.0) * kRadiansPerArcsec;
-      if (calibration.strip_errors.empty()) calibration.strip_errors.push_back({"1", {}});
+      if (calibration.strip_errors.empty()) calibration.strip_errors.push_back({"1", {}, {}});
       calibration.strip_errors[0].knots.push_back(knot);
     }
   }

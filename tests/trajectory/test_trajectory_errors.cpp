@@ -21,8 +21,8 @@ TrajectoryErrorKnot knot(double time, double up, double roll) {
 }
 
 std::vector<StripErrors> twoStrips() {
-  return {{"b", {knot(20.0, 0.05, 0.0), knot(30.0, 0.05, 0.0)}},
-          {"a", {knot(0.0, 0.0, 0.0), knot(5.0, 0.10, 1e-4), knot(10.0, 0.0, 0.0)}}};
+  return {{"b", {knot(20.0, 0.05, 0.0), knot(30.0, 0.05, 0.0)}, {}},
+          {"a", {knot(0.0, 0.0, 0.0), knot(5.0, 0.10, 1e-4), knot(10.0, 0.0, 0.0)}, {}}};
 }
 
 TEST(TrajectoryErrors, AreLinearBetweenKnotsAndZeroAwayFromStrips) {
@@ -45,7 +45,7 @@ TEST(TrajectoryErrors, AreLinearBetweenKnotsAndZeroAwayFromStrips) {
 
 TEST(TrajectoryErrors, BetweenCloseStripsTheNearerCounts) {
   const TrajectoryErrors errors(
-      {{"a", {knot(0.0, 0.1, 0.0), knot(10.0, 0.1, 0.0)}}, {"b", {knot(12.0, 0.3, 0.0)}}});
+      {{"a", {knot(0.0, 0.1, 0.0), knot(10.0, 0.1, 0.0)}, {}}, {"b", {knot(12.0, 0.3, 0.0)}, {}}});
   TrajectoryErrorKnot found;
   ASSERT_TRUE(errors.at(10.9, found));
   EXPECT_NEAR(found.position.z(), 0.1, 1e-12);

@@ -14,6 +14,7 @@
 #include "chosen_parameters.h"
 #include "error_normal.h"
 #include "spike_and_slab.h"
+#include "strip_covariance.h"
 
 namespace pcl_als {
 namespace {
@@ -121,6 +122,14 @@ SystemRow Adjustment::reducedRow(const PairObservation& observation) const {
            reduced_->elimination.middleRows<kKnot>(touched.knots[slot] * kKnot);
   }
   return row;
+}
+
+std::unique_ptr<const StripCovariance> Adjustment::stripCovariance(
+    const AdjustmentSolution& solution) const {
+  if (normal_ == nullptr) return nullptr;
+  const BlockCholesky factor(normal_->tt, errors_.priorInformation(levels_));
+  return std::make_unique<const StripCovariance>(errors_, levels_, factor.inverse(),
+                                                 reduced_->elimination, solution.covariance);
 }
 
 double Adjustment::residual(const PairObservation& observation,

@@ -153,6 +153,17 @@ double InverseEntries::operator()(Eigen::Index row, Eigen::Index column) const {
   return at < 0 ? 0.0 : node.panel(at + in_a, Eigen::Index{kBlock} * (b - node.first) + in_b);
 }
 
+Block InverseEntries::block(int row, int column) const {
+  const int a = columns_.place[static_cast<std::size_t>(row)];
+  const int b = columns_.place[static_cast<std::size_t>(column)];
+  if (a < b) return block(column, row).transpose();
+  const auto& node =
+      columns_.supernodes[static_cast<std::size_t>(columns_.owner[static_cast<std::size_t>(b)])];
+  const Eigen::Index at = node.rowOf(a);
+  if (at < 0) return Block::Zero();
+  return node.panel.block<kBlock, kBlock>(at, Eigen::Index{kBlock} * (b - node.first));
+}
+
 double InverseEntries::traceOfProduct(const Sparse& matrix) const {
   double trace = 0.0;
   for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {

@@ -61,6 +61,9 @@ class InverseEntries {
 
   /// The entry, which is zero outside the pattern of the factor.
   double operator()(Eigen::Index row, Eigen::Index column) const;
+  /// The same of two blocks.
+  Eigen::Matrix<double, BlockColumns::kBlock, BlockColumns::kBlock> block(int row,
+                                                                          int column) const;
   /// The trace of the product of the inverse and a symmetric matrix within the pattern.
   double traceOfProduct(const Eigen::SparseMatrix<double>& matrix) const;
   double traceOfProduct(const KnotBlocks& blocks) const;

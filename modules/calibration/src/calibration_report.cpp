@@ -9,6 +9,8 @@
 
 #include <pcl_als/common/statistics.h>
 
+#include "strip_covariance.h"
+
 namespace pcl_als {
 namespace {
 
@@ -152,11 +154,14 @@ void CalibrationReport::addControlPoints(const std::vector<ControlPoint>& contro
 }
 
 void CalibrationReport::addStrips(const SharedErrors& errors, const std::vector<bool>& used,
-                                  const AdjustmentSolution& solution,
+                                  const Adjustment& adjustment, const ParameterChoice& choice,
                                   CalibrationResult& result) const {
+  const auto covariance = adjustment.stripCovariance(choice.solution);
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     if (!used[i]) continue;
-    result.strip_errors.push_back({ids_[i], errors.errorsOf(static_cast<int>(i), solution.shared)});
+    const int strip = static_cast<int>(i);
+    result.strip_errors.push_back({ids_[i], errors.errorsOf(strip, choice.solution.shared), {}});
+    if (covariance) covariance->add(strip, choice.estimate, result.strip_errors.back());
   }
 }
 

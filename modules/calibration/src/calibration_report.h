@@ -35,9 +35,10 @@ class CalibrationReport {
                         const std::vector<bool>& used, double trajectory_std,
                         CalibrationResult& result) const;
 
-  /// The estimated trajectory errors of each strip.
+  /// The estimated trajectory errors of each strip, with their standard deviations.
   void addStrips(const SharedErrors& errors, const std::vector<bool>& used,
-                 const AdjustmentSolution& solution, CalibrationResult& result) const;
+                 const Adjustment& adjustment, const ParameterChoice& choice,
+                 CalibrationResult& result) const;
   /// Fit of the pairs after removal of these errors.
   void addStripFit(const std::vector<AreaObservations>& observations, const Adjustment& adjustment,
                    const AdjustmentSolution& solution, CalibrationResult& result) const;

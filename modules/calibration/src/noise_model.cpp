@@ -30,8 +30,7 @@ Eigen::Matrix3d NoiseModel::pointingCovariance(const ScanGeometry& g) const {
   const double distance = g.range();
   // The position of the return in the footprint has a standard deviation of a quarter of the 1/e^2
   // diameter.
-  const double footprint = 0.25 * beam_divergence;
-  const double across_sq = (angle * angle + footprint * footprint) * distance * distance;
+  const double across_sq = (angle * angle + footprint() * footprint()) * distance * distance;
   return across_sq * (Eigen::Matrix3d::Identity() - beam * beam.transpose());
 }
 

@@ -109,4 +109,14 @@ void PairWeights::update(const std::vector<AreaObservations>& observations,
   sigma0_ = kept_ > 0 ? std::sqrt(squares / static_cast<double>(kept_)) : 0.0;
 }
 
+double PairWeights::meanScale() const {
+  double squares = 0.0, count = 0.0;
+  for (const auto& [group, scale] : scales_) {
+    if (group.first == PairObservation::kControl) continue;
+    squares += scale * scale;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 1.0;
+}
+
 }  // namespace pcl_als

@@ -40,6 +40,9 @@ class PairWeights {
   /// pair shares with others, for Adjustment::accumulate.
   const std::vector<std::vector<double>>& weights() const { return weights_; }
   double pointingFactor() const { return pointing_; }  ///< of the variance due to pointing
+  /// Standard deviation of the pairs of strips over that of the noise model with this factor: the
+  /// root mean square of the pairs of strips; 1 without any.
+  double meanScale() const;
   double sigma0() const { return sigma0_; }   ///< over the standard deviations of the noise model
   std::size_t kept() const { return kept_; }  ///< with a weight
 

@@ -6,16 +6,12 @@
 
 #include <pcl_als/calibration/shared_errors.h>
 
+#include "smooth_basis.h"
+
 namespace pcl_als {
 namespace {
 
 constexpr double kNodeSpacing = 0.25;  // correlation times, between nodes of the smooth component
-
-double cubicBSpline(double x) {
-  const double u = std::abs(x);
-  if (u >= 2.0) return 0.0;
-  return u < 1.0 ? (4.0 - 6.0 * u * u + 3.0 * u * u * u) / 6.0 : std::pow(2.0 - u, 3) / 6.0;
-}
 
 // Places of the smooth and the constant components in SharedErrorLevels::values(), and the kind of
 // an unknown: position, roll and pitch, heading.
@@ -24,7 +20,6 @@ int kindOf(int unknown) {
   constexpr std::array<int, SharedErrors::kPerKnot> kKinds{0, 0, 0, 1, 1, 2};
   return kKinds[static_cast<std::size_t>(unknown % SharedErrors::kPerKnot)];
 }
-constexpr double kMeanSquare = 151.0 / 315.0;  // integral of the square of the cubic B-spline
 
 }  // namespace
 
@@ -204,40 +199,6 @@ SharedErrors::Place SharedErrors::placeOf(int index, double time) const {
   const int knot = std::min(strip.before(step), static_cast<int>(strip.at.size()) - 2);
   const double from = strip.at[knot], to = strip.at[knot + 1];
   return {strip.first + knot, strip.first + knot + 1, (step - from) / (to - from)};
-}
-
-std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int index,
-                                                        const Eigen::VectorXd& solution) const {
-  const StripKnots& strip = passOf(index);
-  using Block = Eigen::Matrix<double, kPerKnot, 1>;
-  const auto blockOf = [&](int block) -> Block {
-    return solution.segment<kPerKnot>(static_cast<Eigen::Index>(block) * kPerKnot);
-  };
-  const auto smoothAt = [&](int step) {
-    Block sum = Block::Zero();
-    for (const auto& [block, weight] : coefficientsAt(strip, step)) sum += weight * blockOf(block);
-    return sum;
-  };
-  const auto gaussMarkovAt = [&](int knot) -> Block {
-    return blockOf(strip.first + knot) - smoothAt(strip.at[knot]);
-  };
-  const double unit = strip.spacing / model_.correlation_time;
-  std::vector<TrajectoryErrorKnot> errors;
-  for (int step = 0; step <= strip.steps; ++step) {
-    // Expectation of a Gauss-Markov process between two known values, or beyond the last one.
-    const int knot = strip.before(step);
-    const double since = unit * (step - strip.at[knot]);
-    Block value = gaussMarkovAt(knot) * std::exp(-std::abs(since));
-    if (since > 0.0 && knot + 1 < static_cast<int>(strip.at.size())) {
-      const double until = unit * (strip.at[knot + 1] - step);
-      value =
-          (std::sinh(until) * gaussMarkovAt(knot) + std::sinh(since) * gaussMarkovAt(knot + 1)) /
-          std::sinh(since + until);
-    }
-    value += smoothAt(step);
-    errors.push_back({strip.start + step * strip.spacing, value.head<3>(), value.tail<3>()});
-  }
-  return errors;
 }
 
 SharedErrors::Variances SharedErrors::shareOf(double share,

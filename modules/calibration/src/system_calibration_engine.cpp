@@ -239,6 +239,24 @@ void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResu
   }
 }
 
+ErrorLevels SystemCalibrationEngine::errorLevels(const State& state) const {
+  const NoiseModel& noise = settings_.noise;
+  const double scale = state.weights.meanScale();
+  const double pointing = scale * std::sqrt(state.weights.pointingFactor());
+  const auto trajectory = state.errors.variances(state.adjustment.levels());
+  ErrorLevels levels;
+  levels.range = scale * noise.range;
+  // The scatter on slopes shows the sum of both: all of it is assigned to the direction, and the
+  // share of the footprint also to the range.
+  levels.angle = pointing * std::hypot(noise.angle, noise.footprint());
+  levels.footprint = pointing * noise.footprint();
+  levels.position = scale * noise.position;
+  levels.trajectory_position = std::sqrt(trajectory[0]);
+  levels.trajectory_roll_pitch = std::sqrt(trajectory[3]);
+  levels.trajectory_heading = std::sqrt(trajectory[5]);
+  return levels;
+}
+
 CalibrationResult SystemCalibrationEngine::calibrate() {
   prepare();
   const std::vector<TimeSpan> spans = flownTimes();
@@ -264,7 +282,8 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   addSystems(state.adjustment, errors, state.choice, settings_.systems, ids_, result);
-  report.addStrips(errors, used_, state.choice.solution, result);
+  report.addStrips(errors, used_, state.adjustment, state.choice, result);
+  result.error_levels = errorLevels(state);
   addErrorSources(errors, state.choice, state.diagnosed, swathEdge(state.observations),
                   source_scale_, meanSpeed(spans), result);
   addHeldSources(state.held_sources, result);

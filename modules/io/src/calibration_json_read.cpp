@@ -12,6 +12,7 @@
 #include "diagnosis_json.h"
 #include "json_node.h"
 #include "json_parse.h"
+#include "strip_errors_json.h"
 
 namespace pcl_als {
 namespace detail {
@@ -193,29 +194,6 @@ void readStripOffsets(const Node& strips, CalibrationResult& result) {
   }
 }
 
-// No trajectory of a survey is wrong by more, and a lever arm or boresight is not either.
-constexpr double kLargestShift = 100.0;   // metres
-constexpr double kLargestTurn = 20000.0;  // arc-seconds
-
-void readStripErrors(const Node& strips, CalibrationResult& result) {
-  for (const Node& node : strips.items()) {
-    StripErrors strip;
-    strip.id = node["strip"].text();
-    for (const Node& at : node["knots"].items()) {
-      const auto metres = [&](const char* key) { return at[key].within(kLargestShift, "m"); };
-      const auto arcsec = [&](const char* key) { return at[key].within(kLargestTurn, "arcsec"); };
-      TrajectoryErrorKnot knot;
-      knot.time = at["time"].number();
-      knot.position = {metres("east_m"), metres("north_m"), metres("up_m")};
-      knot.angles =
-          kRadiansPerArcsec *
-          Eigen::Vector3d(arcsec("pitch_arcsec"), arcsec("roll_arcsec"), arcsec("heading_arcsec"));
-      strip.knots.push_back(knot);
-    }
-    result.strip_errors.push_back(std::move(strip));
-  }
-}
-
 void readRecoveredAttitude(const Node& passes, CalibrationResult& result) {
   constexpr double kRightAngle = 324000.0;  // arc-seconds
   for (const Node& node : passes.items()) {
@@ -315,7 +293,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   if (root.has("control")) readControlFits(root["control"], result);
   if (root.has("control_points")) readControlPoints(root["control_points"], result);
   if (root.has("strip_offsets")) readStripOffsets(root["strip_offsets"], result);
-  if (root.has("strip_corrections")) readStripErrors(root["strip_corrections"], result);
+  readStripErrors(root, result);
   if (root.has("recovered_attitude")) {
     readRecoveredAttitude(root["recovered_attitude"], result);
   }

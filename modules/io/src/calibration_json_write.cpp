@@ -11,6 +11,7 @@
 
 #include "calibration_json.h"
 #include "diagnosis_json.h"
+#include "strip_errors_json.h"
 
 namespace pcl_als {
 namespace detail {
@@ -120,24 +121,6 @@ Json histogramOf(const ResidualHistogram& histogram) {
       {"edges_m", histogram.edges}, {"before", histogram.before}, {"after", histogram.after}};
 }
 
-Json stripErrorsOf(const CalibrationResult& result) {
-  Json strips = Json::array();
-  for (const StripErrors& strip : result.strip_errors) {
-    Json knots = Json::array();
-    for (const TrajectoryErrorKnot& knot : strip.knots) {
-      knots.push_back(Json{{"time", number(knot.time)},
-                           {"east_m", number(knot.position.x())},
-                           {"north_m", number(knot.position.y())},
-                           {"up_m", number(knot.position.z())},
-                           {"pitch_arcsec", number(knot.angles.x() / kRadiansPerArcsec)},
-                           {"roll_arcsec", number(knot.angles.y() / kRadiansPerArcsec)},
-                           {"heading_arcsec", number(knot.angles.z() / kRadiansPerArcsec)}});
-    }
-    strips.push_back(Json{{"strip", strip.id}, {"knots", std::move(knots)}});
-  }
-  return strips;
-}
-
 /// Lists by column: a knot of a long flight takes a fifth of what an object with names would.
 Json recoveredAttitudeOf(const CalibrationResult& result) {
   Json passes = Json::array();
@@ -241,7 +224,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   root["control"] = controlOf(result);
   root["control_points"] = controlPointsOf(result);
   root["strip_offsets"] = stripOffsetsOf(result);
-  root["strip_corrections"] = stripErrorsOf(result);
+  writeStripErrors(result, root);
   if (!result.recovered_attitude.empty()) {
     root["recovered_attitude"] = recoveredAttitudeOf(result);
   }

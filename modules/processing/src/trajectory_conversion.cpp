@@ -39,7 +39,25 @@ std::vector<TrajectoryAccuracy> accuraciesOf(const std::vector<TrajectorySample>
   return accuracies;
 }
 
-/// Corrects samples and the standard deviations of their positions.
+/// Where the calibration states standard deviations after the strip corrections, they replace those
+/// of the trajectory.
+void addPosterior(const CorrectedTrajectory& corrected,
+                  std::vector<TrajectoryAccuracy>& accuracies) {
+  const auto isKnown = [](const Eigen::Vector3d& std) { return std.allFinite(); };
+  const auto& positions = corrected.position_std;
+  if (std::none_of(positions.begin(), positions.end(), isKnown)) return;
+  accuracies.resize(corrected.samples.size());
+  for (std::size_t i = 0; i < accuracies.size(); ++i) {
+    accuracies[i].time = corrected.samples[i].time;
+    if (!isKnown(positions[i])) continue;
+    accuracies[i].position = positions[i];
+    const Eigen::Vector3d& angles = corrected.angles_std[i];
+    if (corrected.samples[i].hasAttitude())
+      accuracies[i].angles = {angles.y(), angles.x(), angles.z()};
+  }
+}
+
+/// Corrects samples and their standard deviations.
 void correct(const Options& options, const FlightFile& flight,
              std::vector<TrajectorySample>& samples, std::vector<TrajectoryAccuracy>& accuracies,
              const std::vector<TrajectoryAccuracy>& known, ProgressReport& progress) {
@@ -54,6 +72,7 @@ void correct(const Options& options, const FlightFile& flight,
     Eigen::Vector3d& position = accuracies[i].position;
     position = (position.cwiseAbs2() + corrected.lever_arm_variance[i]).cwiseSqrt();
   }
+  addPosterior(corrected, accuracies);
   progress.remark(std::string("lever arm ") +
                   (how.strip_corrections ? "and strip corrections " : "") +
                   "taken out; boresight, range bias and scan angle scale are parameters of the "
@@ -122,7 +141,7 @@ TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const
   std::vector<TrajectoryAccuracy> accuracies = accuraciesOf(samples, known);
   if (options.calibration != nullptr)
     correct(options, flight, samples, accuracies, known, progress);
-  if (known.empty())
+  if (accuracies.empty())
     progress.remark("no standard deviations are written: the trajectory states none");
   progress.begin("Writing " + output.string());
   const TrajectoryConversion conversion{

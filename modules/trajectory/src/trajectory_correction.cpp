@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
 
+#include <pcl_als/trajectory/calibration_covariance.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 #include <pcl_als/trajectory/trajectory_correction.h>
 #include <pcl_als/trajectory/trajectory_errors.h>
@@ -23,6 +24,35 @@ Eigen::Vector3d leverArmStd(const CalibrationResult& calibration) {
           calibration[SystemParameter::lever_arm_z].std};
 }
 
+/// A posteriori standard deviations of corrected samples.
+class SampleDeviations {
+ public:
+  SampleDeviations(const CalibrationResult& calibration, bool strip_corrections)
+      : strip_corrections_(strip_corrections), covariance_(calibration, {strip_corrections, {}}) {}
+
+  /// \a rotation: from body to ground.
+  void add(double time, const Eigen::Matrix3d& rotation, CorrectedTrajectory& corrected) const {
+    Eigen::Vector3d& position = corrected.position_std.emplace_back();
+    Eigen::Vector3d& angles = corrected.angles_std.emplace_back();
+    position.setConstant(TrajectoryErrorKnot::kUnknown);
+    angles = position;
+    if (!strip_corrections_ || !covariance_.isKnown(time)) return;
+    const CalibrationCovariance::Matrix all = covariance_.at(time);
+    Eigen::Matrix<double, 3, 6> effect;  // of lever arm and position
+    effect << rotation, Eigen::Matrix3d::Identity();
+    Eigen::Matrix<double, 6, 6> both;
+    constexpr int kPosition = kSystemParameterCount;
+    both << all.topLeftCorner<3, 3>(), all.block<3, 3>(0, kPosition), all.block<3, 3>(kPosition, 0),
+        all.block<3, 3>(kPosition, kPosition);
+    position = (effect * both * effect.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    angles = all.diagonal().tail<3>().cwiseSqrt();
+  }
+
+ private:
+  bool strip_corrections_;
+  CalibrationCovariance covariance_;
+};
+
 }  // namespace
 
 CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& samples,
@@ -35,6 +65,7 @@ CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& sampl
   const SystemVector biases = calibration.biases();
   const Eigen::Matrix3d boresight = boresightRotation(biases);
   const Eigen::Vector3d lever_std = leverArmStd(calibration);
+  const SampleDeviations deviations(calibration, options.strip_corrections);
   CorrectedTrajectory corrected;
   std::size_t cursor = 0;
   for (TrajectorySample sample : samples) {
@@ -58,6 +89,7 @@ CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& sampl
     }
     corrected.samples.push_back(sample);
     corrected.lever_arm_variance.push_back(pose.rotation.cwiseAbs2() * lever_std.cwiseAbs2());
+    deviations.add(sample.time, pose.rotation, corrected);
   }
   return corrected;
 }

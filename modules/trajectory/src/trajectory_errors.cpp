@@ -41,44 +41,86 @@ TrajectoryErrors::TrajectoryErrors(const std::vector<StripErrors>& strips) {
   for (const StripErrors* strip : in_order) {
     // Channels of a scanner have the errors of their pass.
     if (!strips_.empty() && passOfStrip(strip->id) == pass && strip->id != pass &&
-        strip->knots.front().time == strips_.back().front().time)
+        strip->knots.front().time == strips_.back().knots.front().time)
       continue;
     pass = passOfStrip(strip->id);
-    if (!strips_.empty() && strip->knots.front().time < strips_.back().back().time) {
+    if (!strips_.empty() && strip->knots.front().time < strips_.back().knots.back().time) {
       throw InputError(
           "strip corrections: strip " + strip->id +
           " was measured at the same time as another; they cannot be separated by time");
     }
-    strips_.push_back(strip->knots);
+    strips_.push_back(*strip);
   }
 }
 
-bool TrajectoryErrors::at(double time, TrajectoryErrorKnot& errors) const {
-  errors = TrajectoryErrorKnot();
-  errors.time = time;
+const StripErrors* TrajectoryErrors::stripAt(double time) const {
   // Where two strips are less than four seconds apart, the nearer one counts.
-  const std::vector<TrajectoryErrorKnot>* nearest = nullptr;
+  const StripErrors* nearest = nullptr;
   double distance = kBeyond;
-  auto after =
-      std::upper_bound(strips_.begin(), strips_.end(), time,
-                       [](double value, const auto& knots) { return value < knots.front().time; });
+  auto after = std::upper_bound(
+      strips_.begin(), strips_.end(), time,
+      [](double value, const StripErrors& strip) { return value < strip.knots.front().time; });
   for (auto strip = after == strips_.begin() ? after : after - 1;
        strip != strips_.end() && strip <= after; ++strip) {
-    const double away = std::max({0.0, strip->front().time - time, time - strip->back().time});
+    const double away =
+        std::max({0.0, strip->knots.front().time - time, time - strip->knots.back().time});
     if (!(away <= distance)) continue;
     distance = away;
     nearest = &*strip;
   }
-  if (nearest == nullptr) return false;
-  const auto next = std::lower_bound(
-      nearest->begin(), nearest->end(), time,
-      [](const TrajectoryErrorKnot& knot, double value) { return knot.time < value; });
-  const TrajectoryErrorKnot& b = next == nearest->end() ? nearest->back() : *next;
-  const TrajectoryErrorKnot& a = next == nearest->begin() ? b : *(next - 1);
-  const double share =
-      b.time > a.time ? std::clamp((time - a.time) / (b.time - a.time), 0.0, 1.0) : 0.0;
-  errors.position = a.position + share * (b.position - a.position);
-  errors.angles = a.angles + share * (b.angles - a.angles);
+  return nearest;
+}
+
+namespace {
+
+/// The values before and after a time, and the share of the later one.
+template <typename Value>
+struct Between {
+  const Value &a, &b;
+  double share;
+
+  Between(const std::vector<Value>& values, double time) : Between(values, next(values, time)) {
+    if (a.time < b.time) share = std::clamp((time - a.time) / (b.time - a.time), 0.0, 1.0);
+  }
+  template <typename Part>
+  Part mean(Part Value::*part) const {
+    return a.*part + share * (b.*part - a.*part);
+  }
+
+ private:
+  using Place = typename std::vector<Value>::const_iterator;
+  static Place next(const std::vector<Value>& values, double time) {
+    return std::lower_bound(values.begin(), values.end(), time,
+                            [](const Value& value, double at) { return value.time < at; });
+  }
+  Between(const std::vector<Value>& values, Place next)
+      : a(next == values.begin() ? values.front() : *(next - 1)),
+        b(next == values.end() ? values.back() : *next),
+        share(0.0) {}
+};
+
+}  // namespace
+
+bool TrajectoryErrors::at(double time, TrajectoryErrorKnot& errors) const {
+  errors = TrajectoryErrorKnot();
+  errors.time = time;
+  const StripErrors* strip = stripAt(time);
+  if (strip == nullptr) return false;
+  const Between<TrajectoryErrorKnot> knots(strip->knots, time);
+  errors.position = knots.mean(&TrajectoryErrorKnot::position);
+  errors.angles = knots.mean(&TrajectoryErrorKnot::angles);
+  errors.position_std = knots.mean(&TrajectoryErrorKnot::position_std);
+  errors.angles_std = knots.mean(&TrajectoryErrorKnot::angles_std);
+  return true;
+}
+
+bool TrajectoryErrors::correlationAt(double time, StripErrorCorrelation& correlation) const {
+  const StripErrors* strip = stripAt(time);
+  if (strip == nullptr || strip->correlations.empty()) return false;
+  const Between<StripErrorCorrelation> known(strip->correlations, time);
+  correlation.time = time;
+  correlation.errors = known.mean(&StripErrorCorrelation::errors);
+  correlation.parameters = known.mean(&StripErrorCorrelation::parameters);
   return true;
 }
 

@@ -28,6 +28,7 @@ struct AdjustmentSolution {
 
 class AreaNormal;    // normal equations of one area
 struct ErrorNormal;  // their sum
+class StripCovariance;
 
 /// Restricted likelihood of variance components, with its derivatives with respect to their
 /// logarithms, in the order of SharedErrorLevels::values().
@@ -114,6 +115,10 @@ class Adjustment {
   /// Contribution of each area to the determination of these parameters: its part of the trace of
   /// N^-1 N, in [0, 1].
   std::vector<double> informationShares(const std::vector<SystemParameter>& estimate) const;
+
+  /// A posteriori covariances of the trajectory errors of a solution, for the covariance of its
+  /// parameters; about the cost of restrictedLikelihood(). Null before accumulate().
+  std::unique_ptr<const StripCovariance> stripCovariance(const AdjustmentSolution& solution) const;
 
   /// Residual of an observation after a solution, shifts of areas included, metres.
   double residual(const PairObservation& observation, const AdjustmentSolution& solution) const;

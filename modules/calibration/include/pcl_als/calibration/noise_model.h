@@ -28,6 +28,8 @@ struct NoiseModel {
 
   /// Covariance of a point (m^2, ground frame: east, north, up).
   Eigen::Matrix3d pointCovariance(const ScanGeometry& geometry) const;
+  /// Standard deviation of the place within the footprint that a return comes from, rad.
+  double footprint() const { return 0.25 * beam_divergence; }
   /// The part of it across the beam: pointing and footprint.
   Eigen::Matrix3d pointingCovariance(const ScanGeometry& geometry) const;
 };

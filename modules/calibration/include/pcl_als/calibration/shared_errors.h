@@ -161,9 +161,22 @@ class SharedErrors {
     double next = 0.0;  ///< share of next_knot, 0 … 1
   };
   Place placeOf(int strip, double time) const;
-  /// The errors of a strip according to a solution (AdjustmentSolution::shared), a knot_spacing
-  /// apart from its start to its end; where nothing was observed, the expectation of the process
-  /// between its neighbours.
+  /// The expectation of the errors of a strip at a time: a linear combination of blocks of
+  /// unknowns, and the shares of the variances of two components that remain where there is no
+  /// knot.
+  struct Expectation {
+    double time = 0.0;
+    std::vector<std::pair<int, double>> blocks;  ///< with their weights, in increasing order
+    double gauss_markov_left = 0.0, smooth_left = 0.0;
+  };
+  /// A knot_spacing apart from the start of the strip to its end; where nothing was observed,
+  /// between the neighbouring knots.
+  std::vector<Expectation> expectationsOf(int strip) const;
+  /// What remains of the variances of a strip's errors, m^2 and rad^2.
+  std::array<double, kPerKnot> variancesLeft(int strip, const Expectation& at,
+                                             const SharedErrorLevels& levels) const;
+  /// The errors of a strip according to a solution (AdjustmentSolution::shared), at the times of
+  /// expectationsOf().
   std::vector<TrajectoryErrorKnot> errorsOf(int strip, const Eigen::VectorXd& solution) const;
 
   /// Variance of a strip's shift in an area, each axis, m^2.

@@ -183,6 +183,8 @@ class SystemCalibrationEngine {
   void diagnose(CalibrationResult& result) const;
   /// Moves the observations, weights and variance components out of the state.
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
+  /// The noise of points and the sizes of the trajectory errors, as estimated.
+  ErrorLevels errorLevels(const State& state) const;
   /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
   /// Adds the parameters that differ between halves of the block.

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,17 +89,49 @@ struct StripOffset {
   bool consistent = true;     ///< false: differs significantly from the rest of the block
 };
 
-/// What the trajectory of a strip is wrong by at a time, assumed - true.
+/// Estimated errors of the trajectory of a strip at a time, assumed - true, with their a posteriori
+/// standard deviations (NaN: not known).
 struct TrajectoryErrorKnot {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
   double time = 0.0;                                   ///< seconds, on the trajectory's clock
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< east, north, up, metres
   Eigen::Vector3d angles = Eigen::Vector3d::Zero();    ///< pitch, roll, heading as boresight, rad
+  Eigen::Vector3d position_std = Eigen::Vector3d::Constant(kUnknown);  ///< metres
+  Eigen::Vector3d angles_std = Eigen::Vector3d::Constant(kUnknown);    ///< rad
+
+  bool hasStd() const { return position_std.allFinite() && angles_std.allFinite(); }
+};
+
+/// A posteriori correlations of the errors of a strip at a time (east, north, up, pitch, roll,
+/// heading).
+struct StripErrorCorrelation {
+  double time = 0.0;                   ///< seconds, on the trajectory's clock
+  Eigen::Matrix<double, 6, 6> errors;  ///< with each other
+  /// With the parameters, in the order of CalibrationResult::correlation_order.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> parameters;
 };
 
 /// The errors of one strip, linear between knots.
 struct StripErrors {
   std::string id;
   std::vector<TrajectoryErrorKnot> knots;
+  /// At some of the knots, in order of time; empty: not known.
+  std::vector<StripErrorCorrelation> correlations;
+};
+
+/// Standard deviations of the random errors of points, and of the errors of a trajectory of which
+/// nothing else is known; each axis. The defaults are those of the models of a calibration.
+struct ErrorLevels {
+  double range = 0.02;                      ///< metres, along the pulse
+  double angle = 10.0 * kRadiansPerArcsec;  ///< rad, of the direction of the pulse
+  /// rad, seen from the sensor: of the place within the footprint that the range belongs to. A
+  /// quarter of the beam divergence (full angle at 1/e^2) for a return from anywhere in it.
+  double footprint = 0.075e-3;
+  double position = 0.005;            ///< metres, short-term errors of the trajectory
+  double trajectory_position = 0.02;  ///< metres
+  double trajectory_roll_pitch = 8.0 * kRadiansPerArcsec;  ///< rad
+  double trajectory_heading = 16.0 * kRadiansPerArcsec;    ///< rad
 };
 
 /// One of several systems of a calibration. Parameters that it shares with the others have the
@@ -143,6 +177,7 @@ struct CalibrationResult {
   std::vector<ControlPointFit> control_points;  ///< those that a strip sees
   std::vector<StripOffset> strip_offsets;       ///< of the strips that have pairs
   std::vector<StripErrors> strip_errors;        ///< of the strips that were calibrated with
+  std::optional<ErrorLevels> error_levels;      ///< as estimated; none: not known
   std::vector<std::string> observability;  ///< what is weakly determined, why, and what would help
   Warnings warnings;
   std::vector<LeftOutPoints> left_out;  ///< points that took no part

@@ -40,9 +40,11 @@ std::vector<std::filesystem::path> writeTrajectoryFile(
 /** \brief Reads trajectory files, corrects them by a calibration (correctTrajectory()) and writes
  * one trajectory: .csv, or .sbet and .out as SBET.
  *
- * Standard deviations of the positions are those of the trajectory with those of the lever arm. A
- * CSV holds them as columns; beside an SBET, NAME_smrmsg.out is written. Without any for the
- * trajectory none are written.
+ * With strip corrections, standard deviations are those after the calibration (a posteriori), at
+ * times that it covers. At other times, and without strip corrections, those of the positions are
+ * those of the trajectory with those of the lever arm; without any for the trajectory they are not
+ * known. A CSV holds them as columns; beside an SBET, NAME_smrmsg.out is written. None are written
+ * where none are known.
  *
  * UsageError for another extension and for an SBET without a CRS, InputError for files that cannot
  * be used.

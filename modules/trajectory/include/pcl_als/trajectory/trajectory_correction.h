@@ -19,6 +19,10 @@ struct CorrectedTrajectory {
   std::vector<TrajectorySample> samples;
   /// Variances of their positions due to those of the lever arm, east, north, up, m^2.
   std::vector<Eigen::Vector3d> lever_arm_variance;
+  /// With strip corrections: a posteriori standard deviations of the samples, which include those
+  /// of the lever arm: east, north, up (m); pitch, roll, heading (rad). NaN at times of which the
+  /// calibration states none.
+  std::vector<Eigen::Vector3d> position_std, angles_std;
   std::size_t left_out = 0;  ///< samples that the flight does not cover
   /// Strip corrections hold angles, and the samples have no attitude that they could be applied to.
   bool angles_left_out = false;

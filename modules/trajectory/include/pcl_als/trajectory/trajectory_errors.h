@@ -23,11 +23,18 @@ class TrajectoryErrors {
   explicit TrajectoryErrors(const std::vector<StripErrors>& strips);
 
   bool empty() const { return strips_.empty(); }
-  /// False, with errors of zero, at times that belong to no strip.
+  /// False, with errors of zero, at times that belong to no strip. Their standard deviations are
+  /// linear between knots, too.
   bool at(double time, TrajectoryErrorKnot& errors) const;
+  /// Correlations of the errors, linear between the times at which they are known; false where
+  /// they are not, and at times that belong to no strip.
+  bool correlationAt(double time, StripErrorCorrelation& correlation) const;
 
  private:
-  std::vector<std::vector<TrajectoryErrorKnot>> strips_;  ///< in order of time
+  /// The strip to which a time belongs; null: none.
+  const StripErrors* stripAt(double time) const;
+
+  std::vector<StripErrors> strips_;  ///< in order of time
 };
 
 }  // namespace pcl_als

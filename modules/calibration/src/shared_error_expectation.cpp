@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The errors of a strip between its knots (SharedErrors).
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <pcl_als/calibration/shared_errors.h>
+
+#include "smooth_basis.h"
+
+namespace pcl_als {
+
+std::vector<SharedErrors::Expectation> SharedErrors::expectationsOf(int index) const {
+  const StripKnots& strip = passOf(index);
+  const double unit = strip.spacing / model_.correlation_time;
+  const int last = static_cast<int>(strip.at.size()) - 1;
+  std::vector<Expectation> expectations;
+  for (int step = 0; step <= strip.steps; ++step) {
+    Expectation at;
+    at.time = strip.start + step * strip.spacing;
+    std::map<int, double> blocks;
+    double smooth = 0.0;
+    for (const auto& [block, weight] : coefficientsAt(strip, step)) {
+      blocks[block] += weight;
+      if (block != strip.constant) smooth += weight * weight;
+    }
+    // The Gauss-Markov component at a knot is the error there less the other components.
+    const auto addKnot = [&](int knot, double weight) {
+      blocks[strip.first + knot] += weight;
+      for (const auto& [block, share] : coefficientsAt(strip, strip.at[knot]))
+        blocks[block] -= weight * share;
+    };
+    // Expectation of a Gauss-Markov process between two known values, or beyond the last one.
+    const int knot = strip.before(step);
+    const double since = unit * (step - strip.at[knot]);
+    if (since > 0.0 && knot < last) {
+      const double until = unit * (strip.at[knot + 1] - step), all = std::sinh(since + until);
+      const double a = std::sinh(until) / all, b = std::sinh(since) / all;
+      addKnot(knot, a);
+      addKnot(knot + 1, b);
+      at.gauss_markov_left = 1.0 - a * std::exp(-since) - b * std::exp(-until);
+    } else {
+      addKnot(knot, std::exp(-std::abs(since)));
+      at.gauss_markov_left = -std::expm1(-2.0 * std::abs(since));
+    }
+    at.smooth_left = std::max(0.0, smoothVariance(step / strip.per_node) - smooth);
+    for (const auto& [block, weight] : blocks) {
+      if (weight != 0.0) at.blocks.emplace_back(block, weight);
+    }
+    expectations.push_back(std::move(at));
+  }
+  return expectations;
+}
+
+SharedErrors::Variances SharedErrors::variancesLeft(int index, const Expectation& at,
+                                                    const SharedErrorLevels& levels) const {
+  const PriorVariances prior = priorVariances(levels);
+  const Variances& factors = passOf(index).variance_factors;
+  Variances left{};
+  for (std::size_t i = 0; i < left.size(); ++i)
+    left[i] = factors[i] *
+              (at.gauss_markov_left * prior.gauss_markov[i] + at.smooth_left * prior.smooth[i]);
+  return left;
+}
+
+std::vector<TrajectoryErrorKnot> SharedErrors::errorsOf(int strip,
+                                                        const Eigen::VectorXd& solution) const {
+  std::vector<TrajectoryErrorKnot> errors;
+  for (const Expectation& at : expectationsOf(strip)) {
+    Eigen::Matrix<double, kPerKnot, 1> value = Eigen::Matrix<double, kPerKnot, 1>::Zero();
+    for (const auto& [block, weight] : at.blocks)
+      value += weight * solution.segment<kPerKnot>(static_cast<Eigen::Index>(block) * kPerKnot);
+    TrajectoryErrorKnot& knot = errors.emplace_back();
+    knot.time = at.time;
+    knot.position = value.head<3>();
+    knot.angles = value.tail<3>();
+  }
+  return errors;
+}
+
+}  // namespace pcl_als
