@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
-#include <sstream>
 
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/file_correction.h>
 
 #include "command_line.h"
 #include "flight_options.h"
+#include "output_check.h"
 
 namespace {
 
@@ -33,6 +34,16 @@ CommandLine commandLine() {
   line.addFlag("invert", "apply the biases instead of removing them");
   line.addFlag("strip_corrections",
                "with -calibration: also correct the estimated trajectory errors of each strip");
+  line.addFlag(
+      "uncertainty",
+      "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
+      "standard deviation of every point, m (LAS, LAZ)");
+  line.addOptional("uncertainty_raster",
+                   "GeoTIFF of these standard deviations, root mean squares in cells");
+  line.add("uncertainty_cell", "size of its cells, m", 2.0);
+  app::addAccuracyOption(line,
+                         "for -uncertainty at times of which the calibration knows nothing "
+                         "(default: the trajectory's own columns)");
   app::addForceOption(
       line, "the calibration's verdict is not \"usable\" or inputs do not belong together");
   line.addFlag("keep_uncovered",
@@ -89,26 +100,6 @@ AttitudeUse attitudeUse(const CommandLine& line, const CalibrationResult& calibr
   return line.has("biases") ? app::attitudeUse(line) : flightFileOptions(calibration).attitude;
 }
 
-std::string biasText(const SystemVector& biases) {
-  std::ostringstream text;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const double value = biases[indexOf(info.parameter)] / info.internal_per_unit;
-    if (value == 0.0) continue;
-    text << (text.tellp() > 0 ? ", " : "") << info.name << ' ' << value;
-    if (info.unit != "1") text << ' ' << info.unit;
-  }
-  return text.tellp() > 0 ? text.str() : "all biases are zero";
-}
-
-/// The biases of all systems.
-std::string biasText(const CalibrationResult& calibration) {
-  std::string text;
-  for (const SystemEstimate& system : calibration.systems)
-    text += (text.empty() ? "" : "; ") + system.group.name + ": " +
-            biasText(SystemVector(system.values().head<kSystemParameterCount>()));
-  return text.empty() ? biasText(calibration.biases()) : text;
-}
-
 FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult& calibration) {
   FileCorrectionOptions options;
   options.strip_corrections = line.has("strip_corrections");
@@ -120,6 +111,10 @@ FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult
   options.force = line.has("force");
   options.gps_week = app::gpsWeek(line);
   options.threads = line.threads();
+  options.uncertainty = line.has("uncertainty") || line.has("uncertainty_raster");
+  if (!line.has("uncertainty_raster")) return options;
+  app::checkWritable(line.text("uncertainty_raster"));
+  options.deviation_cell = line.number("uncertainty_cell", 0.01, 1e4, "m");
   return options;
 }
 
@@ -135,29 +130,24 @@ int apply(int argc, char** argv) {
   if (!line.parse(argc, argv)) return app::kDone;
   const std::vector<std::string>& files = line.inputs(2, 2);
   CalibrationResult calibration = biasesOf(line);
-  const FileCorrectionOptions options = optionsOf(line, calibration);
+  FileCorrectionOptions options = optionsOf(line, calibration);
   const PointReference reference = commonReference(std::vector<std::string>{files[0]});
   app::remarks(line, reference.remarks);
+  FlightFile stated;
   const auto flight = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
-                                      attitudeUse(line, calibration));
+                                      attitudeUse(line, calibration), {}, &stated);
+  options.trajectory_accuracy =
+      line.has("accuracy") ? app::accuracies(line) : std::move(stated.accuracy);
   if (line.has("biases")) calibration.attitude = attitudeOf(*flight);
-  app::remark(line, (options.invert ? "putting in: " : "taking out: ") + biasText(calibration));
+  app::remark(line,
+              (options.invert ? "putting in: " : "taking out: ") + describeBiases(calibration));
 
-  const FileCorrectionResult result =
+  FileCorrectionResult result =
       correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(line));
-  app::remark(line, result.time_remark);
-  for (const Warning& warning : result.warnings) app::remark(line, "warning: " + warning.text);
-  if (calibration.attitude == AttitudeSource::points && result.attitude_remark.empty())
-    app::remark(line, "pitch and crab: recovered from the points by the calibration");
-  if (!result.attitude_remark.empty()) {
-    app::remark(line, result.attitude_remark);
-    app::remark(line,
-                "the calibration holds no attitude for these times, it is recovered from this "
-                "file: other tiles of its strips may get a slightly different one");
-  }
-  if (result.coverage.missed() > 0) {
-    app::remark(line, "left as they are: " + result.coverage.describe(*flight));
-  }
+  app::remarks(line, result.remarks);
+  if (!result.deviation_raster) return app::kDone;
+  result.deviation_raster->grid.crs = reference.crs;
+  writeRaster(line.text("uncertainty_raster"), *result.deviation_raster);
   return app::kDone;
 }
 

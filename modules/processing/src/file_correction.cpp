@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <mutex>
+#include <sstream>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
@@ -17,6 +18,7 @@
 
 #include "file_attitude.h"
 #include "file_times.h"
+#include "file_uncertainty.h"
 #include "flight_check.h"
 
 namespace pcl_als {
@@ -161,13 +163,29 @@ IntegerBiasCorrection::Layout layoutOf(const Job& job, const LasFile& file) {
 }
 
 void rewrite(Job& job, const LasFile& file) {
-  const IntegerBiasCorrection engine(job.name(), correctionOf(job), layoutOf(job, file));
+  const SystemCorrection correction = correctionOf(job);
+  IntegerBiasCorrection::Layout layout = layoutOf(job, file);
+  std::unique_ptr<detail::FileUncertainty> uncertainty;
+  if (job.options.uncertainty)
+    uncertainty = std::make_unique<detail::FileUncertainty>(file, correction, layout,
+                                                            job.calibration, job.options);
+  const LasExtension extension = uncertainty ? uncertainty->extension() : LasExtension();
+  layout.record_length += 4 * extension.fields.size();
+  const IntegerBiasCorrection engine(job.name(), correction, layout);
   Tally tally(file.header().point_count, job);
   const LasEdit edit = [&](const LasRecordBlock& block) {
-    tally.add(engine.apply(block.records, block.count, block.first));
+    std::vector<Eigen::Vector3f> normals;
+    if (uncertainty) normals = uncertainty->normalsOf(block);
+    const CoverageCount coverage = engine.apply(block.records, block.count, block.first);
+    if (uncertainty) uncertainty->store(block, normals);
+    tally.add(coverage);
   };
-  job.result.points = rewriteLas(file, job.output, edit, job.options.threads).points;
+  job.result.points =
+      (uncertainty ? extendLas(file, job.output, extension, edit, job.options.threads)
+                   : rewriteLas(file, job.output, edit, job.options.threads))
+          .points;
   job.result.coverage = tally.coverage();
+  if (uncertainty) uncertainty->finish(job.result);
 }
 
 bool lacksAttitude(const Job& job) {
@@ -232,7 +250,48 @@ void correctPcd(Job& job) {
   savePcd(job.output, strip);
 }
 
+void addRemarks(Job& job) {
+  FileCorrectionResult& result = job.result;
+  std::vector<std::string>& remarks = result.remarks;
+  remarks = {result.deviations.describe(), result.time_remark};
+  for (const Warning& warning : result.warnings) remarks.push_back("warning: " + warning.text);
+  if (job.calibration.attitude == AttitudeSource::points && result.attitude_remark.empty())
+    remarks.emplace_back("pitch and crab: recovered from the points by the calibration");
+  if (!result.attitude_remark.empty()) {
+    remarks.push_back(result.attitude_remark);
+    remarks.emplace_back(
+        "the calibration holds no attitude for these times, it is recovered from this file: other "
+        "tiles of its strips may get a slightly different one");
+  }
+  if (result.coverage.missed() > 0)
+    remarks.push_back("left as they are: " + result.coverage.describe(*job.flight));
+  remarks.erase(std::remove(remarks.begin(), remarks.end(), std::string()), remarks.end());
+}
+
 }  // namespace
+
+namespace {
+
+std::string textOf(const SystemVector& biases) {
+  std::ostringstream text;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const double value = biases[indexOf(info.parameter)] / info.internal_per_unit;
+    if (value == 0.0) continue;
+    text << (text.tellp() > 0 ? ", " : "") << info.name << ' ' << value;
+    if (info.unit != "1") text << ' ' << info.unit;
+  }
+  return text.tellp() > 0 ? text.str() : "all biases are zero";
+}
+
+}  // namespace
+
+std::string describeBiases(const CalibrationResult& calibration) {
+  std::string text;
+  for (const SystemEstimate& system : calibration.systems)
+    text += (text.empty() ? "" : "; ") + system.group.name + ": " +
+            textOf(system.values().head<kSystemParameterCount>());
+  return text.empty() ? textOf(calibration.biases()) : text;
+}
 
 FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& output,
                                       const CalibrationResult& calibration, Flight flight,
@@ -243,6 +302,10 @@ FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& out
     throw UsageError(output.string() + ": input and output must be of one kind, .las/.laz or .pcd");
   }
   if (!flight) throw UsageError("correction of " + input.string() + ": no trajectory is given");
+  if (options.uncertainty && pcd_in)
+    throw UsageError(input.string() + ": standard deviations are written to .las and .laz only");
+  if (options.uncertainty && options.invert)
+    throw UsageError(input.string() + ": inverted corrections have no standard deviations");
   ProgressReport report(progress);
   report.begin("Writing " + output.string());
   Job job{input, output, calibration, std::move(flight), options, report, {}, {}, false, false, {}};
@@ -252,6 +315,7 @@ FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& out
     correctLas(job);
   }
   report.end(grouped(job.result.points) + " points");
+  addRemarks(job);
   return std::move(job.result);
 }
 

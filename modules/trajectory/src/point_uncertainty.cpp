@@ -28,6 +28,8 @@ PointUncertainty::PointUncertainty(const CalibrationResult& calibration,
                                    const CalibrationCovariance::Options& options)
     : flight_(std::move(flight)), shared_(calibration, options) {
   if (!flight_) throw UsageError("uncertainty of points: no trajectory is set");
+  for (const SystemEstimate& system : calibration.systems)
+    differences_.push_back({system.difference_std.cwiseAbs2(), system.offset_std.cwiseAbs2()});
 }
 
 PointUncertainty::Sigma PointUncertainty::sigmaOf(const Eigen::Matrix3d& covariance) {
@@ -37,7 +39,7 @@ PointUncertainty::Sigma PointUncertainty::sigmaOf(const Eigen::Matrix3d& covaria
 
 bool PointUncertainty::covarianceAt(double time, const Eigen::Vector3d& point,
                                     const Eigen::Vector3d& normal, Cursor& cursor,
-                                    Eigen::Matrix3d& covariance) const {
+                                    Eigen::Matrix3d& covariance, std::size_t system) const {
   SensorPose pose;
   if (!std::isfinite(time) || !flight_->poseAt(time, pose, cursor.sample)) return false;
   const double cell = std::floor(time / kCell);
@@ -54,8 +56,16 @@ bool PointUncertainty::covarianceAt(double time, const Eigen::Vector3d& point,
   const Eigen::Vector3d beam = geometry.beam();
   const double range = geometry.range(), across = levels.angle * range;
   const double footprint = levels.footprint * range * tangentOfIncidence(beam, normal);
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
   const double along_sq = levels.range * levels.range + footprint * footprint;
+  if (system < differences_.size()) {
+    const Difference& difference = differences_[system];
+    const DesignBlock design = effect.leftCols<kSystemParameterCount>();
+    own = design * difference.parameters.asDiagonal() * design.transpose();
+    own.diagonal() += difference.offset;
+  }
   covariance.noalias() = effect * cursor.covariance * effect.transpose();
+  covariance += own;
   covariance += (along_sq - across * across) * beam * beam.transpose();
   covariance.diagonal().array() += across * across + levels.position * levels.position;
   return true;

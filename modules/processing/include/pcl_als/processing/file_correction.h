@@ -11,6 +11,8 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/io/trajectory_io.h>
+#include <pcl_als/processing/point_deviations.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -27,6 +29,16 @@ struct FileCorrectionOptions {
   bool force = false;
   std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
   int threads = 0;              ///< 0: all cores; the result does not depend on it
+
+  /// Add the standard deviations of every point (PointUncertainty) to a .las or .laz file, as the
+  /// extra bytes sigma_horizontal and sigma_vertical (float, metres; NaN: not known).
+  bool uncertainty = false;
+  /// Standard deviations of the trajectory, for times of which the calibration knows nothing
+  /// (CalibrationCovariance); may be empty.
+  std::vector<TrajectoryAccuracy> trajectory_accuracy;
+  /// With standard deviations: side of the cells of FileCorrectionResult::deviation_raster, metres;
+  /// 0: none.
+  double deviation_cell = 0.0;
 };
 
 struct FileCorrectionResult {
@@ -38,7 +50,14 @@ struct FileCorrectionResult {
   /// Result of the recovery of attitude from this file, where the calibration has none for its
   /// times; otherwise empty.
   std::string attitude_remark;
+  DeviationSummary deviations;             ///< with FileCorrectionOptions::uncertainty
+  std::optional<Raster> deviation_raster;  ///< DeviationCells, without CRS
+  /// All that a user should know, with the above.
+  std::vector<std::string> remarks;
 };
+
+/// "boresight_roll -90 arcsec, range_bias 0.12 m": the biases that are not zero, of all systems.
+std::string describeBiases(const CalibrationResult& calibration);
 
 /** \brief Applies a calibration to a point file: .las and .laz in constant memory on the raw
  * integers, with every other byte kept, .pcd through SystemBiasCorrection.
@@ -49,8 +68,12 @@ struct FileCorrectionResult {
  *
  * \param flight as delivered, made with trajectoryOptions(calibration)
  *
+ * With standard deviations, local surfaces are found from the points within a radius that holds 16
+ * of them (LocalSurfaces), window by window; memory is that of some windows of 131,072 points.
+ *
  * UsageError for input and output of different kinds or the same file, and for a calibration that
- * should not be applied; InputError for files that cannot be used; Cancelled. The output appears
+ * should not be applied, for standard deviations of a .pcd file or of inverted corrections;
+ * InputError for files that cannot be used; Cancelled. The output appears
  * only when it is complete.
  */
 FileCorrectionResult correctPointFile(const std::filesystem::path& input,

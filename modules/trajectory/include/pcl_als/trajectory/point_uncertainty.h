@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -57,10 +58,18 @@ class PointUncertainty {
   /// \param time of the flight, seconds
   /// \param point corrected, metres
   /// \param normal of the surface, unit, ground frame; NaN: none known
+  /// \param system of a calibration with several (SystemLookup): what is known of its differences
+  /// to the first one is added, as if it were independent
   bool covarianceAt(double time, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                    Cursor& cursor, Eigen::Matrix3d& covariance) const;
+                    Cursor& cursor, Eigen::Matrix3d& covariance, std::size_t system = 0) const;
 
  private:
+  /// Variances of a system's differences to the first one: parameters, coordinates.
+  struct Difference {
+    SystemVector parameters;
+    Eigen::Vector3d offset;
+  };
+  std::vector<Difference> differences_;  ///< by system; empty: one system
   std::shared_ptr<const Trajectory> flight_;
   CalibrationCovariance shared_;
 };
