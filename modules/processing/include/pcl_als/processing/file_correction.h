@@ -33,7 +33,7 @@ struct FileCorrectionOptions {
   /// Add the standard deviations of every point (PointUncertainty) to a .las or .laz file, as the
   /// extra bytes sigma_horizontal and sigma_vertical (float, metres; NaN: not known).
   bool uncertainty = false;
-  /// Standard deviations of the trajectory, for times of which the calibration knows nothing
+  /// Standard deviations of the trajectory at times without strip corrections
   /// (CalibrationCovariance); may be empty.
   std::vector<TrajectoryAccuracy> trajectory_accuracy;
   /// With standard deviations: side of the cells of FileCorrectionResult::deviation_raster, metres;
