@@ -7,22 +7,26 @@
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/file_correction.h>
+#include <pcl_als/processing/survey_correction.h>
 
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "processes.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
 
+constexpr std::size_t kMostFiles = 100000;
+
 CommandLine commandLine() {
   CommandLine line("pcl_als_apply",
                    "removes known system biases from a point file (Habib et al. 2011, Eq. 13), or "
                    "applies them.",
-                   "IN OUT -trajectory T -calibration calibration.json [options]",
+                   "IN OUT -trajectory T -calibration calibration.json [options], or STRIP… "
+                   "-corrected DIR …",
                    "pcl_als_apply strip1.las corrected1.las -trajectory trajectory.csv "
                    "-calibration calibration.json");
   app::addFlightOptions(line);
@@ -30,6 +34,8 @@ CommandLine commandLine() {
   line.addOptional("biases",
                    "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
                    "names as in calibration.json");
+  line.addOptional("corrected", "folder for the corrected copies of any number of files");
+  app::addResumeOption(line);
   app::addModelOption(line);
   line.addFlag("invert", "apply the biases instead of removing them");
   line.addFlag("strip_corrections",
@@ -125,13 +131,34 @@ AttitudeSource attitudeOf(const Trajectory& flight) {
   return flight.attitudeIsNominal() ? AttitudeSource::nominal : AttitudeSource::trajectory;
 }
 
+/// The points of a file, or with -corrected of many.
+std::vector<std::string> inputsOf(const CommandLine& line) {
+  if (!line.has("corrected")) return {line.inputs(2, 2).front()};
+  if (line.has("uncertainty_raster"))
+    throw UsageError("options -corrected and -uncertainty_raster exclude each other");
+  app::makeOutputFolder("corrected", line.text("corrected"));
+  return line.inputs(1, kMostFiles);
+}
+
+void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
+                 const CalibrationResult& calibration,
+                 const std::shared_ptr<const Trajectory>& flight,
+                 const FileCorrectionOptions& options) {
+  const std::vector<CorrectedFile> corrected =
+      correctPointFiles(files, outputsIn(line.text("corrected"), files), calibration, flight,
+                        options, app::batchOptions(line), app::progressOf(line));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (const std::string& text : corrected[i].remarks)
+      if (!text.empty()) app::remark(line, files[i] + ": " + text);
+}
+
 int apply(int argc, char** argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) return app::kDone;
-  const std::vector<std::string>& files = line.inputs(2, 2);
+  const std::vector<std::string> files = inputsOf(line);
   CalibrationResult calibration = biasesOf(line);
   FileCorrectionOptions options = optionsOf(line, calibration);
-  const PointReference reference = commonReference(std::vector<std::string>{files[0]});
+  const PointReference reference = commonReference(files);
   app::remarks(line, reference.remarks);
   FlightFile stated;
   const auto flight = app::readFlight(line, reference.crs, calibration.line_fit_half_width,
@@ -142,8 +169,12 @@ int apply(int argc, char** argv) {
   app::remark(line,
               (options.invert ? "putting in: " : "taking out: ") + describeBiases(calibration));
 
-  FileCorrectionResult result =
-      correctPointFile(files[0], files[1], calibration, flight, options, app::progressOf(line));
+  if (line.has("corrected")) {
+    applyToMany(line, files, calibration, flight, options);
+    return app::kDone;
+  }
+  FileCorrectionResult result = correctPointFile(files[0], line.inputs(2, 2)[1], calibration,
+                                                 flight, options, app::progressOf(line));
   app::remarks(line, result.remarks);
   if (!result.deviation_raster) return app::kDone;
   result.deviation_raster->grid.crs = reference.crs;
@@ -154,5 +185,5 @@ int apply(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_apply", [argc, argv] { return apply(argc, argv); });
+  return pcl_als::app::runShared("pcl_als_apply", [argc, argv] { return apply(argc, argv); });
 }

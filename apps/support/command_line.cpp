@@ -306,7 +306,7 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) remark(line, text);
 }
 
-int run(const char* tool, const std::function<int()>& body) {
+int reportFailure(const char* tool, const std::exception_ptr& failure) {
   const auto failed = [tool](std::string message, int status) {
     // What a file holds in place of text must not reach the terminal.
     const auto control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
@@ -314,6 +314,20 @@ int run(const char* tool, const std::function<int()>& body) {
     std::cerr << tool << ": " << message << std::endl;
     return status;
   };
+  try {
+    std::rethrow_exception(failure);
+  } catch (const UsageError& error) {
+    return failed(withOption(error), kWrongUsage);
+  } catch (const Error& error) {
+    return failed(withOption(error), kUnusableInput);
+  } catch (const std::bad_alloc&) {
+    return failed("not enough memory", kUnusableInput);
+  } catch (const std::exception& error) {
+    return failed(error.what(), kUnusableInput);
+  }
+}
+
+int run(const char* tool, const std::function<int()>& body) {
   openStandardStreams();
   removeUnfinishedFilesOnSignals();
   reportAborts(tool);
@@ -321,15 +335,9 @@ int run(const char* tool, const std::function<int()>& body) {
     const int status = body();
     const char* reason = "";
     if (flushStandardOutput(reason) || status != kDone) return status;
-    return failed(std::string("cannot write to standard output: ") + reason, kUnusableInput);
-  } catch (const UsageError& error) {
-    return failed(withOption(error), kWrongUsage);
-  } catch (const InputError& error) {
-    return failed(withOption(error), kUnusableInput);
-  } catch (const std::bad_alloc&) {
-    return failed("not enough memory", kUnusableInput);
-  } catch (const std::exception& error) {
-    return failed(error.what(), kUnusableInput);
+    throw InputError(std::string("cannot write to standard output: ") + reason);
+  } catch (...) {
+    return reportFailure(tool, std::current_exception());
   }
 }
 

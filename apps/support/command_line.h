@@ -127,6 +127,8 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts);
 /// Runs a tool's body and turns exceptions into one line on stderr ("pcl_als_info: …") and the exit
 /// status.
 int run(const char* tool, const std::function<int()>& body);
+/// Prints an exception; the exit status.
+int reportFailure(const char* tool, const std::exception_ptr& failure);
 
 /// The finite number that a text is as a whole, in decimal digits (no hexadecimal, no blanks).
 std::optional<double> decimalNumber(const std::string& text);

@@ -25,7 +25,7 @@ declare -A may=(
   [planning]="common trajectory survey tin calibration"
   [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification photogrammetry visualization simulation"
   [report]="common io survey registration calibration planning radiometry quality photogrammetry classification processing visualization"
-  [simulation]="common" [visualization]="common io trajectory tin quality"
+  [simulation]="common" [mpi]="common" [visualization]="common io trajectory tin quality"
   [python]="common io survey trajectory registration calibration planning radiometry filters quality classification photogrammetry simulation processing report"
 )
 
@@ -81,6 +81,8 @@ for folder in modules/*/; do
             breach "$file" "includes $target, which is not beside it" ;;
         "<vtk"* | "<pcl/visualization/"*)
           [[ $module == visualization ]] || breach "$file" "includes $target: only visualization draws" ;;
+        "<boost/mpi"* | "<mpi.h>")
+          [[ $module == mpi ]] || breach "$file" "includes $target: only module mpi uses MPI" ;;
         "<gtest/"* | "<boost/program_options"*) breach "$file" "includes $target in a library" ;;
       esac
     done < <(includes "$file")

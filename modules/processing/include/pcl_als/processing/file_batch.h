@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <pcl_als/common/communicator.h>
+#include <pcl_als/common/progress.h>
+
+namespace pcl_als {
+
+/// How a job that makes an output of every input runs.
+struct BatchOptions {
+  /** \brief Records every complete output, and keeps outputs that an earlier run recorded.
+   *
+   * The records are in the folder kRecords beside the outputs. An output is kept where its input
+   * (path, size, time of modification), itself (size, time of modification) and \a settings are
+   * those of the record. Temporary files that a killed run left for these outputs are removed; no
+   * other job may write the same outputs at the time.
+   */
+  bool resume = false;
+  /// Everything else that the outputs depend on, as text: options, version, files such as the
+  /// trajectory with size and time.
+  std::string settings;
+  bool joint = false;                 ///< whether each output depends on all inputs
+  Communicator* processes = nullptr;  ///< that share the files; null: one process
+
+  static constexpr const char* kRecords = ".pcl_als_resume";
+};
+
+/** \brief The files of such a job, divided among processes by size. Outputs are in the order of
+ * the inputs.
+ */
+class FileBatch {
+ public:
+  /// UsageError unless there is one output for each input, of different names.
+  FileBatch(std::vector<std::string> inputs, std::vector<std::string> outputs,
+            const BatchOptions& options);
+
+  const std::vector<std::string>& inputs() const { return inputs_; }
+  const std::vector<std::string>& outputs() const { return outputs_; }
+  /// Whether an earlier run completed an output; after run().
+  bool wasKept(std::size_t file) const { return kept_[file] != 0; }
+  std::size_t keptCount() const;
+
+  /// Writes the output of a file, tells the fraction that is done and returns its result as bytes.
+  using Work =
+      std::function<std::string(std::size_t file, const std::function<void(double)>& fraction)>;
+  /** \brief Collective: does the work for all files that are not complete, in each process for its
+   * share, one file after another. Returns the results of all files, from records for those that
+   * were kept. \a progress receives the fraction of the bytes that this process has done.
+   */
+  std::vector<std::string> run(const Work& work, const std::function<void(double)>& progress);
+
+ private:
+  void removeTemporaries() const;
+  std::string identity(std::size_t file) const;
+  std::filesystem::path recordOf(std::size_t file) const;
+  void readRecords(std::vector<std::string>& results);
+  bool readRecord(std::size_t file, std::string& result) const;
+  void writeRecord(std::size_t file, const std::string& result) const;
+
+  std::vector<std::string> inputs_, outputs_;
+  BatchOptions options_;
+  std::vector<char> kept_;
+};
+
+/// "FOLDER/name" for each input. UsageError where two inputs have the same name.
+std::vector<std::string> outputsIn(const std::filesystem::path& folder,
+                                   const std::vector<std::string>& inputs);
+
+}  // namespace pcl_als

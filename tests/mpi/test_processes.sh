@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# test_processes.sh BIN_DIR SCRATCH_DIR: jobs in 1, 2 and 4 processes give the files of one without
+# mpirun; a process that fails or is killed ends the job, and -resume completes it.
+# shellcheck source=../apps/tool_test.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../apps/tool_test.sh"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_btl_vader_single_copy_mechanism=none  # containers may not allow it
+export OMPI_MCA_rmaps_base_oversubscribe=1
+flight=$block/trajectory.csv
+strips=("$block"/strip[1-5].las)
+
+among() {  # N VERB ARG…: the tool in N processes; sets $status, out.txt, err.txt
+  local n=$1 verb=$2
+  shift 2
+  status=0
+  mpirun -n "$n" "$bin/pcl_als_$verb" "$@" -threads 1 >out.txt 2>err.txt </dev/null || status=$?
+}
+
+# compare WHAT VERB STATUS ARG…: the job in 1, 2 and 4 processes gives the files of one without
+# mpirun; OUT stands for the folder of outputs.
+compare() {
+  local what=$1 verb=$2 wanted=$3 n
+  shift 3
+  mkdir -p "$what/one"
+  run "$verb" "${@//OUT/$what/one}"
+  checks=$((checks + 1))
+  [[ $status == "$wanted" ]] || failed "$what: exit status $status, not $wanted"
+  for n in 1 2 4; do
+    mkdir -p "$what/$n"
+    among "$n" "$verb" "${@//OUT/$what/$n}"
+    checks=$((checks + 2))
+    [[ $status == "$wanted" ]] || failed "$what in $n processes: exit status $status, not $wanted"
+    diff -r -I '"tool_version"' "$what/one" "$what/$n" >diff.txt || {
+      failed "$what in $n processes: other results"
+      head -n 5 diff.txt
+    }
+  done
+}
+
+biases=boresight_roll=100,boresight_heading=-60,range_bias=0.1
+compare apply apply 0 "${strips[@]}" -corrected OUT -trajectory "$flight" -biases $biases
+
+# A damaged file ends the job with the message of one process, and no temporary is left.
+mkdir damaged
+head -c 3000 "$block/strip3.las" >damaged/strip9.las
+among 3 apply "${strips[@]}" damaged/strip9.las -corrected failed -trajectory "$flight" \
+  -biases $biases
+checks=$((checks + 3))
+[[ $status == 2 ]] || failed "a damaged file: exit status $status"
+[[ $(grep -c '^pcl_als_apply: damaged/strip9.las: ' err.txt) == 1 ]] ||
+  failed "a damaged file: not one message"
+compgen -G "failed/*.partial" >/dev/null && failed "a damaged file: temporaries are left"
+
+# So does wrong usage, which all processes find.
+among 3 apply -nonsense
+checks=$((checks + 1))
+[[ $status == 1 && $(grep -c '^pcl_als_apply: ' err.txt) == 1 ]] || failed "wrong usage"
+
+# A process that is killed while files are written: the others end and remove their temporaries;
+# -resume keeps what is complete and gives the files of an uninterrupted job.
+mkdir many
+for i in {1..12}; do
+  for strip in 1 2 3; do ln "$block/strip$strip.las" "many/$i-$strip.las"; done
+done
+cat >rank.sh <<'EOT'
+#!/usr/bin/env bash
+echo $$ >"pid.$OMPI_COMM_WORLD_RANK"
+exec "$@"
+EOT
+chmod +x rank.sh
+many=(many/*.las -trajectory "$flight" -biases $biases)
+run apply "${many[@]}" -corrected uninterrupted -threads 1
+status=0
+mpirun -n 3 ./rank.sh "$bin/pcl_als_apply" "${many[@]}" -corrected killed -resume \
+  -threads 1 >out.txt 2>err.txt </dev/null &
+job=$!
+until compgen -G "killed/*.las" >/dev/null || ! kill -0 $job 2>/dev/null; do sleep 0.01; done
+kill -9 "$(<pid.1)"
+wait $job || status=$?
+checks=$((checks + 3))
+((status != 0)) || failed "a killed process: exit status 0"
+for file in killed/*.las; do
+  cmp -s "$file" "uninterrupted/${file##*/}" || failed "a killed process: $file is not complete"
+done
+(($(find killed -name '*.partial' | wc -l) <= 1)) ||
+  failed "processes that were not killed left temporaries"
+among 2 apply "${many[@]}" -corrected killed -resume
+checks=$((checks + 4))
+[[ $status == 0 ]] || failed "-resume: exit status $status"
+grep -qE '[1-9][0-9]* files? complete from an earlier run' out.txt || failed "-resume: keeps no file"
+[[ -z $(find killed -name '*.partial') ]] || failed "-resume: leaves temporaries"
+diff -r -x .pcl_als_resume uninterrupted killed >diff.txt || failed "-resume: other results"
+
+# Records are of one command and of the inputs as they were.
+checks=$((checks + 3))
+among 2 apply "${many[@]}" -corrected killed -resume -keep_uncovered
+grep -q 'complete from an earlier run' out.txt && failed "-resume: keeps files of other options"
+touch many/1-1.las  # one file of many names
+among 2 apply "${many[@]}" -corrected killed -resume -keep_uncovered
+grep -q '24 files complete from an earlier run' out.txt ||
+  failed "-resume: keeps files whose inputs have changed"
+among 2 apply "${many[@]}" -corrected killed -resume -keep_uncovered
+grep -q '36 files complete from an earlier run' out.txt || failed "-resume: repeats files"
+
+finish
