@@ -35,9 +35,9 @@ CommandLine commandLine() {
   line.add("same_distance", "lines of different strips closer than this are the same, m",
            defaults.same_distance);
   line.add("strip_sigma",
-           "least standard deviation of the errors of a strip, which are estimated from lines of "
-           "several strips, m",
-           defaults.least.plan);
+           "standard deviation of the errors of a strip where fewer than ten lines are seen in "
+           "several strips, from whose differences it is estimated otherwise, m",
+           defaults.assumed.plan);
   return line;
 }
 
@@ -50,7 +50,7 @@ LineExtractionOptions optionsOf(const CommandLine& line) {
   options.settings.noise = line.number("noise", 0.0, 1.0, "m");
   options.settings.threads = line.threads();
   options.same_distance = line.number("same_distance", 0.05, 20.0, "m");
-  options.least.plan = options.least.height = line.number("strip_sigma", 0.0, 10.0, "m");
+  options.assumed.plan = options.assumed.height = line.number("strip_sigma", 0.0, 10.0, "m");
   options.strips = app::stripChoice(line);
   return options;
 }

@@ -114,9 +114,9 @@ std::vector<Difference> differencesOf(const std::vector<std::vector<Member>>& gr
 
 /// Standard deviation of a strip from differences of two, robustly: the median of squares beyond
 /// what the planes explain.
-double errorOf(const std::vector<Difference>& differences, int component, double least) {
-  if (differences.size() < kFewestDifferences) return least;
-  double low = least * least, high = std::max(4.0, 2.0 * low);
+double errorOf(const std::vector<Difference>& differences, int component, double assumed) {
+  if (differences.size() < kFewestDifferences) return assumed;
+  double low = 0.0, high = 4.0;
   // The variance with which half of the standardised differences are below the quartile.
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
@@ -167,12 +167,12 @@ ObjectLine combined(const std::vector<Member>& group, const LineErrors& errors,
 
 std::vector<ObjectLine> combineLines(const std::vector<std::vector<StripLine>>& strips,
                                      const std::vector<std::string>& names, double distance,
-                                     const LineErrors& least, LineErrors* found) {
+                                     const LineErrors& assumed, LineErrors* found) {
   const std::vector<std::vector<Member>> groups = groupsOf(strips, distance);
   const std::vector<Difference> differences = differencesOf(groups);
   LineErrors errors;
-  errors.plan = errorOf(differences, 0, least.plan);
-  errors.height = errorOf(differences, 1, least.height);
+  errors.plan = errorOf(differences, 0, assumed.plan);
+  errors.height = errorOf(differences, 1, assumed.height);
   errors.differences = differences.size();
   std::vector<ObjectLine> lines;
   lines.reserve(groups.size());

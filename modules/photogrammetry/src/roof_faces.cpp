@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/surface_criterion.h>
 
@@ -206,6 +207,24 @@ FittedPlane fitPlane(const std::vector<Vector3d>& points, const std::vector<std:
     sum += std::pow(plane.above(points[static_cast<std::size_t>(i)]), 2);
   plane.sigma = std::sqrt(sum / std::max(1.0, static_cast<double>(which.size()) - 3.0));
   plane.covariance = plane.sigma * plane.sigma * factor.solve(Eigen::Matrix3d::Identity());
+  return plane;
+}
+
+FittedPlane fitPlaneInCells(const std::vector<Vector3d>& points,
+                            const std::vector<std::int32_t>& which, double side) {
+  FittedPlane plane = fitPlane(points, which);
+  ClusteredRegression regression(3);
+  for (const std::int32_t i : which) {
+    const Vector3d d = points[static_cast<std::size_t>(i)] - plane.centre;
+    const auto column = static_cast<std::int64_t>(std::floor(d.x() / side));
+    const auto row = static_cast<std::int64_t>(std::floor(d.y() / side));
+    regression.add(column * (std::int64_t{1} << 31) + row, Vector3d(1.0, d.x(), d.y()), d.z());
+  }
+  const ClusteredRegression::Result result = regression.solve();
+  // One factor for all: correlations from few cells are not reliable.
+  if (result.determined)
+    plane.covariance *=
+        result.covariance_formal.diagonal().cwiseQuotient(plane.covariance.diagonal()).mean();
   return plane;
 }
 

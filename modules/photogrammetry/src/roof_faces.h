@@ -37,6 +37,10 @@ struct FittedPlane {
 };
 FittedPlane fitPlane(const std::vector<Eigen::Vector3d>& points,
                      const std::vector<std::int32_t>& which);
+/// The same with a covariance that allows for deviations which neighbouring points have in common
+/// (roofs that are not plane): points in one cell of this side (metres) may be correlated.
+FittedPlane fitPlaneInCells(const std::vector<Eigen::Vector3d>& points,
+                            const std::vector<std::int32_t>& which, double side);
 
 /// A planar face.
 struct RoofFace {

@@ -27,6 +27,11 @@ constexpr double kNearLine = 2.5;        ///< median edges from the line within 
 constexpr double kResolution = 0.001;    ///< metres, of the TIN
 /// Share of the points beside a line that must lie on the roof of the two planes.
 constexpr double kLeastFit = 0.8;
+/// Metres beside a line whose points determine neither plane: footprints that reach over a ridge,
+/// ridge tiles.
+constexpr double kBesideLine = 0.2;
+/// Median edges: side of the cells whose points may have common deviations from a plane.
+constexpr double kCells = 3.0;
 
 /// Intersection of two planes as a function of their six unknowns.
 struct Crossing {
@@ -106,7 +111,8 @@ class LineFinder {
   }
   std::map<std::pair<int, int>, int> neighbours() const;
   Span spanOf(const RoofFace& face, const Crossing& crossing) const;
-  std::optional<StripLine> lineOf(const RoofFace& a, const RoofFace& b) const;
+  std::optional<StripLine> lineOf(RoofFace a, RoofFace b) const;
+  FittedPlane ownPlane(const RoofFace& face, const RoofFace& other) const;
   bool agreesNearby(const RoofFace& a, const RoofFace& b, const Crossing& crossing,
                     const Span& span, bool ridge) const;
   std::optional<StripLine> eaveOf(const RoofFace& face) const;
@@ -155,6 +161,23 @@ Span LineFinder::spanOf(const RoofFace& face, const Crossing& crossing) const {
   return span;
 }
 
+/// The plane of the points of a face that are on its side of the line with another face, at some
+/// distance from it. A face grows beyond the line by the points that are near its plane there,
+/// which would turn it.
+FittedPlane LineFinder::ownPlane(const RoofFace& face, const RoofFace& other) const {
+  // Between the planes in plan: positive on the side of the face.
+  const Eigen::Vector2d across = (face.plane.unknown - other.plane.unknown).tail<2>();
+  const double least = kBesideLine * across.norm();
+  const auto side = [&](const Vector3d& p) { return other.plane.above(p) - face.plane.above(p); };
+  const double sign = side(face.plane.centre) < 0.0 ? -1.0 : 1.0;
+  std::vector<std::int32_t> own;
+  for (const std::int32_t v : face.vertices) {
+    if (sign * side(surface_.tin().points()[static_cast<std::size_t>(v)]) > least) own.push_back(v);
+  }
+  if (static_cast<int>(own.size()) < settings_.least_points) return face.plane;
+  return fitPlaneInCells(surface_.tin().points(), own, kCells * median_edge_);
+}
+
 /// Whether the points beside the line lie on the roof that the planes form: the lower plane of a
 /// ridge, the upper one of a valley.
 bool LineFinder::agreesNearby(const RoofFace& a, const RoofFace& b, const Crossing& crossing,
@@ -177,10 +200,13 @@ bool LineFinder::agreesNearby(const RoofFace& a, const RoofFace& b, const Crossi
   return all >= 6 && static_cast<double>(good) >= kLeastFit * static_cast<double>(all);
 }
 
-std::optional<StripLine> LineFinder::lineOf(const RoofFace& a, const RoofFace& b) const {
+std::optional<StripLine> LineFinder::lineOf(RoofFace a, RoofFace b) const {
   StripLine found;
   found.angle = std::acos(std::clamp(a.plane.normal().dot(b.plane.normal()), -1.0, 1.0));
   if (found.angle < settings_.least_angle) return std::nullopt;
+  const FittedPlane own = ownPlane(a, b);
+  b.plane = ownPlane(b, a);
+  a.plane = own;
   const auto crossing = crossingOf(a.plane, b.plane);
   if (!crossing || std::abs(crossing->direction.z()) > 0.9) return std::nullopt;
   const Span of_a = spanOf(a, *crossing), of_b = spanOf(b, *crossing);

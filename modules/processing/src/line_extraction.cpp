@@ -72,7 +72,7 @@ ExtractedLines extractLines(const std::vector<std::filesystem::path>& files,
     progress.end(counted(lines.back().size(), "line"));
   }
   progress.begin("Combining lines");
-  result.lines = combineLines(lines, names, options.same_distance, options.least, &result.errors);
+  result.lines = combineLines(lines, names, options.same_distance, options.assumed, &result.errors);
   for (ObjectLine& line : result.lines) {
     line.start += origin;
     line.end += origin;

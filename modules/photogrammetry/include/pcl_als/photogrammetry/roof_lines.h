@@ -62,13 +62,13 @@ struct LineErrors {
  *
  * Lines are the same where they are within \a distance (metres) across at both ends, parallel to 8
  * degrees, and overlap. The errors of strips are estimated from the differences beyond what the
- * planes explain; \a least: lower bounds, and values where there are fewer than ten differences.
+ * planes explain; with fewer than ten differences they are as \a assumed.
  * They are common to both ends of a line and independent between strips.
  *
  * \param names of the strips \return lines named L1, L2, … from west to east
  */
 std::vector<ObjectLine> combineLines(const std::vector<std::vector<StripLine>>& strips,
                                      const std::vector<std::string>& names, double distance,
-                                     const LineErrors& least, LineErrors* found = nullptr);
+                                     const LineErrors& assumed, LineErrors* found = nullptr);
 
 }  // namespace pcl_als

@@ -18,8 +18,8 @@ struct LineExtractionOptions {
   RoofLineSettings settings;
   StripChoice strips;
   double same_distance = 1.5;  ///< metres: lines of different strips that are the same roof line
-  /// Standard deviations of strips at least, and where too few lines are seen twice.
-  LineErrors least{0.02, 0.02, 0};
+  /// Standard deviations of strips where too few lines are seen in several to estimate them.
+  LineErrors assumed{0.02, 0.02, 0};
 };
 
 /// Lines of a survey, ground frame.
