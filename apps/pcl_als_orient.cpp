@@ -46,7 +46,8 @@ CommandLine commandLine() {
                         "coplanarity, or expanded (end points with a covariance expanded along "
                         "the line)",
                         "coplanarity");
-  line.add("image_sigma", "standard deviation of image coordinates without one, their unit",
+  line.add("image_sigma",
+           "standard deviation of image coordinates without one, their unit; 0: 0.5 px or 0.003 mm",
            defaults.image_sigma);
   line.addFlag("no_rejection", "least squares with all observations");
   return line;
@@ -61,7 +62,7 @@ ImageOrientationOptions optionsOf(const CommandLine& line) {
   if (formulation == "expanded") options.bundle.formulation = LineFormulation::expanded_covariance;
   options.bundle.robust = !line.has("no_rejection");
   options.assign_distance = line.number("assign", 0.0, 100.0, "m");
-  options.image_sigma = line.number("image_sigma", 1e-5, 100.0, "(unit of the camera)");
+  options.image_sigma = line.number("image_sigma", 0.0, 100.0, "(unit of the camera)");
   return options;
 }
 
@@ -90,9 +91,9 @@ int orient(int argc, char** argv) {
   writeOrientation(line.text("output"), result);
   if (!line.quiet()) std::cout << orientationText(result) << std::flush;
   if (line.has("report")) {
-    writeOrientationPage(
-        app::reportOrigin(line, {"images", "measurements", "lines", "camera", "checkpoints"}),
-        result);
+    ReportOrigin origin = app::reportOrigin(line, {"images", "lines", "camera", "checkpoints"});
+    origin.inputs.push_back(files.measurements);
+    writeOrientationPage(origin, result);
   }
   if (result.bundle.reliable()) return app::kDone;
   std::cerr << "pcl_als_orient: no reliable answer: " << result.bundle.message << std::endl;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/survey_census.h>
@@ -173,6 +174,21 @@ bool control(const std::uint8_t* data, std::size_t size) {
 bool calibration(const std::uint8_t* data, std::size_t size) {
   return readAs(".json", data, size, [](const auto& path) { readCalibration(path); });
 }
+bool camera(const std::uint8_t* data, std::size_t size) {
+  return readAs(".json", data, size, [](const auto& path) { readCamera(path); });
+}
+bool images(const std::uint8_t* data, std::size_t size) {
+  return readAs(".csv", data, size, [](const auto& path) { readImages(path); });
+}
+bool imageCoordinates(const std::uint8_t* data, std::size_t size) {
+  FrameCamera camera;
+  camera.focal_length = 100.0;
+  camera.format = {54.0, 40.0};
+  return readAs(".csv", data, size, [&](const auto& path) { readMeasurements(path, camera, 0.0); });
+}
+bool objectLines(const std::uint8_t* data, std::size_t size) {
+  return readAs(".csv", data, size, [](const auto& path) { readLines(path); });
+}
 }  // namespace
 
 const std::vector<Target>& readerTargets() {
@@ -192,6 +208,10 @@ const std::vector<Target>& readerTargets() {
       {"leica_sol", leicaTrajectory, solSeeds},
       {"control", control, controlSeeds},
       {"calibration", calibration, calibrationSeeds},
+      {"camera", camera, cameraSeeds},
+      {"images", images, imageSeeds},
+      {"image_coordinates", imageCoordinates, imageCoordinateSeeds},
+      {"object_lines", objectLines, objectLineSeeds},
   };
   return all;
 }

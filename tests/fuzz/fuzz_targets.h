@@ -24,7 +24,7 @@ struct Target {
 
 /// Files of points and trajectories, control, calibrations: las, laz, damaged_laz, copc, pcd;
 /// trajectory_csv, trajectory_export, sbet, smrmsg, terrascan, riegl_pof, riegl_poq, leica_sol;
-/// control, calibration
+/// control, calibration; camera, images, image_coordinates, object_lines
 const std::vector<Target>& readerTargets();
 /// geojson, class_sites, confusion_matrix, checked_sites, class_model, geotiff. A library of its
 /// own: these need most modules, which take long to build with sanitizers.

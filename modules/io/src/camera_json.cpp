@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/io/image_block_io.h>
 
@@ -13,8 +17,49 @@ namespace {
 using detail::JsonNode;
 
 constexpr const char* kFormat = "pcl_als camera";
+constexpr int kVersion = 1;
 constexpr std::array<const char*, 3> kRadial = {"k1_per_mm2", "k2_per_mm4", "k3_per_mm6"};
 constexpr std::array<const char*, 2> kTangential = {"p1_per_mm", "p2_per_mm"};
+
+/// Keys without effect are refused where they look like one that has.
+void checkKeys(const nlohmann::json& json, const JsonNode& root) {
+  constexpr std::array<const char*, 5> kKeys = {"focal_length_mm", "principal_point_mm",
+                                                "pixel_size_mm", "image_size_px", "image_size_mm"};
+  for (const auto& [key, value] : json.items()) {
+    for (const char* known : kKeys) {
+      const std::string stem(known, std::strlen(known) - 3);
+      if (key.compare(0, stem.size(), stem) == 0 &&
+          std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end())
+        root[key].refuse(std::string("is not known: is '") + known + "' meant?");
+    }
+  }
+  if (!json.contains("distortion")) return;
+  if (!json["distortion"].is_object()) root["distortion"].refuse("must be an object");
+  for (const auto& [key, value] : json["distortion"].items()) {
+    if (std::find(kRadial.begin(), kRadial.end(), key) == kRadial.end() &&
+        std::find(kTangential.begin(), kTangential.end(), key) == kTangential.end())
+      root["distortion"][key].refuse(
+          "is not known: keys are k1_per_mm2, k2_per_mm4, k3_per_mm6, p1_per_mm, p2_per_mm");
+  }
+}
+
+/// No camera displaces a corner of its image by more than this share of its distance.
+constexpr double kMostDistortion = 0.5;
+
+void checkDistortion(const FrameCamera& camera, const JsonNode& root) {
+  for (const Eigen::Vector2d& sign : {Eigen::Vector2d(1.0, 1.0), Eigen::Vector2d(-1.0, 1.0),
+                                      Eigen::Vector2d(1.0, -1.0), Eigen::Vector2d(-1.0, -1.0)}) {
+    const Eigen::Vector2d corner = 0.5 * sign.cwiseProduct(camera.format);
+    const Eigen::Vector2d from = corner - camera.principal_point;
+    const double moved = (camera.reduced(corner) - from).norm();
+    if (moved <= kMostDistortion * from.norm()) continue;
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "displaces a corner of the image by %.3g mm: do its coefficients refer to mm?",
+                  moved);
+    root["distortion"].refuse(text);
+  }
+}
 
 Eigen::Vector2d pairOf(const JsonNode& node) {
   const std::vector<JsonNode> items = node.items();
@@ -35,6 +80,9 @@ FrameCamera readCamera(const std::filesystem::path& path) {
   const JsonNode root(json, path.string());
   if (!root.has("format") || root["format"].text() != kFormat)
     root.refuse(std::string("is no camera: 'format' must be \"") + kFormat + "\"");
+  if (root.has("version") && root["version"].whole() != kVersion)
+    root["version"].refuse("is not " + std::to_string(kVersion) + ", which can be read");
+  checkKeys(json, root);
   FrameCamera camera;
   if (root.has("name")) camera.name = root["name"].text();
   camera.focal_length = positive(root["focal_length_mm"]);
@@ -49,19 +97,23 @@ FrameCamera readCamera(const std::filesystem::path& path) {
   if (camera.format.maxCoeff() > 20.0 * camera.focal_length ||
       camera.focal_length > 100.0 * camera.format.maxCoeff())
     root["focal_length_mm"].refuse("does not fit the size of the image: is its unit mm?");
+  if ((camera.principal_point.array().abs() > 0.5 * camera.format.array()).any())
+    root["principal_point_mm"].refuse(
+        "is outside the image: it is given in mm from the middle of the image");
   if (!root.has("distortion")) return camera;
   const JsonNode distortion = root["distortion"];
   for (std::size_t i = 0; i < kRadial.size(); ++i)
     if (distortion.has(kRadial[i])) camera.radial[i] = distortion[kRadial[i]].number();
   for (std::size_t i = 0; i < kTangential.size(); ++i)
     if (distortion.has(kTangential[i])) camera.tangential[i] = distortion[kTangential[i]].number();
+  checkDistortion(camera, root);
   return camera;
 }
 
 void writeCamera(const std::filesystem::path& path, const FrameCamera& camera) {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
-  json["version"] = 1;
+  json["version"] = kVersion;
   json["name"] = camera.name;
   json["focal_length_mm"] = camera.focal_length;
   json["principal_point_mm"] = {camera.principal_point.x(), camera.principal_point.y()};

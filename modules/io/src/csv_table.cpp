@@ -185,6 +185,13 @@ double CsvTable::number(std::size_t column) const {
   return value;
 }
 
+double CsvTable::coordinate(std::size_t column) const {
+  constexpr double kFarthest = 1e8;  // beyond geocentric coordinates and false eastings
+  const double value = number(column);
+  if (std::abs(value) > kFarthest) refuse(column, "is not a coordinate in metres");
+  return value;
+}
+
 double CsvTable::numberOrNan(std::size_t column) const {
   const std::string_view text = fields_[column];
   if (text.empty() || lowered(text) == "nan") return std::numeric_limits<double>::quiet_NaN();

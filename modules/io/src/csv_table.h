@@ -55,6 +55,8 @@ class CsvTable {
   std::string_view text(std::size_t column) const { return fields_[column]; }
   /// A finite number.
   double number(std::size_t column) const;
+  /// A number of metres that is within the size of the Earth.
+  double coordinate(std::size_t column) const;
   /// A finite number of degrees: decimal or "D M S" with blanks, colons or signs of the units
   /// between, the sign or the letter of the hemisphere at either end.
   double sexagesimal(std::size_t column) const;

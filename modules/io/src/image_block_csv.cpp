@@ -22,6 +22,17 @@ constexpr double kBeyond = 0.02;
 /// Coordinates of all images together that cover less of the format have another unit.
 constexpr double kLeastCovered = 0.05;
 
+/// A standard deviation in the image is between these shares of its width.
+constexpr double kLeastSigma = 1e-6, kMostSigma = 0.1;
+/// Standard deviations of coordinates where nothing states one.
+constexpr double kDefaultPixels = 0.5, kDefaultMillimetres = 0.003;
+
+double angle(const CsvTable& table, std::size_t column) {
+  const double value = table.number(column);
+  if (std::abs(value) > 720.0) table.refuse(column, "is not an angle in degrees");
+  return value * kRadiansPerDegree;
+}
+
 /// A standard deviation; 0 where the column or the field is missing.
 double sigmaOf(const CsvTable& table, std::size_t column) {
   if (column == CsvTable::npos || table.text(column).empty()) return 0.0;
@@ -47,6 +58,29 @@ void checkInside(const CsvTable& table, std::size_t column, const Eigen::Vector2
                 camera.format.x() / camera.unit(), camera.format.y() / camera.unit(),
                 camera.unitName());
   table.refuse(column, text);
+}
+
+/// Refuses a record that gives a measurement a second time: a point once in an image, each place on
+/// a line once.
+void checkSingle(const CsvTable& table, std::size_t column, const ImageMeasurement& m,
+                 std::set<std::string>& known) {
+  std::string key = m.image + '\n' + m.feature;
+  if (m.kind == ImageMeasurement::Kind::line)
+    key += '\n' + std::to_string(m.position.x()) + '\n' + std::to_string(m.position.y());
+  if (known.insert(std::move(key)).second) return;
+  table.refuse(column, "is measured twice in image " + m.image +
+                           (m.kind == ImageMeasurement::Kind::line ? ", at the same place" : ""));
+}
+
+double imageSigma(const CsvTable& table, std::size_t column, const FrameCamera& camera,
+                  double otherwise) {
+  const double given = sigmaOf(table, column);
+  const double mm = camera.unit() * (given > 0.0 ? given : otherwise);
+  const double width = camera.format.maxCoeff();
+  if (given > 0.0 && (mm < kLeastSigma * width || mm > kMostSigma * width))
+    table.refuse(column, std::string("is not a standard deviation of image coordinates in ") +
+                             camera.unitName());
+  return mm;
 }
 
 void checkCoverage(const std::filesystem::path& path, const FrameCamera& camera,
@@ -78,9 +112,8 @@ std::vector<ImageOrientation> readImages(const std::filesystem::path& path) {
     ImageOrientation image;
     image.id = idOf(table, id);
     if (!ids.insert(image.id).second) table.refuse(id, "names two images");
-    image.position = {table.number(x), table.number(y), table.number(z)};
-    image.angles = {table.number(omega), table.number(phi), table.number(kappa)};
-    image.angles *= kRadiansPerDegree;
+    image.position = {table.coordinate(x), table.coordinate(y), table.coordinate(z)};
+    image.angles = {angle(table, omega), angle(table, phi), angle(table, kappa)};
     image.position_sigma = sigmaOf(table, position_sigma);
     image.angle_sigma = sigmaOf(table, angle_sigma) * kRadiansPerDegree;
     images.push_back(image);
@@ -117,7 +150,9 @@ std::vector<ImageMeasurement> readMeasurements(const std::filesystem::path& path
   const std::size_t image = table.required("image"), kind = table.required("kind"),
                     feature = table.required("feature"), x = table.required("x"),
                     y = table.required("y"), sigma_column = table.optional("sigma");
+  if (sigma <= 0.0) sigma = camera.pixel_size > 0.0 ? kDefaultPixels : kDefaultMillimetres;
   std::vector<ImageMeasurement> measurements;
+  std::set<std::string> known;
   while (table.next()) {
     ImageMeasurement m;
     m.image = idOf(table, image);
@@ -128,8 +163,8 @@ std::vector<ImageMeasurement> readMeasurements(const std::filesystem::path& path
         table.text(kind) == "line" ? ImageMeasurement::Kind::line : ImageMeasurement::Kind::point;
     m.position = camera.fromFile({table.number(x), table.number(y)});
     checkInside(table, x, m.position, camera);
-    const double given = sigmaOf(table, sigma_column);
-    m.sigma = camera.unit() * (given > 0.0 ? given : sigma);
+    checkSingle(table, feature, m, known);
+    m.sigma = imageSigma(table, sigma_column, camera, sigma);
     measurements.push_back(std::move(m));
   }
   if (measurements.empty()) throw InputError(path.string() + ": has a header but no coordinates");

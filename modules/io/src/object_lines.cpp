@@ -186,8 +186,8 @@ std::vector<ObjectLine> readLines(const std::filesystem::path& path) {
     if (line.id.empty()) table.refuse(id, "must name the line");
     if (!ids.insert(line.id).second) table.refuse(id, "names two lines");
     for (int i = 0; i < 3; ++i) {
-      line.start[i] = table.number(places[static_cast<std::size_t>(i)]);
-      line.end[i] = table.number(places[static_cast<std::size_t>(i) + 3]);
+      line.start[i] = table.coordinate(places[static_cast<std::size_t>(i)]);
+      line.end[i] = table.coordinate(places[static_cast<std::size_t>(i) + 3]);
     }
     const Eigen::Vector3d along = line.end - line.start;
     if (along.head<2>().norm() < 0.1 * along.norm() || along.norm() < 0.01)

@@ -14,6 +14,22 @@
 namespace pcl_als {
 namespace {
 
+/// Refuses check points of which none is in the images, or one is given twice.
+void checkNames(const std::vector<ControlPoint>& check_points, const ImageBlock& block) {
+  std::set<std::string> measured, given;
+  for (const ImageMeasurement& m : block.measurements)
+    if (m.kind == ImageMeasurement::Kind::point) measured.insert(m.feature);
+  bool any = check_points.empty();
+  for (const ControlPoint& point : check_points) {
+    if (!given.insert(point.id).second)
+      throw InputError("check point " + point.id + " is given twice");
+    any = any || measured.count(point.id) > 0;
+  }
+  if (!any)
+    throw InputError("no check point is measured in the images (the first is " +
+                     check_points.front().id + "): points are found by their names");
+}
+
 void compare(const std::vector<ControlPoint>& check_points, ImageOrientationResult& result) {
   std::map<std::string, const GroundPoint*> points;
   for (const GroundPoint& point : result.bundle.points) points[point.id] = &point;
@@ -63,6 +79,7 @@ CheckSummary summaryOf(const std::vector<ImageCheckPoint>& points) {
 
 ImageOrientationResult orientImages(ImageBlock block, const std::vector<ControlPoint>& check_points,
                                     const ImageOrientationOptions& options) {
+  checkNames(check_points, block);
   ImageOrientationResult result;
   result.block = std::move(block);
   if (options.assign_distance > 0.0)

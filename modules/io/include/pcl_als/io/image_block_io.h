@@ -12,7 +12,7 @@ namespace pcl_als {
 
 /// Reads / writes camera.json: focal_length_mm, principal_point_mm, pixel_size_mm with
 /// image_size_px, or image_size_mm, and distortion (k1_per_mm2, k2_per_mm4, k3_per_mm6, p1_per_mm,
-/// p2_per_mm). InputError names file and key.
+/// p2_per_mm). InputError names file and key, also of a distortion that no camera has.
 FrameCamera readCamera(const std::filesystem::path& path);
 void writeCamera(const std::filesystem::path& path, const FrameCamera& camera);
 
@@ -25,8 +25,9 @@ void writeImages(const std::filesystem::path& path, const std::vector<ImageOrien
 /** \brief Reads / writes image coordinates: CSV image,kind,feature,x,y[,sigma], kind point or
  * line, coordinates in the unit of the camera's file (px or mm).
  *
- * InputError for a place outside the image, and where all places together cover so little of the
- * images that their unit is another one. \a sigma: of records without one, unit of the file
+ * InputError for a place outside the image, a point that is measured twice in an image, and where
+ * all places together cover so little of the images that their unit is another one.
+ * \param sigma of records without one, unit of the file; 0: 0.5 px or 0.003 mm
  */
 std::vector<ImageMeasurement> readMeasurements(const std::filesystem::path& path,
                                                const FrameCamera& camera, double sigma);

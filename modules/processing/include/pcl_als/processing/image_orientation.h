@@ -24,7 +24,8 @@ struct ImageBlockFiles {
 
 struct ImageOrientationOptions {
   BundleSettings bundle;
-  double image_sigma = 0.5;      ///< of measurements without their own, unit of the camera's file
+  /// Of measurements without their own, unit of the camera's file; 0: 0.5 px or 0.003 mm.
+  double image_sigma = 0.0;
   double assign_distance = 0.0;  ///< metres; above 0 lines of other names are assigned by position
 };
 
