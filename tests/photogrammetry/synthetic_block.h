@@ -136,4 +136,13 @@ struct SyntheticBlock {
   std::normal_distribution<double> deviate_;
 };
 
+/// Measurements with 2 micrometres, lines with 4 cm.
+inline SyntheticBlock::Options noisy(unsigned seed) {
+  SyntheticBlock::Options options;
+  options.image_sigma = 0.002;
+  options.line_sigma = 0.04;
+  options.seed = seed;
+  return options;
+}
+
 }  // namespace pcl_als::test

@@ -132,12 +132,26 @@ bool solveWithoutBlunders(BundleProblem& problem, Solution& solution, Snooping& 
   return true;
 }
 
+/// States that most control lines were rejected, which is the reason of all that follows.
+std::string contradiction(const BundleProblem& problem) {
+  std::size_t lines = 0, used = 0;
+  for (const Feature& feature : problem.features) {
+    if (feature.line) ++lines;
+    if (feature.line && feature.used) ++used;
+  }
+  if (2 * used >= lines) return {};
+  return std::to_string(lines - used) + " of " + std::to_string(lines) +
+         " control lines contradict the images: the approximate orientations, the camera, the unit "
+         "of the coordinates or the lines are wrong; ";
+}
+
 /// States what the block does not determine; true where it determines all.
-bool checkDetermined(const BundleNormal& normal, double limit, BundleResult& result) {
+bool checkDetermined(const BundleProblem& problem, const BundleNormal& normal, double limit,
+                     BundleResult& result) {
   const BundleNormal::Weakest weakest = normal.weakest();
   if (weakest.std < limit) return true;
   result.status = BundleResult::Status::not_determined;
-  result.message = tooWeak(weakest);
+  result.message = contradiction(problem) + tooWeak(weakest);
   return false;
 }
 
@@ -158,7 +172,7 @@ BundleResult adjustBundle(const ImageBlock& block, const BundleSettings& setting
   bool converged =
       settings.robust ? solveWithoutBlunders(problem, solution, snooping) : solution.solve(0.0);
   std::optional<BundleNormal> normal(std::in_place, problem);
-  const bool determined = checkDetermined(*normal, settings.determined_std, result);
+  const bool determined = checkDetermined(problem, *normal, settings.determined_std, result);
   bool inverted = determined && normal->invert();
   // With the redundancy numbers of the whole block, which are smaller than those before.
   if (settings.robust && inverted && snooping.reject(problem, *normal) > 0) {
@@ -170,9 +184,13 @@ BundleResult adjustBundle(const ImageBlock& block, const BundleSettings& setting
   if (determined && !inverted) {
     result.status = BundleResult::Status::not_determined;
     result.message =
+        contradiction(problem) +
         "the measurements do not connect all images: the normal equations are singular";
   }
-  if (!converged && determined) result.message = "the adjustment does not converge";
+  if (!converged && determined)
+    result.message =
+        "the adjustment does not converge: the approximate orientations, the camera, or the unit "
+        "or the axes of the image coordinates do not fit the lines";
   if (converged && inverted) result.status = BundleResult::Status::converged;
   describe(problem, *normal, inverted, result);
   snooping.describe(problem, result);

@@ -75,7 +75,7 @@ struct LineEndCost {
     const Eigen::Matrix<T, 2, 1> along = projected(inImage(image, end), focal_length) - at;
     const T length = sqrt(along[0] * along[0] + along[1] * along[1]);
     residual[0] =
-        (along[0] * (place[1] - at[1]) - along[1] * (place[0] - at[0])) / (length * sigma);
+        (along[1] * (place[0] - at[0]) - along[0] * (place[1] - at[1])) / (length * sigma);
     return true;
   }
 };

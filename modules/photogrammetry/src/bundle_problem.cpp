@@ -14,6 +14,8 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 
+#include "block_check.h"
+
 namespace pcl_als::photogrammetry {
 namespace {
 
@@ -67,6 +69,7 @@ BundleProblem::BundleProblem(const ImageBlock& given, LineFormulation with)
   if (block.images.size() < 2)
     throw InputError("a block needs at least two images; there is " +
                      counted(block.images.size(), "image"));
+  checkDirections(block);
   origin = middleOf(block);
   addImages();
   addMeasurements();
@@ -125,7 +128,9 @@ void BundleProblem::addMeasurements() {
   }
   if (lines == 0 && std::none_of(observations.begin(), observations.end(),
                                  [](const Observation& o) { return o.isPrior(); }))
-    throw InputError("no line that is measured in the images is among the lines of the control");
+    throw InputError(
+        "no line that is measured in the images is among the lines of the control, which are found "
+        "by name, or by position where that is asked for");
 }
 
 void BundleProblem::addPlace(std::size_t measurement, std::size_t image, std::size_t feature) {

@@ -126,7 +126,7 @@ void addResiduals(const BundleProblem& problem, const BundleNormal& normal, bool
     if (o.isControl()) {
       AdjustedLine& line = result.lines[line_of[o.feature]];
       line.redundancy = test.redundancy;
-      line.misfit = test.standardised;
+      line.misfit = test.size;
     }
     if (o.measurement == Observation::kNone) continue;
     ImageResidual& residual = result.residuals.emplace_back();
@@ -134,7 +134,7 @@ void addResiduals(const BundleProblem& problem, const BundleNormal& normal, bool
     residual.residual.head(o.rows()) =
         problem.block.measurements[o.measurement].sigma * linear.residual;
     residual.redundancy = test.redundancy;
-    residual.standardised = test.standardised;
+    residual.standardised = test.size;
     residual.used = used;
     if (!used) continue;
     OrientedImage& image = result.images[o.image];

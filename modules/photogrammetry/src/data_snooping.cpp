@@ -57,7 +57,7 @@ TestValue testOf(const Observation& o, const Observation::Linear& linear,
   const auto [form, freedom] = quadraticForm(linear.residual, q);
   // For large values the normal deviate is smaller than the root by far: the root orders them.
   return {std::max(normalDeviate(form, freedom), std::sqrt(form) - std::sqrt(1.0 * freedom)),
-          q.trace()};
+          freedom > 0 ? std::sqrt(form / freedom) : 0.0, q.trace()};
 }
 
 std::size_t Snooping::rejectFarPoints(BundleProblem& problem, const BundleNormal& normal) {
@@ -137,6 +137,12 @@ void Snooping::describe(const BundleProblem& problem, BundleResult& result) cons
     blunder.standardised = rejected.standardised;
     blunder.line = feature.line;
     blunder.localised = rejected.localised;
+    if (o.isControl()) {
+      const auto line =
+          std::find_if(result.lines.begin(), result.lines.end(),
+                       [&](const AdjustedLine& l) { return l.line.id == feature.id; });
+      if (line != result.lines.end()) line->misfit = rejected.standardised;
+    }
     result.blunders.push_back(blunder);
   }
   std::stable_sort(

@@ -14,7 +14,8 @@ namespace pcl_als::photogrammetry {
 
 /// Residual of an observation against its standard deviation Q_vv = I - A Q A'.
 struct TestValue {
-  double standardised = 0.0;  ///< normally distributed with standard deviation 1 without blunder
+  double standardised = 0.0;  ///< one-sided normal deviate of its probability, for rejection
+  double size = 0.0;          ///< sqrt(v' Q_vv^-1 v / rank), about 1 without blunder
   double redundancy = 0.0;    ///< trace of Q_vv
 };
 TestValue testOf(const Observation& o, const Observation::Linear& linear,

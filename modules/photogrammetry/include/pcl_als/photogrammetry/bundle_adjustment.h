@@ -59,9 +59,10 @@ struct AdjustedLine {
 /// Residual of one measurement.
 struct ImageResidual {
   std::size_t measurement = 0;                         ///< index in ImageBlock::measurements
-  Eigen::Vector2d residual = Eigen::Vector2d::Zero();  ///< measured - adjusted, mm; lines: across
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();  ///< measured - adjusted, mm; lines: across,
+                                                       ///< to the right of the line in x
   double redundancy = 0.0;                             ///< number, 0 to 2 (points) or 1 (lines)
-  double standardised = 0.0;                           ///< size over its standard deviation
+  double standardised = 0.0;                           ///< sqrt(v' Q_vv^-1 v / rank), about 1
   bool used = true;
 };
 
@@ -112,8 +113,9 @@ struct BundleResult {
  * standard deviations times max(1, sigma0)^2. The result does not depend on the number of threads
  * (there is one).
  *
- * InputError for a block of less than two images, an image without orientation, measurements
- * without a line that is known, and images without measurements.
+ * InputError for a block of less than two images, measurements of an image without orientation,
+ * measurements without a line that is known, and orientations by which most of these lines are
+ * more than 30 degrees from where they were measured.
  *
  * \code
  * ImageBlock block{readCamera("camera.json"), readImages("images.csv"), {},
