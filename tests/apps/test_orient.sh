@@ -43,10 +43,20 @@ expect 2 "no line that is measured" "${orient[@]}" -lines lines.csv -output x.js
 head -2 $images/images.csv >one.csv
 expect 2 "" orient -images one.csv -measurements $images/measurements.csv \
   -camera $images/camera.json -lines $images/true_lines.csv -output x.json
-sed 's/"image_size_px"/"image_size_px_was"/; s/"pixel_size_mm": 0.006/"image_size_mm": [54, 40.392]/' \
+sed 's/"image_size_px"/"was"/; s/"pixel_size_mm": 0.006/"image_size_mm": [54, 40.392]/' \
   $images/camera.json >mm.json
 expect 2 "another unit" orient -images $images/images.csv -camera mm.json \
   -lines $images/true_lines.csv -output x.json
+sed '5p' $images/measurements.csv >twice.csv
+expect 2 "is measured twice" "${orient[@]}" -measurements twice.csv -lines lines.csv -output x.json
+sed 's/^GCP/GP/' $images/checkpoints.csv >names.csv
+expect 2 "no check point is measured" "${orient[@]}" -lines $images/true_lines.csv \
+  -checkpoints names.csv -output x.json
+sed 's/k1_per_mm2/k1/' $images/camera.json >unknown_key.json
+expect 2 "'distortion.k1' is not known" orient -images $images/images.csv -camera unknown_key.json \
+  -lines $images/true_lines.csv -output x.json
+awk -F, -v OFS=, 'NR > 1 { $3 += 3000; $6 += 3000 } 1' $images/true_lines.csv >elsewhere.csv
+expect 2 "point elsewhere" "${orient[@]}" -lines elsewhere.csv -output x.json
 sed 's/,point,/,place,/' $images/measurements.csv >words.csv
 expect 2 "neither point nor line" "${orient[@]}" -measurements words.csv -lines lines.csv -output x.json
 absent x.json x.csv x.txt
@@ -59,6 +69,15 @@ sed 's/"focal_length_mm": 100.5/"focal_length_mm": 94.0/' $images/camera.json >s
 expect 3 "" orient -images $images/images.csv -camera short.json -lines $images/true_lines.csv \
   -output short_camera.json
 check "the focal length is named" grep -q 'focal length' short_camera.json
+
+# Most lines belong to other ridges.
+awk -F, -v OFS=, 'NR == 1 { print; next } { if (NR % 4) { $3 += 20 * sin(NR); $6 += 20 * sin(NR)
+  $4 += 20 * cos(NR); $7 += 20 * cos(NR) } print }' $images/true_lines.csv >wrong.csv
+expect 3 "control lines contradict the images" "${orient[@]}" -lines wrong.csv -output wrong.json
+check "the reason is in the result" grep -q 'contradict the images' wrong.json
+sed '2s/^GCP[^,]*/GCP_/' $images/checkpoints.csv >one_name.csv
+expect 0 "1 check point without a position" "${orient[@]}" -lines $images/true_lines.csv \
+  -checkpoints one_name.csv -output t.json
 
 # A line that lies 15 m beside its ridge is named.
 awk -F, -v OFS=, 'NR == 1 { print; next } { if (seen++ == 3) { $3 += 15; $6 += 15 } print }' \

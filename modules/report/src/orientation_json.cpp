@@ -108,6 +108,16 @@ Json blundersOf(const BundleResult& bundle) {
   return all;
 }
 
+Json assignmentsOf(const ImageOrientationResult& result) {
+  Json all = Json::array();
+  for (const LineAssignment& assignment : result.assignments) {
+    all.push_back({{"image_line", assignment.image_line},
+                   {"control_line", assignment.object_line},
+                   {"distance_m", assignment.distance}});
+  }
+  return all;
+}
+
 Json checkOf(const ImageOrientationResult& result) {
   Json json;
   const CheckSummary summary = summaryOf(result.check_points);
@@ -169,6 +179,7 @@ std::string orientationJson(const ImageOrientationResult& result) {
   json["points"] = pointsOf(bundle);
   json["lines"] = linesOf(bundle);
   json["blunders"] = blundersOf(bundle);
+  json["assigned_lines"] = assignmentsOf(result);
   json["lines_without_control"] = result.unknown_lines;
   json["check_points"] = checkOf(result);
   json["residuals"] = residualsOf(result);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
 #include <pcl_als/report/orientation_page.h>
 #include <pcl_als/visualization/html_report.h>
 #include <pcl_als/visualization/ticks.h>
@@ -31,6 +33,9 @@ Verdict verdictOf(const ImageOrientationResult& result) {
   if (!bundle.blunders.empty())
     verdict.sentences.push_back(std::to_string(bundle.blunders.size()) +
                                 " observations contradict the others and were not used.");
+  if (!result.missing_points.empty())
+    verdict.sentences.push_back(std::to_string(result.missing_points.size()) +
+                                " check points have no position from the images.");
   if (!result.check_points.empty()) {
     const CheckSummary summary = summaryOf(result.check_points);
     verdict.sentences.push_back("RMSE at " + std::to_string(result.check_points.size()) +
@@ -43,7 +48,7 @@ Verdict verdictOf(const ImageOrientationResult& result) {
 }
 
 void addCheckPoints(const ImageOrientationResult& result, HtmlReport& report) {
-  if (result.check_points.empty()) return;
+  if (result.check_points.empty() || !result.bundle.reliable()) return;
   report.addSection("Check points");
   const CheckSummary summary = summaryOf(result.check_points);
   ReportTable table{"checkpoints",
@@ -99,12 +104,17 @@ void addBlunders(const BundleResult& bundle, HtmlReport& report) {
 
 void addLines(const BundleResult& bundle, HtmlReport& report) {
   report.addSection("Control lines");
-  ReportTable table{"lines",
-                    "Adjusted minus given at both ends, to the left and upwards, m; standardised "
-                    "residual of the four together",
-                    {"line", "left 1", "up 1", "left 2", "up 2", "standardised", "places", "use"},
-                    {}};
-  for (const AdjustedLine& line : bundle.lines) {
+  ReportTable table{
+      "lines",
+      "Adjusted minus given at both ends, to the left and upwards, m; their size over "
+      "its standard deviation",
+      {"line", "left 1", "up 1", "left 2", "up 2", "standardised", "places", "use"},
+      {}};
+  std::vector<AdjustedLine> lines = bundle.lines;  // the most contradictory first
+  std::stable_sort(lines.begin(), lines.end(), [](const AdjustedLine& a, const AdjustedLine& b) {
+    return a.misfit > b.misfit;
+  });
+  for (const AdjustedLine& line : lines) {
     table.rows.push_back({line.line.id, metres(line.shift[0]), metres(line.shift[1]),
                           metres(line.shift[2]), metres(line.shift[3]), numberText(line.misfit, 1),
                           std::to_string(line.places), line.used ? "used" : "rejected"});
@@ -120,11 +130,12 @@ void writeOrientationPage(const ReportOrigin& origin, const ImageOrientationResu
   addVerdict(verdictOf(result), report);
   report.addSection("Block");
   report.addPicture(blockPicture(result).image(),
-                    "Perspective centres, points, control lines, and differences at check points.");
+                    "Images, points, control lines, and differences at check points (arrows: in "
+                    "plan; numbers: in height).");
   if (!result.bundle.residuals.empty()) {
     report.addPicture(residualPicture(result).image(),
-                      "Residuals over the format of the image: a pattern shows a camera that does "
-                      "not fit.");
+                      "Residuals over the format of the image, of places on lines across them: a "
+                      "pattern shows a camera that does not fit.");
     report.addPicture(standardisedPicture(result).image(),
                       "Residuals of points and of places on lines over their standard deviations.");
   }

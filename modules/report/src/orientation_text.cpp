@@ -32,6 +32,14 @@ std::string blundersText(const BundleResult& bundle) {
   return text;
 }
 
+/// Names, the first of many.
+std::string namesText(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostNames, names.size()); ++i)
+    text += (i > 0 ? ", " : "") + names[i];
+  return text + (names.size() > kMostNames ? ", …" : "");
+}
+
 std::string checkText(const ImageOrientationResult& result) {
   const CheckSummary summary = summaryOf(result.check_points);
   std::string text = "  check points (" + std::to_string(result.check_points.size()) +
@@ -80,7 +88,11 @@ std::string orientationText(const ImageOrientationResult& result) {
   if (!result.unknown_lines.empty())
     text += "  " + counted(result.unknown_lines.size(), "line") +
             " of the images without a line of the control\n";
-  if (!result.check_points.empty()) text += checkText(result);
+  if (!result.missing_points.empty())
+    text += "  " + counted(result.missing_points.size(), "check point") +
+            " without a position from the images: " + namesText(result.missing_points) + "\n";
+  // Without datum the differences say nothing.
+  if (bundle.reliable() && !result.check_points.empty()) text += checkText(result);
   return text;
 }
 
