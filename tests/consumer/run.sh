@@ -25,10 +25,16 @@ diff <(sed -n '/^```cpp$/,/^```$/p' "$root/README.md" | grep -v '^```') <(sed '1
 diff <(sed -n '/^```c++$/,/^```$/p' "$root/README.md" | grep -v '^```') \
   <(sed -n '/^  \/\/ README$/,/^  \/\/ end$/p' "$here/project/clouds.cpp" | sed '1d;$d;s/^  //') ||
   { echo "README.md and tests/consumer/project/clouds.cpp differ"; exit 1; }
+for language in cpp:agreement.cpp:4 cmake:CMakeLists.txt:1; do
+  IFS=: read -r kind file comment <<<"$language"
+  diff <(sed -n "/^\`\`\`$kind\$/,/^\`\`\`\$/p" "$root/share/doc/programs.md" | grep -v '^```') \
+    <(sed "1,${comment}d" "$here/agreement/$file") ||
+    { echo "share/doc/programs.md and tests/consumer/agreement/$file differ"; exit 1; }
+done
 
 flags=()
 [[ -z ${SANITIZE:-} ]] || flags=(-DCMAKE_CXX_FLAGS="-fsanitize=$SANITIZE")
-for project in "$here/project" "$root/share/examples/pipeline" "$root/share/examples/jobs"; do
+for project in "$here/project" "$here/agreement" "$root/share/examples/pipeline" "$root/share/examples/jobs"; do
   name=$(basename -- "$project")
   cmake -S "$project" -B "$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$prefix" \
     "${flags[@]}" >"$name.log" 2>&1 || { cat "$name.log"; exit 1; }
@@ -70,6 +76,7 @@ correct quasi/positions.csv quasi/calibration.json quasi/corrected
 for strip in "$block"/strip*.las; do
   cmp "quasi/by_tool/$(basename -- "$strip")" "quasi/corrected/$(basename -- "$strip")"
 done
+./agreement/agreement "$block"/strip[12].las | grep -q '^1 & 2: RMSDz 0\.'
 jobs/check corrected/strip*.las >check.txt || [[ $? == 3 ]]
 grep -q 'keep QL2' check.txt
 jobs/register corrected/strip2.las corrected/strip1.las >shift.txt

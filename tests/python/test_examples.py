@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 """The programs of share/examples/python and the Python of the README run and do their work."""
+import contextlib
 import glob
 import importlib.util
+import io
 import os
 import re
 import subprocess
@@ -47,6 +49,15 @@ class ReadmeTest(FolderTest):
         values.update(pcl_als=pcl_als, x=ground[:, 0], y=ground[:, 1], z=ground[:, 2], time=ground[:, 0] * 0)
         exec(compile(arrays, "README.md", "exec"), values)
         self.assertLess(abs(values["strip"].ground() - ground).max(), 1e-3)
+
+    def test_page_of_the_manual(self):
+        os.symlink(BLOCK, "block")
+        values, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            for code in samples("share/doc/python.md"):
+                exec(compile(code, "python.md", "exec"), values)
+        self.assertRegex(printed.getvalue(), r"boresight_roll +-\d+\.\d+ \+- [0-9.]+ arcsec")
+        self.assertLess(values["quality"].block.pairs[0].vertical.rms, 0.04)  # noise of the block: 2 cm
 
 
 @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "SKIPPED: no matplotlib")
