@@ -265,7 +265,7 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
 
 AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
                                     const Trajectory& trajectory, const NoiseModel& noise,
-                                    Points chosen) const {
+                                    Points chosen, std::size_t every) const {
   AreaObservations found;
   std::vector<std::size_t> points;
   for (const StripPart& part : strips_) points.push_back(part.biased.size());
@@ -285,7 +285,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     const auto kept = kept_.find({observation.a, observation.b});
     if (!all && kept == kept_.end()) continue;
     const std::size_t count = all ? a.candidates.size() : kept->second.size();
-    for (std::size_t c = 0; c < count; ++c) {
+    for (std::size_t c = 0; c < count; c += all ? every : 1) {
       const std::int32_t i = all ? a.candidates[c] : kept->second[c].point;
       const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
       if (!match) continue;

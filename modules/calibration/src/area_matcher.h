@@ -84,10 +84,10 @@ class AreaMatcher {
   }
 
   /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
-  /// threshold.
+  /// threshold; only one of \a every candidates is paired.
   AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
                          const Trajectory& trajectory, const NoiseModel& noise,
-                         Points chosen = Points::candidates) const;
+                         Points chosen = Points::candidates, std::size_t every = 1) const;
   /// The pairs of control points inside the area with the patches above or below them.
   AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
                                 const Trajectory& trajectory, const NoiseModel& noise,

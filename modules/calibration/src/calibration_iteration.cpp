@@ -158,8 +158,16 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
   return true;
 }
 
+void SystemCalibrationEngine::samplePairs(State& state) const {
+  constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
+  if (settings_.pair_budget > 0) return;   // a selection represents all pairs
+  state.sampling = std::max<std::size_t>(1, state.observationCount() / kEnough);
+  if (state.sampling > 1) formPairs(state);
+}
+
 void SystemCalibrationEngine::pairAllCandidates(State& state) const {
-  if (state.all()) return;
+  if (state.all() && state.sampling == 1) return;
+  state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
 }

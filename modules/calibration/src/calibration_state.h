@@ -102,6 +102,9 @@ struct SystemCalibrationEngine::State {
   /// Parameters left out because the iteration does not converge with them, with the reason.
   std::map<SystemParameter, std::string> excluded;
   AreaMatcher::Points chosen_points = AreaMatcher::Points::candidates;
+  /// One of so many candidates is paired. The coarse phase needs a sample only: its errors are
+  /// those of the biases it began with, not those of the points.
+  std::size_t sampling = 1;
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

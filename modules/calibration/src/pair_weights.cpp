@@ -69,9 +69,13 @@ void PairWeights::findScales(const std::vector<AreaObservations>& observations,
                              const std::vector<std::vector<double>>& residuals, int threads) {
   std::map<Group, Values> groups;
   for (std::size_t area = 0; area < observations.size(); ++area) {
+    auto current = groups.end();  // pairs of a group follow each other
     for (std::size_t i = 0; i < observations[area].size(); ++i) {
       const PairObservation& o = observations[area][i];
-      Values& values = groups[groupOf(o)];
+      const Group group = groupOf(o);
+      if (current == groups.end() || current->first != group)
+        current = groups.try_emplace(group).first;
+      Values& values = current->second;
       values.residual.push_back(residuals[area][i]);
       values.variance.push_back(o.variance);
       values.pointing.push_back(o.pointing);
@@ -93,9 +97,12 @@ void PairWeights::update(const std::vector<AreaObservations>& observations,
   kept_ = 0;
   weights_.assign(observations.size(), {});
   for (std::size_t area = 0; area < observations.size(); ++area) {
+    weights_[area].reserve(observations[area].size());
+    auto found = scales_.end();
     for (std::size_t i = 0; i < observations[area].size(); ++i) {
       const PairObservation& o = observations[area][i];
-      const auto found = scales_.find(groupOf(o));
+      const Group group = groupOf(o);
+      if (found == scales_.end() || found->first != group) found = scales_.find(group);
       const double scale = found == scales_.end() ? 1.0 : found->second;
       const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
       const double residual = residuals[area][i];

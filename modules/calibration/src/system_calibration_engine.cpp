@@ -80,7 +80,7 @@ void SystemCalibrationEngine::formPairs(State& state) const {
     state.observations[i] =
         i < pair_areas_
             ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise,
-                            state.chosen_points)
+                            state.chosen_points, state.sampling)
             : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
                                    settings_.noise, settings_.control_sigma);
     removeSources(state.held_sources, state.observations[i]);
@@ -100,6 +100,7 @@ void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
 void SystemCalibrationEngine::weigh(State& state) const {
   std::vector<std::vector<double>> residuals(state.observations.size());
   parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
+    residuals[area].reserve(state.observations[area].size());
     for (const PairObservation& o : state.observations[area]) {
       residuals[area].push_back(state.adjustment.residual(o, state.choice.solution) - o.offset);
     }
@@ -229,6 +230,7 @@ std::vector<TimeSpan> SystemCalibrationEngine::flownTimes() const {
 
 void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResult& result) {
   constexpr int kMostSelections = 3;
+  samplePairs(state);
   for (int selections = 0; selections == 0 || !result.converged; ++selections) {
     while (mayContinue(state, result)) {
       iterate(state, result);

@@ -168,6 +168,7 @@ class SystemCalibrationEngine {
   // Transitions between the phases of the iteration, see State::Phase.
   void openIteration(State& state, std::size_t done) const;
   void leaveCoarse(State& state) const;
+  void samplePairs(State& state) const;
   void pairAllCandidates(State& state) const;
   void openVarianceComponents(State& state, std::size_t done) const;
   void closeSelection(State& state) const;
