@@ -23,9 +23,11 @@ set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
 
 find_program(PCL_ALS_CCACHE ccache)
 if(PCL_ALS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # ccache caches what uses precompiled headers only with this setting.
+  # ccache caches what uses precompiled headers only with this sloppiness. With paths relative to the
+  # sources, build folders beside each other share their objects.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PCL_ALS_CCACHE})
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} ${PCL_ALS_CCACHE})
 endif()
 
 add_compile_options(-Wall -Wextra)

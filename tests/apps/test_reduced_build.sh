@@ -3,12 +3,16 @@
 # Copyright (c) 2026, the pcl_als authors
 #
 # test_reduced_build.sh BIN_DIR SCRATCH_DIR SOURCE_DIR: the tools without PROJ, VTK, GDAL and Ceres are
-# built and linked, do their work, and say what they cannot do. BIN_DIR is not used.
-# Compiled without optimisation, for what is tested here is the few sources that differ.
+# built and linked, do their work, and say what they cannot do.
+# The build folder is beside that of BIN_DIR and has its options of compilation, so that ccache
+# provides all objects but those of the few sources that differ.
 set -euo pipefail
-build=$2/reduced_build
+main=$(dirname -- "$1")
+build=${main}_reduced
+type=$(sed -n 's/^CMAKE_BUILD_TYPE:[A-Z]*=//p' "$main/CMakeCache.txt")
 mkdir -p -- "$build"
-cmake -S "$3" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF \
+trap 'rm -rf -- "$build"' EXIT
+cmake -S "$3" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$type" -DBUILD_TESTING=OFF \
   -DPCL_ALS_WITH_PROJ=OFF -DPCL_ALS_WITH_VTK=OFF -DPCL_ALS_WITH_GDAL=OFF -DPCL_ALS_WITH_CERES=OFF \
   -DPCL_ALS_WITH_PYTHON=OFF >"$build/configure.log" 2>&1 ||
   { cat "$build/configure.log"; exit 1; }
