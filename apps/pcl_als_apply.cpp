@@ -58,22 +58,6 @@ CommandLine commandLine() {
   return line;
 }
 
-SystemVector parseBiases(const std::string& list) {
-  if (app::splitList(list).empty()) throw UsageError("option -biases: names no parameter");
-  SystemVector biases = SystemVector::Zero();
-  try {
-    setBiases(list, biases);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string("option -biases: ") + error.what());
-  }
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const std::string refused = refusedBias(info.parameter, biases[indexOf(info.parameter)]);
-    if (!refused.empty())
-      throw UsageError("option -biases: " + std::string(info.name) + ": " + refused);
-  }
-  return biases;
-}
-
 /// The calibration of -calibration; one that should not be applied only with -force.
 CalibrationResult usableCalibration(const CommandLine& line) {
   const std::string file = line.text("calibration");
@@ -95,7 +79,7 @@ CalibrationResult biasesOf(const CommandLine& line) {
   }
   if (line.has("calibration")) return usableCalibration(line);
   CalibrationResult result;
-  const SystemVector biases = parseBiases(line.text("biases"));
+  const SystemVector biases = line.parsed("biases", biasesIn);
   for (int i = 0; i < kSystemParameterCount; ++i) result.parameters[i].bias = biases[i];
   result.converged = true;
   return result;
@@ -152,9 +136,7 @@ void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
       if (!text.empty()) app::remark(line, files[i] + ": " + text);
 }
 
-int apply(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int apply(const CommandLine& line) {
   const std::vector<std::string> files = inputsOf(line);
   CalibrationResult calibration = biasesOf(line);
   FileCorrectionOptions options = optionsOf(line, calibration);
@@ -185,5 +167,5 @@ int apply(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::runShared("pcl_als_apply", [argc, argv] { return apply(argc, argv); });
+  return pcl_als::app::runShared(argc, argv, commandLine, apply);
 }

@@ -6,6 +6,7 @@
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/file_correction.h>
 #include <pcl_als/processing/survey_calibration.h>
@@ -37,8 +38,7 @@ CommandLine commandLine() {
                    "pcl_als_calibrate strip*.las -trajectory trajectory.csv -control control.csv "
                    "-output calibration.json");
   app::addFlightOptions(line);
-  line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
-  app::addUnitsOption(line, "control", "the control file");
+  app::addControlOptions(line);
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
@@ -56,7 +56,7 @@ CommandLine commandLine() {
   line.addFlag("vertical",
                "with quasi_rigorous: assume a vertical sensor aligned with the flight line, as "
                "published, instead of recovering pitch and crab from the points");
-  line.addOptional("output", "calibration.json to write (needed)");
+  line.addNeeded("output", "calibration.json to write");
   line.addOptional("corrected", "folder for corrected copies of all strips, also beyond -bounds");
   line.addFlag("strip_corrections",
                "with -corrected: also correct the estimated trajectory errors (not with -bounds)");
@@ -77,20 +77,6 @@ CommandLine commandLine() {
            "parameters; 0: all",
            1e-3 * static_cast<double>(defaults.pair_budget));
   return line;
-}
-
-std::vector<std::pair<std::string, std::string>> stripPairs(const CommandLine& line) {
-  std::vector<std::pair<std::string, std::string>> pairs;
-  if (!line.has("pairs")) return pairs;
-  for (const std::string& text : app::splitList(line.text("pairs"))) {
-    const std::size_t colon = text.find(':');
-    if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) {
-      throw UsageError("option -pairs: '" + text + "' is not A:B");
-    }
-    pairs.emplace_back(text.substr(0, colon), text.substr(colon + 1));
-  }
-  if (pairs.empty()) throw UsageError("option -pairs: names no pair");
-  return pairs;
 }
 
 /// The attitude that is used: -vertical ignores the attitude that -model rigorous needs.
@@ -128,7 +114,6 @@ CalibrationSettings settingsOf(const CommandLine& line) {
 
 /// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
-  if (!line.has("output")) throw UsageError("option -output is needed");
   if (line.has("corrected") && line.has("keep_readable"))
     throw UsageError("options -corrected and -keep_readable exclude each other (see -h)");
   if (line.has("strip_corrections") && line.has("bounds"))
@@ -181,25 +166,21 @@ void writeReport(const CommandLine& line, const SurveyCalibration& calibration,
 int conclude(const CommandLine& line, const std::vector<std::string>& files,
              const std::shared_ptr<const Trajectory>& flight, const CalibrationResult& result) {
   const bool usable = result.verdict.usable();
-  if (!usable) {
-    std::cerr << "pcl_als_calibrate: no reliable answer: " << result.verdict.text() << std::endl;
-  }
+  const int status = app::conclude(line, usable ? "" : result.verdict.text());
   if (line.has("corrected") && !usable && !line.has("force")) {
     std::cerr << "pcl_als_calibrate: no corrected files are written; -force writes them"
               << std::endl;
   } else if (line.has("corrected")) {
     writeCorrected(line, files, flight, result);
   }
-  return usable ? app::kDone : app::kNoReliableAnswer;
+  return status;
 }
 
-int calibrate(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int calibrate(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs(1, 100000);
   SurveyCalibrationOptions options;
   options.settings = settingsOf(line);
-  options.pairs = stripPairs(line);
+  if (line.has("pairs")) options.pairs = line.parsed("pairs", pairsIn);
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
@@ -218,8 +199,7 @@ int calibrate(int argc, char** argv) {
   const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude, files, &whole);
   options.reconstructed = whole.reconstructed();
   if (options.accuracy.empty() && !options.reconstructed) options.accuracy = whole.accuracy;
-  if (line.has("control"))
-    options.control = readControl(line.text("control"), app::unitOption(line, "control"));
+  options.control = app::controlOf(line);
   CalibrationPage page(line.has("report"));
   options.observer = page.observer();
   SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
@@ -236,5 +216,5 @@ int calibrate(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_calibrate", [argc, argv] { return calibrate(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, calibrate);
 }

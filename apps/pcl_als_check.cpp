@@ -7,6 +7,7 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/memory.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/survey_check.h>
@@ -46,9 +47,8 @@ CommandLine commandLine() {
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
-  line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
-  app::addUnitsOption(line, "control", "the control file");
-  line.addOptional("output", "quality.json to write (needed)");
+  app::addControlOptions(line);
+  line.addNeeded("output", "quality.json to write");
   line.addOptional(
       "report",
       "folder for report.html (pictures inside), tables as Markdown and CSV, swath separation "
@@ -72,21 +72,12 @@ CheckSettings settingsOf(const CommandLine& line) {
   settings.control_sigma = line.number("control_sigma", 0.0, 10.0, "m");
   settings.force = line.has("force");
   settings.threads = line.threads();
-  if (line.has("control"))
-    settings.control = readControl(line.text("control"), app::unitOption(line, "control"));
+  settings.control = app::controlOf(line);
   return settings;
-}
-
-int qualityLevel(const CommandLine& line) {
-  const int level = line.get<int>("quality_level");
-  if (level < 0 || level >= kQualityLevels)
-    throw UsageError("option -quality_level: must be 0, 1, 2 or 3");
-  return level;
 }
 
 /// Outputs that cannot be written are refused before the computation.
 void checkOutputs(const CommandLine& line) {
-  if (!line.has("output")) throw UsageError("option -output is needed");
   app::checkWritable(line.text("output"));
   if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
 }
@@ -100,7 +91,8 @@ std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
     app::remark(line, "built without GDAL: no swath separation image");
     return std::nullopt;
   }
-  return SeparationImageOptions{line.text("report"), name, cell, qualityLevel(line)};
+  return SeparationImageOptions{line.text("report"), name, cell,
+                                line.whole("quality_level", 0, kQualityLevels - 1)};
 }
 
 /// Checks one set of files; \a image: name of its swath separation image.
@@ -132,9 +124,7 @@ void writeReport(const CommandLine& line, const QualityReport& report,
                                  : "quality.md, CSV; no report.html: built without VTK");
 }
 
-int check(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int check(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs(1, 100000);
   SurveyCheckOptions options;
   options.settings = settingsOf(line);
@@ -142,12 +132,12 @@ int check(int argc, char** argv) {
   app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
   QualityReport report;
-  report.quality_level = qualityLevel(line);
+  report.quality_level = line.whole("quality_level", 0, kQualityLevels - 1);
   checkOutputs(line);
   std::vector<std::string> before;
   if (line.has("before")) {
-    before = filesLike(files, app::splitList(line.text("before")));
-    app::refuseRepeated(before);
+    before = filesLike(files, splitList(line.text("before")));
+    refuseRepeated(before);
   }
   QualityPage page(line.has("report"));
   options.observer = page.observer();
@@ -162,14 +152,11 @@ int check(int argc, char** argv) {
   writeFile(line.text("output"), qualityJson(report));
   if (!line.quiet()) std::cout << qualityText(report) << std::endl;
   if (line.has("report")) writeReport(line, report, checked.areas, page);
-  const std::string unreliable = whyUnreliable(report.block);
-  if (unreliable.empty()) return app::kDone;
-  std::cerr << "pcl_als_check: no reliable answer: " << unreliable << std::endl;
-  return app::kNoReliableAnswer;
+  return app::conclude(line, whyUnreliable(report.block));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_check", [argc, argv] { return check(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, check);
 }

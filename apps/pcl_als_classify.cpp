@@ -92,17 +92,6 @@ std::vector<ClassSite> sitesOf(const CommandLine& line, const char* option) {
   return sites;
 }
 
-std::optional<GaussianModel> modelOf(const CommandLine& line) {
-  if (!line.has("model")) return std::nullopt;
-  GaussianModel model = readClassModel(line.text("model"));
-  const auto& known = SurfaceAccumulator::bandNames();
-  for (const std::string& band : model.bands) {
-    if (std::find(known.begin(), known.end(), band) == known.end())
-      throw InputError(line.text("model") + ": has a band '" + band + "' that no raster has");
-  }
-  return model;
-}
-
 fs::path pathOf(const CommandLine& line, const char* option) {
   return line.has(option) ? fs::path(line.text(option)) : fs::path();
 }
@@ -119,14 +108,14 @@ RasterInput inputOf(const CommandLine& line) {
 LandCoverOptions optionsOf(const CommandLine& line, const RasterInput& files) {
   LandCoverOptions options;
   options.surface = surfaceOptionsOf(line);
-  options.bands = bandsOf(line);
-  options.priors = priorsOf(line);
+  options.bands = line.parsed("bands", bandsIn);
+  if (line.has("priors")) options.priors = line.parsed("priors", priorsIn);
   if (line.has("crs")) requireProjectedCrs(line.text("crs"), "option -crs");
   options.grid = gridOf(line, files.min_x, files.min_y, files.max_x, files.max_y,
                         line.has("crs") ? line.text("crs") : files.crs);
   options.training = sitesOf(line, "training");
   options.checks = sitesOf(line, "checkpoints");
-  options.model = modelOf(line);
+  if (line.has("model")) options.model = readClassModel(line.text("model"));
   if (line.has("training")) options.training_name = line.text("training");
   if (line.has("checkpoints")) options.checks_name = line.text("checkpoints");
   options.reject = line.number("reject", 0.0, 0.5, "(probability)");
@@ -169,15 +158,7 @@ void draw(const CommandLine& line) {
   drawMaps(line.text("map"), maps);
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-int classify(int argc, char** argv) {
-  CommandLine line = declareClassify();
-  if (!line.parse(argc, argv)) return kDone;
+int classify(const CommandLine& line) {
   const RasterInput files = inputOf(line);
   OptionCheck(line, files.paths).checkOptions();
   const LandCoverResult result = classifyLandCover(files, optionsOf(line, files), progressOf(line));
@@ -190,15 +171,13 @@ int classify(int argc, char** argv) {
   if (!line.quiet()) {
     for (const std::string& note : notes) std::cout << "note: " << note << '\n';
   }
-  if (result.undetermined.empty()) return kDone;
-  std::cerr << "pcl_als_classify: no reliable answer: too few training samples for "
-            << joined(result.undetermined) << std::endl;
-  return kNoReliableAnswer;
+  const std::string few = joined(result.undetermined);
+  return conclude(line, few.empty() ? "" : "too few training samples for " + few);
 }
 
 }  // namespace
 }  // namespace pcl_als::app
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_classify", [&] { return pcl_als::app::classify(argc, argv); });
+  return pcl_als::app::run(argc, argv, pcl_als::app::declareClassify, pcl_als::app::classify);
 }

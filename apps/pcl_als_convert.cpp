@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/point_conversion.h>
 
@@ -34,18 +35,15 @@ PointConversionOptions optionsOf(const CommandLine& line) {
   PointConversionOptions options;
   options.window = app::windowOf(line);
   options.strips = app::stripChoice(line);
-  if (line.has("format")) options.format = line.text("format");
-  if (line.has("format") && options.format != "las" && options.format != "laz" &&
-      options.format != "pcd") {
-    throw UsageError("option -format: '" + options.format + "' is none of las, laz, pcd");
+  if (line.has("format")) {
+    line.choice("format", {"las", "laz", "pcd"});
+    options.format = line.text("format");
   }
   options.threads = line.threads();
   return options;
 }
 
-int convert(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int convert(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs(2, std::numeric_limits<std::size_t>::max());
   const PointConversionOptions options = optionsOf(line);
   const std::vector<std::filesystem::path> inputs(files.begin(), files.end() - 1);
@@ -63,5 +61,5 @@ int convert(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_convert", [argc, argv] { return convert(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, convert);
 }

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <optional>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/file_motion.h>
 #include <pcl_als/processing/pair_alignment.h>
@@ -25,7 +26,7 @@ CommandLine commandLine() {
                    "pcl_als_icpatch strip1.las strip2.las -output result.json -transformed "
                    "moved1.las");
   const PatchAlignmentSettings defaults;
-  line.addOptional("output", "result as JSON (needed)");
+  line.addNeeded("output", "result as JSON");
   line.addOptional("transformed",
                    "the source moved onto the target: .las, .laz or .pcd like SOURCE");
   line.addOptional("pair", "A:B: strip A of the files onto strip B of the files");
@@ -50,15 +51,10 @@ CommandLine commandLine() {
 AlignmentPair pairOf(const CommandLine& line) {
   if (line.has("pair") && line.has("transformed"))
     throw UsageError("option -transformed: needs SOURCE and TARGET as files, not -pair");
-  const std::string pair = line.has("pair") ? line.text("pair") : "";
-  const std::size_t colon = pair.find(':');
-  if (line.has("pair") && (colon == std::string::npos || colon == 0 || colon + 1 == pair.size()))
-    throw UsageError("option -pair: '" + pair + "' is not A:B");
   const auto& inputs = line.has("pair") ? line.inputs(1, 100000) : line.inputs(2, 2);
   const std::vector<std::filesystem::path> files(inputs.begin(), inputs.end());
   if (line.has("pair")) {
-    return namedPair(files, {pair.substr(0, colon), pair.substr(colon + 1)}, app::stripChoice(line),
-                     "option -pair");
+    return namedPair(files, line.parsed("pair", pairIn), app::stripChoice(line), "option -pair");
   }
   return filePair(files,
                   app::choosesStrips(line) ? std::optional(app::stripChoice(line)) : std::nullopt);
@@ -70,20 +66,15 @@ PatchAlignmentSettings settingsOf(const CommandLine& line) {
   settings.determined_std = line.number("determined_std", 1e-4, 100.0, "m");
   settings.points = static_cast<std::size_t>(line.number("points", 1e3, 1e8, "points"));
   settings.pairs = static_cast<std::size_t>(line.number("pairs", 1e3, 1e8, "pairs"));
-  settings.maximum_iterations = line.get<int>("iterations");
-  if (settings.maximum_iterations < 1 || settings.maximum_iterations > 1000)
-    throw UsageError("option -iterations: must be 1 to 1000");
+  settings.maximum_iterations = line.whole("iterations", 1, 1000);
   settings.estimate_scale = line.has("scale");
   settings.threads = line.threads();
   return settings;
 }
 
-int icpatch(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int icpatch(const CommandLine& line) {
   const AlignmentPair pair = pairOf(line);
   const PatchAlignmentSettings settings = settingsOf(line);
-  if (!line.has("output")) throw UsageError("option -output is needed");
   const std::filesystem::path source = pair.source.files.front();
   if (line.has("transformed")) checkMovable(source, line.text("transformed"));
   const PairAlignment alignment = alignPair(pair, settings, app::progressOf(line));
@@ -98,13 +89,12 @@ int icpatch(int argc, char** argv) {
         movePointFile(source, line.text("transformed"), result.motion, line.threads());
     writing.done(grouped(moved) + " points");
   }
-  if (result.hasConverged() && result.allDetermined()) return app::kDone;
-  std::cerr << "pcl_als_icpatch: no reliable answer: " << unreliability(result) << std::endl;
-  return app::kNoReliableAnswer;
+  const bool reliable = result.hasConverged() && result.allDetermined();
+  return app::conclude(line, reliable ? "" : unreliability(result));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_icpatch", [argc, argv] { return icpatch(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, icpatch);
 }

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 #include <limits>
-#include <optional>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
@@ -31,7 +30,7 @@ ListedFlight flightOf(const CommandLine& line) {
   return flight;
 }
 
-int info(int argc, char** argv) {
+CommandLine commandLine() {
   CommandLine line("pcl_als_info",
                    "lists the contents of point files: strips, times, density, returns, overlaps",
                    "FILE… [-trajectory T] [-json FILE]",
@@ -42,8 +41,10 @@ int info(int argc, char** argv) {
   addStripOptions(line);
   addTrajectoryOptions(line, "listed, and used to detect the scanner");
   addAccuracyOption(line, "listed");
-  if (!line.parse(argc, argv)) return kDone;
+  return line;
+}
 
+int info(const CommandLine& line) {
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell", 0.0, 10000.0, "m");
   const bool only_flight = line.has("trajectory") || line.has("accuracy");
@@ -56,19 +57,13 @@ int info(int argc, char** argv) {
   }
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const std::vector<std::filesystem::path> paths(inputs.begin(), inputs.end());
-  std::optional<ArrangedFiles> arranged;
-  std::vector<std::uint64_t> labels;
-  CensusStrips strips;
-  if (choosesStrips(line)) {
-    StripChoice choice = stripChoice(line);
-    choice.keep_timeless = true;  // nothing here needs times
-    arranged.emplace(paths, choice, window);
-    strips = arranged->censusStrips(labels);
-  }
-  const SurveyCensus survey = takeCensus(
-      paths, cell, [&](double fraction) { step.progress(fraction); }, strips, window);
-  const std::vector<LeftOutPoints> left_out =
-      arranged ? arranged->arrangement().leftOut(labels) : std::vector<LeftOutPoints>();
+  std::vector<LeftOutPoints> left_out;
+  StripChoice choice = stripChoice(line);
+  choice.keep_timeless = true;  // nothing here needs times
+  const auto progress = [&](double fraction) { step.progress(fraction); };
+  const SurveyCensus survey = choosesStrips(line)
+                                  ? takeCensus(paths, cell, progress, choice, window, left_out)
+                                  : takeCensus(paths, cell, progress, {}, window);
   std::uint64_t points = 0;
   for (const FileCensus& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
@@ -84,5 +79,5 @@ int info(int argc, char** argv) {
 }  // namespace pcl_als::app
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_info", [&] { return pcl_als::app::info(argc, argv); });
+  return pcl_als::app::run(argc, argv, pcl_als::app::commandLine, pcl_als::app::info);
 }

@@ -88,9 +88,7 @@ void print(const IntensityResult& result) {
   std::cout << std::flush;
 }
 
-int intensity(int argc, const char* const* argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int intensity(const CommandLine& line) {
   const ExtinctionChoice extinction = app::extinctionChoice(line);
   IntensityOptions options = app::intensityOptions(line, extinction.per_km);
   const Files files = filesOf(line);
@@ -111,13 +109,11 @@ int intensity(int argc, const char* const* argv) {
   const IntensityReport report{&result, extinction, options.output, files.outputs};
   if (line.has("json")) writeIntensityJson(line.text("json"), report);
   if (line.has("report")) writeReport(line, report, page.get());
-  if (result.unreliable.empty()) return app::kDone;
-  std::cerr << "pcl_als_intensity: no reliable answer: " << result.unreliable << std::endl;
-  return app::kNoReliableAnswer;
+  return app::conclude(line, result.unreliable);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_intensity", [argc, argv] { return intensity(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, intensity);
 }

@@ -23,7 +23,7 @@ CommandLine commandLine() {
                    "covariance.",
                    "STRIP... -output lines.csv|.geojson",
                    "pcl_als_lines strip*.las -output lines.csv");
-  line.addOptional("output", "lines to write: .csv or .geojson (needed)");
+  line.addNeeded("output", "lines to write: .csv or .geojson");
   app::addStripOptions(line);
   line.addFlag("eaves", "also the lower edges of roof faces (known to the spacing of the points)");
   line.add("length", "least length of a line, m", defaults.settings.least_length);
@@ -55,12 +55,9 @@ LineExtractionOptions optionsOf(const CommandLine& line) {
   return options;
 }
 
-int lines(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int lines(const CommandLine& line) {
   const auto& inputs = line.inputs(1, 100000);
   const LineExtractionOptions options = optionsOf(line);
-  if (!line.has("output")) throw UsageError("option -output is needed");
   const std::filesystem::path output = line.text("output");
   if (output.extension() != ".csv" && output.extension() != ".geojson")
     throw UsageError("option -output: '" + output.string() + "' is neither .csv nor .geojson");
@@ -69,13 +66,11 @@ int lines(int argc, char** argv) {
       extractLines({inputs.begin(), inputs.end()}, options, app::progressOf(line));
   writeLines(output, found.lines, found.crs);
   if (!line.quiet()) std::cout << describe(found) << std::flush;
-  if (!found.lines.empty()) return app::kDone;
-  std::cerr << "pcl_als_lines: no reliable answer: no roof line was found" << std::endl;
-  return app::kNoReliableAnswer;
+  return app::conclude(line, found.lines.empty() ? "no roof line was found" : "");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_lines", [argc, argv] { return lines(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, lines);
 }

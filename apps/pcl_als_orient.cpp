@@ -26,17 +26,16 @@ CommandLine commandLine() {
       "orientation.json",
       "pcl_als_orient -images images.csv -lines lines.csv -camera camera.json "
       "-checkpoints checkpoints.csv -assign 3 -output orientation.json -report report");
-  line.addOptional("images",
-                   "approximate orientations: CSV image,x,y,z,omega,phi,kappa[,sigma_position,"
-                   "sigma_angle], m and degrees; with standard deviations they are observations "
-                   "(needed)");
+  line.addNeeded("images",
+                 "approximate orientations: CSV image,x,y,z,omega,phi,kappa[,sigma_position,"
+                 "sigma_angle], m and degrees; with standard deviations they are observations");
   line.addOptional("measurements",
                    "image coordinates: CSV image,kind,feature,x,y[,sigma], kind point or line, in "
                    "the unit of the camera (default: measurements.csv beside the images)");
-  line.addOptional("lines", "control: CSV as pcl_als_lines writes it (needed)");
-  line.addOptional("camera", "camera.json: focal length, principal point, distortion (needed)");
+  line.addNeeded("lines", "control: CSV as pcl_als_lines writes it");
+  line.addNeeded("camera", "camera.json: focal length, principal point, distortion");
   line.addOptional("checkpoints", "surveyed points that are not control: CSV id,x,y,z[,sigma]");
-  line.addOptional("output", "orientation.json to write (needed)");
+  line.addNeeded("output", "orientation.json to write");
   line.addOptional("report", "folder for report.html with pictures, report.md and tables as CSV");
   line.add("assign",
            "assign lines whose names are not in the control by position, up to this distance on "
@@ -55,11 +54,8 @@ CommandLine commandLine() {
 
 ImageOrientationOptions optionsOf(const CommandLine& line) {
   ImageOrientationOptions options;
-  const std::string formulation = line.text("formulation");
-  if (formulation != "coplanarity" && formulation != "expanded")
-    throw UsageError("option -formulation: '" + formulation +
-                     "' is neither coplanarity nor expanded");
-  if (formulation == "expanded") options.bundle.formulation = LineFormulation::expanded_covariance;
+  if (line.choice("formulation", {"coplanarity", "expanded"}) == 1)
+    options.bundle.formulation = LineFormulation::expanded_covariance;
   options.bundle.robust = !line.has("no_rejection");
   options.assign_distance = line.number("assign", 0.0, 100.0, "m");
   options.image_sigma = line.number("image_sigma", 0.0, 100.0, "(unit of the camera)");
@@ -67,8 +63,6 @@ ImageOrientationOptions optionsOf(const CommandLine& line) {
 }
 
 ImageBlockFiles filesOf(const CommandLine& line) {
-  for (const char* option : {"images", "lines", "camera", "output"})
-    if (!line.has(option)) throw UsageError(std::string("option -") + option + " is needed");
   ImageBlockFiles files;
   files.images = line.text("images");
   files.measurements = line.has("measurements") ? std::filesystem::path(line.text("measurements"))
@@ -79,9 +73,7 @@ ImageBlockFiles filesOf(const CommandLine& line) {
   return files;
 }
 
-int orient(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int orient(const CommandLine& line) {
   line.inputs(0, 0);
   const ImageOrientationOptions options = optionsOf(line);
   const ImageBlockFiles files = filesOf(line);
@@ -95,13 +87,11 @@ int orient(int argc, char** argv) {
     origin.inputs.push_back(files.measurements);
     writeOrientationPage(origin, result);
   }
-  if (result.bundle.reliable()) return app::kDone;
-  std::cerr << "pcl_als_orient: no reliable answer: " << result.bundle.message << std::endl;
-  return app::kNoReliableAnswer;
+  return app::conclude(line, result.bundle.reliable() ? "" : result.bundle.message);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_orient", [argc, argv] { return orient(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, orient);
 }

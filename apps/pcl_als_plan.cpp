@@ -8,6 +8,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/plan_io.h>
 #include <pcl_als/planning/flight_plan.h>
+#include <pcl_als/processing/planned_strips.h>
 #include <pcl_als/report/plan_report.h>
 
 #include "adjustment_options.h"
@@ -29,9 +30,9 @@ CommandLine commandLine() {
                    "flight, and which line to add.",
                    "-lines plan.csv [options]",
                    "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");
-  line.addOptional("lines",
-                   "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local frame, "
-                   "height above mean ground (needed)");
+  line.addNeeded("lines",
+                 "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local frame, "
+                 "height above mean ground");
   line.add("fov", "full field of view, degrees", 40.0);
   line.add("speed", "speed of lines whose file gives none, m/s", 60.0);
   line.addOptional("density", "pulses per m2, of lines whose file gives none (default: 1)");
@@ -56,16 +57,10 @@ double densityOf(const CommandLine& line) {
   if (line.has("density") && line.has("spacing")) {
     throw UsageError("options -density and -spacing: give one of them");
   }
-  const char* option = line.has("spacing") ? "spacing" : "density";
-  if (!line.has(option)) return 1.0;
-  const std::string what = std::string("option -") + option;
-  const double value = app::numberIn(line.text(option), what);
-  const bool spacing = line.has("spacing");
-  if (value < (spacing ? 0.05 : 0.01) || value > (spacing ? 10.0 : 400.0)) {
-    throw UsageError(what + ": " + line.text(option) + " is outside " +
-                     (spacing ? "[0.05, 10] m" : "[0.01, 400] per m2"));
-  }
-  return spacing ? 1.0 / (value * value) : value;
+  if (line.has("spacing"))
+    return std::pow(app::numberIn(line.text("spacing"), "option -spacing, m", 0.05, 10.0), -2.0);
+  if (!line.has("density")) return 1.0;
+  return app::numberIn(line.text("density"), "option -density, per m2", 0.01, 400.0);
 }
 
 SurfaceModel surfaceOf(const CommandLine& line) {
@@ -79,13 +74,7 @@ SurfaceModel surfaceOf(const CommandLine& line) {
   const auto grid =
       std::make_shared<const ElevationGrid>(ElevationGrid::read(line.text("terrain")));
   step.done(std::to_string(grid->columns()) + " x " + std::to_string(grid->rows()) + " cells");
-  surface.terrain = [grid](const Eigen::Vector2d& place) -> std::optional<SurfacePoint> {
-    Eigen::Vector2d gradient;
-    const std::optional<double> z = grid->at(place, gradient);
-    if (!z) return std::nullopt;
-    return SurfacePoint{*z - grid->mean(),
-                        Eigen::Vector3d(-gradient.x(), -gradient.y(), 1.0).normalized()};
-  };
+  surface.terrain = terrainOf(grid);
   return surface;
 }
 
@@ -97,11 +86,7 @@ FlightPlan::Settings settingsOf(const CommandLine& line) {
   adjustment.shared_errors = app::sharedErrorsOf(line);
   adjustment.pairs.control_sigma = app::controlSigmaOf(line);
   adjustment.threads = line.threads();
-  const int control = line.get<int>("control");
-  if (control < 0 || control > 1000) {
-    throw UsageError("option -control: " + std::to_string(control) + " is outside [0, 1000]");
-  }
-  settings.control_points = static_cast<std::size_t>(control);
+  settings.control_points = static_cast<std::size_t>(line.whole("control", 0, 1000));
   return settings;
 }
 
@@ -112,30 +97,13 @@ std::vector<StripGeometry> plannedLines(const CommandLine& line) {
   common.density = densityOf(line);
   const std::string path = line.text("lines");
   Step step("Reading " + path, line.quiet());
-  std::vector<StripGeometry> lines;
-  for (const FlightLineRecord& record : readFlightLines(path)) {
-    StripGeometry& planned = lines.emplace_back(common);
-    planned.id = record.id;
-    planned.start = record.start;
-    planned.end = record.end;
-    planned.height = record.height;
-    planned.speed = record.speed.value_or(common.speed);
-    planned.density = record.density.value_or(common.density);
-    try {
-      planned.validate();
-    } catch (const UsageError& error) {  // the file's fault, not the command's
-      throw InputError(path + ": " + error.what());
-    }
-  }
+  std::vector<StripGeometry> lines = readPlannedStrips(path, common);
   step.done(std::to_string(lines.size()) + " lines");
   return lines;
 }
 
-int plan(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int plan(const CommandLine& line) {
   line.inputs(0, 0);
-  if (!line.has("lines")) throw UsageError("option -lines is needed");
   FlightPlan::Settings settings = settingsOf(line);
   if (line.has("output")) app::checkWritable(line.text("output"));
   std::vector<StripGeometry> lines = plannedLines(line);
@@ -152,14 +120,11 @@ int plan(int argc, char** argv) {
     writePlan(line.text("output"), result, inputs);
   }
   if (!line.quiet()) std::cout << '\n' << planTables(result) << std::flush;
-  if (result.expected.converged) return app::kDone;
-  std::cerr << "pcl_als_plan: no reliable answer: "
-            << app::notDetermined(result.expected, "will not be") << std::endl;
-  return app::kNoReliableAnswer;
+  return app::conclude(line, result.expected.converged ? "" : notDetermined(result.expected));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_plan", [argc, argv] { return plan(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, plan);
 }

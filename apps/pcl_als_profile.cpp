@@ -45,7 +45,7 @@ CommandLine commandLine() {
                    "files separated by commas");
   app::addWindowOptions(line);
   app::addStripOptions(line);
-  line.addOptional("output", "PNG to write, with -auto a folder for profile1.png, … (needed)");
+  line.addNeeded("output", "PNG to write, with -auto a folder for profile1.png, …");
   app::addSizeOption(line);
   line.addOptional("title", "text above (default: names of the files)");
   return line;
@@ -55,7 +55,7 @@ std::vector<std::string> filesAfter(const CommandLine& line,
                                     const std::vector<std::string>& before) {
   if (!line.has("after")) return {};
   const std::string text = line.text("after");
-  if (!fs::is_directory(text)) return app::splitList(text);
+  if (!fs::is_directory(text)) return splitList(text);
   std::vector<std::string> files;
   for (const std::string& file : before) {
     files.push_back((fs::path(text) / fs::path(file).filename()).string());
@@ -79,21 +79,16 @@ std::size_t countOf(const CommandLine& line) {
   if (line.has("from") || line.has("to")) {
     throw UsageError("option -auto: finds the sections itself, without -from and -to");
   }
-  const double count = app::numbersOf(line, "auto", ' ', 1, 100.0)[0];
-  if (!(count >= 1.0 && count <= 100.0 && count == std::floor(count))) {
-    throw UsageError("option -auto: must be a whole number from 1 to 100");
-  }
-  return static_cast<std::size_t>(count);
+  const auto count = line.wholeNumber("auto");
+  if (count < 1 || count > 100) throw UsageError("option -auto: must be 1 to 100");
+  return count;
 }
 
-int profile(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int profile(const CommandLine& line) {
   const auto& inputs = line.inputs(1, 100000);
   const PictureSize size = app::sizeOf(line);
   const PointWindow window = app::windowOf(line);
   const double width = line.number("width", 0.0, 1000.0, "m");
-  if (!line.has("output")) throw UsageError("option -output is needed");
   const bool automatic = line.has("auto");
   std::vector<SectionSearch::Place> places(1);
   const std::size_t count = automatic ? countOf(line) : 1;
@@ -124,7 +119,7 @@ int profile(int argc, char** argv) {
                        extentText(source.minimum(), source.maximum()));
     }
     SectionPicture picture;
-    picture.setTitle(line.has("title") ? line.text("title") : app::namesOf(inputs));
+    picture.setTitle(line.has("title") ? line.text("title") : fileNames(inputs));
     picture.setStrips(source.strips());
     picture.addPanel(after.empty() ? "" : "Before", before[i]);
     if (!after.empty()) picture.addPanel("After", after[i]);
@@ -141,5 +136,5 @@ int profile(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_profile", [argc, argv] { return profile(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, profile);
 }

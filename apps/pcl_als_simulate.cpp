@@ -59,9 +59,9 @@ CommandLine declare() {
                    "-output DIR [-preset NAME] [-noise none|range|realistic] [-bias …] [-error …]",
                    "pcl_als_simulate -output block -preset small -noise range -seed 3 "
                    "-bias boresight_roll=60,range_bias=0.1");
-  line.addOptional("output",
-                   "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
-                   "checkpoints.csv and truth.json; made if missing (needed)");
+  line.addNeeded("output",
+                 "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
+                 "checkpoints.csv and truth.json; made if missing");
   line.add<std::string>(
       "preset",
       "paper (six lines at 1150 m and 540 m, 11 million points), small (0.9 million), uav (drone "
@@ -147,26 +147,14 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   return options;
 }
 
-/// One of two words of an option.
-bool isSecond(const CommandLine& line, const char* name, const char* first, const char* second) {
-  const std::string value = line.text(name);
-  if (value == first) return false;
-  if (value == second) return true;
-  throw UsageError(std::string("option -") + name + ": '" + value + "' is neither " + first +
-                   " nor " + second);
-}
-
-int simulate(int argc, const char* const* argv) {
-  CommandLine line = declare();
-  if (!line.parse(argc, argv)) return kDone;
+int simulate(const CommandLine& line) {
   line.inputs(0, 0);
   const SimulationOptions options = optionsFrom(line);
   StripFileOptions files;
-  files.adjusted_time = isSecond(line, "time", "week", "adjusted");
-  files.compressed = isSecond(line, "format", "las", "laz");
+  files.adjusted_time = line.choice("time", {"week", "adjusted"}) == 1;
+  files.compressed = line.choice("format", {"las", "laz"}) == 1;
   files.bias_columns = line.has("truth_points");
   files.images = line.has("images");
-  if (!line.has("output")) throw UsageError("option -output is needed (see pcl_als_simulate -h)");
   files.folder = line.text("output");
   makeOutputFolder("output", files.folder);
   simulateSurvey(options, line.text("noise"), files, line.threads(), progressOf(line));
@@ -176,5 +164,5 @@ int simulate(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run("pcl_als_simulate", [&] { return simulate(argc, argv); });
+  return pcl_als::app::run(argc, argv, declare, simulate);
 }

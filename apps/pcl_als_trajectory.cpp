@@ -35,9 +35,9 @@ CommandLine commandLine() {
       line, "standard deviations to write (default: those of the trajectory's own columns)");
   line.addOptional("calibration", "calibration.json that is applied");
   line.addFlag("lever_arm_only", "do not apply the strip corrections of the calibration");
-  line.addOptional("output",
-                   "trajectory to write (needed): .csv with columns of standard deviations where "
-                   "they are known; .sbet or .out as SBET in WGS 84, with NAME_smrmsg.out");
+  line.addNeeded("output",
+                 "trajectory to write: .csv with columns of standard deviations where "
+                 "they are known; .sbet or .out as SBET in WGS 84, with NAME_smrmsg.out");
   app::addForceOption(line, "the calibration's verdict is not \"usable\"");
   app::addStripOptions(line, false);
   line.addOptional("report", "of points: folder for report.html (pictures inside) and report.md");
@@ -69,10 +69,7 @@ int reconstruct(const CommandLine& line) {
   return app::kNoReliableAnswer;
 }
 
-int trajectory(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
-  if (!line.has("output")) throw UsageError("option -output is needed");
+int trajectory(const CommandLine& line) {
   app::checkWritable(line.text("output"));
   if (!line.has("trajectory")) return reconstruct(line);
   line.inputs(0, 0);
@@ -94,5 +91,5 @@ int trajectory(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_trajectory", [argc, argv] { return trajectory(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, trajectory);
 }

@@ -51,11 +51,8 @@ CommandLine commandLine() {
 }
 
 PointShade shadeOf(const CommandLine& line) {
-  const std::string name = line.text("shade");
-  if (name == "none") return PointShade::none;
-  if (name == "edl") return PointShade::eye_dome;
-  if (name == "hill") return PointShade::hill;
-  throw UsageError("option -shade: '" + name + "' is none of none, edl, hill");
+  constexpr PointShade kShades[] = {PointShade::none, PointShade::eye_dome, PointShade::hill};
+  return kShades[line.choice("shade", {"none", "edl", "hill"})];
 }
 
 std::pair<double, double> rangeOf(const CommandLine& line) {
@@ -81,7 +78,7 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   if (line.has("range")) options.range = rangeOf(line);
   options.shade = shadeOf(line);
   options.point_size = line.number("point_size", 0.0, 64.0, "pixels");
-  options.title = line.has("title") ? line.text("title") : app::namesOf(inputs);
+  options.title = line.has("title") ? line.text("title") : fileNames(inputs);
   options.bare = line.has("bare");
   return options;
 }
@@ -94,9 +91,7 @@ void requireDisplay() {
       "use -output");
 }
 
-int view(int argc, char** argv) {
-  CommandLine line = commandLine();
-  if (!line.parse(argc, argv)) return app::kDone;
+int view(const CommandLine& line) {
   const auto& inputs = line.inputs(1, 100000);
   const SurveyPictureOptions options = optionsOf(line, inputs);
   if (line.has("output") == line.has("window")) {
@@ -120,5 +115,5 @@ int view(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run("pcl_als_view", [argc, argv] { return view(argc, argv); });
+  return pcl_als::app::run(argc, argv, commandLine, view);
 }

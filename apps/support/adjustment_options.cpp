@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
 
 #include "flight_options.h"
@@ -56,28 +57,8 @@ void addEstimateOption(CommandLine& line, const std::string& subject) {
 }
 
 std::vector<SystemParameter> parametersToEstimate(const CommandLine& line) {
-  std::vector<SystemParameter> parameters;
-  const std::string list = line.text("estimate");
-  if (list == "auto") return parameters;
-  for (const std::string& name : splitList(list)) {
-    const SystemParameter parameter = parameterNamed(name, "option -estimate");
-    if (std::find(parameters.begin(), parameters.end(), parameter) == parameters.end()) {
-      parameters.push_back(parameter);
-    }
-  }
-  if (parameters.empty()) throw UsageError("option -estimate: names no parameter");
-  return parameters;
-}
-
-std::string notDetermined(const CalibrationResult& result, const std::string& verb) {
-  std::string why;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& estimate = result[info.parameter];
-    if (estimate.status != ParameterStatus::not_estimable) continue;
-    why += (why.empty() ? "" : "; ") + std::string(info.name) + " " + verb + " determined (" +
-           estimate.reason + ")";
-  }
-  return why;
+  if (line.text("estimate") == "auto") return {};
+  return line.parsed("estimate", systemParametersIn);
 }
 
 void addSystemOptions(CommandLine& line) {

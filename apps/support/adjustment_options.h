@@ -26,10 +26,6 @@ double controlSigmaOf(const CommandLine& line);
 void addEstimateOption(CommandLine& line, const std::string& subject);
 std::vector<SystemParameter> parametersToEstimate(const CommandLine& line);
 
-/// Every parameter that \a result does not determine, with the reason; \a verb is "is not" or "will
-/// not be".
-std::string notDetermined(const CalibrationResult& result, const std::string& verb);
-
 /// Adds -system and -own, which readSystems() takes into the settings.
 void addSystemOptions(CommandLine& line);
 void readSystems(const CommandLine& line, CalibrationSettings& settings);

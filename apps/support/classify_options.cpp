@@ -8,18 +8,10 @@
 #include <pcl_als/common/errors.h>
 
 #include "strip_options.h"
+#include "window_options.h"
 
 namespace pcl_als::app {
 namespace {
-
-/// Whether an option has the second of two words.
-bool isSecond(const CommandLine& line, const char* name, const char* first, const char* second) {
-  const std::string value = line.text(name);
-  if (value != first && value != second)
-    throw UsageError(std::string("option -") + name + ": '" + value + "' is neither " + first +
-                     " nor " + second);
-  return value == second;
-}
 
 void addOutputs(CommandLine& line) {
   line.addOptional("output",
@@ -90,67 +82,27 @@ CommandLine declareClassify() {
 
 SurfaceOptions surfaceOptionsOf(const CommandLine& line) {
   SurfaceOptions options;
-  if (isSecond(line, "interpolation", "tin", "idw"))
+  if (line.choice("interpolation", {"tin", "idw"}) == 1)
     options.interpolation = SurfaceOptions::Interpolation::inverse_distance;
-  if (isSecond(line, "ground", "class", "filter"))
+  if (line.choice("ground", {"class", "filter"}) == 1)
     options.ground = SurfaceOptions::Ground::filtered;
   options.surface_gap = line.number("surface_gap", 0.0, 1000.0, "m");
   options.terrain_gap = line.number("terrain_gap", 0.0, 1000.0, "m");
   options.largest_object = line.number("largest_object", 1.0, 500.0, "m");
   options.texture_window = line.number("texture_window", 0.0, 1000.0, "m");
-  options.ground_classes.clear();
-  for (const std::string& text : splitList(line.text("ground_classes"))) {
-    const double code = numberIn(text, "option -ground_classes", 0.0, 255.0);
-    if (code != std::floor(code))
-      throw UsageError("option -ground_classes: '" + text + "' is no class code (0 to 255)");
-    options.ground_classes.push_back(static_cast<std::uint8_t>(code));
-  }
-  if (options.ground_classes.empty()) throw UsageError("option -ground_classes: names no class");
+  options.ground_classes = line.parsed("ground_classes", classCodesIn);
   return options;
-}
-
-std::vector<std::string> bandsOf(const CommandLine& line) {
-  std::vector<std::string> bands = splitList(line.text("bands"));
-  const std::vector<std::string>& known = SurfaceAccumulator::bandNames();
-  for (auto band = bands.begin(); band != bands.end(); ++band) {
-    if (std::find(known.begin(), known.end(), *band) == known.end())
-      throw UsageError("option -bands: there is no band '" + *band + "' (see pcl_als_classify -h)");
-    if (std::find(bands.begin(), band, *band) != band)
-      throw UsageError("option -bands: '" + *band + "' appears twice");
-  }
-  if (bands.empty()) throw UsageError("option -bands: names no band");
-  return bands;
-}
-
-std::vector<std::pair<std::string, double>> priorsOf(const CommandLine& line) {
-  std::vector<std::pair<std::string, double>> priors;
-  if (!line.has("priors")) return priors;
-  for (const std::string& entry : splitList(line.text("priors"))) {
-    const std::size_t equals = entry.rfind('=');
-    if (equals == std::string::npos || equals == 0)
-      throw UsageError("option -priors: '" + entry + "' is not CLASS=PROBABILITY");
-    priors.emplace_back(entry.substr(0, equals),
-                        numberIn(entry.substr(equals + 1), "option -priors", 0.0, 1.0));
-  }
-  return priors;
 }
 
 RasterGrid gridOf(const CommandLine& line, double min_x, double min_y, double max_x, double max_y,
                   const std::string& crs) {
   const double cell = line.number("cell", 0.01, 1000.0, "m");
   if (!line.has("extent")) return RasterGrid::covering(min_x, min_y, max_x, max_y, cell, crs);
-  const std::vector<std::string> parts = splitList(line.text("extent"));
-  if (parts.size() != 4)
-    throw UsageError("option -extent: '" + line.text("extent") + "' is not WEST,SOUTH,EAST,NORTH");
-  double edges[4];
-  for (std::size_t i = 0; i < 4; ++i)
-    edges[i] = numberIn(parts[i], "option -extent", -kFarthest, kFarthest);
-  if (edges[0] >= edges[2] || edges[1] >= edges[3])
-    throw UsageError("option -extent: west must be less than east, south less than north");
+  const Eigen::AlignedBox2d extent = rectangleOf(line, "extent");
   // Edges that are multiples of the cell size give no further row or column.
   const double inner = 1e-6 * cell;
-  return RasterGrid::covering(edges[0] + inner, edges[1] + inner, edges[2] - inner,
-                              edges[3] - inner, cell, crs);
+  return RasterGrid::covering(extent.min().x() + inner, extent.min().y() + inner,
+                              extent.max().x() - inner, extent.max().y() - inner, cell, crs);
 }
 
 }  // namespace pcl_als::app

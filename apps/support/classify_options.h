@@ -17,8 +17,6 @@ CommandLine declareClassify();
 
 /// UsageError naming the option, for each of them.
 SurfaceOptions surfaceOptionsOf(const CommandLine& line);
-std::vector<std::string> bandsOf(const CommandLine& line);
-std::vector<std::pair<std::string, double>> priorsOf(const CommandLine& line);
 /// The raster over the files' box, or over that of -extent.
 RasterGrid gridOf(const CommandLine& line, double min_x, double min_y, double max_x, double max_y,
                   const std::string& crs);

@@ -3,22 +3,22 @@
 #include "command_line.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <new>
 #include <set>
 #include <sstream>
 #include <type_traits>
 
 #include <boost/program_options.hpp>
-#include <unistd.h>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/nearest_name.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/common/thread_limit.h>
 
 #include "interruption.h"
@@ -73,6 +73,11 @@ template std::string CommandLine::get(const char*) const;
 
 void CommandLine::addOptional(const char* name, const char* help) {
   parser_->options.add_options()(name, po::value<std::string>(), help);
+}
+
+void CommandLine::addNeeded(const char* name, const char* help) {
+  needed_.emplace_back(name);
+  addOptional(name, (std::string(help) + " (needed)").c_str());
 }
 
 void CommandLine::addFlag(const char* name, const char* help) {
@@ -155,16 +160,6 @@ std::string CommandLine::suggestionFor(const std::string& option) const {
   return name.empty() ? std::string() : "; did you mean -" + name + "?";
 }
 
-void refuseRepeated(const std::vector<std::string>& inputs) {
-  std::set<std::filesystem::path> seen;
-  for (const std::string& input : inputs) {
-    std::error_code error;
-    std::filesystem::path path = std::filesystem::canonical(input, error);
-    if (error) path = input;
-    if (!seen.insert(path).second) throw UsageError(input + " is given twice");
-  }
-}
-
 void CommandLine::refuseToOverwrite() const {
   static const std::set<std::string> outputs{"output", "json",       "accuracy",
                                              "grids",  "posterior",  "checked",
@@ -209,6 +204,9 @@ const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t
   if (inputs_.size() >= low && inputs_.size() <= high) {
     // Of a list; where each input has a part of its own, the tool says what may be the same.
     if (high > 2) refuseRepeated(inputs_);
+    for (const std::string& name : needed_)
+      if (!has(name.c_str()))
+        throw UsageError("option -" + name + " is needed (see " + tool_ + " -h)");
     return inputs_;
   }
   throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
@@ -229,42 +227,12 @@ std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
     std::ostringstream text;
     if (const auto* number = boost::any_cast<double>(&value.value())) text << *number;
     if (const auto* whole = boost::any_cast<int>(&value.value())) text << *whole;
-    if (const auto* word = boost::any_cast<std::string>(&value.value())) {
+    if (const auto* word = boost::any_cast<std::string>(&value.value()))
       text << (word->empty() ? "yes" : *word);
-    }
     if (isList(name)) text << this->text(name.c_str());
     settings.emplace_back(name, text.str());
   }
   return settings;
-}
-
-Step::Step(std::string what, bool quiet)
-    : what_(std::move(what)),
-      quiet_(quiet),
-      terminal_(!quiet && isatty(STDERR_FILENO) != 0),
-      start_(std::chrono::steady_clock::now()) {}
-
-Step::~Step() {
-  if (terminal_ && last_percent_ >= 0 && !finished_) std::fputs("\r\033[K", stderr);
-}
-
-void Step::progress(double fraction) {
-  if (!terminal_) return;
-  const int percent = static_cast<int>(100.0 * fraction);
-  if (percent == last_percent_) return;
-  last_percent_ = percent;
-  const int filled = percent * 30 / 100;
-  std::fprintf(stderr, "\r%s [%.*s%*s] %3d %%", what_.c_str(), filled,
-               "##############################", 30 - filled, "", percent);
-}
-
-void Step::done(const std::string& counts) {
-  finished_ = true;
-  if (quiet_) return;
-  if (terminal_ && last_percent_ >= 0) std::fputs("\r\033[K", stderr);
-  const auto elapsed = std::chrono::steady_clock::now() - start_;
-  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(elapsed).count();
-  std::cout << what_ << " … " << counts << ", " << ms << " ms" << std::endl;
 }
 
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what) {
@@ -277,27 +245,6 @@ LengthUnit unitOption(const CommandLine& line, const std::string& of) {
   return lengthUnitNamed(line.text((of + "_units").c_str()), "option -" + of + "_units");
 }
 
-ProgressCallback progressOf(const CommandLine& line) {
-  const auto step = std::make_shared<std::unique_ptr<Step>>();
-  return [step, &line](const JobProgress& progress) {
-    switch (progress.event) {
-      case JobProgress::Event::begin:
-        *step = std::make_unique<Step>(progress.phase, line.quiet());
-        break;
-      case JobProgress::Event::advance:
-        (*step)->progress(progress.fraction);
-        break;
-      case JobProgress::Event::remark:
-        remark(line, progress.text);
-        break;
-      case JobProgress::Event::end:
-        (*step)->done(progress.text);
-        break;
-    }
-    return true;
-  };
-}
-
 void remark(const CommandLine& line, const std::string& text) {
   if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
 }
@@ -306,8 +253,20 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) remark(line, text);
 }
 
-int reportFailure(const char* tool, const std::exception_ptr& failure) {
-  const auto failed = [tool](std::string message, int status) {
+int run(int argc, const char* const* argv, CommandLine (*options)(),
+        int (*job)(const CommandLine&)) {
+  CommandLine line = options();
+  return run(line.tool(), [&] { return line.parse(argc, argv) ? job(line) : kDone; });
+}
+
+int conclude(const CommandLine& line, const std::string& why) {
+  if (why.empty()) return kDone;
+  std::cerr << line.tool() << ": no reliable answer: " << why << std::endl;
+  return kNoReliableAnswer;
+}
+
+int reportFailure(const std::string& tool, const std::exception_ptr& failure) {
+  const auto failed = [&tool](std::string message, int status) {
     // What a file holds in place of text must not reach the terminal.
     const auto control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
     std::replace_if(message.begin(), message.end(), control, '?');
@@ -327,10 +286,10 @@ int reportFailure(const char* tool, const std::exception_ptr& failure) {
   }
 }
 
-int run(const char* tool, const std::function<int()>& body) {
+int run(const std::string& tool, const std::function<int()>& body) {
   openStandardStreams();
   removeUnfinishedFilesOnSignals();
-  reportAborts(tool);
+  reportAborts(tool.c_str());
   try {
     const int status = body();
     const char* reason = "";
@@ -341,18 +300,8 @@ int run(const char* tool, const std::function<int()>& body) {
   }
 }
 
-std::optional<double> decimalNumber(const std::string& text) {
-  double value = 0.0;
-  const char* first = text.data();
-  const char* last = first + text.size();
-  if (text.size() > 1 && *first == '+' && first[1] != '-') ++first;
-  const auto [end, error] = std::from_chars(first, last, value);
-  if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 double numberIn(const std::string& text, const std::string& what, double low, double high) {
-  const auto value = decimalNumber(text);
+  const auto value = finiteNumber(text);
   if (value && *value >= low && *value <= high) return *value;
   std::ostringstream message;
   message << what << ": '" << text << "' is not a ";
@@ -363,24 +312,24 @@ double numberIn(const std::string& text, const std::string& what, double low, do
   throw UsageError(message.str());
 }
 
-std::uint64_t CommandLine::wholeNumber(const char* name) const {
-  const std::string& text = this->text(name);
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size() && !text.empty()) return value;
-  throw UsageError(std::string("option -") + name + ": '" + text +
-                   "' is not a whole number from 0 to 18446744073709551615");
+std::size_t CommandLine::choice(const char* name, const std::vector<std::string>& words) const {
+  const auto found = std::find(words.begin(), words.end(), text(name));
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  throw UsageError(std::string("option -") + name + ": '" + text(name) + "' is none of " +
+                   joined(words));
 }
 
-std::vector<std::string> splitList(const std::string& list) {
-  std::vector<std::string> parts;
-  std::istringstream stream(list);
-  for (std::string part; std::getline(stream, part, ',');) {
-    const auto first = part.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    parts.push_back(part.substr(first, part.find_last_not_of(" \t") - first + 1));
-  }
-  return parts;
+int CommandLine::whole(const char* name, int low, int high) const {
+  const int value = get<int>(name);
+  if (value >= low && value <= high) return value;
+  throw UsageError(std::string("option -") + name + ": " + std::to_string(value) + " is outside [" +
+                   std::to_string(low) + ", " + std::to_string(high) + "]");
+}
+
+std::uint64_t CommandLine::wholeNumber(const char* name) const {
+  if (const auto value = valueIn<std::uint64_t>(text(name))) return *value;
+  throw UsageError(std::string("option -") + name + ": '" + text(name) +
+                   "' is not a whole number from 0 to 18446744073709551615");
 }
 
 }  // namespace pcl_als::app

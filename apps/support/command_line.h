@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -13,9 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/console_progress.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_units.h>
-#include <pcl_als/common/progress.h>
+#include <pcl_als/common/text_values.h>
 
 namespace pcl_als::app {
 
@@ -40,6 +40,7 @@ class CommandLine {
   template <typename T>
   void add(const char* name, const char* help, const T& default_value);
   void addOptional(const char* name, const char* help);  ///< text value, absent by default
+  void addNeeded(const char* name, const char* help);    ///< the same; inputs() refuses its absence
   void addFlag(const char* name, const char* help);
   /// An option with one value or more: those that follow it up to the next option or point file.
   void addList(const char* name, const char* help);
@@ -56,6 +57,17 @@ class CommandLine {
   std::vector<std::string> list(const char* name) const;
   /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
   double number(const char* name, double low, double high, const char* unit) const;
+  /// What \a parse makes of the option's text; its UsageErrors name the option.
+  template <typename Parse>
+  auto parsed(const char* name, const Parse& parse) const {
+    try {
+      return parse(text(name));
+    } catch (const UsageError& error) {
+      throw UsageError(std::string("option -") + name + ": " + error.what());
+    }
+  }
+  /// The value of an int option in [low, high]; UsageError naming the option otherwise.
+  int whole(const char* name, int low, int high) const;
   /// The value of a std::string option as a whole number; UsageError for anything else.
   std::uint64_t wholeNumber(const char* name) const;
 
@@ -65,6 +77,9 @@ class CommandLine {
   /// Whether the tool has an option of this name.
   bool declares(const char* name) const;
   bool quiet() const { return has("quiet"); }
+  const std::string& tool() const { return tool_; }
+  /// The index of the option's value among words; UsageError that lists them for another value.
+  std::size_t choice(const char* name, const std::vector<std::string>& words) const;
   int threads() const;
   /// "pcl_als_info 0.1.0"
   std::string toolAndVersion() const;
@@ -84,62 +99,44 @@ class CommandLine {
   std::string tool_, purpose_, synopsis_, example_;
   struct Parser;  ///< what Boost keeps of options and values
   std::unique_ptr<Parser> parser_;
-  std::vector<std::string> inputs_, lists_;
+  std::vector<std::string> inputs_, lists_, needed_;
 };
 
-/** \brief Prints one line per step with counts and milliseconds to stdout, unless quiet.
- *
- * `Step step("Reading strip1.las", quiet); …; step.done("1843200 points");` gives
- * `Reading strip1.las … 1843200 points, 112 ms`. On a terminal, progress() draws a bar on stderr
- * meanwhile.
- */
-class Step {
- public:
-  Step(std::string what, bool quiet);
-  ~Step();
-  Step(const Step&) = delete;
-  Step& operator=(const Step&) = delete;
-  void progress(double fraction);
-  void done(const std::string& counts);
+using Step = ConsoleStep;
 
- private:
-  std::string what_;
-  bool quiet_, terminal_, finished_ = false;
-  int last_percent_ = -1;
-  std::chrono::steady_clock::time_point start_;
-};
-
-/// Shows each phase of a job as a step, and its remarks.
-ProgressCallback progressOf(const CommandLine& line);
+/// Shows the phases of a job, unless -quiet.
+inline ProgressCallback progressOf(const CommandLine& line) {
+  return consoleProgress(line.quiet());
+}
 
 /// Declares -OF_units: the unit of length of a file of coordinates that does not state one.
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what);
 /// The unit that -OF_units gives; metre without it. UsageError for another word.
 LengthUnit unitOption(const CommandLine& line, const std::string& of);
 
-/// UsageError where a file is given twice: its points would be counted twice.
-void refuseRepeated(const std::vector<std::string>& inputs);
-
 /// Prints an indented line of explanation, unless -quiet or empty.
 void remark(const CommandLine& line, const std::string& text);
 void remarks(const CommandLine& line, const std::vector<std::string>& texts);
 
-/// Runs a tool's body and turns exceptions into one line on stderr ("pcl_als_info: …") and the exit
-/// status.
-int run(const char* tool, const std::function<int()>& body);
+/// Runs a tool: parses its options and turns exceptions of its job into one line on stderr
+/// ("pcl_als_info: …") and the exit status.
+int run(int argc, const char* const* argv, CommandLine (*options)(),
+        int (*job)(const CommandLine& line));
+/// The same of any body.
+int run(const std::string& tool, const std::function<int()>& body);
 /// Prints an exception; the exit status.
-int reportFailure(const char* tool, const std::exception_ptr& failure);
+int reportFailure(const std::string& tool, const std::exception_ptr& failure);
 
-/// The finite number that a text is as a whole, in decimal digits (no hexadecimal, no blanks).
-std::optional<double> decimalNumber(const std::string& text);
-/// The same from \a low to \a high; UsageError that names \a what for another text.
+/// Ends a tool: kDone, or where \a why states why there is no reliable answer, kNoReliableAnswer
+/// with that on stderr.
+int conclude(const CommandLine& line, const std::string& why);
+
+/// The finite number from \a low to \a high that a text is; UsageError that names \a what for
+/// another.
 double numberIn(const std::string& text, const std::string& what,
                 double low = -std::numeric_limits<double>::infinity(),
                 double high = std::numeric_limits<double>::infinity());
 /// The greatest coordinate that options take, metres: beyond any projected CRS.
 constexpr double kFarthest = 1e9;
-
-/// "a, b, c" → {"a", "b", "c"}, without blanks and empty parts.
-std::vector<std::string> splitList(const std::string& list);
 
 }  // namespace pcl_als::app

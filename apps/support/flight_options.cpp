@@ -17,6 +17,23 @@ namespace {
 
 constexpr double kLongestWindow = 60.0;  // seconds, half of it
 
+/// -line_fit; \a otherwise where it is not given.
+double halfWidthOf(const CommandLine& line, double otherwise) {
+  if (!line.has("line_fit")) return otherwise;
+  // The flight is taken as straight within it.
+  return numberIn(line.text("line_fit"), "option -line_fit, seconds", 0.001, kLongestWindow);
+}
+
+/// The value of a word that an option gives; unchanged without the option.
+template <typename T>
+void choose(const CommandLine& line, const char* option, T& value,
+            const std::vector<std::pair<std::string, T>>& words) {
+  if (!line.has(option)) return;
+  std::vector<std::string> names;
+  for (const auto& [word, meaning] : words) names.push_back(word);
+  value = words[line.choice(option, names)].second;
+}
+
 }  // namespace
 
 void addFlightOptions(CommandLine& line, const char* use) {
@@ -63,19 +80,10 @@ void addTrajectoryOptions(CommandLine& line, const char* use) {
                    "a grid file that PROJ reads");
 }
 
-SystemParameter parameterNamed(const std::string& name, const std::string& what) {
-  if (const auto parameter = systemParameterNamed(name)) return *parameter;
-  std::string names;
-  for (const SystemParameterInfo& info : systemParameters()) names.append(" ").append(info.name);
-  throw UsageError(what + ": '" + name + "' is none of" + names);
-}
-
 std::optional<int> gpsWeek(const CommandLine& line) {
   if (!line.has("gps_week")) return std::nullopt;
-  const double week = numberIn(line.text("gps_week"), "option -gps_week", 0.0, 9999.0);
-  if (week != std::floor(week)) {
-    throw UsageError("option -gps_week: must be a whole number from 0 to 9999");
-  }
+  const std::uint64_t week = line.wholeNumber("gps_week");
+  if (week > 9999) throw UsageError("option -gps_week: must be 0 to 9999");
   return static_cast<int>(week);
 }
 
@@ -96,42 +104,14 @@ void addModelOption(CommandLine& line) {
 }
 
 AttitudeUse attitudeUse(const CommandLine& line) {
-  const std::string model = line.text("model");
-  if (model == "auto") return AttitudeUse::where_given;
-  if (model == modelName(AttitudeSource::trajectory)) return AttitudeUse::needed;
-  if (model == modelName(AttitudeSource::none)) return AttitudeUse::ignore;
-  if (model == toString(AttitudeSource::nominal)) return AttitudeUse::nominal;
-  throw UsageError("option -model: '" + model +
-                   "' is not auto, quasi_rigorous, rigorous or nominal");
+  AttitudeUse use = AttitudeUse::where_given;
+  choose(line, "model", use,
+         {{"auto", AttitudeUse::where_given},
+          {std::string(modelName(AttitudeSource::none)), AttitudeUse::ignore},
+          {std::string(modelName(AttitudeSource::trajectory)), AttitudeUse::needed},
+          {std::string(toString(AttitudeSource::nominal)), AttitudeUse::nominal}});
+  return use;
 }
-
-namespace {
-
-/// -line_fit; \a otherwise where it is not given.
-double halfWidthOf(const CommandLine& line, double otherwise) {
-  if (!line.has("line_fit")) return otherwise;
-  // The flight is taken as straight within it.
-  return numberIn(line.text("line_fit"), "option -line_fit, seconds", 0.001, kLongestWindow);
-}
-
-/// The value of a word that an option gives; unchanged without the option.
-template <typename T>
-void choose(const CommandLine& line, const char* option, T& value,
-            const std::vector<std::pair<std::string, T>>& words) {
-  if (!line.has(option)) return;
-  std::string names;
-  for (const auto& [word, meaning] : words) {
-    if (line.text(option) == word) {
-      value = meaning;
-      return;
-    }
-    names += (names.empty() ? "" : ", ") + word;
-  }
-  throw UsageError(std::string("option -") + option + ": '" + line.text(option) + "' is none of " +
-                   names);
-}
-
-}  // namespace
 
 TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& points_crs) {
   TrajectoryReading reading;

@@ -56,7 +56,4 @@ std::shared_ptr<const Trajectory> readFlight(const CommandLine& line, const std:
                                              const std::vector<std::string>& points = {},
                                              FlightFile* whole = nullptr);
 
-/// The parameter of that name; UsageError that names \a what and all parameters otherwise.
-SystemParameter parameterNamed(const std::string& name, const std::string& what);
-
 }  // namespace pcl_als::app

@@ -3,7 +3,6 @@
 #include "intensity_options.h"
 
 #include <map>
-#include <sstream>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
@@ -111,18 +110,9 @@ void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {
 
 std::map<std::string, double> valuesByStrip(const CommandLine& line, const char* option, double low,
                                             double high) {
-  std::map<std::string, double> values;
-  if (!line.has(option)) return values;
-  const std::string what = std::string("option -") + option;
-  for (const std::string& part : splitList(line.text(option))) {
-    const std::size_t equals = part.rfind('=');
-    if (equals == std::string::npos) throw UsageError(what + ": '" + part + "' is not STRIP=VALUE");
-    const double value = numberIn(part.substr(equals + 1), what, low, high);
-    if (!values.emplace(part.substr(0, equals), value).second)
-      throw UsageError(what + ": strip " + part.substr(0, equals) + " is given twice");
-  }
-  if (values.empty()) throw UsageError(what + ": names no strip");
-  return values;
+  if (!line.has(option)) return {};
+  return line.parsed(option,
+                     [=](const std::string& text) { return stripValuesIn(text, low, high); });
 }
 
 IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km) {
@@ -183,20 +173,14 @@ void addIntensityOptions(CommandLine& line) {
 
 ExtinctionChoice extinctionChoice(const CommandLine& line) {
   ExtinctionChoice choice;
-  std::ostringstream text;
-  text.precision(3);
   if (line.has("no_atmosphere")) {
     choice.remark = "atmosphere: left out";
     return choice;
   }
   if (line.has("attenuation")) {
-    try {
-      choice.per_km = extinctionFromDecibel(
-          numberIn(line.text("attenuation"), "option -attenuation", 0.0, 1000.0));
-    } catch (const UsageError& error) {
-      throw UsageError(std::string("option -attenuation: ") + error.what());
-    }
-    text << "atmosphere: extinction " << choice.per_km << " per km as given";
+    choice.per_km = line.parsed("attenuation", [](const std::string& text) {
+      return extinctionFromDecibel(numberIn(text, "dB/km", 0.0, 1000.0));
+    });
   } else {
     Atmosphere air;
     air.visibility_km = line.number("visibility", 0.01, 500.0, "km");
@@ -207,12 +191,8 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
     choice.air = air;
     choice.parts = extinctionOf(air);
     choice.per_km = choice.parts.total();
-    text << "atmosphere: extinction " << choice.per_km << " per km (aerosol "
-         << choice.parts.aerosol << ", Rayleigh " << choice.parts.rayleigh << ", water vapour "
-         << choice.parts.water_vapour << ", mixed gases " << choice.parts.mixed_gases << ")";
   }
-  text << ", two-way transmission of 1 km " << twoWayTransmission(choice.per_km, 1000.0);
-  choice.remark = text.str();
+  choice.remark = extinctionText(choice);
   return choice;
 }
 

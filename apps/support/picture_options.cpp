@@ -17,17 +17,7 @@ void addSizeOption(CommandLine& line) {
 }
 
 PictureSize sizeOf(const CommandLine& line) {
-  const std::vector<double> size = numbersIn(line.text("size"), 'x');
-  // Drawing takes some 110 bytes a pixel: larger pictures would end in a lack of memory.
-  constexpr double kMostPixels = 40e6;
-  if (size.size() == 2 && size[0] >= 200 && size[1] >= 150 && size[0] <= 16384 &&
-      size[1] <= 16384 && size[0] * size[1] <= kMostPixels && size[0] == std::floor(size[0]) &&
-      size[1] == std::floor(size[1])) {
-    return {static_cast<int>(size[0]), static_cast<int>(size[1])};
-  }
-  throw UsageError(
-      "option -size: '" + line.text("size") +
-      "' is no WIDTHxHEIGHT from 200x150 to 16384x16384 with 40 million pixels at most");
+  return line.parsed("size", pictureSizeIn);
 }
 
 std::string pictureFile(const CommandLine& line) {
@@ -36,15 +26,6 @@ std::string pictureFile(const CommandLine& line) {
     throw UsageError("option -output: '" + file.string() + "' does not end in .png");
   checkWritable(file);
   return file.string();
-}
-
-std::string namesOf(const std::vector<std::string>& paths) {
-  std::string names;
-  for (std::size_t i = 0; i < paths.size() && i < 3; ++i) {
-    names += (i > 0 ? ", " : "") + std::filesystem::path(paths[i]).filename().string();
-  }
-  if (paths.size() > 3) names += " and " + std::to_string(paths.size() - 3) + " more";
-  return names;
 }
 
 }  // namespace pcl_als::app

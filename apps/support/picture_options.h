@@ -20,7 +20,4 @@ PictureSize sizeOf(const CommandLine& line);
 /// The file of -output, which can be written and ends in .png; UsageError or InputError.
 std::string pictureFile(const CommandLine& line);
 
-/// "strip1.las, strip2.las and 3 more"
-std::string namesOf(const std::vector<std::string>& paths);
-
 }  // namespace pcl_als::app

@@ -2,10 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "processes.h"
 
-#include <filesystem>
-#include <set>
-#include <sstream>
-
 #if PCL_ALS_WITH_MPI
 #include <iostream>
 #include <streambuf>
@@ -20,8 +16,6 @@
 
 namespace pcl_als::app {
 
-namespace fs = std::filesystem;
-
 #if PCL_ALS_WITH_MPI
 namespace {
 
@@ -33,7 +27,7 @@ class NoText : public std::streambuf {
 };
 
 /// The body in one of several processes; what ends one ends all.
-int runAmong(MpiCommunicator& all, const char* tool, const std::function<int()>& body) {
+int runAmong(MpiCommunicator& all, const std::string& tool, const std::function<int()>& body) {
   std::exception_ptr failure;
   int status = kDone;
   try {
@@ -53,9 +47,7 @@ int runAmong(MpiCommunicator& all, const char* tool, const std::function<int()>&
   return all.isRoot() ? status : kDone;
 }
 
-}  // namespace
-
-int runShared(const char* tool, const std::function<int()>& body) {
+int runJob(const std::string& tool, const std::function<int()>& body) {
   if (!isStartedByMpi()) return run(tool, body);
   NoText none;
   std::streambuf *const out = std::cout.rdbuf(), *const errors = std::cerr.rdbuf();
@@ -71,11 +63,15 @@ int runShared(const char* tool, const std::function<int()>& body) {
   return status;
 }
 
+}  // namespace
+
 Communicator* processes() {
   return running;
 }
 #else
-int runShared(const char* tool, const std::function<int()>& body) {
+namespace {
+
+int runJob(const std::string& tool, const std::function<int()>& body) {
   return run(tool, [&body] {
     const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
     if (size != nullptr && std::string(size) != "1")
@@ -84,10 +80,18 @@ int runShared(const char* tool, const std::function<int()>& body) {
   });
 }
 
+}  // namespace
+
 Communicator* processes() {
   return nullptr;
 }
 #endif
+
+int runShared(int argc, const char* const* argv, CommandLine (*options)(),
+              int (*job)(const CommandLine&)) {
+  CommandLine line = options();
+  return runJob(line.tool(), [&] { return line.parse(argc, argv) ? job(line) : kDone; });
+}
 
 void addResumeOption(CommandLine& line) {
   line.addFlag(
@@ -97,23 +101,11 @@ void addResumeOption(CommandLine& line) {
 }
 
 BatchOptions batchOptions(const CommandLine& line) {
-  static const std::set<std::string> without_effect{"threads", "quiet", "resume", "report", "json"};
   BatchOptions batch;
   batch.resume = line.has("resume");
   batch.processes = processes();
-  std::ostringstream settings;
-  settings << line.toolAndVersion();
-  for (const auto& [name, value] : line.settings()) {
-    if (without_effect.count(name) != 0) continue;
-    settings << '\n' << name << '=' << value;
-    for (const std::string& part : splitList(value)) {
-      std::error_code none;
-      if (!fs::is_regular_file(part, none)) continue;
-      settings << ' ' << fs::file_size(part, none) << ' '
-               << fs::last_write_time(part, none).time_since_epoch().count();
-    }
-  }
-  batch.settings = settings.str();
+  batch.settings = settingsText(line.toolAndVersion(), line.settings(),
+                                {"threads", "quiet", "resume", "report", "json"});
   return batch;
 }
 

@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <functional>
-
 #include <pcl_als/common/communicator.h>
 #include <pcl_als/processing/file_batch.h>
 
@@ -13,7 +11,8 @@ namespace pcl_als::app {
 
 /// As run(), of a tool that shares its job among the processes that mpirun started: the first one
 /// prints and reports failures.
-int runShared(const char* tool, const std::function<int()>& body);
+int runShared(int argc, const char* const* argv, CommandLine (*options)(),
+              int (*job)(const CommandLine& line));
 /// The processes of the job; null where there is one.
 Communicator* processes();
 

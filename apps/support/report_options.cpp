@@ -14,10 +14,19 @@ ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*
   for (const char* option : inputs) {
     if (!line.has(option)) continue;
     origin.inputs.push_back(line.text(option));
-    if (std::string(option) == "control")
-      origin.control = readControl(line.text(option), unitOption(line, "control"));
+    if (std::string(option) == "control") origin.control = controlOf(line);
   }
   return origin;
+}
+
+void addControlOptions(CommandLine& line) {
+  line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
+  addUnitsOption(line, "control", "the control file");
+}
+
+std::vector<ControlPoint> controlOf(const CommandLine& line) {
+  if (!line.has("control")) return {};
+  return readControl(line.text("control"), unitOption(line, "control"));
 }
 
 }  // namespace pcl_als::app

@@ -14,4 +14,9 @@ namespace pcl_als::app {
 /// options) that are given, and the points of -control.
 ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*>& inputs);
 
+/// Declares -control and -control_units.
+void addControlOptions(CommandLine& line);
+/// The points of -control; none without it.
+std::vector<ControlPoint> controlOf(const CommandLine& line);
+
 }  // namespace pcl_als::app

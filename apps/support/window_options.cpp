@@ -10,17 +10,6 @@
 
 namespace pcl_als::app {
 
-std::vector<double> numbersIn(const std::string& text, char separator) {
-  std::vector<double> numbers;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) {
-    const auto number = decimalNumber(part);
-    if (!number) return {};
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
 std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
                               std::size_t count, double largest) {
   std::vector<double> numbers = numbersIn(line.text(option), separator);

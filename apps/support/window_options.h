@@ -14,9 +14,6 @@
 
 namespace pcl_als::app {
 
-/// The numbers of a text, separated by one character each; empty where it has another form.
-std::vector<double> numbersIn(const std::string& text, char separator);
-
 /// \a count numbers of an option, separated by a character, none beyond \a largest in absolute
 /// value; UsageError otherwise.
 std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,

@@ -126,7 +126,7 @@ expect 1 "no band 'colour'" classify "${strips[@]}" -training "$training" -outpu
 expect 1 'option -cell' classify "${strips[@]}" -training "$training" -output bad.tif -cell 0
 expect 1 'option -extent' classify "${strips[@]}" -training "$training" -output bad.tif -extent 1,2,3
 expect 1 'no such class' classify "${strips[@]}" -training "$training" -output bad.tif -priors water=0.5 -cell 5
-expect 1 'neither tin nor idw' classify "${strips[@]}" -training "$training" -output bad.tif -interpolation spline
+expect 1 'none of tin, idw' classify "${strips[@]}" -training "$training" -output bad.tif -interpolation spline
 expect 1 'is also another output' classify "${strips[@]}" -training "$training" -output bad.tif -grids bad.tif
 expect 1 '-points needs -output' classify "${strips[@]}" -grids bad.tif -points bad
 expect 1 'strip1.las is also an input' classify "${strips[@]}" -training "$training" -output bad.tif -points "$block"

@@ -86,7 +86,8 @@ for folder in modules/*/; do
         "<gtest/"* | "<boost/program_options"*) breach "$file" "includes $target in a library" ;;
       esac
     done < <(includes "$file")
-    if [[ $file != *.md ]] && grep -nE '(std::(cout|cerr|clog)|[^sn:_a-zA-Z](f|std::)?printf *\(|PCL_(ERROR|WARN|INFO)) *' "$file" |
+    # Only the display of progress is meant to print.
+    if [[ $file != *.md && $file != */console_progress.cpp ]] && grep -nE '(std::(cout|cerr|clog)|[^sn:_a-zA-Z](f|std::)?printf *\(|PCL_(ERROR|WARN|INFO)) *' "$file" |
          grep -vE '^[0-9]+: *(//|\*|/\*)' >/dev/null; then
       breach "$file" "prints: a library reports through results and exceptions"
     fi
@@ -132,7 +133,7 @@ done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
 
 # The tools only parse options, call one job, print and save: they are short altogether.
 lines=$(find apps \( -name '*.cpp' -o -name '*.h' \) -exec cat {} + | wc -l)
-((lines <= 4500)) || breach apps "has $lines lines, more than 4500"
+((lines <= 4000)) || breach apps "has $lines lines, more than 4000"
 
 # Every table of the glossary has the same columns.
 if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |

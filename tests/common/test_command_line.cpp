@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 
 #include "command_line.h"

@@ -11,6 +11,7 @@
 #include <pcl_als/classification/gaussian_classifier.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/text_values.h>
 
 namespace pcl_als {
 
@@ -83,6 +84,19 @@ MaximumLikelihood::Decision MaximumLikelihood::classify(const double* values) co
   best.posterior = 1.0 / sum;
   if (best.distance_sq > largest_distance_sq_) best.index = kNoClass;
   return best;
+}
+
+std::vector<std::pair<std::string, double>> priorsIn(const std::string& list) {
+  std::vector<std::pair<std::string, double>> priors;
+  for (const std::string& entry : splitList(list)) {
+    const auto prior = assignmentIn(entry);
+    if (!prior) throw UsageError("'" + entry + "' is not CLASS=PROBABILITY");
+    const auto probability = finiteNumber(prior->second);
+    if (!probability || *probability < 0.0 || *probability > 1.0)
+      throw UsageError("'" + prior->second + "' is no probability from 0 to 1");
+    priors.emplace_back(prior->first, *probability);
+  }
+  return priors;
 }
 
 }  // namespace pcl_als

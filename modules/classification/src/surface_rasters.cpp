@@ -6,6 +6,7 @@
 
 #include <pcl_als/classification/surface_rasters.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 
 #include "cell_interpolation.h"
 #include "ground_filter.h"
@@ -263,6 +264,34 @@ std::vector<RasterTile> tilesOf(const RasterGrid& grid, int side, int margin) {
     }
   }
   return tiles;
+}
+
+void requireBand(const std::string& name) {
+  const std::vector<std::string>& known = SurfaceAccumulator::bandNames();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw UsageError("there is no band '" + name + "'; there are " + joined(known));
+}
+
+std::vector<std::string> bandsIn(const std::string& list) {
+  std::vector<std::string> bands = splitList(list);
+  for (auto band = bands.begin(); band != bands.end(); ++band) {
+    requireBand(*band);
+    if (std::find(bands.begin(), band, *band) != band)
+      throw UsageError("'" + *band + "' appears twice");
+  }
+  if (bands.empty()) throw UsageError("names no band");
+  return bands;
+}
+
+std::vector<std::uint8_t> classCodesIn(const std::string& list) {
+  std::vector<std::uint8_t> codes;
+  for (const std::string& text : splitList(list)) {
+    const auto code = valueIn<std::uint8_t>(text);
+    if (!code) throw UsageError("'" + text + "' is no class code (0 to 255)");
+    codes.push_back(*code);
+  }
+  if (codes.empty()) throw UsageError("names no class");
+  return codes;
 }
 
 }  // namespace pcl_als

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 
 namespace pcl_als {
 namespace {
 
 double numberIn(std::string_view text, std::string_view entry) {
-  double value = 0.0;
-  const char* last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, value);
-  if (error == std::errc() && end == last && std::isfinite(value)) return value;
+  if (const auto value = finiteNumber(text)) return *value;
   throw UsageError("bias '" + std::string(entry) + "': '" + std::string(text) +
                    "' is not a number");
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 /// The parameter of an entry NAME=…, which is left in \a entry without it.
@@ -92,6 +84,35 @@ void setBiases(std::string_view text, SystemVector& bias) {
     const SystemParameter p = parameterOf(entry, given);
     bias[indexOf(p)] = numberIn(entry, whole) * infoOf(p).internal_per_unit;
   }
+}
+
+SystemVector biasesIn(std::string_view text) {
+  if (splitList(text).empty()) throw UsageError("the list of biases names no parameter");
+  SystemVector biases = SystemVector::Zero();
+  setBiases(text, biases);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const std::string refused = refusedBias(info.parameter, biases[indexOf(info.parameter)]);
+    if (!refused.empty()) throw UsageError(std::string(info.name) + ": " + refused);
+  }
+  return biases;
+}
+
+SystemParameter requireSystemParameter(const std::string& name) {
+  if (const auto parameter = systemParameterNamed(name)) return *parameter;
+  std::string names;
+  for (const SystemParameterInfo& info : systemParameters()) names.append(" ").append(info.name);
+  throw UsageError("'" + name + "' is none of" + names);
+}
+
+std::vector<SystemParameter> systemParametersIn(const std::string& list) {
+  std::vector<SystemParameter> parameters;
+  for (const std::string& name : splitList(list)) {
+    const SystemParameter parameter = requireSystemParameter(name);
+    if (std::find(parameters.begin(), parameters.end(), parameter) == parameters.end())
+      parameters.push_back(parameter);
+  }
+  if (parameters.empty()) throw UsageError("names no parameter");
+  return parameters;
 }
 
 }  // namespace pcl_als

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -46,6 +47,16 @@ void InputFile::read(std::uint64_t position, std::size_t bytes, void* out) const
     at += done;
     position += static_cast<std::uint64_t>(done);
     bytes -= static_cast<std::size_t>(done);
+  }
+}
+
+void refuseRepeated(const std::vector<std::string>& inputs) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& input : inputs) {
+    std::error_code error;
+    std::filesystem::path path = std::filesystem::canonical(input, error);
+    if (error) path = input;
+    if (!seen.insert(path).second) throw UsageError(input + " is given twice");
   }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <charconv>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/strip_group.h>
+#include <pcl_als/common/text_values.h>
 
 namespace pcl_als {
 namespace {
@@ -13,10 +13,8 @@ constexpr std::string_view kChannel = ".ch";
 
 /// A whole number without sign; -1 for anything else.
 int numberOf(std::string_view text) {
-  int value = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool digits = !text.empty() && text.front() >= '0' && text.front() <= '9';
-  return digits && error == std::errc() && end == text.data() + text.size() ? value : -1;
+  const int value = valueIn<int>(text).value_or(-1);
+  return value >= 0 && text.front() != '-' ? value : -1;
 }
 
 std::vector<std::string_view> partsOf(std::string_view text) {

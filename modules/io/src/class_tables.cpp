@@ -5,10 +5,10 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/io/class_io.h>
 
 #include "csv_table.h"
-#include "number_text.h"
 
 namespace fs = std::filesystem;
 
@@ -20,7 +20,7 @@ constexpr std::size_t kMostClasses = 250;
 constexpr std::int64_t kLargestCount = 1'000'000'000'000;
 
 std::int64_t countOf(const detail::CsvTable& table, std::size_t column) {
-  const auto count = detail::parseInteger<std::int64_t>(table.text(column));
+  const auto count = valueIn<std::int64_t>(table.text(column));
   if (!count || *count < 0 || *count > kLargestCount)
     table.refuse(column, "is not a count (0 to 10^12)");
   return *count;

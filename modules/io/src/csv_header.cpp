@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 
 #include "csv_table.h"
 
@@ -17,10 +18,7 @@ namespace {
 constexpr int kMostHeaderLines = 1000;
 
 bool isNumber(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
+  return valueIn<double>(text).has_value();
 }
 
 bool anyNumber(const std::vector<std::string_view>& fields) {

@@ -3,13 +3,13 @@
 #include "csv_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <system_error>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -54,12 +54,6 @@ char separatorOf(std::string_view header) {
     if (header.find(candidate) != std::string_view::npos) return candidate;
   }
   return ' ';
-}
-
-bool parse(std::string_view text, double& value) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
 }
 
 }  // namespace
@@ -179,10 +173,10 @@ bool CsvTable::next() {
 }
 
 double CsvTable::number(std::size_t column) const {
-  double value = 0.0;
-  if (!parse(fields_[column], value)) refuse(column, "is not a number");
-  if (!std::isfinite(value)) refuse(column, "is not a finite number");
-  return value;
+  const auto value = valueIn<double>(fields_[column]);
+  if (!value) refuse(column, "is not a number");
+  if (!std::isfinite(*value)) refuse(column, "is not a finite number");
+  return *value;
 }
 
 double CsvTable::coordinate(std::size_t column) const {

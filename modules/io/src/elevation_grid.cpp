@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/io/plan_io.h>
 
 #include "csv_table.h"
-#include "number_text.h"
 
 namespace pcl_als {
 namespace {
@@ -33,7 +33,7 @@ class Words {
   double number(std::string_view what) {
     const std::string_view word = next();
     if (word.empty()) refuse("ends before " + std::string(what));
-    const auto value = detail::parseNumber(word);
+    const auto value = valueIn<double>(word);
     if (!value || !std::isfinite(*value)) {
       refuse("'" + std::string(word.substr(0, 40)) + "' is not a finite number (" +
              std::string(what) + ")");

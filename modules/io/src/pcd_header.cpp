@@ -8,8 +8,7 @@
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
-
-#include "number_text.h"
+#include <pcl_als/common/text_values.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -76,7 +75,7 @@ class HeaderParser {
   }
 
   std::uint64_t count(const std::string& text) const {
-    const auto value = parseUnsigned(text);
+    const auto value = valueIn<std::uint64_t>(text);
     if (!value) fail("the PCD header has '" + text.substr(0, 32) + "' where a count belongs");
     return *value;
   }
@@ -104,7 +103,7 @@ class HeaderParser {
   void takeViewpoint(const std::vector<std::string>& values) {
     std::vector<double> numbers;
     numbers.reserve(values.size());
-    for (const std::string& value : values) numbers.push_back(parseNumber(value).value_or(NAN));
+    for (const std::string& value : values) numbers.push_back(valueIn<double>(value).value_or(NAN));
     if (numbers.size() != 7 ||
         !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
       fail("the PCD header's VIEWPOINT is not seven numbers");

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 
 #include "lzf.h"
-#include "number_text.h"
 #include "pcd_file.h"
 
 namespace pcl_als::detail {
@@ -70,13 +70,13 @@ class CompressedRecords : public PcdRecords {
 
 template <typename T>
 bool putToken(std::string_view token, std::byte* out) {
-  const auto value = parseInteger<T>(token);
+  const auto value = valueIn<T>(token);
   if (value) std::memcpy(out, &*value, sizeof(T));
   return value.has_value();
 }
 
 bool putReal(std::string_view token, std::size_t size, std::byte* out) {
-  const auto value = parseNumber(token);
+  const auto value = valueIn<double>(token);
   if (!value) return false;
   const float single = static_cast<float>(*value);
   if (size == 4)

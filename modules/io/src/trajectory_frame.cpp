@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 //
 // Records of a trajectory file brought to the frame of the points.
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/crs/map_projection.h>
 
@@ -28,9 +28,10 @@ double wrapped(double angle) {
 class Undulation {
  public:
   explicit Undulation(const std::string& text) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), constant_);
-    if (error == std::errc() && end == text.data() + text.size()) return;
-    grid_ = std::make_unique<GeoidGrid>(text);
+    if (const auto metres = finiteNumber(text))
+      constant_ = *metres;
+    else
+      grid_ = std::make_unique<GeoidGrid>(text);
   }
   double at(double latitude, double longitude) const {
     return grid_ ? grid_->undulation(latitude, longitude) : constant_;

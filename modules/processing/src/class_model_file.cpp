@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/classification/surface_rasters.h>
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/class_io.h>
@@ -94,6 +95,7 @@ GaussianModel readClassModel(const std::filesystem::path& path) {
     for (const Json& entry : classes)
       model.classes.push_back(classOf(entry, static_cast<Eigen::Index>(model.bands.size())));
     model.check();
+    for (const std::string& band : model.bands) requireBand(band);
     return model;
   } catch (const nlohmann::json::exception&) {
     throw InputError(path.string() + ": lacks a value or has one of the wrong kind");

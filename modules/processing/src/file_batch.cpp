@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <set>
+#include <sstream>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/shared_work.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/processing/file_batch.h>
 
 namespace pcl_als {
@@ -154,6 +155,24 @@ std::vector<std::string> outputsIn(const fs::path& folder, const std::vector<std
       throw UsageError("two inputs would become " + outputs.back());
   }
   return outputs;
+}
+
+std::string settingsText(const std::string& program,
+                         const std::vector<std::pair<std::string, std::string>>& settings,
+                         const std::set<std::string>& without_effect) {
+  std::ostringstream text;
+  text << program;
+  for (const auto& [name, value] : settings) {
+    if (without_effect.count(name) != 0) continue;
+    text << '\n' << name << '=' << value;
+    for (const std::string& part : splitList(value)) {
+      std::error_code none;
+      if (!std::filesystem::is_regular_file(part, none)) continue;
+      text << ' ' << std::filesystem::file_size(part, none) << ' '
+           << std::filesystem::last_write_time(part, none).time_since_epoch().count();
+    }
+  }
+  return text.str();
 }
 
 }  // namespace pcl_als

@@ -30,20 +30,13 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void checkBands(const std::vector<std::string>& bands) {
-  for (const std::string& band : bands) {
-    if (!holds(SurfaceAccumulator::bandNames(), band))
-      throw UsageError("classification: there is no band '" + band + "'");
-  }
-}
-
 /// The job: what its phases share.
 class LandCover {
  public:
   LandCover(const RasterInput& files, const LandCoverOptions& options, ProgressReport& progress)
       : files_(files), options_(options), progress_(progress), bands_(options.bands) {
     if (options.model) bands_ = options.model->bands;
-    checkBands(bands_);
+    for (const std::string& band : bands_) requireBand(band);
     result_.grid = options.grid ? *options.grid
                                 : RasterGrid::covering(files.min_x, files.min_y, files.max_x,
                                                        files.max_y, options.cell, files.crs);

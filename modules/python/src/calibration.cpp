@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/survey_calibration.h>
@@ -23,11 +24,7 @@ std::vector<std::string> namesOf(const std::vector<SystemParameter>& parameters)
 
 std::vector<SystemParameter> parametersNamed(const std::vector<std::string>& names) {
   std::vector<SystemParameter> parameters;
-  for (const std::string& name : names) {
-    const auto parameter = systemParameterNamed(name);
-    if (!parameter) throw UsageError("estimate: '" + name + "' is no system parameter");
-    parameters.push_back(*parameter);
-  }
+  for (const std::string& name : names) parameters.push_back(requireSystemParameter(name));
   return parameters;
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pybind11/eigen.h>
 
+#include <pcl_als/common/bias_list.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
 
@@ -35,15 +36,13 @@ Simulation simulationOf(const std::string& preset, double scale, double density,
 }
 
 void setBias(Simulation& simulation, const std::string& name, double value) {
-  const auto parameter = systemParameterNamed(name);
-  if (!parameter) throw UsageError("bias: '" + name + "' is no system parameter");
-  simulation.options.bias[indexOf(*parameter)] = value * infoOf(*parameter).internal_per_unit;
+  const SystemParameter parameter = requireSystemParameter(name);
+  simulation.options.bias[indexOf(parameter)] = value * infoOf(parameter).internal_per_unit;
 }
 
 double biasOf(const Simulation& simulation, const std::string& name) {
-  const auto parameter = systemParameterNamed(name);
-  if (!parameter) throw UsageError("bias: '" + name + "' is no system parameter");
-  return simulation.options.bias[indexOf(*parameter)] / infoOf(*parameter).internal_per_unit;
+  const SystemParameter parameter = requireSystemParameter(name);
+  return simulation.options.bias[indexOf(parameter)] / infoOf(parameter).internal_per_unit;
 }
 
 void bindOptions(py::module_& m) {

@@ -97,6 +97,21 @@ void termLine(const std::string& name, const EstimatedTerm& term, std::ostream& 
 
 }  // namespace
 
+std::string extinctionText(const ExtinctionChoice& choice) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "atmosphere: extinction " << choice.per_km << " per km";
+  if (choice.air) {
+    text << " (aerosol " << choice.parts.aerosol << ", Rayleigh " << choice.parts.rayleigh
+         << ", water vapour " << choice.parts.water_vapour << ", mixed gases "
+         << choice.parts.mixed_gases << ")";
+  } else {
+    text << " as given";
+  }
+  text << ", two-way transmission of 1 km " << twoWayTransmission(choice.per_km, 1000.0);
+  return text.str();
+}
+
 std::string slopeName(std::size_t bin) {
   if (bin >= IntensityStatistics::kSlopeBins) return "no surface";
   const int step = static_cast<int>(IntensityStatistics::kSlopeStep);

@@ -178,4 +178,15 @@ void writePlan(const std::filesystem::path& path, const FlightPlanResult& result
   writeFile(path, planJson(result, inputs));
 }
 
+std::string notDetermined(const CalibrationResult& expected) {
+  std::string why;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& estimate = expected[info.parameter];
+    if (estimate.status != ParameterStatus::not_estimable) continue;
+    why += (why.empty() ? "" : "; ") + std::string(info.name) + " will not be determined (" +
+           estimate.reason + ")";
+  }
+  return why;
+}
+
 }  // namespace pcl_als

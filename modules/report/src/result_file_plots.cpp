@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/report/picture/result_file_plots.h>
 #include <pcl_als/visualization/calibration_plots.h>
@@ -265,6 +268,37 @@ std::vector<NamedPlot> plotsOf(const std::filesystem::path& file) {
   }
   if (plots.empty()) throw InputError(file.string() + ": holds nothing that can be plotted");
   return plots;
+}
+
+std::vector<NamedPlot> plotsOfAll(const std::vector<std::filesystem::path>& files) {
+  std::vector<NamedPlot> plots;
+  std::set<std::string> names;
+  for (const std::filesystem::path& file : files) {
+    for (NamedPlot& plot : plotsOf(file)) {
+      const std::string own = file.stem().string() + "_" + plot.name;
+      if (names.count(plot.name) != 0) plot.name = own;
+      for (int i = 2; !names.insert(plot.name).second; ++i) plot.name = own + std::to_string(i);
+      plot.file = file.string();
+      plots.push_back(std::move(plot));
+    }
+  }
+  return plots;
+}
+
+std::vector<NamedPlot> plotsNamed(const std::vector<NamedPlot>& plots,
+                                  const std::vector<std::string>& names) {
+  std::vector<NamedPlot> chosen;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(plots.begin(), plots.end(),
+                                    [&](const NamedPlot& plot) { return plot.name == name; });
+    if (found == plots.end()) {
+      std::vector<std::string> all;
+      for (const NamedPlot& plot : plots) all.push_back(plot.name);
+      throw UsageError("there is no '" + name + "'; the files hold " + joined(all));
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
 }
 
 }  // namespace pcl_als

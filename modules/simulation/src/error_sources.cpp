@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/simulation/error_sources.h>
 
 namespace pcl_als::simulation {
@@ -17,14 +17,6 @@ namespace {
   throw UsageError("error '" + std::string(entry) + "': " + why);
 }
 
-template <typename Number>
-std::optional<Number> parsed(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 constexpr std::array<std::pair<ErrorScope, std::string_view>, 3> kScopes = {
     {{ErrorScope::channel, "channel"},
      {ErrorScope::session, "session"},
@@ -33,7 +25,7 @@ constexpr std::array<std::pair<ErrorScope, std::string_view>, 3> kScopes = {
 void readScope(std::string_view text, std::string_view whole, ErrorSources::Entry& entry) {
   for (const auto& [scope, name] : kScopes) {
     if (text.substr(0, name.size()) != name) continue;
-    const auto number = parsed<int>(text.substr(name.size()));
+    const auto number = valueIn<int>(text.substr(name.size()));
     if (!number || *number < (scope == ErrorScope::channel ? 0 : 1) || *number > 65535) continue;
     entry.scope = scope;
     entry.number = *number;
@@ -80,7 +72,7 @@ ErrorSources::Entry entryOf(std::string_view whole) {
     name = name.substr(colon + 1);
   }
   const auto [internal_per_unit, largest] = readName(name, whole, entry);
-  const auto value = parsed<double>(whole.substr(equals + 1));
+  const auto value = valueIn<double>(whole.substr(equals + 1));
   if (!value || !(std::abs(*value) <= largest)) {
     std::ostringstream text;
     text << "the value is a number from " << -largest << " to " << largest << ' ' << entry.unit;

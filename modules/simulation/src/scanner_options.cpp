@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/simulation/scanner_options.h>
 
 namespace pcl_als::simulation {
@@ -29,10 +29,8 @@ constexpr std::array<KnownScanner, 7> kScanners = {{
 }};
 
 int channelsIn(std::string_view text) {
-  int channels = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), channels);
-  if (error == std::errc() && end == text.data() + text.size() && channels >= 2 && channels <= 64)
-    return channels;
+  const int channels = valueIn<int>(text).value_or(0);
+  if (channels >= 2 && channels <= 64) return channels;
   throw UsageError("scanner multi:" + std::string(text) + ": the channels are 2 to 64");
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/simulation/simulation_options.h>
 
 namespace pcl_als::simulation {
@@ -108,21 +108,16 @@ void SimulationOptions::setSessions(int count) {
 }
 
 void SimulationOptions::setGains(std::string_view list) {
-  while (!list.empty()) {
-    const std::string_view part = list.substr(0, list.find(','));
-    list.remove_prefix(std::min(part.size() + 1, list.size()));
-    const auto equals = std::min(part.find('='), part.size());
-    const std::string_view text = part.substr(std::min(equals + 1, part.size()));
-    const auto named = std::find_if(lines.begin(), lines.end(), [&](const PlannedLine& line) {
-      return std::to_string(line.id) == part.substr(0, equals);
-    });
+  for (const std::string& part : splitList(list)) {
+    const auto [id, text] = assignmentIn(part).value_or(std::pair(part, std::string()));
+    const auto named =
+        std::find_if(lines.begin(), lines.end(),
+                     [&id = id](const PlannedLine& line) { return std::to_string(line.id) == id; });
     if (named == lines.end())
-      throw UsageError("strip_gains '" + std::string(part) + "' names no line (ID=FACTOR)");
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), named->gain);
-    if (error != std::errc() || end != text.data() + text.size() || !(named->gain >= 0.01) ||
-        !(named->gain <= 100.0))
-      throw UsageError("strip_gains '" + std::string(part) +
-                       "': the factor is a number from 0.01 to 100");
+      throw UsageError("strip_gains '" + part + "' names no line (ID=FACTOR)");
+    named->gain = finiteNumber(text).value_or(0.0);
+    if (named->gain < 0.01 || named->gain > 100.0)
+      throw UsageError("strip_gains '" + part + "': the factor is a number from 0.01 to 100");
   }
 }
 

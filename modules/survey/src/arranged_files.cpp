@@ -85,4 +85,14 @@ ArrangedFiles::Use ArrangedFiles::use() const {
   return use;
 }
 
+SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell,
+                        const std::function<void(double)>& progress, const StripChoice& choice,
+                        const PointWindow& window, std::vector<LeftOutPoints>& left_out) {
+  const ArrangedFiles arranged(files, choice, window);
+  std::vector<std::uint64_t> counts;
+  SurveyCensus census = takeCensus(files, cell, progress, arranged.censusStrips(counts), window);
+  left_out = arranged.arrangement().leftOut(counts);
+  return census;
+}
+
 }  // namespace pcl_als

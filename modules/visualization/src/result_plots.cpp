@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/visualization/axes.h>
 #include <pcl_als/visualization/map_furniture.h>
 #include <pcl_als/visualization/result_plots.h>
@@ -170,6 +171,20 @@ Canvas drawConfusion(const ConfusionPlot& plot, PictureSize size) {
   drawColorBar(canvas, map, 0.0, 100.0, "share of the row, %",
                {cells.right() + 50.0, cells.y + 30.0, 24.0, std::max(height, 60.0)});
   return canvas;
+}
+
+PictureSize pictureSizeIn(const std::string& text) {
+  const std::vector<double> size = numbersIn(text, 'x');
+  // Drawing takes some 110 bytes a pixel: larger pictures would end in a lack of memory.
+  constexpr double kMostPixels = 40e6;
+  if (size.size() == 2 && size[0] >= 200 && size[1] >= 150 && size[0] <= 16384 &&
+      size[1] <= 16384 && size[0] * size[1] <= kMostPixels && size[0] == std::floor(size[0]) &&
+      size[1] == std::floor(size[1])) {
+    return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  }
+  throw UsageError("'" + text +
+                   "' is no WIDTHxHEIGHT from 200x150 to 16384x16384 with 40 million pixels at "
+                   "most");
 }
 
 }  // namespace pcl_als

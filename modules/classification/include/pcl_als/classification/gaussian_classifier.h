@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -89,5 +90,8 @@ class MaximumLikelihood {
   std::vector<Eigen::MatrixXd> whitening_;  ///< inverses of the lower Cholesky factors
   std::vector<double> constant_;            ///< ln p - ln det C / 2
 };
+
+/// The probabilities of a list "water=0.1,house=0.2". UsageError for another form.
+std::vector<std::pair<std::string, double>> priorsIn(const std::string& list);
 
 }  // namespace pcl_als

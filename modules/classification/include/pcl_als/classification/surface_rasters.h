@@ -110,4 +110,14 @@ struct RasterTile {
 /// Divides a raster into tiles of at most \a side cells.
 std::vector<RasterTile> tilesOf(const RasterGrid& grid, int side, int margin);
 
+/// UsageError for a name that no band of SurfaceAccumulator has.
+void requireBand(const std::string& name);
+
+/// The bands of a list "height,intensity". UsageError for a name that SurfaceAccumulator does not
+/// have, for one that appears twice, and for a list without names.
+std::vector<std::string> bandsIn(const std::string& list);
+
+/// The ASPRS class codes of a list "2,9". UsageError for what is no code, and for an empty list.
+std::vector<std::uint8_t> classCodesIn(const std::string& list);
+
 }  // namespace pcl_als

@@ -2,7 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <pcl_als/common/system_parameters.h>
 
@@ -27,5 +29,15 @@ BiasPrior biasPrior(std::string_view text);
 /// leading "none" sets all to zero first. UsageError for an unknown name or a value that is no
 /// number.
 void setBiases(std::string_view text, SystemVector& bias);
+
+/// The biases of such a list, zero where it names none. UsageError also for a list without entries
+/// and for a bias that no sensor has (refusedBias()).
+SystemVector biasesIn(std::string_view text);
+
+/// The parameter of that name; UsageError that lists all parameters for another name.
+SystemParameter requireSystemParameter(const std::string& name);
+/// The parameters of a list "boresight_roll,range_bias", each once. UsageError for an unknown name
+/// and for a list without names.
+std::vector<SystemParameter> systemParametersIn(const std::string& list);
 
 }  // namespace pcl_als

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pcl_als {
 
@@ -31,5 +32,8 @@ class InputFile {
   std::uint64_t size_ = 0;
   int descriptor_ = -1;
 };
+
+/// UsageError where a file is given twice: its points would be counted twice.
+void refuseRepeated(const std::vector<std::string>& files);
 
 }  // namespace pcl_als

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/common/communicator.h>
@@ -71,5 +73,11 @@ class FileBatch {
 /// "FOLDER/name" for each input. UsageError where two inputs have the same name.
 std::vector<std::string> outputsIn(const std::filesystem::path& folder,
                                    const std::vector<std::string>& inputs);
+
+/// BatchOptions::settings of a program: its name and version, and its settings (name, value) but
+/// those \a without_effect; files that a value names are followed by their size and time.
+std::string settingsText(const std::string& program,
+                         const std::vector<std::pair<std::string, std::string>>& settings,
+                         const std::set<std::string>& without_effect);
 
 }  // namespace pcl_als

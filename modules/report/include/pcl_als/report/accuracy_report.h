@@ -25,6 +25,11 @@ struct AccuracyReport {
   std::vector<LeftOutPoints> left_out;  ///< points of strips that were left out
 };
 
+/// The accuracy of a classification from a file of a confusion matrix or of check points, and its
+/// comparison with another of the same kind (empty: none). InputError for files that cannot be read
+/// or differ in kind, and for a matrix without check points.
+AccuracyReport accuracyOfFiles(const std::string& input, const std::string& other);
+
 /// The tables that the tools print.
 std::string accuracyText(const AccuracyReport& report);
 /// The text of accuracy.json.

@@ -20,6 +20,9 @@ struct ExtinctionChoice {
   std::string remark;  ///< one line for the user
 };
 
+/// "atmosphere: extinction 0.32 per km (aerosol …), two-way transmission of 1 km 0.53".
+std::string extinctionText(const ExtinctionChoice& choice);
+
 /// Contents of the reports of a run.
 struct IntensityReport {
   const IntensityResult* result = nullptr;

@@ -19,4 +19,7 @@ std::string planJson(const FlightPlanResult& result, const std::vector<std::stri
 void writePlan(const std::filesystem::path& path, const FlightPlanResult& result,
                const std::vector<std::string>& inputs);
 
+/// The parameters that a planned flight will not determine, with the reasons; empty: none.
+std::string notDetermined(const CalibrationResult& expected);
+
 }  // namespace pcl_als

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -52,5 +53,11 @@ class ArrangedFiles {
   std::vector<SurveyedFile> files_;
   StripArrangement arrangement_;
 };
+
+/// takeCensus() of files with their points arranged into the strips of \a choice, whose names are
+/// listed instead of source ids; adds the points that are left out to \a left_out.
+SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell,
+                        const std::function<void(double)>& progress, const StripChoice& choice,
+                        const PointWindow& window, std::vector<LeftOutPoints>& left_out);
 
 }  // namespace pcl_als

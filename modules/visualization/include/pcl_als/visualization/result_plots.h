@@ -12,6 +12,8 @@ namespace pcl_als {
 struct PictureSize {
   int width = 1600, height = 1000;
 };
+/// "1600x1000". UsageError unless 200x150 to 16384x16384, 40 million pixels at most.
+PictureSize pictureSizeIn(const std::string& text);
 
 /// A quantity against another, one line with points for each series.
 struct CurvePlot {

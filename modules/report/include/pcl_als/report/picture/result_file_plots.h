@@ -28,4 +28,13 @@ struct NamedPlot {
  */
 std::vector<NamedPlot> plotsOf(const std::filesystem::path& file);
 
+/// The plots of several files; where several have a plot of the same name, the later ones are named
+/// FILE_NAME.
+std::vector<NamedPlot> plotsOfAll(const std::vector<std::filesystem::path>& files);
+
+/// Those of the plots that have these names, in the order of the names. UsageError for a name that
+/// none has.
+std::vector<NamedPlot> plotsNamed(const std::vector<NamedPlot>& plots,
+                                  const std::vector<std::string>& names);
+
 }  // namespace pcl_als

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <pcl_als/io/plan_io.h>
+#include <pcl_als/planning/strip_geometry.h>
+#include <pcl_als/planning/synthetic_pairs.h>
+
+namespace pcl_als {
+
+/// The lines of a flight plan (readFlightLines()) as strips for FlightPlan; what the file does not
+/// state is taken from \a common. InputError also for a line with an impossible value.
+std::vector<StripGeometry> readPlannedStrips(const std::filesystem::path& path,
+                                             const StripGeometry& common);
+
+/// SurfaceModel::terrain of a grid of elevations: heights refer to the mean of the grid.
+std::function<std::optional<SurfacePoint>(const Eigen::Vector2d&)> terrainOf(
+    const std::shared_ptr<const ElevationGrid>& grid);
+
+}  // namespace pcl_als
