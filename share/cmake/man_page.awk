@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# awk -v tool=pcl_als_info -v version=0.1.0 -f man_page.awk: a manual page (section 1) from what
-# `pcl_als_info -h` prints.
+# awk -v tool=pcl_als_info -v version=0.1.0 -v manual=share/doc/PAGE.md -f man_page.awk: a manual page
+# (section 1) from what `pcl_als_info -h` prints, with the page of the manual that shows its use.
 function escaped(text) {
   gsub(/\\/, "\\e", text)
   gsub(/-/, "\\-", text)
@@ -64,4 +64,9 @@ NF > 0 {
   if (part == "") more = more (more == "" ? "" : "\n.br\n") escaped($0)
   else print escaped($0)
 }
-END { finish_option() }
+END {
+  finish_option()
+  print ".SH SEE ALSO"
+  print "The manual of pcl_als, installed in share/doc/pcl_als (Debian package pcl\\-als\\-doc):"
+  print ".I " escaped(manual)
+}

@@ -1,5 +1,5 @@
 # cpack -G DEB: libpcl-als0 (libraries), pcl-als-tools (tools, manual pages), libpcl-als-dev (headers,
-# CMake package), python3-pcl-als (where Python was found). Dependencies on libraries are found by dpkg-shlibdeps (package dpkg-dev).
+# CMake package), pcl-als-doc (manual), python3-pcl-als (where Python was found). Dependencies on libraries are found by dpkg-shlibdeps (package dpkg-dev).
 set(CPACK_PACKAGE_NAME pcl-als)
 set(CPACK_PACKAGE_VENDOR "the pcl_als authors")
 set(CPACK_PACKAGE_CONTACT "the pcl_als authors <maintainers@localhost>")
@@ -7,7 +7,7 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL libraries tools headers)
+set(CPACK_COMPONENTS_ALL libraries tools headers documentation)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -32,7 +32,14 @@ set(CPACK_DEBIAN_HEADERS_PACKAGE_DEPENDS
   "${debian_libraries} (= ${PROJECT_VERSION}), libpcl-dev, libeigen3-dev")
 set(CPACK_COMPONENT_HEADERS_DESCRIPTION "Headers and CMake package of pcl_als")
 
-set(debian_entries "libraries:${debian_libraries}" tools:pcl-als-tools headers:libpcl-als-dev)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME pcl-als-doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "Manual of pcl_als")
+
+set(debian_entries "libraries:${debian_libraries}" tools:pcl-als-tools headers:libpcl-als-dev
+  documentation:pcl-als-doc)
 if(PCL_ALS_PYTHON_FOUND)
   list(APPEND CPACK_COMPONENTS_ALL python)
   list(APPEND debian_entries python:python3-pcl-als)

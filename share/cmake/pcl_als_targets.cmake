@@ -38,21 +38,23 @@ function(als_add_module)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT headers)
 endfunction()
 
-# The manual page of a tool, from what it prints with -h.
-function(_pcl_als_man_page target tool)
+# The manual page of a tool, from what it prints with -h, with the page of the manual about its use.
+function(_pcl_als_man_page target tool manual)
   set(script ${PROJECT_SOURCE_DIR}/share/cmake/man_page.awk)
   set(page ${CMAKE_BINARY_DIR}/man/${tool}.1)
   add_custom_command(OUTPUT ${page} DEPENDS ${target} ${script} VERBATIM
     COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_BINARY_DIR}/man
     COMMAND $<TARGET_FILE:${target}> -h > ${page}.txt
-    COMMAND awk -v tool=${tool} -v version=${PROJECT_VERSION} -f ${script} ${page}.txt > ${page})
+    COMMAND awk -v tool=${tool} -v version=${PROJECT_VERSION}
+      -v manual=${manual} -f ${script} ${page}.txt > ${page})
   add_custom_target(${target}_man ALL DEPENDS ${page})
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endfunction()
 
-# als_add_app(VERB calibrate SOURCES … MODULES …): the tool pcl_als_VERB
+# als_add_app(VERB calibrate MANUAL questions.md#… SOURCES … MODULES …): the tool pcl_als_VERB
+#   MANUAL  page of share/doc, with the anchor of the heading, that shows its use
 function(als_add_app)
-  cmake_parse_arguments(ARG "" "VERB" "SOURCES;MODULES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "VERB;MANUAL" "SOURCES;MODULES;PRIVATE" ${ARGN})
   _pcl_als_check_arguments(als_add_app "${ARG_UNPARSED_ARGUMENTS}")
   set(target pcl_als_app_${ARG_VERB})
   add_executable(${target} ${ARG_SOURCES})
@@ -64,7 +66,10 @@ function(als_add_app)
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
   set_property(GLOBAL APPEND PROPERTY PCL_ALS_TOOLS ${target})
-  _pcl_als_man_page(${target} pcl_als_${ARG_VERB})
+  if(NOT ARG_MANUAL)
+    set(ARG_MANUAL README.md)
+  endif()
+  _pcl_als_man_page(${target} pcl_als_${ARG_VERB} share/doc/${ARG_MANUAL})
 endfunction()
 
 # als_add_test(NAME test_tin SOURCES … [MODULES …] [PRIVATE …]): a GoogleTest program of one module

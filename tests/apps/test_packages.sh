@@ -7,22 +7,28 @@
 set -uo pipefail
 export LC_ALL=C
 build=$1 scratch=$2/packages
+sources=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
 rm -rf -- "$scratch" && mkdir -p -- "$scratch" && cd -- "$scratch" || exit 1
 failures=0
 failed() { failures=$((failures + 1)); echo "FAILED: $1"; }
 
+(cd -- "$sources" && awk -f tests/documentation/markdown.awk share/doc/*.md) |
+  awk -F '\t' '$1 == "anchor" { print $2 "#" $4 }' >headings.txt
 for tool in "$build"/bin/pcl_als_*; do
   name=$(basename -- "$tool") page=$build/man/$(basename -- "$tool").1
   [[ -s $page ]] || { failed "$name has no manual page"; continue; }
   "$tool" -h >help.txt
   sed 's/\\-/-/g' "$page" >page.txt
-  for section in NAME SYNOPSIS OPTIONS EXAMPLE "EXIT STATUS"; do
+  for section in NAME SYNOPSIS OPTIONS EXAMPLE "EXIT STATUS" "SEE ALSO"; do
     grep -qx ".SH $section" "$page" || failed "$name.1 has no section $section"
   done
   # Every option is a paragraph of its own.
   while read -r option; do
     grep -qE -- "^\.B -($option|h, -help)( |$)" page.txt || failed "$name.1 lacks -$option"
   done < <(sed -nE 's/^  --([a-z_]+).*/\1/p' help.txt)
+  # It names a heading of the manual.
+  reference=$(sed -nE 's/^\.I (share\/doc\/[a-z_]+\.md#.*)$/\1/p' page.txt)
+  grep -qxF "$reference" headings.txt || failed "$name.1 names no heading of the manual: $reference"
   # Defaults are written as people write them: no digits of the nearest double.
   grep -nE '[0-9]\.[0-9]*(0{6}|9{6})' help.txt && failed "$name -h prints a number with too many digits"
 done
@@ -36,6 +42,10 @@ if command -v cpack >/dev/null && command -v dpkg-shlibdeps >/dev/null && comman
   holds libpcl-als0 ' ./usr/lib/.*libpcl_als_io\.so\.0'
   holds pcl-als-tools ' ./usr/bin/pcl_als_calibrate$'
   holds pcl-als-tools ' ./usr/share/man/man1/pcl_als_calibrate\.1$'
+  holds pcl-als-doc ' ./usr/share/doc/pcl_als/share/doc/first_steps\.md$'
+  dpkg-deb -x pcl-als-doc_*.deb documentation
+  "$sources/tests/documentation/check_links.sh" documentation/usr/share/doc/pcl_als >links.txt ||
+    { cat links.txt; failed "the links of the packaged manual"; }
   holds libpcl-als-dev ' ./usr/include/pcl_als/common/point_types\.h$'
   holds libpcl-als-dev ' ./usr/lib/(.*/)?cmake/pcl_als/pcl_als-config\.cmake$'
   if [[ -d $build/python ]]; then

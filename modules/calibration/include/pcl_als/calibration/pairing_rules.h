@@ -9,8 +9,8 @@
 
 namespace pcl_als {
 
-/// \file Rules that measured pairs (AreaMatcher) and synthetic pairs of planned lines
-/// (SyntheticPairs of module planning) have in common.
+// Rules that measured pairs (AreaMatcher) and synthetic pairs of planned lines (SyntheticPairs of
+// module planning) have in common.
 
 /// Tilt over its standard deviation above which it is significant; below, distances are vertical.
 constexpr double kSignificantTilt = 5.0;
