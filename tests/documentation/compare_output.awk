@@ -3,8 +3,9 @@
 #
 # awk -f compare_output.awk N.expected N.out: every line that a page shows was printed, in that
 # order. Blanks do not count, a line that ends with … is the beginning of one, times in ms may
-# differ, and numbers by 2 % and a unit of their last digit: compilers round differently, and the
-# manual states figures, not bits.
+# differ, and numbers by 5 % and a unit of their last digit: compilers round differently, standard
+# deviations change by some per cent with another sample of the points, and the manual states
+# figures, not bits.
 function words(line) {
   gsub(/[0-9.]+ ms/, "# ms", line)
   gsub(/[|,;:()=]/, " & ", line)
@@ -21,7 +22,7 @@ function near(a, b, digits) {
   difference = a - b
   if (difference < 0) difference = -difference
   size = a < 0 ? -a : a
-  return difference <= 0.02 * size + 1.001 * 10 ^ -digits
+  return difference <= 0.05 * size + 1.001 * 10 ^ -digits
 }
 function same(a, b, i, n, m, left, right) {
   if (a == b) return 1

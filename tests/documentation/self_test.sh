@@ -43,7 +43,7 @@ make_tree; echo '[a](https://example.org/x)' >>$page; links 0 "4 links"
 make_tree; echo '# Alone' >share/doc/alone.md; links 1 "share/doc/alone.md: is not linked"
 
 make_tree; commands 0 "2 blocks of commands, the output of 1 compared, 0 failed"
-make_tree; sed -i 's/^100.1/103.0/' $page; commands 1 "second.md:14: shows what was not printed: 103.0 mm"
+make_tree; sed -i 's/^100.1/107.0/' $page; commands 1 "second.md:14: shows what was not printed: 107.0 mm"
 make_tree; sed -i 's/^100.1 mm/100.1 cm/' $page; commands 1 "shows what was not printed"
 make_tree; sed -i 's/^100.1 mm.*/100 …/' $page; commands 0 "0 failed"
 make_tree; sed -i 's/^100.1 mm.*/100.0 mm in 3 ms x …/' $page; commands 1 "shows what was not printed"

@@ -70,10 +70,12 @@ function linked(text, out, target, where) {
   }
   return out text
 }
-# Text outside of `code`: characters that begin commands of Doxygen are escaped.
+# Text outside of `code`: characters that begin commands or quotations of Doxygen are escaped. It
+# would take all from one quotation mark to the next, as of 30" and 8", as it stands.
 function prose(text) {
   gsub(/\\/, "\\\\", text)
   gsub(/@/, "\\@", text)
+  gsub(/"/, "\\&quot;", text)
   return linked(text)
 }
 match($0, /^ *(```+|~~~+)/) {
@@ -95,6 +97,8 @@ fence != "" { print; next }
   text = substr($0, length(level) + 2)
   anchor = anchor_of(text)
   count = seen[anchor]++
+  gsub(/`/, "", text)  # titles have no code
+  gsub(/"/, "\\&quot;", text)
   id = level == "#" && !titled++ ? identifier(page) : identifier(page) "-" anchor (count ? "-" count : "")
   print level " " text " {#" id "}"
   if (id == identifier(page)) print "\n@anchor " identifier(page) "-" anchor "\n"
