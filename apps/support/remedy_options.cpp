@@ -24,6 +24,7 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::crs, "crs", "give one with -crs"},
     {Remedy::columns, "columns", "or name the columns with -columns"},
     {Remedy::leap_seconds, "leap_seconds", "state them with -leap_seconds"},
+    {Remedy::geoid, "geoid", "-geoid subtracts the undulation"},
     {Remedy::max_distance, "max_distance", "-max_distance compares surfaces further apart"},
     {Remedy::extent, "extent", "see -extent"},
     {Remedy::ground, "ground", "see -ground and -ground_classes"},

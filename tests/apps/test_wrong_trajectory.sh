@@ -125,6 +125,7 @@ for tool in check apply intensity; do
   expect 0 '47 m too high*as between ellipsoidal heights and heights above a geoid' "${command[@]}" -trajectory ellipsoidal.csv
   rm -f out.las
 done
+expect 0 'geoid subtracts the undulation' "${check[@]}" -trajectory ellipsoidal.csv
 expect 3 'heights above a geoid' "${calibrate[@]}" -trajectory ellipsoidal.csv
 expect 0 '' "${apply[@]}" -trajectory "$block/trajectory.csv"
 mv out.las right.las

@@ -137,7 +137,8 @@ void BlockCheck::checkTrajectory() {
   }
   try {
     for (const Warning& warning : plausibility_->check(settings_.force)) {
-      warnings_.push_back(warning.text);
+      const bool geoid = warning.remedy == Remedy::geoid;  // others concern a calibration
+      warnings_.push_back(geoid ? warning : Warning(warning.text));
     }
   } catch (const InputError& error) {
     throw InputError(error.what());  // there is no model without attitude here

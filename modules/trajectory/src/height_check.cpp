@@ -102,6 +102,7 @@ HeightError heightError(const std::vector<HeightCheck>& strips) {
   found.kind = isGross(found.slope) ? HeightError::Kind::gross
                : offset             ? HeightError::Kind::offset
                                     : HeightError::Kind::scale;
+  found.undulation = isUndulation(found);
   char text[600];
   std::snprintf(
       text, sizeof text,
@@ -112,9 +113,9 @@ HeightError heightError(const std::vector<HeightCheck>& strips) {
       found.kind == HeightError::Kind::scale
           ? ", unless the recorded angles are wrong by this factor"
           : "",
-      isUndulation(found) ? " (an offset as between ellipsoidal heights and heights above a geoid, "
-                            "whose undulation can be given)"
-                          : "");
+      found.undulation ? " (an offset as between ellipsoidal heights and heights above a geoid, "
+                         "whose undulation can be given)"
+                       : "");
   found.text = text;
   return found;
 }

@@ -245,7 +245,8 @@ HeightError TrajectoryPlausibility::heightOfStrips() const {
 void TrajectoryPlausibility::checkHeight(std::vector<Finding>& findings) const {
   const HeightError error = heightOfStrips();
   if (error.kind == HeightError::Kind::none) return;
-  findings.push_back({error.kind == HeightError::Kind::gross, error.text, true});
+  const Remedy remedy = error.undulation ? Remedy::geoid : Remedy::none;
+  findings.push_back({error.kind == HeightError::Kind::gross, {error.text, remedy}, true});
 }
 
 HeightError TrajectoryPlausibility::heightError() const {

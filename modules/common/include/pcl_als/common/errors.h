@@ -20,6 +20,7 @@ enum class Remedy {
   crs,               ///< to state the CRS of the points
   columns,           ///< to name the columns of a trajectory
   leap_seconds,      ///< to state the leap seconds of a trajectory in UTC
+  geoid,             ///< to give the geoid undulation of a trajectory's heights
   max_distance,      ///< to compare surfaces that are further apart
   extent,            ///< another extent of the rasters
   ground,            ///< other points as ground

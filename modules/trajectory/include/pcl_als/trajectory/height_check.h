@@ -59,7 +59,8 @@ struct HeightError {
   } kind = Kind::none;
   double metres = 0.0;  ///< metres by which the trajectory is too high
   double slope = 1.0;
-  std::string text;  ///< the finding; empty for none
+  std::string text;         ///< the finding; empty for none
+  bool undulation = false;  ///< whether the offset may be that of heights above a geoid
 };
 HeightError heightError(const std::vector<HeightCheck>& strips);
 
