@@ -19,6 +19,9 @@ void addErrorOptions(CommandLine& line) {
            defaults.noise.angle / kRadiansPerArcsec);
   line.add("beam_divergence", "full divergence of the beam at 1/e^2, mrad",
            1e3 * defaults.noise.beam_divergence);
+  line.addOptional("ins",
+                   "grade of the GNSS/INS, whose data sheet gives the three standard deviations "
+                   "that follow: survey, tactical or mems (0.04 m, 90\", 288\")");
   line.add("position_sigma", "prior standard deviation of trajectory errors: position, m",
            defaults.shared_errors.position);
   line.add("roll_pitch_sigma",
@@ -40,9 +43,15 @@ NoiseModel noiseOf(const CommandLine& line) {
 
 SharedErrorModel sharedErrorsOf(const CommandLine& line) {
   SharedErrorModel shared;
-  shared.position = line.number("position_sigma", 1e-5, 10.0, "m");
-  shared.roll_pitch = line.number("roll_pitch_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
-  shared.heading = line.number("heading_sigma", 0.01, 10000.0, "arcsec") * kRadiansPerArcsec;
+  if (line.has("ins")) shared = line.parsed("ins", SharedErrorModel::ofGrade);
+  const auto set = [&line](const char* name, double low, double high, const char* unit, double by,
+                           double& value) {
+    const double given = line.number(name, low, high, unit) * by;
+    if (!line.has("ins") || line.given(name)) value = given;
+  };
+  set("position_sigma", 1e-5, 10.0, "m", 1.0, shared.position);
+  set("roll_pitch_sigma", 0.01, 10000.0, "arcsec", kRadiansPerArcsec, shared.roll_pitch);
+  set("heading_sigma", 0.01, 10000.0, "arcsec", kRadiansPerArcsec, shared.heading);
   return shared;
 }
 

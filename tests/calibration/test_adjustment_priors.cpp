@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/common/errors.h>
 
 #include "simulated_observations.h"
 
@@ -75,6 +76,17 @@ TEST(Adjustment, FindsTheErrorSourceThatIsPresent) {
       }
     }
   }
+}
+
+TEST(SharedErrorModel, GradesOfInertialSystems) {
+  // 0.025 and 0.08 degrees of the data sheet of a drone's system.
+  const SharedErrorModel mems = SharedErrorModel::ofGrade("mems");
+  EXPECT_NEAR(mems.roll_pitch, 0.025 * kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(mems.heading, 0.08 * kRadiansPerDegree, 1e-12);
+  EXPECT_EQ(mems.correlation_time, SharedErrorModel().correlation_time);
+  EXPECT_LT(SharedErrorModel::ofGrade("survey").heading,
+            SharedErrorModel::ofGrade("tactical").heading);
+  EXPECT_THROW(SharedErrorModel::ofGrade("good"), UsageError);
 }
 
 }  // namespace

@@ -39,6 +39,24 @@ void SharedErrorModel::validate() const {
   }
 }
 
+SharedErrorModel SharedErrorModel::ofGrade(const std::string& grade) {
+  struct Grade {
+    const char* name;
+    double position, roll_pitch, heading;  // metres, arc-seconds
+  };
+  constexpr Grade kGrades[] = {
+      {"survey", 0.02, 9.0, 18.0}, {"tactical", 0.03, 54.0, 126.0}, {"mems", 0.04, 90.0, 288.0}};
+  SharedErrorModel model;
+  for (const Grade& known : kGrades) {
+    if (grade != known.name) continue;
+    model.position = known.position;
+    model.roll_pitch = known.roll_pitch * kRadiansPerArcsec;
+    model.heading = known.heading * kRadiansPerArcsec;
+    return model;
+  }
+  throw UsageError("'" + grade + "' is none of survey, tactical, mems");
+}
+
 std::array<double, SharedErrorLevels::kCount> SharedErrorLevels::values() const {
   return {gauss_markov.position, gauss_markov.roll_pitch,
           gauss_markov.heading,  smooth.position,

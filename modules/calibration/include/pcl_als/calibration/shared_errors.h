@@ -70,6 +70,11 @@ struct SharedErrorModel {
   BiasPrior biases;  ///< what is known of the system parameters
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
+
+  /// The model of a post-processed GNSS/INS of a grade, by data sheets of typical systems: "survey"
+  /// (0.02 m, 9" roll and pitch, 18" heading), "tactical" (0.03 m, 54", 126"), "mems" (0.04 m, 90",
+  /// 288"). UsageError for another word.
+  static SharedErrorModel ofGrade(const std::string& grade);
 };
 
 /// Variance components: estimated variance over the variance of the model, by component and kind of
