@@ -80,7 +80,12 @@ double largestEffect(const std::vector<AreaObservations>& observations,
 
 }  // namespace
 
-void SystemCalibrationEngine::correctPoints(const State& state) {
+void SystemCalibrationEngine::correctPoints(State& state) {
+  const bool unchanged = state.corrected == state.choice.solution.biases &&
+                         state.corrected_differences == state.differences;
+  if (!state.solved() || unchanged) return;
+  state.corrected = state.choice.solution.biases;
+  state.corrected_differences = state.differences;
   std::vector<BiasEvaluator> evaluators;
   for (const SystemUnknowns& difference : state.differences) {
     const SystemVector biases =
@@ -105,6 +110,7 @@ void SystemCalibrationEngine::selectPairs(State& state) {
     matchers_[i].keep(state.observations[i], selection.chosen()[i]);
   });
   state.chosen_points = AreaMatcher::Points::kept;
+  state.moved = HUGE_VAL;
 }
 
 bool SystemCalibrationEngine::isUpdateWithin(const State& state, const SystemVector& before,
@@ -158,26 +164,27 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
   return true;
 }
 
-void SystemCalibrationEngine::samplePairs(State& state) const {
+void SystemCalibrationEngine::samplePairs(State& state) {
   constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
   if (settings_.pair_budget > 0) return;   // a selection represents all pairs
   state.sampling = std::max<std::size_t>(1, state.observationCount() / kEnough);
   if (state.sampling > 1) formPairs(state);
 }
 
-void SystemCalibrationEngine::pairAllCandidates(State& state) const {
+void SystemCalibrationEngine::pairAllCandidates(State& state) {
   if (state.all() && state.sampling == 1) return;
   state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
 }
 
-void SystemCalibrationEngine::leaveCoarse(State& state) const {
+void SystemCalibrationEngine::leaveCoarse(State& state) {
   state.phase = State::Phase::refinement;
+  if (settings_.diagnose) considerSources();
   pairAllCandidates(state);
 }
 
-void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) const {
+void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) {
   // A selection represents all pairs at the biases for which it was made. Pairs are therefore
   // selected when the geometry has converged for the first time, and again at the end. Variance
   // components are estimated with all pairs only.
@@ -188,7 +195,7 @@ void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t d
   state.components.last = done + 1;
 }
 
-void SystemCalibrationEngine::openIteration(State& state, std::size_t done) const {
+void SystemCalibrationEngine::openIteration(State& state, std::size_t done) {
   constexpr std::size_t kCoarseAtMost = 12, kFewest = 4;
   // Combinations that the data hardly determine change with every new set of pairs, without effect
   // on the points or by a small part of their standard deviations. Neither delays the next phase.
@@ -232,6 +239,7 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   const double effect = largestEffect(state.observations, biases - before) + of_systems;
   recordUpdate(state, before);
   state.update.movement = std::max(state.update.movement, of_systems);
+  state.moved += state.update.movement;
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
   if (done > 2 && !components_open && state.components.estimates > 0 &&
@@ -240,7 +248,6 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
     closeConverged(state);
   }
   result.converged = state.phase == State::Phase::converged;
-  correctPoints(state);
   shrinkThreshold(state);
 }
 

@@ -3,6 +3,7 @@
 
 // The error sources of SystemCalibrationEngine: which of them the data support.
 #include <algorithm>
+#include <cmath>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/statistics.h>
@@ -22,23 +23,20 @@ std::vector<ErrorSource> allSources() {
 
 }  // namespace
 
-void SystemCalibrationEngine::measureSources(State& state) {
-  if (source_scale_.largest_angle == 0.0) {
-    std::vector<double> intensities;
-    for (std::size_t i = 0; i < pair_areas_; ++i)
-      matchers_[i].collectSourceScale(*trajectory_, source_scale_.largest_angle, intensities);
-    if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
-    for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
-  }
-  state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);
+void SystemCalibrationEngine::considerSources() {
+  if (source_scale_.largest_angle > 0.0) return;
+  std::vector<double> intensities;
+  for (std::size_t i = 0; i < pair_areas_; ++i)
+    matchers_[i].collectSourceScale(*trajectory_, source_scale_.largest_angle, intensities);
+  if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
+  for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
 }
 
 bool SystemCalibrationEngine::selectSources(State& state) {
   if (!settings_.diagnose || !state.choice.solution.solved || state.observationCount() == 0 ||
       !state.held_sources.isZero(0.0))
     return false;
-  measureSources(state);
+  pairAllCandidates(state);  // with the effects of all sources, since the coarse phase
   const std::vector<ErrorSource> before = state.errors.consideredSources();
   state.errors.considerSources(allSources());
   weigh(state);
@@ -71,6 +69,7 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   state.adjustment.setLevels(state.adjustment.levels());
   choose(state);
   weigh(state);
+  if (!state.held_sources.isZero(0.0)) state.moved = HUGE_VAL;  // they are removed from the pairs
   return supported != before || !state.held_sources.isZero(0.0);
 }
 

@@ -105,6 +105,20 @@ struct SystemCalibrationEngine::State {
   /// One of so many candidates is paired. The coarse phase needs a sample only: its errors are
   /// those of the biases it began with, not those of the points.
   std::size_t sampling = 1;
+  /// Biases and differences between systems of the last correction of the points.
+  SystemVector corrected = SystemVector::Zero();
+  std::vector<SystemUnknowns> corrected_differences;
+  /// Upper bound of the movement of points since the pairs were formed, metres; infinite: other
+  /// points are to be paired.
+  double moved = 0.0;
+  bool weighed = false;  ///< whether the weights are those of these pairs and this solution
+
+  /// Whether pairs are to be formed again. The linear equations of the pairs hold for any biases; a
+  /// movement by a small part of the noise exchanges triangles of nearly the same plane.
+  bool arePairsOutdated() const {
+    constexpr double kNegligibleMovement = 0.001;  // metres
+    return moved > kNegligibleMovement;
+  }
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

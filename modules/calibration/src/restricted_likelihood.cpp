@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // Adjustment::restrictedLikelihood(): the deviance of variance components and its derivatives.
+#include <optional>
+
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/parallel.h>
 
@@ -166,11 +168,20 @@ void LikelihoodEquations::addInformation(const ErrorNormal& shifts,
 
 void LikelihoodEquations::differentiate(const std::vector<AreaNormal>& areas, int threads,
                                         RestrictedLikelihood& result) const {
-  const InverseEntries inverse = factor_.inverse();
-  addTrajectory(inverse, result);
-  const ErrorNormal shifts = shiftTerms(areas, threads, result);
-  result.gradient[kLocal] = -shifts.log_determinant - traceWith(shifts, inverse) - shifts.explained;
-  addInformation(shifts, result);
+  std::optional<InverseEntries> inverse;
+  std::optional<ErrorNormal> shifts;
+  // The gradient and the information are independent of each other.
+  parallelFor(2, threads, [&](std::size_t part) {
+    if (part == 0) {
+      inverse = factor_.inverse();
+      addTrajectory(*inverse, result);
+    } else {
+      shifts = shiftTerms(areas, threads, result);
+      addInformation(*shifts, result);
+    }
+  });
+  result.gradient[kLocal] =
+      -shifts->log_determinant - traceWith(*shifts, *inverse) - shifts->explained;
 }
 
 }  // namespace

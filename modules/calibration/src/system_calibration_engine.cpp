@@ -73,7 +73,10 @@ void SystemCalibrationEngine::prepare() {
   for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
 }
 
-void SystemCalibrationEngine::formPairs(State& state) const {
+void SystemCalibrationEngine::formPairs(State& state) {
+  correctPoints(state);
+  state.moved = 0.0;
+  state.weighed = false;
   state.observations.assign(matchers_.size(), {});
   parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
     const AreaMatcher& matcher = matchers_[i];
@@ -110,6 +113,7 @@ void SystemCalibrationEngine::weigh(State& state) const {
     state.weights.findScales(state.observations, residuals, settings_.threads);
   }
   state.weights.update(state.observations, residuals, state.solved());
+  state.weighed = true;
 }
 
 void SystemCalibrationEngine::chooseParametersOf(State& state) const {
@@ -149,12 +153,13 @@ void SystemCalibrationEngine::choose(State& state) const {
   }
   state.differences = systemDifferences(state.errors, state.choice.solution.shared);
   if (state.phase == State::Phase::initial) state.phase = State::Phase::coarse;
+  state.weighed = false;
 }
 
 void SystemCalibrationEngine::adjust(State& state, bool estimate_components) const {
   const int weightings = state.solved() ? 1 : kFirstWeightings;
   for (int i = 0; i < weightings; ++i) {
-    weigh(state);
+    if (!state.weighed) weigh(state);
     state.adjustment.accumulate(state.observations, state.weights.weights());
     choose(state);
   }
@@ -234,7 +239,7 @@ void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResu
   for (int selections = 0; selections == 0 || !result.converged; ++selections) {
     while (mayContinue(state, result)) {
       iterate(state, result);
-      if (!result.converged) formPairs(state);
+      if (!result.converged && state.arePairsOutdated()) formPairs(state);
     }
     if (!result.converged || !selectSources(state) || selections == kMostSelections) break;
     continueWithSources(state, result);

@@ -131,13 +131,13 @@ class SystemCalibrationEngine {
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
   std::vector<TimeSpan> flownTimes() const;                  ///< by strip
   /// Forms pairs with the effects of all error sources.
-  void measureSources(State& state);
+  void considerSources();
   /// Finds the error sources that the data support, by an adjustment with all of them, and
   /// estimates these. Returns whether they differ from those estimated before.
   bool selectSources(State& state);
   /// Lets the iteration continue after a change of the error sources that are estimated.
   static void continueWithSources(State& state, CalibrationResult& result);
-  void formPairs(State& state) const;
+  void formPairs(State& state);
   /// Of the strips, metres per second.
   double meanSpeed(const std::vector<TimeSpan>& spans) const;
   /// Finds whether any control point is covered by a strip, and warns where none is.
@@ -149,7 +149,7 @@ class SystemCalibrationEngine {
   /// Chooses the parameters that all systems share, or those of the first one.
   void chooseParametersOf(State& state) const;
   /// Reconstructs the points with the biases of their systems.
-  void correctPoints(const State& state);
+  void correctPoints(State& state);
   void adjust(State& state, bool estimate_components) const;
   void shrinkThreshold(State& state) const;
   /// Whether no parameter changed by more than a number of its standard deviations.
@@ -166,11 +166,11 @@ class SystemCalibrationEngine {
   /// Iterates until convergence, also with the error sources that the data support.
   void iterateToConvergence(State& state, CalibrationResult& result);
   // Transitions between the phases of the iteration, see State::Phase.
-  void openIteration(State& state, std::size_t done) const;
-  void leaveCoarse(State& state) const;
-  void samplePairs(State& state) const;
-  void pairAllCandidates(State& state) const;
-  void openVarianceComponents(State& state, std::size_t done) const;
+  void openIteration(State& state, std::size_t done);
+  void leaveCoarse(State& state);
+  void samplePairs(State& state);
+  void pairAllCandidates(State& state);
+  void openVarianceComponents(State& state, std::size_t done);
   void closeSelection(State& state) const;
   void closeConverged(State& state) const;
   /// The reason for which the iteration did not converge, for the verdict.
