@@ -69,7 +69,8 @@ def main():
         lines.append(f"R{roof}," + ",".join(f"{v:.4f}" for v in numpy.concatenate(ends))
                      + f",{LINE_SIGMA}\n")
         images = list(seen(middle + numpy.outer(random.uniform(-1, 1, 2), along)))
-        for i, at in images[:max(2, arguments.rays // (4 * arguments.roofs))]:
+        most = max(2, arguments.rays // (4 * arguments.roofs))
+        for i, at in (images[k] for k in random.permutation(len(images))[:most]):
             records += [ray(i, "line", f"R{roof}", place) for place in at]
     point = 0
     while len(records) < arguments.rays:

@@ -162,6 +162,11 @@ TEST(ImageBlockIo, MeasurementsThatCannotBeAreRefused) {
   expectPart(measurements(header + "I1,point,P1,1,2,0.3\nI1,point,P2,26,19,0.3\n"
                                    "I1,point,P3,20,3,0.3\n"),
              "their unit is not px");
+  FrameCamera in_mm = pixels();
+  in_mm.pixel_size = 0.0;
+  const std::string centimetres =
+      header + "I1,point,P1,-2.6,1.9,\nI1,point,P2,2.6,1.7,\nI2,point,P1,1.1,-1.9,\n";
+  expectPart(measurements(centimetres, in_mm), "their unit is not mm");
 }
 
 TEST(ImageBlockIo, LinesAreReadAsWritten) {

@@ -25,6 +25,8 @@ TEST(BundleAdjustment, ParallelLinesLeaveAShiftUndetermined) {
   const BundleResult result = adjustBundle(truth.block);
   EXPECT_EQ(result.status, Status::not_determined);
   EXPECT_NE(result.message.find("azimuth 90"), std::string::npos) << result.message;
+  EXPECT_NE(result.weakest.find("azimuth 90"), std::string::npos) << result.weakest;
+  EXPECT_GT(result.weakest_std, BundleSettings().determined_std);
 }
 
 TEST(BundleAdjustment, TooFewLinesDoNotDetermineTheBlock) {
@@ -98,6 +100,24 @@ TEST(BundleAdjustment, AnImageWithoutMeasurementsIsNamed) {
   const BundleResult result = adjustBundle(truth.block);
   EXPECT_EQ(result.status, Status::not_determined);
   EXPECT_NE(result.message.find("I7"), std::string::npos) << result.message;
+}
+
+TEST(BundleAdjustment, AnImageOfBlundersIsNamed) {
+  SyntheticBlock truth(noisy(6));
+  std::vector<ImageMeasurement> kept;
+  std::size_t points = 0;
+  for (ImageMeasurement m : truth.block.measurements) {
+    if (m.image == "I7") {
+      if (m.kind == ImageMeasurement::Kind::line || ++points > 6) continue;
+      if (points > 2) m.position += Eigen::Vector2d(truth.uniform(-3.0, 3.0), 1.0 * points);
+    }
+    kept.push_back(m);
+  }
+  truth.block.measurements = kept;
+  const BundleResult result = adjustBundle(truth.block);
+  EXPECT_EQ(result.status, Status::not_determined);
+  EXPECT_NE(result.message.find("too few measurements"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("1 image: I7"), std::string::npos) << result.message;
 }
 
 TEST(BundleAdjustment, PriorsOfTheOrientationsReplaceControl) {

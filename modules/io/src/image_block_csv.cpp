@@ -19,8 +19,9 @@ using detail::CsvTable;
 
 /// Share of the image that coordinates may be beyond its border.
 constexpr double kBeyond = 0.02;
-/// Coordinates of all images together that cover less of the format have another unit.
-constexpr double kLeastCovered = 0.05;
+/// Coordinates of all images together that cover less of the format have another unit: a tenth, cm
+/// instead of mm. Images that overlap less than 88 % cannot have the same point in so small a part.
+constexpr double kLeastCovered = 0.12;
 
 /// A standard deviation in the image is between these shares of its width.
 constexpr double kLeastSigma = 1e-6, kMostSigma = 0.1;

@@ -33,6 +33,9 @@ constexpr double kCauchyScale = 2.385;
 /// than those of least squares.
 constexpr double kRobustLimit = 1.5 * kRejectionLimit;
 constexpr int kRejectionRounds = 40;
+constexpr const char* kNoConvergence =
+    "the adjustment does not converge: the approximate orientations, the camera, or the unit or "
+    "the axes of the image coordinates do not fit the lines";
 
 /// One solution of the block by Ceres.
 class Solution {
@@ -122,10 +125,11 @@ std::string tooWeak(const BundleNormal::Weakest& weakest) {
   return weakest.name + text;
 }
 
-/// Rejects observations and solves again until nothing more is rejected.
+/// Rejects observations and solves again until nothing more is rejected, or until an image has too
+/// few measurements left: a solution would be arbitrary.
 bool solveWithoutBlunders(BundleProblem& problem, Solution& solution, Snooping& snooping) {
   for (int round = 0; round < kRejectionRounds; ++round) {
-    if (!solution.solve(0.0)) return false;
+    if (!tooFewMeasurements(problem).empty() || !solution.solve(0.0)) return false;
     const BundleNormal normal(problem);
     if (snooping.reject(problem, normal) == 0) return true;
   }
@@ -148,7 +152,16 @@ std::string contradiction(const BundleProblem& problem) {
 /// States what the block does not determine; true where it determines all.
 bool checkDetermined(const BundleProblem& problem, const BundleNormal& normal, double limit,
                      BundleResult& result) {
+  const std::string sparse = tooFewMeasurements(problem);
+  if (!sparse.empty()) {
+    result.status = BundleResult::Status::not_determined;
+    result.message =
+        contradiction(problem) + sparse + "; others contradict the block and were rejected";
+    return false;
+  }
   const BundleNormal::Weakest weakest = normal.weakest();
+  result.weakest = weakest.name;
+  result.weakest_std = weakest.std;
   if (weakest.std < limit) return true;
   result.status = BundleResult::Status::not_determined;
   result.message = contradiction(problem) + tooWeak(weakest);
@@ -172,13 +185,14 @@ BundleResult adjustBundle(const ImageBlock& block, const BundleSettings& setting
   bool converged =
       settings.robust ? solveWithoutBlunders(problem, solution, snooping) : solution.solve(0.0);
   std::optional<BundleNormal> normal(std::in_place, problem);
-  const bool determined = checkDetermined(problem, *normal, settings.determined_std, result);
+  bool determined = checkDetermined(problem, *normal, settings.determined_std, result);
   bool inverted = determined && normal->invert();
   // With the redundancy numbers of the whole block, which are smaller than those before.
   if (settings.robust && inverted && snooping.reject(problem, *normal) > 0) {
     converged = solveWithoutBlunders(problem, solution, snooping);
     normal.emplace(problem);
-    inverted = normal->invert();
+    determined = checkDetermined(problem, *normal, settings.determined_std, result);
+    inverted = determined && normal->invert();
   }
   result.iterations = solution.iterations();
   if (determined && !inverted) {
@@ -187,10 +201,7 @@ BundleResult adjustBundle(const ImageBlock& block, const BundleSettings& setting
         contradiction(problem) +
         "the measurements do not connect all images: the normal equations are singular";
   }
-  if (!converged && determined)
-    result.message =
-        "the adjustment does not converge: the approximate orientations, the camera, or the unit "
-        "or the axes of the image coordinates do not fit the lines";
+  if (!converged && determined) result.message = kNoConvergence;
   if (converged && inverted) result.status = BundleResult::Status::converged;
   describe(problem, *normal, inverted, result);
   snooping.describe(problem, result);

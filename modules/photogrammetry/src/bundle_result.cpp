@@ -20,6 +20,8 @@ constexpr double kLargestWrongShare = 0.25;
 constexpr double kSignificant = 5.0;
 /// Beyond this multiple the camera is wrong.
 constexpr double kContradicting = 10.0;
+/// Corrections of the focal length by one linear step that are a larger share of it are no values.
+constexpr double kLinear = 0.25;
 /// Scalar conditions that an image needs at least: six, and one more to control them.
 constexpr std::size_t kLeastConditions = 7;
 
@@ -147,8 +149,21 @@ void addResiduals(const BundleProblem& problem, const BundleNormal& normal, bool
   }
 }
 
+/// States the focal length that the residuals indicate.
+std::string focalLengthText(const BundleResult& result, const FrameCamera& camera) {
+  // The correction is that of one linear step.
+  if (std::abs(result.interior[0]) > kLinear * camera.focal_length)
+    return "the residuals indicate a focal length far from that of the camera file";
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "the residuals indicate a focal length that differs by %+.3f mm (standard "
+                "deviation %.3f mm) from that of the camera file",
+                result.interior[0], result.interior_std[0]);
+  return text;
+}
+
 /// States a camera that does not fit, and residuals that are too large.
-void judge(const BundleNormal& normal, BundleResult& result) {
+void judge(const BundleProblem& problem, const BundleNormal& normal, BundleResult& result) {
   const auto [correction, covariance] = normal.interior();
   result.interior = correction;
   result.interior_std =
@@ -157,11 +172,7 @@ void judge(const BundleNormal& normal, BundleResult& result) {
   std::string camera;
   const double share = std::abs(correction[0]) / result.interior_std[0];
   if (std::isfinite(share) && share > kSignificant) {
-    std::snprintf(text, sizeof text,
-                  "the residuals indicate a focal length that differs by %+.3f mm (standard "
-                  "deviation %.3f mm) from that of the camera file",
-                  correction[0], result.interior_std[0]);
-    camera = text;
+    camera = focalLengthText(result, problem.block.camera);
     result.warnings.push_back(camera);
   }
   const auto wrong =
@@ -215,7 +226,7 @@ void describe(const BundleProblem& problem, const BundleNormal& normal, bool inv
   addFeatures(problem, result);
   if (inverted) addCovariances(problem, normal, result);
   addResiduals(problem, normal, inverted, result);
-  if (inverted) judge(normal, result);
+  if (inverted) judge(problem, normal, result);
 }
 
 }  // namespace pcl_als::photogrammetry

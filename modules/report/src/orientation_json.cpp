@@ -162,12 +162,13 @@ std::string orientationJson(const ImageOrientationResult& result) {
   json["version"] = 1;
   json["rotation"] =
       "ground = position + s Rx(omega) Ry(phi) Rz(kappa) (x, y, minus the focal length), image x "
-      "to "
-      "the right, y up";
+      "to the right, y up";
   json["status"] = nameOf(bundle.status);
   json["message"] = bundle.message;
   json["sigma0"] = bundle.sigma0;
   json["redundancy"] = bundle.redundancy;
+  if (!bundle.weakest.empty())
+    json["determined_worst"] = {{"name", bundle.weakest}, {"std_m", bundle.weakest_std}};
   json["observations"] = bundle.observations;
   json["unknowns"] = bundle.unknowns;
   json["iterations"] = bundle.iterations;

@@ -26,16 +26,21 @@ Verdict verdictOf(const ImageOrientationResult& result) {
   }
   verdict.grade =
       bundle.warnings.empty() && bundle.sigma0 < 1.5 ? VerdictGrade::good : VerdictGrade::attention;
+  const auto used = std::count_if(bundle.lines.begin(), bundle.lines.end(),
+                                  [](const AdjustedLine& line) { return line.used; });
   verdict.headline = std::to_string(bundle.images.size()) + " images are oriented with " +
-                     std::to_string(bundle.lines.size()) + " lines as control.";
+                     std::to_string(used) + " lines as control.";
   verdict.sentences.push_back("Residuals are " + numberText(bundle.sigma0, 2) +
                               " times their stated standard deviations (sigma0).");
+  verdict.sentences.push_back("Determined worst by the control: " + bundle.weakest +
+                              ", standard deviation " + centimetres(bundle.weakest_std) +
+                              " or more at its border.");
   if (!bundle.blunders.empty())
-    verdict.sentences.push_back(std::to_string(bundle.blunders.size()) +
-                                " observations contradict the others and were not used.");
+    verdict.sentences.push_back("Observations that contradict the others and were not used: " +
+                                std::to_string(bundle.blunders.size()) + ".");
   if (!result.missing_points.empty())
-    verdict.sentences.push_back(std::to_string(result.missing_points.size()) +
-                                " check points have no position from the images.");
+    verdict.sentences.push_back("Check points without a position from the images: " +
+                                std::to_string(result.missing_points.size()) + ".");
   if (!result.check_points.empty()) {
     const CheckSummary summary = summaryOf(result.check_points);
     verdict.sentences.push_back("RMSE at " + std::to_string(result.check_points.size()) +

@@ -82,6 +82,9 @@ std::string orientationText(const ImageOrientationResult& result) {
                   squares[0], squares[1], squares[2], squares[3] / kRadiansPerDegree,
                   squares[4] / kRadiansPerDegree, squares[5] / kRadiansPerDegree);
     text += line;
+    std::snprintf(line, sizeof line, " (standard deviation %.3f m or more at its border)\n",
+                  bundle.weakest_std);
+    text += "  determined worst: " + bundle.weakest + line;
   }
   text += blundersText(bundle);
   for (const std::string& warning : bundle.warnings) text += "  warning: " + warning + "\n";

@@ -80,6 +80,10 @@ struct BundleResult {
   std::string message;  ///< the reason where it has not converged or is not determined
   double sigma0 = 0.0;  ///< standard deviation of unit weight, of image coordinates and control
   double redundancy = 0.0;
+  /// Shift, rotation or scale of the whole block that the control determines worst, and its
+  /// standard deviation at the border of the block (m), of a block that is otherwise rigid.
+  std::string weakest;
+  double weakest_std = 0.0;
   std::size_t unknowns = 0, observations = 0;
   int iterations = 0;
   std::vector<OrientedImage> images;
@@ -103,9 +107,8 @@ struct BundleResult {
  * P2 of the object line, (R p) . ((P1 - C) x (P2 - C)) = 0, divided so that the residual is the
  * distance of the place from the image of the line; or collinearity with an end of the line, which
  * need not be the place that was measured: the weight matrix in the image and on the ground is
- * reduced to the
- * direction across the line, P' = M' diag(0, P_v) M (Habib et al. 2011, Eqs. (31)-(34)). Control
- * is the offset of the ends across the line, with the covariance of ObjectLine.
+ * reduced to the direction across the line, P' = M' diag(0, P_v) M (Habib et al. 2011, Eqs.
+ * (31)-(34)). Control is the offset of the ends across the line, with the covariance of ObjectLine.
  *
  * Estimation: least squares with Ceres Solver (Schur complement, Levenberg-Marquardt); first with
  * Cauchy's loss, then without observations whose standardised residual (data snooping, Baarda 1968)
