@@ -54,6 +54,7 @@ void CommandLine::add(const char* name, const char* help, const T& default_value
     value->default_value(default_value, shortText(default_value));
   } else {
     value->default_value(default_value);
+    words_.insert(name);
   }
   parser_->options.add_options()(name, value, help);
 }
@@ -170,7 +171,7 @@ void CommandLine::refuseToOverwrite() const {
     if (isList(name))
       for (const std::string& path : list(name.c_str())) inputs.emplace_back(path);
     const auto* text = boost::any_cast<std::string>(&value.value());
-    if (text == nullptr) continue;
+    if (text == nullptr || words_.count(name) != 0) continue;
     if (outputs.count(name) != 0)
       written.emplace_back(name, *text);
     else

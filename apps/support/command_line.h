@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,6 +101,7 @@ class CommandLine {
   struct Parser;  ///< what Boost keeps of options and values
   std::unique_ptr<Parser> parser_;
   std::vector<std::string> inputs_, lists_, needed_;
+  std::set<std::string> words_;  ///< options with a default, whose values are no files
 };
 
 using Step = ConsoleStep;

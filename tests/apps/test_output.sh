@@ -33,6 +33,9 @@ expect 2 "file/x.las" apply "$strip" file/x.las "${biases[@]}"
 expect 2 "file" calibrate "${pair[@]}" "${with[@]}" -output x.json -corrected file
 expect 2 "file" simulate -output file -preset small -scale 0.1 -density 0.1
 expect 2 "file/block" simulate -output file/block -preset small -scale 0.1 -density 0.1
+# A folder with the name of a preset is no input.
+mkdir dual
+expect 0 "" simulate -output dual -preset dual -scale 0.1 -density 0.05
 rm -f x.json
 expect 2 "/dev/full" apply "$strip" /dev/full "${biases[@]}"
 check "nothing else was made" test "$(ls -A | tr '\n' ' ')" = "err.txt file out.txt "
