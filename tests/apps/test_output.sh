@@ -36,6 +36,7 @@ expect 2 "file/block" simulate -output file/block -preset small -scale 0.1 -dens
 # A folder with the name of a preset is no input.
 mkdir dual
 expect 0 "" simulate -output dual -preset dual -scale 0.1 -density 0.05
+rm -rf dual
 rm -f x.json
 expect 2 "/dev/full" apply "$strip" /dev/full "${biases[@]}"
 check "nothing else was made" test "$(ls -A | tr '\n' ' ')" = "err.txt file out.txt "
