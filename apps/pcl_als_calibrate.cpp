@@ -99,7 +99,7 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   settings.shared_errors = app::sharedErrorsOf(line);
   if (line.has("prior")) settings.shared_errors.biases = biasPrior(line.text("prior"));
   app::readSystems(line, settings);
-  settings.control_sigma = app::controlSigmaOf(line);
+  settings.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
   settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
   settings.selection.point_budget =
       static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));

@@ -84,7 +84,7 @@ FlightPlan::Settings settingsOf(const CommandLine& line) {
   adjustment.estimate = app::parametersToEstimate(line);
   adjustment.pairs.noise = app::noiseOf(line);
   adjustment.shared_errors = app::sharedErrorsOf(line);
-  adjustment.pairs.control_sigma = app::controlSigmaOf(line);
+  adjustment.pairs.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
   adjustment.threads = line.threads();
   settings.control_points = static_cast<std::size_t>(line.whole("control", 0, 1000));
   return settings;

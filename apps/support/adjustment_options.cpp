@@ -55,10 +55,6 @@ SharedErrorModel sharedErrorsOf(const CommandLine& line) {
   return shared;
 }
 
-double controlSigmaOf(const CommandLine& line) {
-  return line.number("control_sigma", 1e-4, 10.0, "m");
-}
-
 void addEstimateOption(CommandLine& line, const std::string& subject) {
   const std::string help =
       "parameters to estimate, e.g. boresight_roll,range_bias; auto: all that " + subject;

@@ -20,7 +20,6 @@ namespace pcl_als::app {
 void addErrorOptions(CommandLine& line);
 NoiseModel noiseOf(const CommandLine& line);
 SharedErrorModel sharedErrorsOf(const CommandLine& line);
-double controlSigmaOf(const CommandLine& line);
 
 /// -estimate: names separated by commas, or auto (an empty list). \a subject determines them.
 void addEstimateOption(CommandLine& line, const std::string& subject);

@@ -16,13 +16,13 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/nearest_name.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/common/thread_limit.h>
 
 #include "interruption.h"
-#include "option_list.h"
 #include "output_check.h"
 #include "remedy_options.h"
 #include "standard_streams.h"
@@ -30,6 +30,37 @@
 namespace po = boost::program_options;
 
 namespace pcl_als::app {
+
+namespace {
+
+/// The arguments of a tool with the name of an option of \a lists before each of its values: those
+/// that follow it up to the next option or point file (.las, .laz, .pcd), which is an input.
+std::vector<std::string> spreadLists(int argc, const char* const* argv,
+                                     const std::vector<std::string>& lists) {
+  static const std::set<std::string> kPoints = {".las", ".laz", ".pcd"};
+  std::vector<std::string> spread;
+  std::string list;  // the option whose values may follow
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t name = argument.find_first_not_of('-');
+    if (argument.size() > 1 && argument.front() == '-') {
+      const bool known =
+          name != std::string::npos && i + 1 < argc &&
+          std::find(lists.begin(), lists.end(), argument.substr(name)) != lists.end();
+      spread.push_back(argument);
+      list = known ? argument : std::string();
+      if (known) spread.emplace_back(argv[++i]);
+      continue;
+    }
+    const bool value = !list.empty() && kPoints.count(lowerExtension(argument)) == 0;
+    if (value) spread.push_back(list);
+    if (!value) list.clear();
+    spread.push_back(argument);
+  }
+  return spread;
+}
+
+}  // namespace
 
 struct CommandLine::Parser {
   po::options_description options{"Options (one dash or two)", 100, 60};
@@ -211,10 +242,6 @@ const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t
     return inputs_;
   }
   throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
-}
-
-int CommandLine::threads() const {
-  return get<int>("threads");
 }
 
 std::string CommandLine::toolAndVersion() const {

@@ -81,7 +81,7 @@ class CommandLine {
   const std::string& tool() const { return tool_; }
   /// The index of the option's value among words; UsageError that lists them for another value.
   std::size_t choice(const char* name, const std::vector<std::string>& words) const;
-  int threads() const;
+  int threads() const { return get<int>("threads"); }
   /// "pcl_als_info 0.1.0"
   std::string toolAndVersion() const;
   /// All options that have a value, as given or by default, for a report: name, text.
