@@ -8,8 +8,8 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/file_correction.h>
 #include <pcl_als/processing/survey_calibration.h>
+#include <pcl_als/processing/survey_correction.h>
 #include <pcl_als/report/calibration_page.h>
 #include <pcl_als/report/calibration_tables.h>
 
@@ -17,6 +17,7 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "processes.h"
 #include "remedy_options.h"
 #include "report_options.h"
 #include "strip_options.h"
@@ -39,6 +40,11 @@ CommandLine commandLine() {
                    "-output calibration.json");
   app::addFlightOptions(line);
   app::addControlOptions(line);
+  line.addList(
+      "reference",
+      "FILE[:STD[:OFFSET]] ...: surfaces that strips are compared with (GeoTIFF, LAS, LAZ, "
+      "PCD), standard deviation along the normal (0.02) and of a common height (0: known), "
+      "m");
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
@@ -58,6 +64,7 @@ CommandLine commandLine() {
                "published, instead of recovering pitch and crab from the points");
   line.addNeeded("output", "calibration.json to write");
   line.addOptional("corrected", "folder for corrected copies of all strips, also beyond -bounds");
+  app::addResumeOption(line);
   line.addFlag("strip_corrections",
                "with -corrected: also correct the estimated trajectory errors (not with -bounds)");
   line.addOptional("report", "folder for report.html (with pictures), report.md, tables as CSV");
@@ -135,13 +142,13 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   options.force = line.has("force");
   options.check_trajectory = false;  // done with all strips together
   options.keep_uncovered = true;     // strips too small to calibrate may lie outside the trajectory
-  for (const std::string& file : files) {
-    const fs::path output = fs::path(line.text("corrected")) / fs::path(file).filename();
-    const FileCorrectionResult corrected =
-        correctPointFile(file, output, result, flight, options, app::progressOf(line));
-    app::remark(line, corrected.attitude_remark);
-    if (corrected.coverage.missed() == 0) continue;
-    app::remark(line, "left as they are: " + corrected.coverage.describe(*flight));
+  BatchOptions batch = app::batchOptions(line);
+  batch.joint = true;
+  for (const CorrectedFile& file :
+       correctPointFiles(files, outputsIn(line.text("corrected"), files), result, flight, options,
+                         batch, app::progressOf(line))) {
+    app::remark(line, file.attitude_remark);
+    if (!file.uncovered.empty()) app::remark(line, "left as they are: " + file.uncovered);
   }
 }
 
@@ -192,7 +199,7 @@ int calibrate(const CommandLine& line) {
   const PointWindow window = app::windowOf(line);
   checkOutputs(line);
   Step step("Reading " + counted(files.size(), "point file"), line.quiet());
-  SurveyReader survey(files, line.threads(), window);
+  SurveyReader survey(files, line.threads(), window, app::processes());
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   FlightFile whole;
@@ -200,6 +207,9 @@ int calibrate(const CommandLine& line) {
   options.reconstructed = whole.reconstructed();
   if (options.accuracy.empty() && !options.reconstructed) options.accuracy = whole.accuracy;
   options.control = app::controlOf(line);
+  if (line.has("reference"))
+    for (const std::string& text : line.list("reference"))
+      options.references.push_back(openReference(text));
   CalibrationPage page(line.has("report"));
   options.observer = page.observer();
   SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
@@ -207,14 +217,16 @@ int calibrate(const CommandLine& line) {
   app::nameOptions(line, result.warnings);
   for (const std::string& file : line.list("trajectory")) result.inputs.push_back(file);
   if (line.has("control")) result.inputs.push_back(line.text("control"));
-  writeCalibration(line.text("output"), result);
-  if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;
-  if (line.has("report")) writeReport(line, calibration, page);
+  if (isRoot(app::processes())) {
+    writeCalibration(line.text("output"), result);
+    if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;
+    if (line.has("report")) writeReport(line, calibration, page);
+  }
   return conclude(line, files, flight, result);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run(argc, argv, commandLine, calibrate);
+  return pcl_als::app::runShared(argc, argv, commandLine, calibrate);
 }

@@ -17,6 +17,7 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "output_check.h"
+#include "processes.h"
 #include "remedy_options.h"
 #include "report_options.h"
 #include "strip_options.h"
@@ -99,7 +100,7 @@ std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
 SurveyCheck checkFiles(const CommandLine& line, const std::vector<std::string>& files,
                        SurveyCheckOptions options, const std::string& image) {
   Step reading("Reading " + counted(files.size(), "point file"), line.quiet());
-  SurveyReader survey(files, line.threads(), app::windowOf(line));
+  SurveyReader survey(files, line.threads(), app::windowOf(line), app::processes());
   reading.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   std::shared_ptr<const Trajectory> trajectory;
@@ -148,6 +149,7 @@ int check(const CommandLine& line) {
     options.observer = {};
     report.before = checkFiles(line, before, options, "swath_separation_before").block;
   }
+  if (!isRoot(app::processes())) return app::kDone;
   report.peak_memory_mb = peakMemory();
   writeFile(line.text("output"), qualityJson(report));
   if (!line.quiet()) std::cout << qualityText(report) << std::endl;
@@ -158,5 +160,5 @@ int check(const CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run(argc, argv, commandLine, check);
+  return pcl_als::app::runShared(argc, argv, commandLine, check);
 }

@@ -19,6 +19,7 @@
 
 #include "classify_options.h"
 #include "output_check.h"
+#include "processes.h"
 #include "strip_options.h"
 
 namespace pcl_als::app {
@@ -126,6 +127,7 @@ LandCoverOptions optionsOf(const CommandLine& line, const RasterInput& files) {
   options.grids = pathOf(line, "grids");
   options.posterior = pathOf(line, "posterior");
   options.points = pathOf(line, "points");
+  options.batch = batchOptions(line);
   return options;
 }
 
@@ -162,6 +164,7 @@ int classify(const CommandLine& line) {
   const RasterInput files = inputOf(line);
   OptionCheck(line, files.paths).checkOptions();
   const LandCoverResult result = classifyLandCover(files, optionsOf(line, files), progressOf(line));
+  if (!isRoot(processes())) return kDone;
   std::vector<std::string> notes = files.remarks;
   for (const std::string& part : describe(files.left_out)) notes.push_back(part);
   notes.insert(notes.end(), result.remarks.begin(), result.remarks.end());
@@ -179,5 +182,5 @@ int classify(const CommandLine& line) {
 }  // namespace pcl_als::app
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run(argc, argv, pcl_als::app::declareClassify, pcl_als::app::classify);
+  return pcl_als::app::runShared(argc, argv, pcl_als::app::declareClassify, pcl_als::app::classify);
 }

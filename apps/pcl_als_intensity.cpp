@@ -14,6 +14,7 @@
 #include "flight_options.h"
 #include "intensity_options.h"
 #include "output_check.h"
+#include "processes.h"
 #include "report_options.h"
 #include "strip_options.h"
 
@@ -39,6 +40,7 @@ CommandLine commandLine() {
   app::addForceOption(line);
   app::addStripOptions(line);
   app::addIntensityOptions(line);
+  app::addResumeOption(line);
   return line;
 }
 
@@ -103,8 +105,10 @@ int intensity(const CommandLine& line) {
   const auto page = line.has("report") ? makeIntensityPage() : nullptr;
   if (page) options.observe = [&page](const IntensityRun& run) { return page->observe(run); };
 
+  options.batch = app::batchOptions(line);
   const IntensityResult result =
       correctIntensity(files.inputs, files.outputs, flight, options, app::progressOf(line));
+  if (!isRoot(app::processes())) return app::kDone;
   if (!line.quiet()) print(result);
   const IntensityReport report{&result, extinction, options.output, files.outputs};
   if (line.has("json")) writeIntensityJson(line.text("json"), report);
@@ -115,5 +119,5 @@ int intensity(const CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return pcl_als::app::run(argc, argv, commandLine, intensity);
+  return pcl_als::app::runShared(argc, argv, commandLine, intensity);
 }

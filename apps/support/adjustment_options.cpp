@@ -71,6 +71,10 @@ void addSystemOptions(CommandLine& line) {
                "NAME=STRIPS[:CHANNEL] ...: systems with biases of their own, e.g. north=1-4 "
                "south=5-9, or a=1-9:0 b=1-9:1 with -channels; strips that none names are of the "
                "first one");
+  line.addOptional(
+      "fixed",
+      "strips that are held fixed, e.g. 1,4-6: an earlier delivery, already corrected, "
+      "that the block joins; they are not corrected");
   line.addOptional("own",
                    "with -system: what a system has of its own: boresight, lever_arm, names of "
                    "parameters, offset of coordinates (default: boresight,range_bias,"
@@ -78,6 +82,7 @@ void addSystemOptions(CommandLine& line) {
 }
 
 void readSystems(const CommandLine& line, CalibrationSettings& settings) {
+  if (line.has("fixed")) settings.fixed = stripGroup("fixed=" + line.text("fixed")).strips;
   if (line.has("system")) {
     for (const std::string& text : line.list("system"))
       settings.systems.push_back(stripGroup(text));

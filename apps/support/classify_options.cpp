@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "processes.h"
 #include "strip_options.h"
 #include "window_options.h"
 
@@ -27,6 +28,7 @@ void addOutputs(CommandLine& line) {
   line.addOptional(
       "captions",
       "captions of -beside and of the map, separated by a comma (default: before,after)");
+  addResumeOption(line);
   line.addOptional("points",
                    "folder for copies of the point files with ASPRS classes; noise (7, 18), points "
                    "without a class and points of strips that are left out keep their code");

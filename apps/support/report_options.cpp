@@ -20,7 +20,10 @@ ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*
 }
 
 void addControlOptions(CommandLine& line) {
-  line.addOptional("control", "control points: CSV id,x,y,z[,sigma], used vertically");
+  line.addOptional(
+      "control",
+      "control points: CSV id,x,y,z[,sigma], used vertically; a calibration uses planar "
+      "patches, rows with nx,ny,nz[,extent], along their normals");
   addUnitsOption(line, "control", "the control file");
 }
 

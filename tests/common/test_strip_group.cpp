@@ -44,10 +44,11 @@ TEST(OwnUnknowns, ReadsNamesAndGroups) {
 }
 
 TEST(SystemLookup, FindsTheSystemOfSourceIdsChannelsAndFiles) {
-  std::vector<SystemEstimate> systems(2);
-  systems[0].group = {"fore", {"1.ch0", "2", "tile"}};
-  systems[1].group = {"aft", {"1.ch1"}};
-  SystemLookup lookup(systems);
+  CalibrationResult calibration;
+  calibration.systems.resize(2);
+  calibration.systems[0].group = {"fore", {"1.ch0", "2", "tile"}};
+  calibration.systems[1].group = {"aft", {"1.ch1"}};
+  SystemLookup lookup(calibration);
   EXPECT_EQ(lookup.of(1, 0), 0);
   EXPECT_EQ(lookup.of(1, 1), 1);
   EXPECT_EQ(lookup.of(2, 5), 0);  // of all channels
@@ -58,6 +59,20 @@ TEST(SystemLookup, FindsTheSystemOfSourceIdsChannelsAndFiles) {
   EXPECT_THROW(lookup.of(1, 2), InputError);
   EXPECT_TRUE(SystemLookup().single());
   EXPECT_EQ(SystemLookup().of(77, 3), 0);
+}
+
+TEST(SystemLookup, FindsStripsThatWereHeldFixed) {
+  CalibrationResult calibration;
+  calibration.held.push_back({"dem.tif", {}});
+  EXPECT_TRUE(SystemLookup(calibration).single());
+  calibration.held.push_back({"fixed strips", {"4"}});
+  const SystemLookup lookup(calibration);
+  EXPECT_FALSE(lookup.single());
+  EXPECT_EQ(lookup.of(4, 0), lookup.fixed());
+  EXPECT_EQ(lookup.of(5, 0), 0);
+  calibration.systems.resize(2);
+  calibration.systems[1].group = {"aft", {"5"}};
+  EXPECT_EQ(SystemLookup(calibration).of(4, 0), 2);
 }
 
 }  // namespace

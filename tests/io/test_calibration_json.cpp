@@ -241,12 +241,13 @@ TEST(CalibrationJson, KeepsTheVerdictAndTheMisfit) {
 TEST(CalibrationJson, KeepsTheControlPoints) {
   const auto path = test::scratch("calibration_json") / "control.json";
   CalibrationResult written = example();
-  written.control_points = {{"a", 2, 0.01, 0.3, 0.02, 0.015, true},
-                            {"b", 1, 0.0, 0.5, 0.21, 0.025, false}};
+  written.control_points = {{"a", "normal", 2, 0.01, 0.3, 0.02, 0.015, true},
+                            {"b", "height", 1, 0.0, 0.5, 0.21, 0.025, false}};
   writeCalibration(path, written);
   const CalibrationResult read = readCalibration(path);
   ASSERT_EQ(read.control_points.size(), 2U);
   EXPECT_EQ(read.control_points[0].id, "a");
+  EXPECT_EQ(read.control_points[0].component, "normal");
   EXPECT_EQ(read.control_points[0].strips, 2U);
   EXPECT_EQ(read.control_points[0].sigma, 0.01);
   EXPECT_TRUE(read.control_points[0].used);
@@ -254,6 +255,24 @@ TEST(CalibrationJson, KeepsTheControlPoints) {
   EXPECT_EQ(read.control_points[1].after, 0.21);
   EXPECT_EQ(read.control_points[1].expected_std, 0.025);
   EXPECT_FALSE(read.control_points[1].used);
+}
+
+TEST(CalibrationJson, KeepsWhatWasHeldFixed) {
+  const auto path = test::scratch("calibration_json") / "held.json";
+  CalibrationResult written = example();
+  written.held = {
+      {"fixed strips", {"1", "4"}, 0.02, 0.0, 70, 0.1, 0.2, 0.01, 0.03, -0.04, 0.05, true},
+      {"dem.tif", {}, 0.03, 0.5}};
+  writeCalibration(path, written);
+  const CalibrationResult read = readCalibration(path);
+  ASSERT_EQ(read.held.size(), 2U);
+  EXPECT_EQ(read.held[0].strips, (std::vector<std::string>{"1", "4"}));
+  EXPECT_EQ(read.held[0].correspondences, 70U);
+  EXPECT_EQ(read.held[0].rms_after, 0.03);
+  EXPECT_EQ(read.held[0].offset, -0.04);
+  EXPECT_TRUE(read.held[0].offset_determined);
+  EXPECT_EQ(read.held[1].name, "dem.tif");
+  EXPECT_EQ(read.held[1].offset_prior, 0.5);
 }
 
 TEST(CalibrationJson, FilesWithoutAVerdictHaveOneByTheirConvergence) {

@@ -43,6 +43,22 @@ TEST(Control, ReadsSigmaInAnyColumnOrder) {
   EXPECT_EQ(points[1].sigma, 0.0);
 }
 
+TEST(Control, ReadsPlanarPatches) {
+  const auto points = readControl(
+      file("id,x,y,z,sigma,nx,ny,nz,extent\nroof,1,2,3,0.01,0,-3,-4,2.5\nground,1,2,3,0.02,,,,\n"));
+  EXPECT_EQ(points[0].kind, ControlPoint::Kind::patch);
+  EXPECT_TRUE(points[0].normal.isApprox(Eigen::Vector3d(0.0, 0.6, 0.8)));  // upward, of length 1
+  EXPECT_EQ(points[0].extent, 2.5);
+  EXPECT_EQ(points[1].kind, ControlPoint::Kind::height);
+  EXPECT_EQ(readControl(file("id,x,y,z,nx,ny,nz\na,1,2,3,0,0,1\n"))[0].extent, 2.0);
+  EXPECT_NE(refusal("id,x,y,z,nx,ny,nz\na,1,2,3,0,,1\n").find("all of nx, ny and nz"),
+            std::string::npos);
+  EXPECT_NE(refusal("id,x,y,z,nx,ny,nz\na,1,2,3,1,0,0\n").find("at most 60 degrees"),
+            std::string::npos);
+  EXPECT_NE(refusal("id,x,y,z,nx,ny,nz,extent\na,1,2,3,0,0,1,-1\n").find("above 0"),
+            std::string::npos);
+}
+
 TEST(Control, ErrorsNameLineAndColumn) {
   EXPECT_NE(refusal("id,x,y\na,1,2\n").find("no column 'z'"), std::string::npos);
   EXPECT_NE(refusal("id,x,y,z\na,1,2,high\n").find("line 2, column 'z': 'high'"),

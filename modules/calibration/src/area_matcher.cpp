@@ -11,6 +11,7 @@
 #include <pcl_als/trajectory/source_effect.h>
 
 #include "noise_shares.h"
+#include "point_geometry.h"
 
 namespace pcl_als {
 namespace {
@@ -28,6 +29,21 @@ void AreaMatcher::add(int strip, const LidarReturn& point) {
   part.single.push_back(point.isSingle());
   part.intensity.push_back(point.intensity);
   part.turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
+}
+
+void AreaMatcher::put(int strip, ByteWriter& out) const {
+  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  out.putPlain(part.biased).put(part.times);
+  out.put(std::vector<char>(part.single.begin(), part.single.end()));
+  out.put(part.intensity).put(part.turning);
+}
+
+void AreaMatcher::get(int strip, ByteReader& in) {
+  StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  in.getPlain(part.biased).get(part.times);
+  const auto single = in.take<std::vector<char>>();
+  part.single.assign(single.begin(), single.end());
+  in.get(part.intensity).get(part.turning);
 }
 
 std::size_t AreaMatcher::pointCount() const {
@@ -66,6 +82,13 @@ void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candida
   }
 }
 
+SurfaceCriterion AreaMatcher::criterionOf(const StripPart& part) const {
+  constexpr double kNoise = 3.0;  // standard deviations of the points of a plane
+  SurfaceCriterion criterion = criterion_;
+  criterion.roughness = std::max(criterion.roughness, kNoise * part.held_std);
+  return criterion;
+}
+
 AreaMatcher::Direction AreaMatcher::measuringDirection(const PatchQuality& quality) const {
   const Eigen::Vector3d& normal = quality.plane_normal;
   const double tilt = criterion_.tiltStd(quality);
@@ -82,13 +105,14 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   const auto rough = trianglesByOrientation(part.surface, 1, [&](std::int32_t point) {
     return part.single[point] && area_.contains(part.biased[point]);
   });
+  const SurfaceCriterion criterion = criterionOf(part);
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
   for (const std::int32_t triangle : chosenEvenly(rough, kExaminedPerCandidate * count)) {
     const PatchQuality quality = part.surface.quality(triangle);
-    if (!criterion_.isSatisfiedBy(quality, part.median_edge)) continue;
+    if (!criterion.isSatisfiedBy(quality, part.median_edge)) continue;
     classes[OrientationClasses::of(quality.plane_normal)].push_back(
         part.surface.tin().triangles()[triangle].vertex[0]);
-    if (quality.slope < kGentleSlope) part.roughness.push_back(quality.roughness);
+    if (quality.slope < kGentleSlope && !part.held()) part.roughness.push_back(quality.roughness);
   }
   part.candidates = chosenEvenly(classes, count);
   std::sort(part.candidates.begin(), part.candidates.end());
@@ -100,7 +124,7 @@ void AreaMatcher::collectSourceScale(const Trajectory& trajectory, double& large
   std::size_t cursor = 0;
   SensorPose pose;
   for (const StripPart& part : strips_) {
-    for (std::size_t i = 0; i < part.biased.size(); i += kEvery) {
+    for (std::size_t i = 0; i < part.biased.size() && !part.held(); i += kEvery) {
       intensities.push_back(part.intensity[i]);
       if (trajectory.poseAt(part.times[i], pose, cursor))
         largest_angle = std::max(largest_angle, std::abs(scanGeometry(pose, part.biased[i]).beta));
@@ -127,6 +151,7 @@ void AreaMatcher::keep(const AreaObservations& observations,
 void AreaMatcher::correct(const std::vector<StripCorrection>& corrections) {
   for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
     StripPart& part = strips_[strip];
+    if (part.held()) continue;
     const StripCorrection& correction = corrections[strip];
     corrected_for_[strip] << correction.biases->biases(), correction.offset;
     const std::size_t count = part.biased.size();
@@ -150,103 +175,12 @@ void AreaMatcher::correct(const std::vector<StripCorrection>& corrections) {
   }
 }
 
-/// Design block and covariance of one point of a strip, or of the interpolated foot in a patch.
-class AreaMatcher::PointGeometry {
- public:
-  /// \param scale null: sources are not considered
-  PointGeometry(const Trajectory& trajectory, const NoiseModel& noise,
-                const ErrorSourceScale* scale)
-      : trajectory_(trajectory), noise_(noise), effects_(trajectory), scale_(scale) {}
-
-  bool atPoint(const StripPart& part, std::int32_t index, const PatchQuality& surface) {
-    time = part.times[index];
-    position = part.surface.tin().points()[index];
-    if (!trajectory_.poseAt(time, pose_, cursor_)) return false;
-    const ScanGeometry geometry = scanGeometry(pose_, alongBeam(position, surface));
-    design = designBlock(geometry);
-    covariance = noise_.pointCovariance(geometry);
-    pointing = noise_.pointingCovariance(geometry);
-    beam = geometry.beam();
-    range = geometry.range();
-    lateral = std::abs(geometry.x);
-    height = std::abs(geometry.z);
-    sources.setZero();
-    sources.col(indexOf(ErrorSource::range_scale)) = range * beam;
-    if (scale_ != nullptr)
-      effects_.add({time, part.intensity[index], part.turning[index]}, pose_, geometry, *scale_,
-                   sources);
-    return true;
-  }
-
-  bool atFoot(const StripPart& part, const PatchMatch& match, const PatchQuality& surface,
-              PointGeometry& vertex) {
-    time = 0.0;
-    position.setZero();
-    design.setZero();
-    sources.setZero();
-    covariance.setZero();
-    pointing.setZero();
-    for (int i = 0; i < 3; ++i) {
-      if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i], surface))
-        return false;
-      const double weight = match.weights[i];
-      time += weight * vertex.time;
-      position += weight * vertex.position;
-      design += weight * vertex.design;
-      sources += weight * vertex.sources;
-      covariance += weight * weight * vertex.covariance;
-      pointing += weight * weight * vertex.pointing;
-    }
-    beam = vertex.beam;
-    range = vertex.range;
-    lateral = vertex.lateral;
-    height = vertex.height;
-    return true;
-  }
-
-  double time = 0.0;
-  Eigen::Vector3d position;  ///< corrected
-  DesignBlock design;
-  SourceEffects sources;                            ///< except slope_ranging
-  Eigen::Matrix3d covariance, pointing;             ///< pointing: its part of the covariance
-  Eigen::Vector3d beam;                             ///< unit, downward
-  double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
-
-  /// Effects of the error sources along the normal of a surface, metres.
-  ErrorSourceRow sourcesAlong(const Eigen::Vector3d& normal) const {
-    ErrorSourceRow row = normal.transpose() * sources;
-    row[indexOf(ErrorSource::slope_ranging)] =
-        stretchEffect(range, beam, normal, noise_.beam_divergence);
-    return row;
-  }
-
- private:
-  /// Intersection of the pulse with the plane of the patch's neighbourhood (smoothed geometry). A
-  /// measured range in the design matrix would be correlated with the noise of the distance: with a
-  /// million pairs, errors in variables biased the range scale by 6 ppm.
-  Eigen::Vector3d alongBeam(const Eigen::Vector3d& measured, const PatchQuality& surface) const {
-    constexpr double kGrazing = 0.2;
-    const Eigen::Vector3d towards = (measured - pose_.position).normalized();
-    const double cosine = towards.dot(surface.plane_normal);
-    if (std::abs(cosine) < kGrazing) return measured;
-    return measured +
-           (surface.plane_centre - measured).dot(surface.plane_normal) / cosine * towards;
-  }
-
-  const Trajectory& trajectory_;
-  const NoiseModel& noise_;
-  SourceEffect effects_;
-  const ErrorSourceScale* scale_;
-  SensorPose pose_;
-  std::size_t cursor_ = 0;
-};
-
 void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
                           const PatchQuality& quality, PairObservation& observation) const {
   observation.time_a = point.time;
   observation.time_b = foot.time;
-  observation.lateral = foot.lateral;
-  observation.height = foot.height;
+  observation.lateral = foot.held ? point.lateral : foot.lateral;
+  observation.height = foot.held ? point.height : foot.height;
   const Direction direction = measuringDirection(quality);
   const Eigen::Vector3d& normal = direction.normal;
   observation.normal = normal;
@@ -284,13 +218,14 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     if (b.biased.empty()) continue;
     const auto kept = kept_.find({observation.a, observation.b});
     if (!all && kept == kept_.end()) continue;
+    const SurfaceCriterion criterion = criterionOf(b);
     const std::size_t count = all ? a.candidates.size() : kept->second.size();
     for (std::size_t c = 0; c < count; c += all ? every : 1) {
       const std::int32_t i = all ? a.candidates[c] : kept->second[c].point;
       const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
       if (!match) continue;
       const PatchQuality quality = b.surface.quality(match->triangle);
-      if (!criterion_.isSatisfiedBy(quality, b.median_edge) || !point.atPoint(a, i, quality) ||
+      if (!criterion.isSatisfiedBy(quality, b.median_edge) || !point.atPoint(a, i, quality) ||
           !foot.atFoot(b, *match, quality, vertex))
         continue;
       observation.point = i;
@@ -307,64 +242,6 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     }
   }
   if (all) shares.setSharing(found);
-  return found;
-}
-
-namespace {
-
-/// Sets the factor by which the pairs of one control point share the error of the point, in all
-/// strips that cover it. The pairs are those of \a found from the index \a first on.
-void shareControlError(double sigma, std::size_t first, AreaObservations& found) {
-  double up = 0.0;
-  for (std::size_t i = first; i < found.size(); ++i) up += found[i].normal.z();
-  for (std::size_t i = first; i < found.size(); ++i) {
-    PairObservation& o = found[i];
-    const double others = o.normal.z() * (up - o.normal.z()) * sigma * sigma;
-    o.sharing = 1.0 + others / o.variance;
-  }
-}
-
-}  // namespace
-
-AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& control,
-                                           double threshold, const Trajectory& trajectory,
-                                           const NoiseModel& noise, double default_sigma) const {
-  AreaObservations found;
-  const ErrorSourceScale* scale = source_scale_ ? &*source_scale_ : nullptr;
-  PointGeometry foot(trajectory, noise, scale), vertex(trajectory, noise, scale);
-  for (const ControlPoint& point : control) {
-    if (!area_.contains(point.position)) continue;
-    const double sigma = point.sigma > 0.0 ? point.sigma : default_sigma;
-    const std::size_t first = found.size();
-    for (std::size_t b = 0; b < strips_.size(); ++b) {
-      if (strips_[b].biased.empty()) continue;
-      const auto match = strips_[b].surface.vertical(point.position);
-      if (!match || std::abs(match->signed_normal_distance) > threshold) continue;
-      const PatchQuality quality = strips_[b].surface.quality(match->triangle);
-      if (!criterion_.isSatisfiedBy(quality, strips_[b].median_edge) ||
-          !foot.atFoot(strips_[b], *match, quality, vertex))
-        continue;
-      PairObservation observation;
-      observation.b = static_cast<int>(b);
-      observation.time_a = observation.time_b = foot.time;
-      observation.lateral = foot.lateral;
-      observation.height = foot.height;
-      const Direction direction = measuringDirection(quality);
-      observation.normal = direction.normal;
-      observation.tilt_variance = direction.variance;
-      observation.design = (-foot.design).cast<float>();
-      observation.row_b = observation.normal.transpose() * foot.design;
-      observation.misclosure = observation.normal.dot(point.position - foot.position) -
-                               observation.effectAtPatch(corrected_for_[b]);
-      observation.sources = -foot.sourcesAlong(observation.normal);
-      const double up = observation.normal.z();
-      observation.variance =
-          normalVariance(foot.covariance, observation.normal) + up * up * sigma * sigma;
-      observation.pointing = normalVariance(foot.pointing, observation.normal);
-      found.push_back(observation);
-    }
-    shareControlError(sigma, first, found);
-  }
   return found;
 }
 

@@ -12,6 +12,7 @@
 
 #include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/survey_types.h>
@@ -36,8 +37,18 @@ class AreaMatcher {
       : area_(area), strips_(strips), corrected_for_(strips, SystemUnknowns::Zero()) {}
 
   void add(int strip, const LidarReturn& point);
+  /// The points of a strip stay where they are, and need no trajectory. \a std: of their
+  /// coordinates, metres.
+  void hold(int strip, double std) { strips_[static_cast<std::size_t>(strip)].held_std = std; }
   const SurveyArea& area() const { return area_; }
   std::size_t pointCount() const;
+  /// The points of a strip as added, for another process; get() replaces those that are there.
+  void put(int strip, ByteWriter& out) const;
+  void get(int strip, ByteReader& in);
+  bool hasPoints(int strip) const {
+    return !strips_[static_cast<std::size_t>(strip)].biased.empty();
+  }
+  void clear() { strips_.assign(strips_.size(), StripPart()); }  ///< deletes all points
   std::size_t stripCount() const;  ///< strips with points in the area or its margin
 
   /// Times at which a strip measured the area with its margin; empty without points in it.
@@ -71,7 +82,7 @@ class AreaMatcher {
     return strips_[static_cast<std::size_t>(strip)].surface;
   }
 
-  /// The correction of the points of a strip.
+  /// The correction of the points of a strip; not used of strips that are held fixed.
   struct StripCorrection {
     const BiasEvaluator* biases;
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the coordinates, metres
@@ -104,8 +115,15 @@ class AreaMatcher {
     std::vector<std::int32_t> candidates;
     std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
     double median_edge = 0.0;       ///< metres, in plan
+    double held_std = 0.0;          ///< metres, of the points of a strip that is held fixed
+
+    bool held() const { return held_std > 0.0; }
   };
   class PointGeometry;
+
+  /// The criterion of a strip's patches: that of the block, or of the points of a surface that are
+  /// noisier.
+  SurfaceCriterion criterionOf(const StripPart& part) const;
 
   /// The direction in which the distance of a pair is measured: the normal of the neighbourhood's
   /// plane, which is less noisy than that of the triangle, or the vertical where the tilt of the
@@ -119,6 +137,14 @@ class AreaMatcher {
   /// Fills the equation of the pair of a point and its foot in a patch.
   void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
                PairObservation& observation) const;
+  // The pairs of a control point with one strip.
+  void matchHeight(const ControlPoint& point, int strip, double threshold, PointGeometry& foot,
+                   PointGeometry& vertex, AreaObservations& found) const;
+  /// All single returns on the patch.
+  void matchPatch(const ControlPoint& point, int strip, double threshold, PointGeometry& measured,
+                  AreaObservations& found) const;
+  PairObservation controlObservation(const ControlPoint& point, int strip,
+                                     const Direction& direction, const PointGeometry& foot) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
   SurveyArea area_;

@@ -14,40 +14,44 @@ namespace pcl_als {
 TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   knots.fill(-1);
   row.head<kSystemParameterCount>() = o.row();
-  if (o.a != PairObservation::kControl) {
-    place(0, errors.placeOf(o.a, o.time_a), o.normal, o.row_a, 1.0);
-    strips[0] = o.a;
-    row.segment<kShift>(shift(0)) = o.normal.transpose();
-    placeSystem(0, errors.systems().of(o.a), o.normal, o.row_a, 1.0, errors);
-  }
-  place(2, errors.placeOf(o.b, o.time_b), o.normal, o.row_b, -1.0);
-  strips[1] = o.b;
-  row.segment<kShift>(shift(1)) = -o.normal.transpose();
-  placeSystem(1, errors.systems().of(o.b), o.normal, o.row_b, -1.0, errors);
+  if (o.a != PairObservation::kControl) place({0, o.a, o.time_a, 1.0, o.row_a}, o.normal, errors);
+  place({1, o.b, o.time_b, -1.0, o.row_b}, o.normal, errors);
   for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
     knots[kKnots + i] = errors.instrumentBlock() + i;
   row.segment<kErrorSourceCount>(kInstrument) = o.sources;
 }
 
-void TouchedRow::place(int index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
-                       const SystemRow& design, double sign) {
-  Eigen::Matrix<double, 1, kKnot> effect;
-  effect << normal.transpose(), design.segment<3>(indexOf(SystemParameter::boresight_pitch));
-  knots[index] = where.knot;
-  row.segment<kKnot>(slot(index)) = sign * (1.0 - where.next) * effect;
-  if (where.next_knot == where.knot) return;
-  knots[index + 1] = where.next_knot;
-  row.segment<kKnot>(slot(index + 1)) = sign * where.next * effect;
+void TouchedRow::place(const Side& side, const Eigen::Vector3d& normal,
+                       const SharedErrors& errors) {
+  if (errors.systems().heldIndex(side.strip) < 0) placeKnots(side, normal, errors);
+  strips[static_cast<std::size_t>(side.index)] = side.strip;
+  row.segment<kShift>(shift(side.index)) =
+      side.sign * errors.shiftScale(side.strip) * normal.transpose();
+  placeSystem(side, normal, errors);
 }
 
-void TouchedRow::placeSystem(int side, int system, const Eigen::Vector3d& normal,
-                             const SystemRow& design, double sign, const SharedErrors& errors) {
+void TouchedRow::placeKnots(const Side& side, const Eigen::Vector3d& normal,
+                            const SharedErrors& errors) {
+  const SharedErrors::Place where = errors.placeOf(side.strip, side.time);
+  Eigen::Matrix<double, 1, kKnot> effect;
+  effect << normal.transpose(), side.design.segment<3>(indexOf(SystemParameter::boresight_pitch));
+  const int first = 2 * side.index;
+  knots[first] = where.knot;
+  row.segment<kKnot>(slot(first)) = side.sign * (1.0 - where.next) * effect;
+  if (where.next_knot == where.knot) return;
+  knots[first + 1] = where.next_knot;
+  row.segment<kKnot>(slot(first + 1)) = side.sign * where.next * effect;
+}
+
+void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
+                             const SharedErrors& errors) {
+  const int system = errors.systems().of(side.strip);
   if (system == 0) return;
   constexpr int kBlocks = SharedErrors::kSystemBlocks;
-  const int first = kSystems + side * kBlocks;
+  const int first = kSystems + side.index * kBlocks;
   for (int i = 0; i < kBlocks; ++i) knots[first + i] = errors.systemBlock(system) + i;
-  row.segment<kSystemParameterCount>(slot(first)) = sign * design;
-  row.segment<3>(slot(first) + kSystemParameterCount) = sign * normal.transpose();
+  row.segment<kSystemParameterCount>(slot(first)) = side.sign * side.design;
+  row.segment<3>(slot(first) + kSystemParameterCount) = side.sign * normal.transpose();
 }
 
 namespace {

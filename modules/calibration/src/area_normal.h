@@ -44,10 +44,15 @@ struct TouchedRow {
   std::array<int, 2> strips{-1, -1};
 
  private:
-  void place(int slot_index, const SharedErrors::Place& where, const Eigen::Vector3d& normal,
-             const SystemRow& design, double sign);
-  void placeSystem(int side, int system, const Eigen::Vector3d& normal, const SystemRow& design,
-                   double sign, const SharedErrors& errors);
+  /// The point (side 0) or the patch (side 1) of a strip.
+  struct Side {
+    int index, strip;
+    double time, sign;
+    const SystemRow& design;
+  };
+  void place(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
+  void placeKnots(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
+  void placeSystem(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
 };
 
 /// Normal equations of one area: parameters, the knots of its observations, the shifts of its

@@ -75,12 +75,13 @@ void SystemCalibrationEngine::assessParts(State& state, const SharedErrors& erro
 void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {
   std::vector<StripFacts> strips;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
-    if (!used_[i]) continue;
     const int strip = static_cast<int>(i);
+    if (!used_[i] || isReference(strip)) continue;
     if (!hasPairs(strip, result)) {
       const std::string reason = reasonWithoutPairs(strip);
       if (!reason.empty()) result.warnings.push_back({reason, Remedy::strips});
     }
+    if (isHeld(strip)) continue;
     strips.push_back(
         {ids_[i], map_.startTime(strip), map_.endTime(strip), plausibility_.meanHeight(strip)});
   }

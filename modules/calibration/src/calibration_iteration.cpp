@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
-#include <pcl_als/common/parallel.h>
 
 #include "calibration_state.h"
 #include "system_groups.h"
@@ -97,8 +96,7 @@ void SystemCalibrationEngine::correctPoints(State& state) {
     const auto system = static_cast<std::size_t>(systems_.of(static_cast<int>(strip)));
     corrections.push_back({&evaluators[system], state.differences[system].tail<3>()});
   }
-  parallelFor(matchers_.size(), settings_.threads,
-              [&](std::size_t i) { matchers_[i].correct(corrections); });
+  forOwnAreas([&](std::size_t i) { matchers_[i].correct(corrections); });
 }
 
 void SystemCalibrationEngine::selectPairs(State& state) {
@@ -106,8 +104,8 @@ void SystemCalibrationEngine::selectPairs(State& state) {
   settings.budget = settings_.pair_budget;
   const PairSelection selection(state.observations, state.weights.weights(), state.adjustment,
                                 state.choice.solution, settings);
-  parallelFor(pair_areas_, settings_.threads, [&](std::size_t i) {
-    matchers_[i].keep(state.observations[i], selection.chosen()[i]);
+  forOwnAreas([&](std::size_t i) {
+    if (i < pair_areas_) matchers_[i].keep(state.observations[i], selection.chosen()[i]);
   });
   state.chosen_points = AreaMatcher::Points::kept;
   state.moved = HUGE_VAL;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <pcl_als/common/statistics.h>
@@ -54,7 +55,7 @@ FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Res
     for (const PairObservation& o : area) {
       const double distance = residual(o);
       if (o.a == PairObservation::kControl) {
-        statistics[{o.a, o.b}].add(-distance / o.normal.z());
+        statistics[{o.a, o.b}].add(o.aboveControl(distance));
       } else {
         statistics[std::minmax(o.a, o.b)].add(o.a < o.b ? distance : -distance);
       }
@@ -136,19 +137,26 @@ void CalibrationReport::addControlPoints(const std::vector<ControlPoint>& contro
     if (area.empty()) continue;
     ControlPointFit fit;
     fit.id = control[i].id;
+    if (control[i].kind == ControlPoint::Kind::patch) fit.component = "normal";
     fit.sigma = control[i].sigma;
-    fit.strips = area.size();
     fit.used = used[first + i];
-    double variance = 0.0;
+    double variance = 0.0, shared = 0.0;
+    std::set<int> strips;
     for (const PairObservation& o : area) {
-      fit.before -= o.misclosure / o.normal.z();
-      fit.after -= o.distance(result.biases()) / o.normal.z();
+      strips.insert(o.b);
+      fit.before += o.aboveControl(o.misclosure);
+      fit.after += o.aboveControl(o.distance(result.biases()));
       variance += o.variance;
+      shared += o.variance * o.sharing;
     }
-    const auto strips = static_cast<double>(fit.strips);
-    fit.before /= strips;
-    fit.after /= strips;
-    fit.expected_std = std::sqrt(variance / strips + trajectory_std * trajectory_std / strips);
+    const auto count = static_cast<double>(area.size());
+    fit.strips = strips.size();
+    fit.before /= count;
+    fit.after /= count;
+    // Points of a patch share its error; the strips above a point are few.
+    const double of_mean = (fit.component == "normal" ? shared / count : variance) / count;
+    fit.expected_std =
+        std::sqrt(of_mean + trajectory_std * trajectory_std / static_cast<double>(fit.strips));
     result.control_points.push_back(std::move(fit));
   }
 }

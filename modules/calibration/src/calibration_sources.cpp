@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/statistics.h>
 
 #include "calibration_state.h"
@@ -25,9 +26,20 @@ std::vector<ErrorSource> allSources() {
 
 void SystemCalibrationEngine::considerSources() {
   if (source_scale_.largest_angle > 0.0) return;
+  std::vector<std::vector<double>> found(matchers_.size());  // angle, then intensities
+  for (const std::size_t i : area_shares_.ownItems()) {
+    if (i >= pair_areas_) continue;
+    double angle = 0.0;
+    found[i].push_back(angle);
+    matchers_[i].collectSourceScale(*trajectory_, angle, found[i]);
+    found[i].front() = angle;
+  }
+  shareVectors(processes_, area_shares_, found);
   std::vector<double> intensities;
-  for (std::size_t i = 0; i < pair_areas_; ++i)
-    matchers_[i].collectSourceScale(*trajectory_, source_scale_.largest_angle, intensities);
+  for (std::size_t i = 0; i < pair_areas_; ++i) {
+    source_scale_.largest_angle = std::max(source_scale_.largest_angle, found[i].front());
+    intensities.insert(intensities.end(), found[i].begin() + 1, found[i].end());
+  }
   if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
   for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
 }

@@ -32,6 +32,7 @@ std::string seconds(double from, double to) {
 int SystemCalibrationEngine::addStrip(const std::string& id) {
   ids_.push_back(id);
   used_.push_back(true);
+  held_of_.push_back(-1);
   plausibility_.addStrip(id);
   if (attitude_ == AttitudeSource::none) recoveries_.emplace_back(trajectory_);
   return map_.addStrip();
@@ -39,6 +40,7 @@ int SystemCalibrationEngine::addStrip(const std::string& id) {
 
 void SystemCalibrationEngine::survey(int strip, const LidarReturn* points, std::size_t count) {
   map_.add(strip, points, count);
+  if (isReference(strip)) return;
   for (std::size_t i = 0; i < count; ++i) plausibility_.addTime(strip, points[i].time);
   const double duration = count > 0 ? points[count - 1].time - points[0].time : 0.0;
   const std::size_t every = plausibility_.spacing(count, duration);
@@ -53,7 +55,7 @@ void SystemCalibrationEngine::survey(int strip, const LidarReturn* points, std::
 
 void SystemCalibrationEngine::describeAttitudes() {
   for (std::size_t strip = 0; strip < recoveries_.size(); ++strip) {
-    if (!used_[strip]) continue;
+    if (!used_[strip] || isReference(static_cast<int>(strip))) continue;
     const AttitudeRecovery::Outcome outcome = recoveries_[strip].assess();
     const std::string text = "strip " + ids_[strip] + ": " + outcome.remark;
     attitude_remarks_.push_back(text);
@@ -83,7 +85,7 @@ void SystemCalibrationEngine::recoverAttitude() {
   describeAttitudes();
   AttitudeRecovery all(trajectory_);
   for (std::size_t strip = 0; strip < recoveries_.size(); ++strip) {
-    if (used_[strip]) all.merge(recoveries_[strip]);
+    if (used_[strip] && !isReference(static_cast<int>(strip))) all.merge(recoveries_[strip]);
   }
   const AttitudeRecovery::Outcome outcome = all.recover();
   recoveries_.clear();
@@ -118,7 +120,8 @@ void SystemCalibrationEngine::leaveOutSmallStrips() {
                           std::to_string(map_.invalidCount(static_cast<int>(strip))) +
                           " points with a time or coordinate that is not finite were ignored");
     }
-    if (count >= settings_.minimum_points || !used_[strip]) continue;
+    if (count >= settings_.minimum_points || !used_[strip] || isReference(static_cast<int>(strip)))
+      continue;
     leaveOut(static_cast<int>(strip), LeftOutReason::too_few_points);
     warnings_.push_back("strip " + ids_[strip] + " has only " + std::to_string(count) +
                         " points and is left out");
@@ -140,7 +143,7 @@ void SystemCalibrationEngine::leaveOutRoundedTimes() {
     const double distance = plausibility_.distancePerStep(strip);
     // Rounding errors are uniformly distributed within a step.
     const double std = distance / std::sqrt(12.0);
-    if (!used_[i] || std < settings_.shared_errors.position) continue;
+    if (!used_[i] || isHeld(strip) || std < settings_.shared_errors.position) continue;
     char along[80];
     std::snprintf(along, sizeof along, "standard deviation along the flight %.3g m", std);
     last = "strip " + ids_[i] + ": its GPS times are rounded to " + plausibility_.timeSteps(strip) +
@@ -154,7 +157,7 @@ void SystemCalibrationEngine::leaveOutRoundedTimes() {
 
 void SystemCalibrationEngine::checkTimes() const {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    if (!used_[strip]) continue;
+    if (!used_[strip] || isReference(static_cast<int>(strip))) continue;
     const double start = map_.startTime(static_cast<int>(strip)),
                  end = map_.endTime(static_cast<int>(strip));
     if (start < trajectory_->startTime() || end > trajectory_->endTime()) {
@@ -168,7 +171,8 @@ void SystemCalibrationEngine::checkTimes() const {
 
 void SystemCalibrationEngine::checkTrajectory() {
   for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    if (!used_[strip]) plausibility_.leaveOut(static_cast<int>(strip));
+    if (!used_[strip] || isReference(static_cast<int>(strip)))
+      plausibility_.leaveOut(static_cast<int>(strip));
   }
   for (const Warning& warning : plausibility_.check(settings_.force, true)) {
     warnings_.push_back(warning);
@@ -186,7 +190,7 @@ int SystemCalibrationEngine::stripNamed(const std::string& id) const {
 
 /// With pairs given by name, other strips are used for control only.
 void SystemCalibrationEngine::leaveOutUnpaired() {
-  if (wanted_pairs_.empty() || !control_.empty()) return;
+  if (wanted_pairs_.empty() || !control_.empty() || !held_.empty()) return;
   std::vector<bool> paired(ids_.size(), false);
   for (const auto& [a, b] : wanted_pairs_) {
     paired[static_cast<std::size_t>(stripNamed(a))] = true;
@@ -207,8 +211,10 @@ void SystemCalibrationEngine::choosePairs() {
   pairs_.clear();
   for (const SurveyMap::Overlap& overlap : map_.overlaps(settings_.minimum_overlap)) {
     if (!used_[overlap.strips.first] || !used_[overlap.strips.second]) continue;
-    const bool chosen =
-        wanted.empty() || std::find(wanted.begin(), wanted.end(), overlap.strips) != wanted.end();
+    const bool a = isHeld(overlap.strips.first), b = isHeld(overlap.strips.second);
+    if (a && b) continue;
+    const bool chosen = a || b || wanted.empty() ||
+                        std::find(wanted.begin(), wanted.end(), overlap.strips) != wanted.end();
     if (chosen) pairs_.push_back(overlap.strips);
   }
   for (const StripPair& pair : wanted) {
@@ -231,7 +237,9 @@ void SystemCalibrationEngine::adaptLimits() {
 }
 
 void SystemCalibrationEngine::chooseAreas() {
+  shareSurvey();
   systems_ = stripSystems(settings_.systems, settings_.own, ids_);
+  holdSurfaces();
   adaptLimits();
   leaveOutUnpaired();
   leaveOutSmallStrips();
@@ -239,17 +247,23 @@ void SystemCalibrationEngine::chooseAreas() {
   checkTimes();
   checkTrajectory();
   recoverAttitude();
+  checkReferences();
   choosePairs();
   areas_ = map_.selectAreas(pairs_, settings_.selection);
   pair_areas_ = areas_.size();
   for (const ControlPoint& point : control_) {
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * kControlAreaSize);
-    areas_.push_back(
-        {point.position.head<2>() - half, kControlAreaSize, settings_.selection.margin});
+    const double size = std::max(kControlAreaSize, point.extent);
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * size);
+    areas_.push_back({point.position.head<2>() - half, size, settings_.selection.margin});
   }
   index_ = std::make_unique<AreaIndex>(areas_);
   matchers_.clear();
-  for (const SurveyArea& area : areas_) matchers_.emplace_back(area, ids_.size());
+  for (const SurveyArea& area : areas_) {
+    AreaMatcher& matcher = matchers_.emplace_back(area, ids_.size());
+    for (std::size_t i = 0; i < ids_.size(); ++i)
+      if (held_of_[i] >= 0)
+        matcher.hold(static_cast<int>(i), held_[static_cast<std::size_t>(held_of_[i])].surface.std);
+  }
 }
 
 void SystemCalibrationEngine::load(int strip, const LidarReturn* points, std::size_t count) {

@@ -98,7 +98,7 @@ SystemVector controlSpread(const ControlConsistency& control,
     for (std::size_t i = 0; i < adjustment.control.size(); ++i) {
       if (std::find(group.begin(), group.end(), adjustment.control[i]) == group.end()) continue;
       for (PairObservation& o : moved[adjustment.first_control + i]) {
-        o.misclosure += shift * o.normal.z();
+        o.misclosure += shift * (o.along_normal ? 1.0 : o.normal.z());
       }
     }
     Adjustment solver(adjustment.errors, adjustment.threads);

@@ -96,6 +96,8 @@ SharedErrors::SharedErrors(const std::vector<TimeSpan>& spans, const SharedError
     own[static_cast<std::size_t>(indexOf(p))] = true;
   std::fill(own.begin() + kSystemParameterCount, own.end(), systems_.own.offset);
   own_.assign(static_cast<std::size_t>(systems_.count - 1), own);
+  for (std::size_t i = 0; i < systems_.held.size(); ++i)
+    own_[static_cast<std::size_t>(systems_.heldSystem(i)) - 1].fill(false);
   for (const Pass& pass : passesOf(spans, observed, systems_.pass, pass_)) {
     strips_.push_back(
         knotsOf(pass.span, model_.knot_spacing, observed.empty() ? nullptr : &pass.observed));
@@ -187,7 +189,20 @@ std::vector<double> SharedErrors::systemVariances() const {
       variances.push_back(std * std);
     }
   }
+  for (std::size_t i = 0; i < systems_.held.size(); ++i) {
+    constexpr std::size_t kUp = kSystemUnknownCount - 1;
+    const std::size_t block =
+        (static_cast<std::size_t>(systems_.heldSystem(i)) - 1) * kSystemBlocks * kPerKnot;
+    const double std = std::max(systems_.held[i].offset, kShared);
+    variances[block + kUp] = std * std;
+  }
   return variances;
+}
+
+double SharedErrors::shiftScale(int strip) const {
+  const int held = systems_.heldIndex(strip);
+  const double own = held < 0 ? 0.0 : systems_.held[static_cast<std::size_t>(held)].local;
+  return own > 0.0 ? own / model_.local : 1.0;
 }
 
 SharedErrors::Place SharedErrors::placeOf(int index, double time) const {

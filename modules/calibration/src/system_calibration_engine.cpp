@@ -8,6 +8,7 @@
 #include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/statistics.h>
 
 #include "calibration_judgement.h"
@@ -50,21 +51,23 @@ SystemCalibrationEngine::SystemCalibrationEngine(std::shared_ptr<const Trajector
 SystemCalibrationEngine::~SystemCalibrationEngine() = default;
 
 std::size_t SystemCalibrationEngine::loadedPoints() const {
+  if (areShared(processes_)) return loaded_points_;
   std::size_t count = 0;
   for (const AreaMatcher& matcher : matchers_) count += matcher.pointCount();
   return count;
 }
 
 void SystemCalibrationEngine::prepare() {
-  std::size_t strips_in_areas = 1;
-  for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
-  const std::size_t candidates = candidatesPerStrip(settings_.candidates, strips_in_areas);
+  if (area_shares_.count() != matchers_.size())
+    area_shares_ = SharedItems(nullptr, std::vector<double>(matchers_.size(), 1.0));
+  const std::size_t candidates = candidatesPerStrip(settings_.candidates, 1 + stripsInAreas());
   std::vector<std::vector<double>> roughness(matchers_.size());
-  parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
+  forOwnAreas([&](std::size_t i) {
     const bool control = i >= pair_areas_;
     matchers_[i].prepare(settings_.patches, control ? 0 : candidates, settings_.resolution);
     matchers_[i].collectRoughness(roughness[i]);
   });
+  shareVectors(processes_, area_shares_, roughness);
   std::vector<double> all;
   for (const auto& values : roughness) all.insert(all.end(), values.begin(), values.end());
   if (all.empty()) return;
@@ -78,7 +81,7 @@ void SystemCalibrationEngine::formPairs(State& state) {
   state.moved = 0.0;
   state.weighed = false;
   state.observations.assign(matchers_.size(), {});
-  parallelFor(matchers_.size(), settings_.threads, [&](std::size_t i) {
+  forOwnAreas([&](std::size_t i) {
     const AreaMatcher& matcher = matchers_[i];
     state.observations[i] =
         i < pair_areas_
@@ -88,16 +91,22 @@ void SystemCalibrationEngine::formPairs(State& state) {
                                    settings_.noise, settings_.control_sigma);
     removeSources(state.held_sources, state.observations[i]);
   });
+  shareVectors(processes_, area_shares_, state.observations);
 }
 
 void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
   const auto seen = [](const AreaObservations& area) { return !area.empty(); };
+  const auto held = [this](const AreaObservations& area) {
+    return std::any_of(area.begin(), area.end(),
+                       [this](const PairObservation& o) { return isHeld(o); });
+  };
   const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
-  control_covered_ = std::any_of(first, state.observations.end(), seen);
-  if (control_.empty() || control_covered_) return;
+  const bool points = std::any_of(first, state.observations.end(), seen);
+  control_covered_ = points || std::any_of(state.observations.begin(), first, held);
+  if (control_.empty() || points) return;
   warnings_.push_back("none of the " + std::to_string(control_.size()) +
                       " control points lies on a smooth surface of a strip: calibrated without "
-                      "control");
+                      "them");
 }
 
 void SystemCalibrationEngine::weigh(State& state) const {
@@ -194,19 +203,26 @@ void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeS
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     adjusted_.strips.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
   }
+  replaceHeld(state.observations);
   adjusted_.observations = std::move(state.observations);
   adjusted_.weights = state.weights.weights();
   adjusted_.levels = state.adjustment.levels();
 }
 
 std::vector<std::vector<TimeSpan>> SystemCalibrationEngine::measuredTimes() const {
-  std::vector<std::vector<TimeSpan>> times(ids_.size());
-  for (const AreaMatcher& matcher : matchers_) {
-    for (std::size_t i = 0; i < ids_.size(); ++i) {
-      const auto span = matcher.timesOf(static_cast<int>(i));
-      if (span) times[i].push_back(*span);
+  using StripSpan = std::pair<int, TimeSpan>;
+  std::vector<std::vector<StripSpan>> spans(matchers_.size());
+  for (const std::size_t area : area_shares_.ownItems()) {
+    for (int strip = 0; strip < static_cast<int>(ids_.size()); ++strip) {
+      const auto span = matchers_[area].timesOf(strip);
+      if (span && !isHeld(strip)) spans[area].emplace_back(strip, *span);
     }
   }
+  shareVectors(processes_, area_shares_, spans);
+  std::vector<std::vector<TimeSpan>> times(ids_.size());
+  for (const std::vector<StripSpan>& of_area : spans)
+    for (const auto& [strip, span] : of_area)
+      times[static_cast<std::size_t>(strip)].push_back(span);
   return times;
 }
 
@@ -227,8 +243,9 @@ std::vector<TimeSpan> SystemCalibrationEngine::flownTimes() const {
   std::vector<TimeSpan> spans;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const int strip = static_cast<int>(i);
-    spans.push_back(used_[i] ? std::pair(map_.startTime(strip), map_.endTime(strip))
-                             : std::pair(0.0, 0.0));
+    spans.push_back(used_[i] && !isHeld(strip)
+                        ? std::pair(map_.startTime(strip), map_.endTime(strip))
+                        : std::pair(0.0, 0.0));
   }
   return spans;
 }
@@ -264,6 +281,21 @@ ErrorLevels SystemCalibrationEngine::errorLevels(const State& state) const {
   return levels;
 }
 
+void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& report,
+                                      const std::vector<bool>& used, CalibrationResult& result) {
+  state.threshold = settings_.max_normal_distance;
+  state.chosen_points = AreaMatcher::Points::candidates;
+  formPairs(state);
+  for (AreaObservations& area : state.observations)
+    addSourceEffects(result.sources - state.held_sources, area);
+  addSystemEffects(state.errors, state.differences, state.observations);
+  report.addControlPoints(control_, state.observations, used,
+                          std::sqrt(state.errors.variances(state.adjustment.levels())[0]), result);
+  report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
+  report.addFit(state.observations, result.biases(), true, result);
+  addHeldFit(state.observations, result.biases(), true, result);
+}
+
 CalibrationResult SystemCalibrationEngine::calibrate() {
   prepare();
   const std::vector<TimeSpan> spans = flownTimes();
@@ -277,6 +309,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   warnOfUncoveredControl(state);
   const CalibrationReport report(ids_, !control_covered_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
+  addHeldFit(state.observations, SystemVector::Zero(), false, result);
   const MisfitComparison misfit(state.observations);
   iterateToConvergence(state, result);
   const bool open = !result.converged;
@@ -289,7 +322,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   addSystems(state.adjustment, errors, state.choice, settings_.systems, ids_, result);
-  report.addStrips(errors, used_, state.adjustment, state.choice, result);
+  report.addStrips(errors, correctedStrips(), state.adjustment, state.choice, result);
   result.error_levels = errorLevels(state);
   addErrorSources(errors, state.choice, state.diagnosed, swathEdge(state.observations),
                   source_scale_, meanSpeed(spans), result);
@@ -297,21 +330,13 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   const std::vector<PriorEffect> effects = priorEffects(
       largeStripErrors(result.strip_errors, settings_.shared_errors, kNoticeableCorrection), ids_,
       errors, state.adjustment, state.choice);
+  checkHeldHeights(state, errors, result);
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
   information_ = state.adjustment.informationShares(state.choice.estimate);
   information_.resize(areas_.size(), 0.0);
   const std::vector<bool> used = state.usedAreas();
   keepAdjusted(state, spans);
-  state.threshold = settings_.max_normal_distance;
-  state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);
-  for (AreaObservations& area : state.observations)
-    addSourceEffects(result.sources - state.held_sources, area);
-  addSystemEffects(errors, state.differences, state.observations);
-  report.addControlPoints(control_, state.observations, used,
-                          std::sqrt(errors.variances(state.adjustment.levels())[0]), result);
-  report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
-  report.addFit(state.observations, result.biases(), true, result);
+  addFits(state, report, used, result);
   result.misfit = misfit.change(state.observations, result.biases());
   diagnose(result);
   assessControl(state, errors, result);

@@ -11,15 +11,11 @@ namespace {
 
 enum class FailureKind : int { usage, input, cancelled, memory, other };
 
-bool isShared(const Communicator* processes) {
-  return processes != nullptr && processes->size() > 1;
-}
-
 }  // namespace
 
 SharedItems::SharedItems(const Communicator* processes, const std::vector<double>& costs)
     : owner_(costs.size(), 0) {
-  if (isShared(processes)) {
+  if (areShared(processes)) {
     rank_ = processes->rank();
     std::vector<std::size_t> order(costs.size());
     std::iota(order.begin(), order.end(), 0);
@@ -32,6 +28,15 @@ SharedItems::SharedItems(const Communicator* processes, const std::vector<double
       *least += std::max(costs[item], 1e-9);
     }
   }
+  listOwn();
+}
+
+SharedItems::SharedItems(const Communicator* processes, std::vector<int> owners)
+    : owner_(std::move(owners)), rank_(processes == nullptr ? 0 : processes->rank()) {
+  listOwn();
+}
+
+void SharedItems::listOwn() {
   for (std::size_t item = 0; item < owner_.size(); ++item)
     if (mine(item)) own_.push_back(item);
 }
@@ -68,7 +73,7 @@ void throwFailure(const std::string& bytes) {
 }
 
 void doTogether(Communicator* processes, const std::function<void()>& share) {
-  if (!isShared(processes)) {
+  if (!areShared(processes)) {
     share();
     return;
   }
@@ -91,7 +96,7 @@ void doTogether(Communicator* processes, const std::function<void()>& share) {
 
 void shareBytes(Communicator* processes, const SharedItems& items,
                 std::vector<std::string>& bytes) {
-  if (!isShared(processes)) return;
+  if (!areShared(processes)) return;
   ByteWriter out;
   for (const std::size_t item : items.ownItems()) {
     out.put(bytes[item]);
@@ -104,7 +109,7 @@ void shareBytes(Communicator* processes, const SharedItems& items,
 }
 
 ProgressCallback sharedProgress(Communicator* processes, ProgressCallback callback) {
-  if (!isShared(processes)) return callback;
+  if (!areShared(processes)) return callback;
   return [processes, callback = std::move(callback)](const JobProgress& progress) {
     JobProgress now = progress;
     if (now.event == JobProgress::Event::advance) {

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_lookup.h>
 
 namespace pcl_als {
 
-SystemLookup::SystemLookup(const std::vector<SystemEstimate>& systems) {
-  if (systems.size() < 2) return;
-  for (std::size_t i = 0; i < systems.size(); ++i) {
+SystemLookup::SystemLookup(const CalibrationResult& calibration) {
+  const std::vector<SystemEstimate>& systems = calibration.systems;
+  several_ = systems.size() > 1;
+  fixed_ = static_cast<std::uint8_t>(std::max<std::size_t>(1, systems.size()));
+  for (std::size_t i = 0; several_ && i < systems.size(); ++i) {
     for (const std::string& strip : systems[i].group.strips)
       system_[strip] = static_cast<std::uint8_t>(i);
+  }
+  for (const HeldSurface& surface : calibration.held) {
+    for (const std::string& strip : surface.strips) system_[strip] = fixed_;
   }
 }
 
@@ -21,6 +28,7 @@ std::uint8_t SystemLookup::of(std::uint16_t source, std::uint8_t channel) const 
     const auto found = system_.find(strip);
     if (found != system_.end()) return found->second;
   }
+  if (!several_) return 0;
   throw InputError("points of strip " + (source != 0 ? number : "'" + strip_ + "'") + ", channel " +
                    std::to_string(channel) + " belong to none of the systems of the calibration");
 }

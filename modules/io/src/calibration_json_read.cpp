@@ -20,6 +20,12 @@ namespace {
 
 using Node = JsonNode;
 
+std::vector<std::string> textsOf(const Node& list) {
+  std::vector<std::string> texts;
+  for (const Node& node : list.items()) texts.push_back(node.text());
+  return texts;
+}
+
 ParameterStatus statusOf(const Node& node) {
   const std::string text = node.text();
   for (const auto status :
@@ -176,6 +182,7 @@ void readControlPoints(const Node& points, CalibrationResult& result) {
   for (const Node& node : points.items()) {
     ControlPointFit fit;
     fit.id = node["id"].text();
+    if (node.has("component")) fit.component = node["component"].text();
     fit.strips = node["strips"].count();
     fit.sigma = node["sigma_m"].numberOrNan();
     fit.before = node["before_m"].numberOrNan();
@@ -183,6 +190,24 @@ void readControlPoints(const Node& points, CalibrationResult& result) {
     fit.expected_std = node["expected_std_m"].numberOrNan();
     fit.used = node["used"].truth();
     result.control_points.push_back(std::move(fit));
+  }
+}
+
+void readHeld(const Node& held, CalibrationResult& result) {
+  for (const Node& node : held.items()) {
+    HeldSurface& surface = result.held.emplace_back();
+    surface.name = node["name"].text();
+    surface.strips = textsOf(node["strips"]);
+    surface.std = node["std_m"].numberOrNan();
+    surface.offset_prior = node["offset_prior_m"].numberOrNan();
+    surface.correspondences = node["correspondences"].count();
+    surface.mean_before = node["mean_before_m"].numberOrNan();
+    surface.rms_before = node["rms_before_m"].numberOrNan();
+    surface.mean_after = node["mean_after_m"].numberOrNan();
+    surface.rms_after = node["rms_after_m"].numberOrNan();
+    surface.offset = node["offset_m"].numberOrNan();
+    surface.offset_std = node["offset_std_m"].numberOrNan();
+    surface.offset_determined = node["offset_determined"].truth();
   }
 }
 
@@ -211,12 +236,6 @@ void readRecoveredAttitude(const Node& passes, CalibrationResult& result) {
     }
     result.recovered_attitude.addPass(std::move(pass));
   }
-}
-
-std::vector<std::string> textsOf(const Node& list) {
-  std::vector<std::string> texts;
-  for (const Node& node : list.items()) texts.push_back(node.text());
-  return texts;
 }
 
 Eigen::Vector3d vectorOf(const Node& node) {
@@ -292,6 +311,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   if (root.has("residuals")) readResiduals(root["residuals"], result.residuals);
   if (root.has("control")) readControlFits(root["control"], result);
   if (root.has("control_points")) readControlPoints(root["control_points"], result);
+  if (root.has("held")) readHeld(root["held"], result);
   if (root.has("strip_offsets")) readStripOffsets(root["strip_offsets"], result);
   readStripErrors(root, result);
   if (root.has("recovered_attitude")) {

@@ -162,10 +162,30 @@ Json stripOffsetsOf(const CalibrationResult& result) {
   return strips;
 }
 
+Json heldOf(const CalibrationResult& result) {
+  Json held = Json::array();
+  for (const HeldSurface& surface : result.held) {
+    held.push_back(Json{{"name", surface.name},
+                        {"strips", surface.strips},
+                        {"std_m", number(surface.std)},
+                        {"offset_prior_m", number(surface.offset_prior)},
+                        {"correspondences", surface.correspondences},
+                        {"mean_before_m", number(surface.mean_before)},
+                        {"rms_before_m", number(surface.rms_before)},
+                        {"mean_after_m", number(surface.mean_after)},
+                        {"rms_after_m", number(surface.rms_after)},
+                        {"offset_m", number(surface.offset)},
+                        {"offset_std_m", number(surface.offset_std)},
+                        {"offset_determined", surface.offset_determined}});
+  }
+  return held;
+}
+
 Json controlPointsOf(const CalibrationResult& result) {
   Json points = Json::array();
   for (const ControlPointFit& fit : result.control_points) {
     points.push_back(Json{{"id", fit.id},
+                          {"component", fit.component},
                           {"strips", fit.strips},
                           {"sigma_m", number(fit.sigma)},
                           {"before_m", number(fit.before)},
@@ -223,6 +243,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   if (!result.residuals.edges.empty()) root["residuals"] = histogramOf(result.residuals);
   root["control"] = controlOf(result);
   root["control_points"] = controlPointsOf(result);
+  if (!result.held.empty()) root["held"] = heldOf(result);
   root["strip_offsets"] = stripOffsetsOf(result);
   writeStripErrors(result, root);
   if (!result.recovered_attitude.empty()) {

@@ -42,6 +42,9 @@ RasterReader::~RasterReader() = default;
 const RasterLayout& RasterReader::layout() const {
   return state_->layout;
 }
+PointFileInfo RasterReader::info() const {
+  return {};
+}
 int RasterReader::overviews() const {
   return 0;
 }

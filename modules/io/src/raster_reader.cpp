@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/raster_io.h>
 
 #include "gdal_handle.h"
@@ -84,6 +88,46 @@ const RasterLayout& RasterReader::layout() const {
   return state_->layout;
 }
 
+namespace {
+
+/// A unit of length as GDAL, ESRI or PROJ spell it.
+LengthUnit unitSpelled(std::string text, const fs::path& path) {
+  const std::pair<const char*, std::vector<std::string>> units[] = {
+      {"m", {"m", "metre", "meter", "metres", "meters"}},
+      {"ft", {"ft", "foot", "feet", "international foot"}},
+      {"us_ft", {"us_ft", "us-ft", "ftus", "us survey foot", "us_survey_foot", "foot_us"}}};
+  const std::string given = text;
+  for (char& letter : text)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  for (const auto& [unit, names] : units) {
+    if (std::find(names.begin(), names.end(), text) != names.end())
+      return lengthUnitNamed(unit, path.string());
+  }
+  throw InputError(path.string() + ": its values are in '" + given +
+                   "', which is no known unit of length");
+}
+
+}  // namespace
+
+PointFileInfo RasterReader::info() const {
+  const RasterGrid& grid = state_->layout.grid;
+  const CrsDescription crs = describeCrs(grid.crs);
+  PointFileInfo info;
+  info.path = state_->path;
+  info.point_count = grid.cells();
+  info.crs = grid.crs;
+  info.crs_kind = crs.kind;
+  info.units = unitsOfCrs(grid.crs);
+  info.units.vertical = crs.vertical.value_or(LengthUnit());
+  info.format = "GeoTIFF";
+  const char* unit = GDALGetRasterUnitType(GDALGetRasterBand(state_->dataset.get(), 1));
+  if (unit != nullptr && *unit != '\0') {
+    info.units.vertical = unitSpelled(unit, state_->path);
+    info.units.vertical_source = "the band";
+  }
+  return info;
+}
+
 int RasterReader::overviews() const {
   return GDALGetOverviewCount(GDALGetRasterBand(state_->dataset.get(), 1));
 }
@@ -91,15 +135,22 @@ int RasterReader::overviews() const {
 void RasterReader::read(std::size_t band, const RasterWindow& window, float* values) {
   detail::checkWindow(state_->layout, band, window);
   const GdalReports reports(state_->path);
+  const GDALRasterBandH handle =
+      GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1);
   const CPLErr outcome =
-      GDALRasterIO(GDALGetRasterBand(state_->dataset.get(), static_cast<int>(band) + 1), GF_Read,
-                   window.column, window.row, window.columns, window.rows, values, window.columns,
-                   window.rows, GDT_Float32, 0, 0);
+      GDALRasterIO(handle, GF_Read, window.column, window.row, window.columns, window.rows, values,
+                   window.columns, window.rows, GDT_Float32, 0, 0);
   reports.check(outcome == CE_None, "cannot be read");
   const float no_data = state_->no_data[band];
-  if (std::isnan(no_data)) return;
-  for (std::size_t i = 0; i < window.cells(); ++i)
-    if (values[i] == no_data) values[i] = RasterBand::kNoValue;
+  const double scale = GDALGetRasterScale(handle, nullptr);
+  const double offset = GDALGetRasterOffset(handle, nullptr);
+  const bool scaled = scale != 1.0 || offset != 0.0;
+  for (std::size_t i = 0; i < window.cells(); ++i) {
+    if (values[i] == no_data)
+      values[i] = RasterBand::kNoValue;
+    else if (scaled)
+      values[i] = static_cast<float>(scale * static_cast<double>(values[i]) + offset);
+  }
 }
 
 void RasterReader::read(std::size_t band, const RasterWindow& window, std::uint8_t* values) {

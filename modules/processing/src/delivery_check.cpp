@@ -6,11 +6,12 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/processing/delivery_check.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/scan_geometry.h>
+
+#include "delivery_messages.h"
 
 namespace pcl_als {
 namespace {
@@ -100,6 +101,7 @@ void BlockCheck::surveyBlock() {
     }
     compareWithFlight(strip, points);
   });
+  shareStrips();
   for (std::size_t strip = 0; strip < used_.size(); ++strip) {
     const int index = static_cast<int>(strip);
     const std::string& id = survey_.strips()[strip];
@@ -186,6 +188,7 @@ void BlockCheck::load(const PointSink& also) {
     }
   }
   const AreaIndex index(squares);
+  const bool apart = also && areShared(survey_.processes());
   uncovered_ = 0;
   survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
     if (!used_[static_cast<std::size_t>(strip)]) return;
@@ -194,33 +197,43 @@ void BlockCheck::load(const PointSink& also) {
       const Eigen::Vector3d position(run.chunk.x[row], run.chunk.y[row], run.chunk.z[row]);
       if (!position.allFinite()) continue;
       const std::vector<int>& holding = index.candidates(position);
-      if (holding.empty() && !also) continue;
+      if (holding.empty() && (!also || apart)) continue;
       const LidarReturn point = pointOf(strip, run, row, cursor);
       for (const int area : holding) targets[static_cast<std::size_t>(area)]->add(strip, point);
-      if (also) also(strip, point);
+      if (also && !apart) also(strip, point);
     }
   });
+  shareAreas();
   if (uncovered_ > 0)
     warnings_.push_back("the trajectory does not cover " + std::to_string(uncovered_) +
                         " of the points used: their scan angles are the file's");
+  if (apart) readForRoot(also);
 }
 
-std::size_t BlockCheck::loadedPoints() const {
-  std::size_t count = 0;
-  for (const AreaOffsets& area : offsets_) count += area.pointCount();
-  for (const AreaOffsets& area : control_offsets_) count += area.pointCount();
-  return count;
+void BlockCheck::readForRoot(const PointSink& sink) {
+  survey_.readRunsAtRoot([&](int strip, const SurveyReader::Run& run) {
+    if (!used_[static_cast<std::size_t>(strip)]) return;
+    std::size_t cursor = 0;
+    for (std::size_t row = run.from; row < run.to; ++row) {
+      const Eigen::Vector3d position(run.chunk.x[row], run.chunk.y[row], run.chunk.z[row]);
+      if (position.allFinite()) sink(strip, pointOf(strip, run, row, cursor));
+    }
+  });
 }
 
 void BlockCheck::findRoughness() {
   const std::size_t looked = std::min(areas_.size(), kRoughnessAreas);
-  std::vector<std::vector<double>> found(looked);
-  parallelFor(looked, settings_.threads, [&](std::size_t i) {
-    AreaOffsets& area = offsets_[i * areas_.size() / looked];
+  std::vector<std::vector<double>> found(target_shares_.count());
+  std::vector<bool> chosen(areas_.size(), false);
+  for (std::size_t i = 0; i < looked; ++i) chosen[i * areas_.size() / looked] = true;
+  forOwn(0, areas_.size(), [&](std::size_t i) {
+    if (!chosen[i]) return;
+    AreaOffsets& area = offsets_[i];
     area.build(settings_.limits, survey_.resolution());
     found[i] = area.roughness();
     area.release();
   });
+  shareVectors(survey_.processes(), target_shares_, found);
   std::vector<double> all;
   for (const auto& values : found) all.insert(all.end(), values.begin(), values.end());
   if (all.empty()) return;
@@ -231,15 +244,18 @@ void BlockCheck::findRoughness() {
 void BlockCheck::measureAreas() {
   samples_.assign(areas_.size(), std::vector<std::vector<OffsetSample>>(overlaps_.size()));
   milliseconds_.assign(areas_.size(), std::vector<double>(overlaps_.size(), 0.0));
+  counts_.assign(areas_.size(), std::vector<std::size_t>(courses_.size(), 0));
   std::vector<std::vector<double>> repeated(areas_.size());
-  parallelFor(areas_.size(), settings_.threads, [&](std::size_t i) {
+  forOwn(0, areas_.size(), [&](std::size_t i) {
     AreaOffsets& area = offsets_[i];
     const Clock::time_point start = Clock::now();
     area.build(settings_.limits, survey_.resolution());
     const double building = millisecondsSince(start);
-    for (std::size_t strip = 0; strip < courses_.size(); ++strip)
+    for (std::size_t strip = 0; strip < courses_.size(); ++strip) {
+      counts_[i][strip] = area.points(static_cast<int>(strip)).size();
       repeated[i].push_back(area.repeatedShare(static_cast<int>(strip)) *
-                            static_cast<double>(area.points(static_cast<int>(strip)).size()));
+                            static_cast<double>(counts_[i][strip]));
+    }
     for (std::size_t k = 0; k < overlaps_.size(); ++k) {
       const auto& [a, b] = overlaps_[k].strips;
       if (area.points(a).empty() || area.points(b).empty()) continue;
@@ -251,12 +267,13 @@ void BlockCheck::measureAreas() {
     }
     area.release();
   });
+  shareMeasurements(repeated);
   repeated_.assign(courses_.size(), 0.0);
   for (std::size_t strip = 0; strip < courses_.size(); ++strip) {
     double points = 0.0;
     for (std::size_t i = 0; i < areas_.size(); ++i) {
       repeated_[strip] += repeated[i][strip];
-      points += static_cast<double>(offsets_[i].points(static_cast<int>(strip)).size());
+      points += static_cast<double>(counts_[i][strip]);
     }
     repeated_[strip] /= std::max(points, 1.0);
   }
@@ -265,13 +282,15 @@ void BlockCheck::measureAreas() {
 void BlockCheck::measureControl(CheckedBlock& block) {
   const std::size_t count = settings_.control.size();
   if (count == 0) return;
-  std::vector<std::vector<ControlDifference>> found(count);
-  parallelFor(count, settings_.threads, [&](std::size_t i) {
+  std::vector<std::vector<ControlDifference>> found(target_shares_.count());
+  forOwn(areas_.size(), count, [&](std::size_t at) {
+    const std::size_t i = at - areas_.size();
     AreaOffsets& area = control_offsets_[i];
     area.build(settings_.limits, survey_.resolution());
-    found[i] = controlDifferences(area, settings_.control[i], survey_.strips());
+    found[at] = controlDifferences(area, settings_.control[i], survey_.strips());
     area.release();
   });
+  detail::shareDifferences(survey_.processes(), target_shares_, found);
   std::vector<ControlDifference> all;
   for (const auto& of_point : found) all.insert(all.end(), of_point.begin(), of_point.end());
   block.control =
@@ -291,10 +310,12 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
     samples.insert(samples.end(), found.begin(), found.end());
     samples_[i][k] = {};
     pair.milliseconds += milliseconds_[i][k];
-    if (offsets_[i].points(a).empty() || offsets_[i].points(b).empty()) continue;
+    const std::size_t of_a = counts_[i][static_cast<std::size_t>(a)],
+                      of_b = counts_[i][static_cast<std::size_t>(b)];
+    if (of_a == 0 || of_b == 0) continue;
     ++pair.areas;
-    pair.points_a += offsets_[i].points(a).size();
-    pair.points_b += offsets_[i].points(b).size();
+    pair.points_a += of_a;
+    pair.points_b += of_b;
   }
   pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
                                courses_[static_cast<std::size_t>(b)].direction());
@@ -310,19 +331,37 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
       pair.assessment.reason += "; " + text;
   }
   cells = cellMeans(samples);
-  if (pair.overlap_area >= settings_.minimum_overlap &&
-      pair.assessment.status != PairAssessment::Status::copy) {
-    PatchAlignmentSettings alignment;
-    alignment.points = kAlignmentPoints;
-    alignment.pairs = kAlignmentPairs;
-    alignment.resolution = survey_.resolution();
-    alignment.threads = settings_.threads;
-    pair.alignment = alignStrips(offsets_, a, b, alignment);
-  }
   pair.samples = thinned(std::move(samples), CheckedPair::kScatter);
   pair.memory_mb = 1e-6 * kBytesPerPoint * static_cast<double>(pair.points_a + pair.points_b);
   pair.milliseconds += millisecondsSince(start);
   return pair;
+}
+
+void BlockCheck::alignPairs(std::vector<CheckedPair>& pairs,
+                            const std::function<void(double)>& progress) {
+  PatchAlignmentSettings settings;
+  settings.points = kAlignmentPoints;
+  settings.pairs = kAlignmentPairs;
+  settings.resolution = survey_.resolution();
+  settings.threads = settings_.threads;
+  std::vector<double> costs;
+  for (const CheckedPair& pair : pairs)
+    costs.push_back(isAligned(pair) ? static_cast<double>(pair.points_a + pair.points_b) : 0.0);
+  const SharedItems shares(survey_.processes(), costs);
+  sharePairPoints(pairs, shares);
+  doTogether(survey_.processes(), [&] {
+    std::size_t done = 0;
+    for (const std::size_t k : shares.ownItems()) {
+      const Clock::time_point start = Clock::now();
+      const auto& [a, b] = overlaps_[k].strips;
+      if (isAligned(pairs[k])) pairs[k].alignment = alignStrips(offsets_, a, b, settings);
+      pairs[k].milliseconds += millisecondsSince(start);
+      ++done;
+      if (progress)
+        progress(static_cast<double>(done) / static_cast<double>(shares.ownItems().size()));
+    }
+  });
+  detail::shareAlignments(survey_.processes(), shares, pairs);
 }
 
 CheckedBlock BlockCheck::assess(const std::function<void(double)>& progress) {
@@ -339,9 +378,10 @@ CheckedBlock BlockCheck::assess(const std::function<void(double)>& progress) {
     const CheckedPair& pair = block.pairs.back();
     if (pair.assessment.status == PairAssessment::Status::judged)
       means.push_back({pair.a, pair.b, std::move(cells)});
-    if (pair.alignment) motions.push_back({pair.a, pair.b, *pair.alignment});
-    if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(overlaps_.size()));
   }
+  alignPairs(block.pairs, progress);
+  for (const CheckedPair& pair : block.pairs)
+    if (pair.alignment) motions.push_back({pair.a, pair.b, *pair.alignment});
   block.triangles = closeTriangles(means);
   block.motions = closeMotions(motions);
   for (std::size_t strip = 0; strip < courses_.size(); ++strip) {

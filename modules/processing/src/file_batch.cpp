@@ -123,7 +123,8 @@ void FileBatch::readRecords(std::vector<std::string>& results) {
 }
 
 std::vector<std::string> FileBatch::run(const Work& work,
-                                        const std::function<void(double)>& progress) {
+                                        const std::function<void(double)>& progress,
+                                        const SharedItems* given) {
   std::vector<std::string> results(inputs_.size());
   if (options_.resume) readRecords(results);
   std::vector<double> costs;
@@ -132,7 +133,7 @@ std::vector<std::string> FileBatch::run(const Work& work,
     const auto size = fs::file_size(inputs_[file], absent);
     costs.push_back(absent || kept_[file] != 0 ? 0.0 : static_cast<double>(size));
   }
-  const SharedItems items(options_.processes, costs);
+  const SharedItems items = given == nullptr ? SharedItems(options_.processes, costs) : *given;
   double all = 1e-9, done = 0.0;
   for (const std::size_t file : items.ownItems()) all += costs[file];
   doTogether(options_.processes, [&] {

@@ -158,7 +158,8 @@ IntegerBiasCorrection::Layout layoutOf(const Job& job, const LasFile& file) {
   layout.scale = metres.scale;
   layout.offset = metres.offset;
   layout.source_position = early ? kSource : kLaterSource;
-  if (!job.calibration.systems.empty()) setChannel(job, file, layout);
+  if (!job.calibration.systems.empty() || !job.calibration.channel_field.empty())
+    setChannel(job, file, layout);
   return layout;
 }
 
@@ -290,7 +291,14 @@ std::string describeBiases(const CalibrationResult& calibration) {
   for (const SystemEstimate& system : calibration.systems)
     text += (text.empty() ? "" : "; ") + system.group.name + ": " +
             textOf(system.values().head<kSystemParameterCount>());
-  return text.empty() ? textOf(calibration.biases()) : text;
+  if (text.empty()) text = textOf(calibration.biases());
+  for (const HeldSurface& surface : calibration.held) {
+    for (const std::string& strip : surface.strips)
+      text +=
+          (&strip == &surface.strips.front() ? "; unchanged, because held fixed: strips " : ", ") +
+          strip;
+  }
+  return text;
 }
 
 FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& output,

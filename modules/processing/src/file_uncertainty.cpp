@@ -145,9 +145,14 @@ std::vector<Eigen::Vector3f> FileUncertainty::normalsOf(const LasRecordBlock& bl
 std::size_t FileUncertainty::systemOf(const std::byte* record) const {
   if (correction_.systems().single()) return 0;
   const auto channel = loadLas<std::uint8_t>(record + layout_.channel_position);
-  return correction_.systems().of(
-      loadLas<std::uint16_t>(record + layout_.source_position),
-      static_cast<std::uint8_t>(channel >> layout_.channel_shift & layout_.channel_mask));
+  const auto source = loadLas<std::uint16_t>(record + layout_.source_position);
+  const std::uint8_t system = correction_.systems().of(
+      source, static_cast<std::uint8_t>(channel >> layout_.channel_shift & layout_.channel_mask));
+  if (system == correction_.systems().fixed())
+    throw InputError("strip " + std::to_string(source) +
+                     " was held fixed by the calibration, which therefore states no standard "
+                     "deviations of its points");
+  return system;
 }
 
 void FileUncertainty::store(const LasRecordBlock& block,

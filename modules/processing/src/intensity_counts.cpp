@@ -19,6 +19,23 @@ void IntensityCounts::merge(const IntensityCounts& other) {
   for (const auto& [key, count] : other.uncovered) uncovered[key] += count;
 }
 
+void IntensityCounts::put(ByteWriter& out) const {
+  out.put(status).put(points).put(zeros).put(saturated).put(excluded).put(clipped);
+  out.put(rounded_to_zero).put(labels).put(uncovered.size());
+  for (const auto& [key, count] : uncovered) out.put(key.first).put(key.second).put(count);
+}
+
+void IntensityCounts::get(ByteReader& in) {
+  in.get(status).get(points).get(zeros).get(saturated).get(excluded).get(clipped);
+  in.get(rounded_to_zero).get(labels);
+  uncovered.clear();
+  for (auto left = in.take<std::size_t>(); left > 0; --left) {
+    const auto label = in.take<std::size_t>();
+    const auto reason = in.take<LeftOutReason>();
+    in.get(uncovered[{label, reason}]);
+  }
+}
+
 LeftOutReason IntensityRun::whyUncovered(std::size_t file, double time) const {
   if (time == 0.0) return LeftOutReason::zero_time;
   switch (trajectory_->coverage(times_[file](time))) {

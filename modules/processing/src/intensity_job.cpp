@@ -12,9 +12,9 @@ namespace {
 /// The job: what its phases share.
 class IntensityJob {
  public:
-  IntensityJob(const IntensityOptions& options, IntensityRun& run, IntensityResult& result,
-               ProgressReport& progress)
-      : options_(options), run_(run), result_(result), progress_(progress) {}
+  IntensityJob(const std::vector<std::string>& paths, const IntensityOptions& options,
+               IntensityRun& run, IntensityResult& result, ProgressReport& progress)
+      : paths_(paths), options_(options), run_(run), result_(result), progress_(progress) {}
 
   void useStored(const StoredRadiometry& stored);
   void compareStrips();
@@ -34,11 +34,16 @@ class IntensityJob {
     progress_.remark("warning: " + text);
   }
   std::string whyUnreliable(const LostIntensities& lost) const;
+  std::string writeFile(std::size_t file, const std::string& output,
+                        const std::function<void(double)>& fraction);
+  void showOthers();
 
+  const std::vector<std::string>& paths_;
   const IntensityOptions& options_;
   IntensityRun& run_;
   IntensityResult& result_;
   ProgressReport& progress_;
+  std::vector<char> seen_;  ///< by file: written by this process
 };
 
 void IntensityJob::useStored(const StoredRadiometry& stored) {
@@ -72,14 +77,52 @@ void IntensityJob::useTargets() {
     warn("no reflectance is written: no target has enough points");
 }
 
+std::string IntensityJob::writeFile(std::size_t file, const std::string& output,
+                                    const std::function<void(double)>& fraction) {
+  IntensityOutcome outcome(run_.strips().size());
+  if (isRoot(options_.batch.processes)) outcome.seen = result_.outcome.seen;
+  writeCorrected(run_, file, output, options_.output, fraction, outcome);
+  seen_[file] = 1;
+  ByteWriter out;
+  outcome.counts[file].put(out);
+  outcome.statistics.put(out);
+  for (const IntensityHistogram& histogram : outcome.histograms) histogram.put(out);
+  return out.take();
+}
+
+/// Positions of points that this process did not write, for pictures.
+void IntensityJob::showOthers() {
+  if (!result_.outcome.seen || !isRoot(options_.batch.processes)) return;
+  for (std::size_t file = 0; file < run_.files(); ++file)
+    if (seen_[file] == 0) run_.visit(file, result_.outcome.seen);
+}
+
 void IntensityJob::write(const std::vector<std::string>& outputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    progress_.begin("Writing " + outputs[i]);
-    writeCorrected(
-        run_, i, outputs[i], options_.output,
-        [this](double fraction) { progress_.advance(fraction); }, result_.outcome);
-    progress_.end(grouped(result_.outcome.counts[i].points) + " points");
+  BatchOptions options = options_.batch;
+  options.joint = true;
+  FileBatch batch(paths_, outputs, options);
+  seen_.assign(run_.files(), 0);
+  const bool one = outputs.size() == 1;
+  progress_.begin("Writing " + (one ? outputs.front() : counted(outputs.size(), "file")));
+  const std::vector<std::string> results = batch.run(
+      [&](std::size_t file, const std::function<void(double)>& fraction) {
+        return writeFile(file, outputs[file], fraction);
+      },
+      [this](double fraction) { progress_.advance(fraction); }, &run_.shares());
+  IntensityOutcome& all = result_.outcome;
+  all.counts.resize(run_.files());
+  for (std::size_t file = 0; file < run_.files(); ++file) {
+    ByteReader in(results[file]);
+    all.counts[file].get(in);
+    IntensityStatistics statistics(run_.strips().size());
+    statistics.get(in);
+    all.statistics.merge(statistics);
+    for (IntensityHistogram& histogram : all.histograms) histogram.add(in);
   }
+  doTogether(options.processes, [this] { showOthers(); });
+  progress_.end(grouped(result_.counts().points) + " points");
+  if (batch.keptCount() > 0)
+    progress_.remark(counted(batch.keptCount(), "file") + " complete from an earlier run");
 }
 
 std::string IntensityJob::whyUnreliable(const LostIntensities& lost) const {
@@ -146,9 +189,11 @@ IntensityResult correctIntensity(const std::vector<std::string>& paths,
                                  const IntensityOptions& options,
                                  const ProgressCallback& callback) {
   requireOutputs(paths, outputs);
-  ProgressReport progress(callback);
+  ProgressReport progress(sharedProgress(options.batch.processes, callback));
   progress.begin("Reading " + counted(paths.size(), "file"));
-  auto run = std::make_unique<IntensityRun>(paths, std::move(flight), options.settings);
+  IntensitySettings settings = options.settings;
+  settings.processes = options.batch.processes;
+  auto run = std::make_unique<IntensityRun>(paths, std::move(flight), settings);
   progress.end(counted(run->strips().size(), "strip"));
   for (const std::string& remark : run->remarks()) progress.remark(remark);
   IntensityResult result;
@@ -156,7 +201,7 @@ IntensityResult correctIntensity(const std::vector<std::string>& paths,
   if (options.observe) result.outcome.seen = options.observe(*run);
   result.warnings = run->warnings();
   for (const Warning& warning : result.warnings) progress.remark("warning: " + warning.text);
-  IntensityJob job(options, *run, result, progress);
+  IntensityJob job(paths, options, *run, result, progress);
   if (options.stored) job.useStored(*options.stored);
   job.compareStrips();
   job.useTargets();

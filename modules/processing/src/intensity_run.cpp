@@ -6,20 +6,32 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
-#include <pcl_als/common/statistics.h>
+#include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/time_reference.h>
-#include <pcl_als/las/las_sample.h>
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/survey/strip_arrangement.h>
-#include <pcl_als/trajectory/trajectory_plausibility.h>
+
+#include "survey_messages.h"
 
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kProbes = 8;      ///< windows sampled for the spacing of points
 constexpr double kPointsPerCell = 6.0;  ///< of the sparsest strip
 constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxes hold, roughly
+
+std::vector<SurveyedFile> surveyInShares(Communicator* processes, const SharedItems& shares,
+                                         const std::vector<std::string>& paths) {
+  std::vector<SurveyedFile> files(paths.size());
+  doTogether(processes, [&] {
+    for (const std::size_t file : shares.ownItems()) files[file] = surveyFile(paths[file]);
+  });
+  shareValues(
+      processes, shares, files,
+      [](ByteWriter& out, const SurveyedFile& file) { detail::put(out, file); },
+      [](ByteReader& in, SurveyedFile& file) { detail::get(in, file); });
+  return files;
+}
 
 }  // namespace
 
@@ -39,18 +51,13 @@ IntensityRun::IntensityRun(const std::vector<std::string>& paths,
 
 void IntensityRun::openFiles(const std::vector<std::string>& paths) {
   double largest = 0.0;
-  IntensityInput::Options options;
-  options.gain_control = settings_.gain_control;
-  options.threads = settings_.threads;
-  if (!settings_.find_surfaces) options.window = IntensityInput::kSmallWindow;
-  for (const std::string& path : paths) {
-    inputs_.push_back(IntensityInput::open(path, options));
-    const IntensitySurvey& survey = inputs_.back()->survey();
-    if (!survey.has_time) {
-      throw InputError(path + ": point format " +
-                       std::to_string(inputs_.back()->las()->layout().format) +
-                       " has no GPS time; the range of a point needs it");
-    }
+  std::vector<double> costs;
+  for (const std::string& path : paths) costs.push_back(detail::readingCost(path));
+  shares_ = SharedItems(settings_.processes, costs);
+  shareInputs(paths);
+  for (std::size_t file = 0; file < paths.size(); ++file) {
+    const std::string& path = paths[file];
+    const IntensitySurvey& survey = inputs_[file]->survey();
     if (!survey.sources.sources.empty() && survey.largest == 0.0)
       throw InputError(path + ": all intensities are zero; there is nothing to correct");
     largest = std::max(largest, survey.largest);
@@ -63,11 +70,9 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
 void IntensityRun::arrangeStrips(const std::vector<std::string>& paths) {
   StripChoice choice = settings_.strips;
   choice.keep_timeless = true;  // they are counted among the points without a trajectory
+  if (choice.split) surveyed_ = surveyInShares(settings_.processes, shares_, paths);
   for (std::size_t file = 0; file < files(); ++file) {
-    if (choice.split) {
-      surveyed_.push_back(surveyFile(paths[file]));
-      continue;
-    }
+    if (choice.split) continue;
     surveyed_.push_back({inputs_[file]->survey().sources, {}, {}, {}});
     for (const PointSource& source : surveyed_.back().sources.sources)
       surveyed_.back().tracks[source.id];
@@ -128,77 +133,6 @@ void IntensityRun::alignTimes() {
   if (objection.empty()) return;
   if (met == 0 || !settings_.keep_uncovered) throw InputError(objection);
   remarks_.push_back(objection + ": left as it is");
-}
-
-/// Ranges from a trajectory of another flight, or in other units, are numbers without meaning.
-void IntensityRun::checkTrajectory() {
-  // Positions alone enter the intensities.
-  TrajectoryPlausibility check(trajectory_, TrajectoryPlausibility::Attitude::not_used);
-  const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
-  for (const std::string& strip : strips()) check.addStrip(strip);
-  for (std::size_t file = 0; file < files(); ++file) {
-    StripArrangement::Sorter sorter(*arrangement_, file);
-    const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point,
-                         float scan_angle) {
-      const int strip = arrangement_->labels()[sorter.label(source, time)].index;
-      if (strip < 0) return;
-      check.add(strip, times_[file](time), point, scan_angle);
-      check.addTime(strip, times_[file](time));
-    };
-    if (const LasFile* las = inputs_[file]->las()) {
-      samplePoints(*las, size, [&add](const PointChunk& chunk) {
-        for (std::size_t i = 0; i < chunk.size(); ++i) {
-          add(chunk.point_source_id[i], chunk.gps_time[i], {chunk.x[i], chunk.y[i], chunk.z[i]},
-              chunk.scan_angle[i]);
-        }
-      });
-      continue;
-    }
-    const Strip<PointLidar>& strip = *inputs_[file]->strip();
-    const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / size.points());
-    for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
-      const PointLidar& point = (*strip.cloud)[i];
-      add(point.point_source_id, point.gps_time,
-          strip.frame.origin + point.getVector3fMap().cast<double>(), point.scan_angle);
-    }
-  }
-  warnings_ = check.check(settings_.force);
-}
-
-/// The radius of each strip's surfaces: from the spacing of its points in some windows, and at
-/// least half the footprint.
-void IntensityRun::chooseRadii() {
-  std::vector<std::vector<double>> found(strips().size());
-  for (std::size_t file = 0; settings_.find_surfaces && file < files(); ++file) {
-    const std::size_t windows = inputs_[file]->windows();
-    const std::size_t probes = std::min(windows, kProbes);
-    for (std::size_t probe = 0; probe < probes; ++probe) {
-      IntensityWindow window;
-      WindowRequest request;
-      request.arrangement = &*arrangement_;
-      request.file = file;
-      inputs_[file]->load(probe * windows / probes, request, window);
-      std::size_t cursor = 0;
-      for (const auto& [strip, points] : window.surface_points) {
-        double radius = LocalSurfaces::radiusFor(points);
-        const auto first = std::find_if(window.points.begin(), window.points.end(),
-                                        [&, wanted = strip](const IntensityPoint& p) {
-                                          return arrangement_->labels()[p.label].index == wanted;
-                                        });
-        SensorPose pose;
-        if (trajectory_->poseAt(times_[file](first->time), pose, cursor)) {
-          const double range = (pose.position - first->position).norm();
-          radius = std::max(radius, 0.5e-3 * settings_.footprint_mrad * range);
-        }
-        found[static_cast<std::size_t>(strip)].push_back(radius);
-      }
-    }
-  }
-  for (std::vector<double>& radii : found) {
-    double radius = radii.empty() ? 2.0 : medianInPlace(radii);
-    if (settings_.surfaces.radius > 0.0) radius = settings_.surfaces.radius;
-    radii_.push_back(radius);
-  }
 }
 
 /// Cells contain some points of the sparsest strip; a share of the cells is left out to bound
@@ -302,37 +236,52 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
   }
 }
 
-OverlapResult IntensityRun::adjust(const std::function<void(double)>& progress) {
+RadiometricCells IntensityRun::cellsOf(std::size_t file,
+                                       const std::function<void(double)>& progress) const {
   RadiometricCells cells(cell_size_, one_cell_in_);
-  std::size_t all = 0, done = 0;
-  for (const auto& input : inputs_) all += input->windows();
   // Windows are merged in their order, a few at a time: threads change no sum.
-  const std::size_t at_once = 2 * threadCount(settings_.threads);
-  for (std::size_t file = 0; file < files(); ++file) {
-    const std::size_t windows = inputs_[file]->windows();
-    for (std::size_t first = 0; first < windows; first += at_once) {
-      const std::size_t count = std::min(at_once, windows - first);
-      std::vector<RadiometricCells> parts(count, RadiometricCells(cell_size_, one_cell_in_));
-      parallelFor(count, settings_.threads, [&](std::size_t part) {
-        EvaluatedWindow found;
-        WindowChoice choice;
-        choice.wanted = [&](double x, double y) { return parts[part].wants(x, y); };
-        evaluate(file, first + part, found, choice);
-        for (std::size_t i = 0; i < found.window.points.size(); ++i) {
-          const IntensityPoint& point = found.window.points[i];
-          if (found.strip[i] < 0) continue;
-          const Eigen::Vector3d& place = point.position;
-          parts[part].add(found.strip[i], place.x(), place.y(),
-                          static_cast<double>(point.intensity) / found.divisor[i],
-                          usable(point.intensity) && point.isSingle(), found.radiometry[i],
-                          found.surfaces[i]);
-        }
-      });
-      for (const RadiometricCells& part : parts) cells.merge(part);
-      done += count;
-      progress(static_cast<double>(done) / static_cast<double>(all));
-    }
+  const std::size_t at_once = 2 * threadCount(settings_.threads),
+                    windows = inputs_[file]->windows();
+  for (std::size_t first = 0; first < windows; first += at_once) {
+    const std::size_t count = std::min(at_once, windows - first);
+    std::vector<RadiometricCells> parts(count, RadiometricCells(cell_size_, one_cell_in_));
+    parallelFor(count, settings_.threads, [&](std::size_t part) {
+      EvaluatedWindow found;
+      WindowChoice choice;
+      choice.wanted = [&](double x, double y) { return parts[part].wants(x, y); };
+      evaluate(file, first + part, found, choice);
+      for (std::size_t i = 0; i < found.window.points.size(); ++i) {
+        const IntensityPoint& point = found.window.points[i];
+        if (found.strip[i] < 0) continue;
+        const Eigen::Vector3d& place = point.position;
+        parts[part].add(found.strip[i], place.x(), place.y(),
+                        static_cast<double>(point.intensity) / found.divisor[i],
+                        usable(point.intensity) && point.isSingle(), found.radiometry[i],
+                        found.surfaces[i]);
+      }
+    });
+    for (const RadiometricCells& part : parts) cells.merge(part);
+    progress(static_cast<double>(first + count) / static_cast<double>(windows));
   }
+  return cells;
+}
+
+OverlapResult IntensityRun::adjust(const std::function<void(double)>& progress) {
+  std::vector<RadiometricCells> of_files(files(), RadiometricCells(cell_size_, one_cell_in_));
+  const std::vector<std::size_t>& own = shares_.ownItems();
+  doTogether(settings_.processes, [&] {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      of_files[own[i]] = cellsOf(own[i], [&](double part) {
+        progress((static_cast<double>(i) + part) / static_cast<double>(own.size()));
+      });
+    }
+  });
+  shareValues(
+      settings_.processes, shares_, of_files,
+      [](ByteWriter& out, const RadiometricCells& cells) { cells.put(out); },
+      [](ByteReader& in, RadiometricCells& cells) { cells.get(in); });
+  RadiometricCells cells(cell_size_, one_cell_in_);
+  for (const RadiometricCells& part : of_files) cells.merge(part);
   OverlapResult overlaps =
       adjustOverlaps(cells.shared(), cell_size_, strips(), model_, settings_.overlaps);
   model_ = overlaps.model;
@@ -340,28 +289,40 @@ OverlapResult IntensityRun::adjust(const std::function<void(double)>& progress) 
   return overlaps;
 }
 
-ReferenceResult IntensityRun::refer(std::vector<ReferenceTarget> targets, double radius) {
-  ReferenceCalibration calibration(std::move(targets), radius);
-  for (std::size_t file = 0; file < files(); ++file) {
-    for (std::size_t window = 0; window < inputs_[file]->windows(); ++window) {
-      EvaluatedWindow found;
-      WindowChoice choice;
-      choice.wanted = [&](double x, double y) { return calibration.touches(x, y, x, y); };
-      evaluate(file, window, found, choice);
-      for (std::size_t i = 0; i < found.window.points.size(); ++i) {
-        const IntensityPoint& point = found.window.points[i];
-        if (found.radiometry[i].status != RadiometryStatus::surface || !usable(point.intensity) ||
-            !point.isSingle())
-          continue;
-        const Eigen::Vector3d& place = point.position;
-        const double divisor =
-            found.divisor[i] * estimated_gains_[static_cast<std::size_t>(found.strip[i])];
-        calibration.add(
-            place.x(), place.y(),
-            static_cast<double>(point.intensity) * found.radiometry[i].factor / divisor);
-      }
+std::vector<Eigen::Vector3d> IntensityRun::targetPoints(
+    std::size_t file, const ReferenceCalibration& calibration) const {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t window = 0; window < inputs_[file]->windows(); ++window) {
+    EvaluatedWindow found;
+    WindowChoice choice;
+    choice.wanted = [&](double x, double y) { return calibration.touches(x, y, x, y); };
+    evaluate(file, window, found, choice);
+    for (std::size_t i = 0; i < found.window.points.size(); ++i) {
+      const IntensityPoint& point = found.window.points[i];
+      if (found.radiometry[i].status != RadiometryStatus::surface || !usable(point.intensity) ||
+          !point.isSingle())
+        continue;
+      const Eigen::Vector3d& place = point.position;
+      const double divisor =
+          found.divisor[i] * estimated_gains_[static_cast<std::size_t>(found.strip[i])];
+      points.emplace_back(
+          place.x(), place.y(),
+          static_cast<double>(point.intensity) * found.radiometry[i].factor / divisor);
     }
   }
+  return points;
+}
+
+ReferenceResult IntensityRun::refer(std::vector<ReferenceTarget> targets, double radius) {
+  ReferenceCalibration calibration(std::move(targets), radius);
+  std::vector<std::vector<Eigen::Vector3d>> points(files());
+  doTogether(settings_.processes, [&] {
+    for (const std::size_t file : shares_.ownItems())
+      points[file] = targetPoints(file, calibration);
+  });
+  shareVectors(settings_.processes, shares_, points);
+  for (const std::vector<Eigen::Vector3d>& of_file : points)
+    for (const Eigen::Vector3d& point : of_file) calibration.add(point.x(), point.y(), point.z());
   ReferenceResult reference = calibration.solve();
   constant_ = reference.constant;
   return reference;

@@ -6,6 +6,7 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/processing/land_cover_job.h>
 
 namespace pcl_als {
@@ -51,15 +52,18 @@ class LandCover {
       if (!options_.checks.empty()) check(classifier, bands);
       if (!options_.points.empty()) classifyPoints(classifier);
     }
+    doTogether(options_.batch.processes, [] {});  // before the first one removes the rasters
     return std::move(result_);
   }
 
  private:
+  void choosePath();
   void makeRasters();
   void requireTerrain();
   GaussianModel model(BandReader& bands);
   GaussianModel trained(BandReader& bands);
   void classify(const MaximumLikelihood& classifier, BandReader& bands);
+  void writeMap(const MaximumLikelihood& classifier, BandReader& bands);
   void reportCover(const GaussianModel& model);
   void check(const MaximumLikelihood& classifier, BandReader& bands);
   void classifyPoints(const MaximumLikelihood& classifier);
@@ -76,14 +80,25 @@ class LandCover {
   LandCoverResult result_;
 };
 
-void LandCover::makeRasters() {
-  RasterOptions options;
-  if (!options_.grids.empty()) {
-    raster_path_ = options_.grids;
-  } else {
-    // Beside the output, where there is space for it; it is removed when the job ends in any way.
+/// The file of the rasters; one that is not kept is beside the output, where there is space for
+/// it, and removed when the job ends in any way.
+void LandCover::choosePath() {
+  Communicator* const processes = options_.batch.processes;
+  raster_path_ = options_.grids;
+  if (!options_.grids.empty()) return;
+  if (isRoot(processes)) {
     scratch_.emplace(options_.map);
     raster_path_ = scratch_->temporaryPath();
+  }
+  if (areShared(processes)) raster_path_ = processes->gatherAll(raster_path_.string()).front();
+}
+
+void LandCover::makeRasters() {
+  Communicator* const processes = options_.batch.processes;
+  doTogether(processes, [] {});
+  choosePath();
+  RasterOptions options;
+  if (options_.grids.empty()) {
     options.named = options_.map;
     options.overviews = options.cloud_optimised = options.compress = false;
   }
@@ -93,15 +108,22 @@ void LandCover::makeRasters() {
   layout.bands = SurfaceAccumulator::bandNames();
   progress_.begin("Rasters of " + grouped(result_.grid.columns) + " x " +
                   grouped(result_.grid.rows) + " cells");
-  RasterWriter writer(raster_path_, layout, options);
-  result_.rasters = rasterizeStrips(files_, options_.surface, options_.tile, options_.threads,
-                                    writer, [&](double fraction) { progress_.advance(fraction); });
+  std::optional<RasterWriter> writer;
+  doTogether(processes, [&] {
+    if (isRoot(processes)) writer.emplace(raster_path_, layout, options);
+  });
+  result_.rasters = rasterizeStrips(
+      files_, result_.grid, options_.surface, options_.tile, options_.threads,
+      writer ? &*writer : nullptr, [&](double fraction) { progress_.advance(fraction); },
+      processes);
   if (result_.rasters.points == 0) {
     throw InputError(files_.paths.front().string() + ": no point lies in the rasters",
                      Remedy::extent);
   }
   if (result_.rasters.terrain.measured == 0) requireTerrain();
-  writer.commit();
+  doTogether(processes, [&] {
+    if (writer) writer->commit();
+  });
   progress_.end(grouped(result_.rasters.points) + " of " + grouped(files_.points) + " points");
   progress_.remark(describe("surface", result_.rasters.surface));
   progress_.remark(describe("terrain", result_.rasters.terrain));
@@ -147,7 +169,8 @@ GaussianModel LandCover::model(BandReader& bands) {
   return model;
 }
 
-void LandCover::classify(const MaximumLikelihood& classifier, BandReader& bands) {
+/// The map, by the first process: it takes less time than the sending of its parts would.
+void LandCover::writeMap(const MaximumLikelihood& classifier, BandReader& bands) {
   RasterLayout layout;
   layout.grid = bands.grid();
   layout.type = RasterLayout::Type::byte;
@@ -155,9 +178,6 @@ void LandCover::classify(const MaximumLikelihood& classifier, BandReader& bands)
   layout.legend = legendOf(classifier.model());
   RasterOptions options;
   options.threads = options_.threads;
-  std::string names;
-  for (const std::string& band : bands_) names += (names.empty() ? "" : ", ") + band;
-  progress_.begin("Classifying by " + names);
   RasterWriter map(options_.map, layout, options);
   std::optional<RasterWriter> posterior;
   if (!options_.posterior.empty()) {
@@ -171,6 +191,23 @@ void LandCover::classify(const MaximumLikelihood& classifier, BandReader& bands)
                     [&](double fraction) { progress_.advance(fraction); });
   if (posterior) posterior->commit();
   map.commit();
+}
+
+void LandCover::classify(const MaximumLikelihood& classifier, BandReader& bands) {
+  Communicator* const processes = options_.batch.processes;
+  std::string names;
+  for (const std::string& band : bands_) names += (names.empty() ? "" : ", ") + band;
+  progress_.begin("Classifying by " + names);
+  doTogether(processes, [&] {
+    if (isRoot(processes)) writeMap(classifier, bands);
+  });
+  if (areShared(processes)) {
+    CoverCounts& cover = result_.cover;
+    const ByteWriter own =
+        ByteWriter().put(cover.cells).put(cover.rejected).put(cover.without_values);
+    const std::string of_root = processes->gatherAll(own.bytes()).front();
+    ByteReader(of_root).get(cover.cells).get(cover.rejected).get(cover.without_values);
+  }
   progress_.end(grouped(result_.grid.cells()) + " cells");
   reportCover(classifier.model());
 }
@@ -192,15 +229,30 @@ void LandCover::check(const MaximumLikelihood& classifier, BandReader& bands) {
 
 void LandCover::classifyPoints(const MaximumLikelihood& classifier) {
   PointClasses classes(std::make_shared<const MaximumLikelihood>(classifier), raster_path_);
-  for (std::size_t i = 0; i < files_.paths.size(); ++i) {
-    const fs::path& path = files_.paths[i];
-    progress_.begin("Classifying the points of " + path.filename().string());
-    const PointClassCounts counts =
-        classifyPointFile(path, options_.points / path.filename(), classes, files_.arranged.get(),
-                          i, options_.threads);
-    progress_.end(grouped(counts.points) + " points, " + grouped(counts.unclassified) +
-                  " without a class");
+  std::vector<std::string> inputs;
+  for (const fs::path& path : files_.paths) inputs.push_back(path.string());
+  BatchOptions options = options_.batch;
+  options.joint = true;
+  FileBatch batch(inputs, outputsIn(options_.points, inputs), options);
+  progress_.begin("Classifying the points of " + counted(inputs.size(), "file"));
+  const std::vector<std::string> results = batch.run(
+      [&](std::size_t file, const std::function<void(double)>& fraction) {
+        const PointClassCounts counts =
+            classifyPointFile(inputs[file], batch.outputs()[file], classes, files_.arranged.get(),
+                              file, options_.threads);
+        fraction(1.0);
+        return ByteWriter().put(counts.points).put(counts.unclassified).take();
+      },
+      [this](double fraction) { progress_.advance(fraction); });
+  PointClassCounts all{0, 0};
+  for (const std::string& result : results) {
+    ByteReader in(result);
+    all.points += in.take<std::uint64_t>();
+    all.unclassified += in.take<std::uint64_t>();
   }
+  progress_.end(grouped(all.points) + " points, " + grouped(all.unclassified) + " without a class");
+  if (batch.keptCount() > 0)
+    progress_.remark(counted(batch.keptCount(), "file") + " complete from an earlier run");
 }
 
 void checkOptions(const LandCoverOptions& options) {
@@ -217,7 +269,7 @@ void checkOptions(const LandCoverOptions& options) {
 LandCoverResult classifyLandCover(const RasterInput& files, const LandCoverOptions& options,
                                   const ProgressCallback& callback) {
   checkOptions(options);
-  ProgressReport progress(callback);
+  ProgressReport progress(sharedProgress(options.batch.processes, callback));
   return LandCover(files, options, progress).run();
 }
 

@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <limits>
-#include <mutex>
 #include <optional>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/memory.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_flag.h>
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/strip_rasters.h>
@@ -44,6 +44,17 @@ int threadsFor(const RasterTile& tile, int threads) {
   return std::max(1, static_cast<int>(std::min<double>(threadCount(threads), room)));
 }
 
+/// The values of a tile, band by band.
+struct TileResult {
+  std::vector<std::vector<float>> bands;  ///< until they are written
+  RasterCounts counts;
+
+  void write(const RasterWindow& window, RasterWriter& writer) {
+    for (std::size_t i = 0; i < bands.size(); ++i) writer.write(i, window, bands[i].data());
+    bands.clear();
+  }
+};
+
 /// One tile: its points, its bands, its counts.
 class TileWork {
  public:
@@ -60,25 +71,23 @@ class TileWork {
         if (!sorter || isUsed(*sorter, chunk, i)) add(chunk, i);
   }
 
-  void write(RasterWriter& writer, std::mutex& writing) {
+  /// The values of the bands in the tile without its margin, and the counts.
+  void compute(TileResult& tile) {
     const SurfaceResult result = accumulator_.compute();
     const RasterWindow& window = tile_.window;
-    std::vector<std::vector<float>> bands;
     for (const RasterBand& band : result.raster.bands) {
-      bands.emplace_back(window.cells());
+      tile.bands.emplace_back(window.cells());
       for (int row = 0; row < window.rows; ++row)
         std::copy_n(&band.values[inner(0, row)], window.columns,
-                    &bands.back()[static_cast<std::size_t>(row) * window.columns]);
+                    &tile.bands.back()[static_cast<std::size_t>(row) * window.columns]);
     }
     for (int row = 0; row < window.rows; ++row)
       for (int column = 0; column < window.columns; ++column) {
         counts_.surface.add(result.surface_source[inner(column, row)]);
         counts_.terrain.add(result.terrain_source[inner(column, row)]);
       }
-    const std::lock_guard<std::mutex> lock(writing);
-    for (std::size_t i = 0; i < bands.size(); ++i) writer.write(i, window, bands[i].data());
+    tile.counts = counts_;
   }
-  const RasterCounts& counts() const { return counts_; }
 
  private:
   std::size_t inner(int column, int row) const {
@@ -146,9 +155,9 @@ void chooseStrips(const StripChoice& choice, RasterInput& files) {
   files.max_x = box.max().x(), files.max_y = box.max().y();
 }
 
-RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& options, int tile_side,
-                             int threads, RasterWriter& writer,
-                             const std::function<void(double)>& progress) {
+namespace {
+
+std::vector<BoxedFile> boxedFiles(const RasterInput& files) {
   std::vector<BoxedFile> boxed;
   for (std::size_t place = 0; place < files.paths.size(); ++place) {
     const std::filesystem::path& path = files.paths[place];
@@ -158,25 +167,81 @@ RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& opt
       boxed.push_back({path, place, info.minimum.x() - x, info.minimum.y() - y,
                        info.maximum.x() + x, info.maximum.y() + y});
   }
-  const RasterGrid& grid = writer.layout().grid;
+  return boxed;
+}
+
+/// The smallest of the values of all processes.
+int leastOf(Communicator* processes, int value) {
+  if (!areShared(processes)) return value;
+  for (const std::string& bytes : processes->gatherAll(ByteWriter().put(value).take()))
+    value = std::min(value, ByteReader(bytes).take<int>());
+  return value;
+}
+
+/// Share of all tiles that are done, where \a done of the own ones of a round are.
+double shareOf(std::size_t first, std::size_t done, std::size_t round, std::size_t tiles) {
+  return static_cast<double>(first + std::min(done, round)) / static_cast<double>(tiles);
+}
+
+/// Collective: the root receives the tiles of all processes.
+void sendToRoot(Communicator* processes, const SharedItems& shares,
+                std::vector<TileResult>& tiles) {
+  std::vector<std::string> bytes(static_cast<std::size_t>(processes->size()));
+  ByteWriter out;
+  for (const std::size_t i : shares.ownItems()) {
+    if (isRoot(processes)) break;
+    out.put(i).put(tiles[i].bands);
+    tiles[i].bands.clear();
+  }
+  bytes.front() = out.take();
+  for (const std::string& received : processes->exchange(bytes)) {
+    for (ByteReader in(received); isRoot(processes) && !in.done();) {
+      const auto i = in.take<std::size_t>();
+      in.get(tiles[i].bands);
+    }
+  }
+}
+
+}  // namespace
+
+RasterCounts rasterizeStrips(const RasterInput& files, const RasterGrid& grid,
+                             const SurfaceOptions& options, int tile_side, int threads,
+                             RasterWriter* writer, const std::function<void(double)>& progress,
+                             Communicator* processes) {
+  const std::vector<BoxedFile> boxed = boxedFiles(files);
   const std::vector<RasterTile> tiles = tilesOf(grid, tile_side, options.margin(grid.cell));
-  std::vector<RasterCounts> counts(tiles.size());
-  std::mutex writing, reporting;
-  std::size_t done = 0;
-  parallelFor(tiles.size(), threadsFor(tiles.front(), threads), [&](std::size_t i) {
-    TileWork work(tiles[i], options, files.arranged.get());
-    for (const BoxedFile& file : boxed)
-      if (file.meets(tiles[i].padded)) work.read(file);
-    work.write(writer, writing);
-    counts[i] = work.counts();
-    const std::lock_guard<std::mutex> lock(reporting);
-    progress(static_cast<double>(++done) / static_cast<double>(tiles.size()));
-  });
+  threads = leastOf(processes, threadsFor(tiles.front(), threads));
+  // One process writes tiles as they come; several send them round by round.
+  const std::size_t round = areShared(processes) ? static_cast<std::size_t>(threads) *
+                                                       static_cast<std::size_t>(processes->size())
+                                                 : tiles.size();
   RasterCounts all;
-  for (const RasterCounts& part : counts) {
-    all.points += part.points;
-    all.surface.merge(part.surface);
-    all.terrain.merge(part.terrain);
+  std::mutex writing;
+  for (std::size_t first = 0; first < tiles.size(); first += round) {
+    std::vector<TileResult> results(std::min(round, tiles.size() - first));
+    const SharedItems shares(processes, std::vector<double>(results.size(), 1.0));
+    std::size_t done = 0;
+    doTogether(processes, [&] {
+      parallelFor(shares.ownItems().size(), threads, [&](std::size_t own) {
+        const std::size_t i = shares.ownItems()[own];
+        TileWork work(tiles[first + i], options, files.arranged.get());
+        for (const BoxedFile& file : boxed)
+          if (file.meets(tiles[first + i].padded)) work.read(file);
+        work.compute(results[i]);
+        const std::lock_guard<std::mutex> lock(writing);
+        if (writer != nullptr) results[i].write(tiles[first + i].window, *writer);
+        progress(shareOf(first, ++done, results.size(), tiles.size()));
+      });
+    });
+    shareValues(
+        processes, shares, results,
+        [](ByteWriter& out, const TileResult& tile) { out.plain(tile.counts); },
+        [](ByteReader& in, TileResult& tile) { in.plain(tile.counts); });
+    if (areShared(processes)) sendToRoot(processes, shares, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (writer != nullptr) results[i].write(tiles[first + i].window, *writer);
+      all.add(results[i].counts);
+    }
   }
   return all;
 }

@@ -53,15 +53,60 @@ std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
   return text;
 }
 
-void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
-                 SystemCalibrationEngine& calibration, ProgressReport& progress) {
+/// Reference surfaces, whose indices follow those of the strips, and the part of them that is used.
+struct References {
+  const std::vector<ReferenceSource>& sources;
+  int first = 0;
+  Eigen::AlignedBox2d box;
+
+  References(const SurveyReader& survey, const std::vector<ReferenceSource>& given)
+      : sources(given), first(static_cast<int>(survey.strips().size())), box(survey.extent()) {
+    constexpr double kMargin = 20.0;  // metres: more than areas have
+    box.min().array() -= kMargin;
+    box.max().array() += kMargin;
+  }
+
+  template <typename Use>
+  void read(const Use& use) const {
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      sources[i].read(box, [&](const LidarReturn* points, std::size_t count) {
+        use(first + static_cast<int>(i), points, count);
+      });
+    }
+  }
+};
+
+/// Refuses references in another CRS than the survey; returns what is assumed of their units.
+std::vector<std::string> checkReferences(const SurveyReader& survey,
+                                         const std::vector<ReferenceSource>& references) {
+  std::vector<PointFileInfo> files, alone;
+  for (const SurveyedFile& file : survey.files()) files.push_back(file.sources.info);
+  for (const ReferenceSource& reference : references) {
+    files.push_back(reference.info);
+    alone.push_back(reference.info);
+  }
+  commonReference(files);
+  return commonReference(alone).remarks;
+}
+
+void surveyBlock(const SurveyReader& survey, const SurveyCalibrationOptions& options,
+                 const References& references, SystemCalibrationEngine& calibration,
+                 ProgressReport& progress) {
+  const SurveyObserver& observer = options.observer;
   progress.begin("Surveying the block");
   for (const std::string& id : survey.strips()) calibration.addStrip(id);
+  for (const ReferenceSource& reference : references.sources)
+    calibration.addReference(reference.surface);
   if (observer.begin) observer.begin(survey);
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  const auto add = [&](int strip, const LidarReturn* points, std::size_t count) {
     calibration.survey(strip, points, count);
-    if (observer.points) observer.points(strip, points, count);
+  };
+  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+    add(strip, points, count);
+    if (observer.points && !areShared(survey.processes())) observer.points(strip, points, count);
   });
+  references.read(add);
+  if (observer.points && areShared(survey.processes())) survey.readAtRoot(observer.points);
   try {
     calibration.chooseAreas();
   } catch (const InputError& error) {
@@ -72,12 +117,15 @@ void surveyBlock(const SurveyReader& survey, const SurveyObserver& observer,
   for (const std::string& text : calibration.attitudeRemarks()) progress.remark(text);
 }
 
-void loadAreas(const SurveyReader& survey, SystemCalibrationEngine& calibration,
-               ProgressReport& progress) {
+void loadAreas(const SurveyReader& survey, const References& references,
+               SystemCalibrationEngine& calibration, ProgressReport& progress) {
   progress.begin("Reading the areas");
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  const auto load = [&](int strip, const LidarReturn* points, std::size_t count) {
     calibration.load(strip, points, count);
-  });
+  };
+  survey.read(load);
+  references.read(load);
+  calibration.shareAreas();
   progress.end(grouped(calibration.loadedPoints()) + " points");
 }
 
@@ -138,7 +186,10 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
                                   const SurveyCalibrationOptions& options,
                                   const ProgressCallback& callback) {
   if (!flight) throw UsageError("calibration: no trajectory is given");
-  ProgressReport progress(callback);
+  if (areShared(survey.processes()) &&
+      !(options.references.empty() && options.settings.fixed.empty()))
+    throw UsageError("fixed strips and reference surfaces need a calibration in one process");
+  ProgressReport progress(sharedProgress(survey.processes(), callback));
   const ReadingProgress reading(survey, progress);
   for (const std::string& text :
        survey.choose(options.strips, {flight.get(), options.gps_week, true})) {
@@ -149,11 +200,14 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   if (options.reconstructed) leaveOutUndeterminable(settings);
   progress.remark(setPriors(options, survey, settings.shared_errors));
   SystemCalibrationEngine calibration(flight, settings, survey.corner());
+  calibration.setProcesses(survey.processes(), survey.stripShares());
   Warnings warnings;
   calibration.setPairs(usablePairs(options.pairs, survey, warnings));
   calibration.setControl(options.control);
-  surveyBlock(survey, options.observer, calibration, progress);
-  loadAreas(survey, calibration, progress);
+  for (const std::string& text : checkReferences(survey, options.references)) progress.remark(text);
+  const References references(survey, options.references);
+  surveyBlock(survey, options, references, calibration, progress);
+  loadAreas(survey, references, calibration, progress);
   SurveyCalibration made;
   made.result = adjusted(calibration, progress);
   for (const LeftOutPoints& part : survey.leftOut()) {
@@ -165,7 +219,10 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
     if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);
   for (const SurveyedFile& file : survey.files())
     made.result.inputs.push_back(file.sources.info.path.string());
-  if (!settings.systems.empty()) made.result.channel_field = survey.channelField();
+  for (const ReferenceSource& reference : options.references)
+    made.result.inputs.push_back(reference.info.path.string());
+  if (!settings.systems.empty() || !settings.fixed.empty())
+    made.result.channel_field = survey.channelField();
   made.areas = calibration.areas();
   made.information = calibration.informationShares();
   made.flight = calibration.trajectory();

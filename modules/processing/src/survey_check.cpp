@@ -74,7 +74,7 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
                              options.separation->quality_level >= kQualityLevels)) {
     throw UsageError("check: the quality level must be 0, 1, 2 or 3");
   }
-  ProgressReport progress(callback);
+  ProgressReport progress(sharedProgress(survey.processes(), callback));
   const ReadingProgress reading(survey, progress);
   // The trajectory serves for scan angles only: points that it does not cover are compared, too.
   for (const std::string& text :
@@ -97,7 +97,7 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
     checked.block.warnings.push_back(describe(part));
   }
   progress.end(counted(checked.block.pairs.size(), "pair"));
-  if (separation) {
+  if (separation && isRoot(survey.processes())) {
     writeImages(*options.separation, *separation, options.settings.threads, checked.block,
                 progress);
   }

@@ -12,6 +12,8 @@
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/processing/survey_reader.h>
 
+#include "survey_messages.h"
+
 namespace pcl_als {
 namespace {
 
@@ -22,27 +24,50 @@ std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths,
   return inputs;
 }
 
+/// Passes runs on as points.
+SurveyReader::RunSink asRuns(const SurveyReader::Sink& sink) {
+  return [&sink](int strip, const SurveyReader::Run& run) {
+    thread_local std::vector<LidarReturn> points;
+    points.clear();
+    points.reserve(run.to - run.from);
+    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
+    sink(strip, points.data(), points.size());
+  };
+}
+
 }  // namespace
 
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads,
-                           const PointWindow& window)
-    : SurveyReader(threads, inputsOf(paths, window)) {
+                           const PointWindow& window, Communicator* processes)
+    : SurveyReader(threads, inputsOf(paths, window), processes) {
   channel_field_ = window.channel_field;
   if (!window.everything() && pointCount() == 0)
     refuseEmptyWindow({paths.begin(), paths.end()}, window);
 }
 
 SurveyReader SurveyReader::ofInputs(std::vector<SurveyInput> inputs, int threads) {
-  return {threads, std::move(inputs)};
+  return {threads, std::move(inputs), nullptr};
 }
 
-SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs)
+SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs, Communicator* processes)
     : threads_(threads),
+      processes_(processes),
       inputs_(std::move(inputs)),
       files_(inputs_.size()),
       times_(inputs_.size()) {
-  parallelFor(inputs_.size(), threads,
-              [&](std::size_t file) { files_[file] = surveyFile(inputs_[file]); });
+  std::vector<double> costs;
+  for (const SurveyInput& input : inputs_) costs.push_back(detail::readingCost(input.path));
+  const SharedItems shares(processes_, costs);
+  doTogether(processes_, [&] {
+    parallelFor(shares.ownItems().size(), threads_, [&](std::size_t i) {
+      const std::size_t file = shares.ownItems()[i];
+      files_[file] = surveyFile(inputs_[file]);
+    });
+  });
+  shareValues(
+      processes_, shares, files_,
+      [](ByteWriter& out, const SurveyedFile& file) { detail::put(out, file); },
+      [](ByteReader& in, SurveyedFile& file) { detail::get(in, file); });
   std::vector<PointFileInfo> infos;
   infos.reserve(files_.size());
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
@@ -230,7 +255,7 @@ void SurveyReader::checkAnyLeft(const Flight& flight) const {
   throw InputError(text);
 }
 
-std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
+SurveyReader::Groups SurveyReader::groupsOfFiles() const {
   std::vector<std::size_t> group(files_.size());
   std::iota(group.begin(), group.end(), 0);
   std::map<int, std::size_t> first_file;
@@ -249,7 +274,7 @@ std::vector<std::vector<std::size_t>> SurveyReader::groupsOfFiles() const {
   }
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t file = 0; file < files_.size(); ++file) members[group[file]].push_back(file);
-  std::vector<std::vector<std::size_t>> groups;
+  Groups groups;
   groups.reserve(members.size());
   for (auto& entry : members) groups.push_back(std::move(entry.second));
   return groups;
@@ -270,34 +295,84 @@ LidarReturn SurveyReader::Run::point(std::size_t row) const {
 }
 
 void SurveyReader::read(const Sink& sink) const {
-  readRuns([&](int strip, const Run& run) {
-    thread_local std::vector<LidarReturn> points;
-    points.clear();
-    points.reserve(run.to - run.from);
-    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
-    sink(strip, points.data(), points.size());
-  });
+  readRuns(asRuns(sink));
 }
 
-void SurveyReader::readRuns(const RunSink& sink) const {
-  const auto groups = groupsOfFiles();
-  const std::size_t labels = arrangement_->labels().size();
-  std::vector<std::vector<std::uint64_t>> counts(groups.size(), std::vector<std::uint64_t>(labels));
+void SurveyReader::readGroups(const Groups& groups, const std::vector<std::size_t>& chosen,
+                              const RunSink& sink,
+                              std::vector<std::vector<std::uint64_t>>& counts) const {
+  std::uint64_t all = 0, read = 0;
+  for (const std::size_t group : chosen)
+    for (const std::size_t file : groups[group]) all += files_[file].sources.info.point_count;
   std::mutex reporting;
-  std::uint64_t read = 0;
   const auto done = [&](std::size_t points) {
     if (!progress_) return;
     const std::lock_guard<std::mutex> lock(reporting);
     read += points;
-    progress_(std::min(1.0, static_cast<double>(read) / static_cast<double>(pointCount())));
+    progress_(std::min(1.0, static_cast<double>(read) / static_cast<double>(all)));
   };
-  parallelFor(groups.size(), threads_, [&](std::size_t group) {
-    for (const std::size_t file : groups[group]) readFile(file, sink, done, counts[group]);
+  parallelFor(chosen.size(), threads_, [&](std::size_t i) {
+    for (const std::size_t file : groups[chosen[i]]) readFile(file, sink, done, counts[chosen[i]]);
   });
+}
+
+void SurveyReader::readRuns(const RunSink& sink) const {
+  const Groups groups = groupsOfFiles();
+  const std::size_t labels = arrangement_->labels().size();
+  std::vector<std::vector<std::uint64_t>> counts(groups.size(), std::vector<std::uint64_t>(labels));
+  const SharedItems shares = sharesOf(groups);
+  doTogether(processes_, [&] { readGroups(groups, shares.ownItems(), sink, counts); });
+  shareValues(
+      processes_, shares, counts,
+      [](ByteWriter& out, const std::vector<std::uint64_t>& count) { out.put(count); },
+      [](ByteReader& in, std::vector<std::uint64_t>& count) { in.get(count); });
   for (std::size_t group = 1; group < groups.size(); ++group) {
     for (std::size_t i = 0; i < labels; ++i) counts[0][i] += counts[group][i];
   }
   left_out_ = counts.empty() ? std::vector<LeftOutPoints>() : arrangement_->leftOut(counts[0]);
+}
+
+void SurveyReader::readAtRoot(const Sink& sink) const {
+  readRunsAtRoot(asRuns(sink));
+}
+
+void SurveyReader::readRunsAtRoot(const RunSink& sink) const {
+  const Groups groups = groupsOfFiles();
+  std::vector<std::vector<std::uint64_t>> counts(
+      groups.size(), std::vector<std::uint64_t>(arrangement_->labels().size()));
+  std::vector<std::size_t> all(isRoot(processes_) ? groups.size() : 0);
+  std::iota(all.begin(), all.end(), 0);
+  doTogether(processes_, [&] { readGroups(groups, all, sink, counts); });
+}
+
+SharedItems SurveyReader::sharesOf(const Groups& groups) const {
+  std::vector<double> costs;
+  for (const std::vector<std::size_t>& group : groups) {
+    costs.push_back(0.0);
+    for (const std::size_t file : group)
+      costs.back() += static_cast<double>(files_[file].sources.info.point_count);
+  }
+  return {processes_, costs};
+}
+
+SharedItems SurveyReader::stripShares() const {
+  const Groups groups = groupsOfFiles();
+  const SharedItems shares = sharesOf(groups);
+  std::vector<int> owners(strips_.size(), 0);
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    for (const std::size_t file : groups[group]) {
+      for (const PointSource& source : files_[file].sources.sources) {
+        for (const int strip : arrangement_->stripsOf(file, source.id)) {
+          const auto index = static_cast<std::size_t>(strip);
+          if (channels_.empty()) owners[index] = shares.owner(group);
+          if (channels_.empty()) continue;
+          for (const auto& [channel, part] : channels_[index])
+            owners[static_cast<std::size_t>(part)] = shares.owner(group);
+        }
+      }
+    }
+  }
+  return {processes_, owners};
 }
 
 void SurveyReader::readFile(std::size_t file, const RunSink& sink,

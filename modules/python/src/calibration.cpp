@@ -88,6 +88,8 @@ void bindSettings(py::module_& m) {
           "own", [](const Settings& s) { return ownOf(s.own); },
           [](Settings& s, const std::vector<std::string>& names) { s.own = ownNamed(names); },
           "what systems have of their own: names of parameters, 'boresight', 'lever_arm', 'offset'")
+      .def_readwrite("fixed", &Settings::fixed,
+                     "strips that are held fixed: an earlier delivery, which is not corrected")
       .def_readwrite("noise", &Settings::noise)
       .def_readwrite("shared_errors", &Settings::shared_errors)
       .def_readwrite("candidates", &Settings::candidates,
@@ -138,7 +140,8 @@ void bindControl(py::module_& m) {
 std::shared_ptr<CalibrationResult> calibrate(
     const PointsArgument& points, const FlightArgument& trajectory, const ControlArgument& control,
     const CalibrationSettings& settings, const StripChoice& strips, const StripPairs& pairs,
-    std::optional<int> gps_week, const PythonProgress& progress) {
+    const std::vector<std::string>& references, std::optional<int> gps_week,
+    const PythonProgress& progress) {
   return runJob(progress, [&](const ProgressCallback& report) {
     UsedSurvey survey(points, settings.threads);
     FlightFileOptions reading;
@@ -147,6 +150,7 @@ std::shared_ptr<CalibrationResult> calibrate(
     SurveyCalibrationOptions options;
     options.settings = settings, options.strips = strips, options.pairs = pairs;
     options.control = controlOf(control), options.gps_week = gps_week;
+    for (const std::string& text : references) options.references.push_back(openReference(text));
     options.reconstructed = flight.reconstructed();
     if (!options.reconstructed) options.accuracy = flight.accuracy;
     SurveyCalibration made = calibrateSurvey(*survey, flight.trajectory, options, report);
@@ -165,11 +169,13 @@ void bindCalibration(py::module_& m) {
         py::arg("control") = py::none(),
         py::arg_v("settings", CalibrationSettings(), "CalibrationSettings()"),
         py::arg_v("strips", StripChoice(), "StripChoice()"), py::arg("pairs") = StripPairs(),
-        py::arg("gps_week") = py::none(), py::arg("progress") = py::none(),
+        py::arg("references") = std::vector<std::string>(), py::arg("gps_week") = py::none(),
+        py::arg("progress") = py::none(),
         "Estimates boresight angles, lever arm, range bias and scan angle scale from overlapping "
         "strips (Habib et al. 2011), as pcl_als_calibrate does. points: files, strips in memory or "
         "a Survey; trajectory: as delivered; control: points or their CSV file; pairs: of strips, "
-        "default all that overlap; gps_week: of times in seconds of the week. Whether the result "
+        "default all that overlap; references: surfaces as 'FILE[:STD[:OFFSET]]', m; gps_week: of "
+        "times in seconds of the week. Whether the result "
         "may be applied is its verdict. InputError for data that cannot be used.");
 }
 

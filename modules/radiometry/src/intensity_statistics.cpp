@@ -5,6 +5,11 @@
 #include <pcl_als/radiometry/intensity_statistics.h>
 
 namespace pcl_als {
+namespace {
+
+constexpr std::uint32_t kEnd = 65536;  // of the counts of a histogram
+
+}  // namespace
 
 double varianceToMean(const RunningStatistics& statistics) {
   if (statistics.mean() <= 0.0) return 0.0;
@@ -44,6 +49,21 @@ BeforeAfter IntensityStatistics::all() const {
   BeforeAfter sum;
   for (const Strip& strip : strips_) sum.merge(strip.all);
   return sum;
+}
+
+void IntensityHistogram::put(ByteWriter& out) const {
+  for (const std::vector<std::uint64_t>* values : {&before, &after}) {
+    for (std::uint32_t value = 0; value < values->size(); ++value)
+      if ((*values)[value] != 0) out.put(value).put((*values)[value]);
+    out.put(kEnd);
+  }
+}
+
+void IntensityHistogram::add(ByteReader& in) {
+  for (std::vector<std::uint64_t>* values : {&before, &after}) {
+    for (auto value = in.take<std::uint32_t>(); value != kEnd; in.get(value))
+      values->at(value) += in.take<std::uint64_t>();
+  }
 }
 
 }  // namespace pcl_als

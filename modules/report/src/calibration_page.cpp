@@ -65,13 +65,34 @@ ReportTable controlTable(const CalibrationResult& result) {
 
 ReportTable controlPointTable(const CalibrationResult& result) {
   ReportTable table{"",
-                    "Mean height of the strips above each control point, m",
-                    {"point", "strips", "before", "after", "expected std", "used"},
+                    "Mean height of the strips above each control point (or distance along another "
+                    "component), m",
+                    {"point", "component", "strips", "before", "after", "expected std", "used"},
                     {}};
   for (const ControlPointFit& fit : result.control_points) {
-    table.rows.push_back({fit.id, countText(fit.strips), numberText(fit.before, 4),
+    table.rows.push_back({fit.id, fit.component, countText(fit.strips), numberText(fit.before, 4),
                           numberText(fit.after, 4), numberText(fit.expected_std, 4),
                           fit.used ? "yes" : "no: outlier"});
+  }
+  return table;
+}
+
+/// What was held fixed.
+ReportTable heldTable(const CalibrationResult& result) {
+  ReportTable table{"held",
+                    "Held fixed, not corrected: distances of strips above it, and its height above "
+                    "the rest of the block if that were not known, m",
+                    {"surface", "strips", "pairs", "RMS before", "RMS after", "mean before",
+                     "mean after", "height", "std"},
+                    {}};
+  for (const HeldSurface& s : result.held) {
+    std::string strips;
+    for (const std::string& strip : s.strips) strips += (strips.empty() ? "" : ", ") + strip;
+    table.rows.push_back({s.name, strips, countText(s.correspondences), numberText(s.rms_before, 4),
+                          numberText(s.rms_after, 4), numberText(s.mean_before, 4),
+                          numberText(s.mean_after, 4),
+                          s.offset_determined ? numberText(s.offset, 4) : "not determined",
+                          s.offset_determined ? numberText(s.offset_std, 4) : ""});
   }
   return table;
 }
@@ -174,6 +195,7 @@ void addFits(HtmlReport& report, const CalibrationResult& result) {
   }
   if (!result.control.empty()) report.addTable(controlTable(result));
   if (!result.control_points.empty()) report.addTable(controlPointTable(result));
+  if (!result.held.empty()) report.addTable(heldTable(result));
   if (!result.iterations.empty()) {
     report.addPicture(drawConvergence(result, kWide).image(), "Update and fit by iteration.");
   }

@@ -121,6 +121,34 @@ void controlTable(const CalibrationResult& result, std::ostream& out) {
   }
 }
 
+/// What was held fixed, with the fit of the strips to it.
+void heldTable(const CalibrationResult& result, std::ostream& out) {
+  if (result.held.empty()) return;
+  out << "\nHeld fixed: normal distances of strips above it, and its height above the rest of the "
+         "block if that were not known (m)\n\n"
+      << "| surface              |   pairs | rms before | after  | mean before | after   |  height "
+         "|     std |\n"
+      << "|----------------------|---------|------------|--------|-------------|---------|---------"
+         "|---------|\n";
+  for (const HeldSurface& s : result.held) {
+    out << "| " << std::left << std::setw(20) << s.name << std::right << " | " << std::setw(7)
+        << s.correspondences << " | " << std::setprecision(4) << std::setw(10) << s.rms_before
+        << " | " << std::setw(6) << s.rms_after << " | " << std::showpos << std::setw(11)
+        << s.mean_before << " | " << std::setw(7) << s.mean_after << " | " << std::setw(7);
+    if (s.offset_determined)
+      out << s.offset << std::noshowpos << " | " << std::setw(7) << s.offset_std << " |\n";
+    else
+      out << '-' << std::noshowpos << " | " << std::setw(7) << '-' << " |\n";
+  }
+  for (const HeldSurface& s : result.held) {
+    if (!s.strips.empty())
+      out << "\nStrips " << joined(s.strips) << " were held fixed and are not corrected.\n";
+    if (!s.offset_determined && s.correspondences > 0)
+      out << "\nOnly " << s.name << " determines the height of the block: an error of its height "
+          << "is one of range_bias.\n";
+  }
+}
+
 /// Mean and RMS over a strip's knots of what its trajectory was found to be wrong by.
 void stripTable(const CalibrationResult& result, std::ostream& out) {
   if (result.strip_errors.empty()) return;
@@ -233,6 +261,7 @@ std::string calibrationTables(const CalibrationResult& result) {
   systemTables(result, out);
   pairTable(result, out);
   controlTable(result, out);
+  heldTable(result, out);
   stripTable(result, out);
   diagnosisTable(result, out);
   if (!result.observability.empty()) out << "\nWhat the block determines\n\n";

@@ -55,6 +55,12 @@ int SurveyMap::addStrip() {
   return static_cast<int>(strips_.size()) - 1;
 }
 
+int SurveyMap::addSurface() {
+  const int index = addStrip();
+  strips_.back().enough = 1;
+  return index;
+}
+
 std::int64_t SurveyMap::keyOf(const Eigen::Vector3d& position) const {
   const double column = std::floor((position.x() - anchor_.x()) / kCell);
   const double row = std::floor((position.y() - anchor_.y()) / kCell);
@@ -92,6 +98,20 @@ void SurveyMap::add(int index, const LidarReturn* points, std::size_t count) {
   }
 }
 
+void SurveyMap::putStrip(int strip, ByteWriter& out) const {
+  const StripCells& from = strips_[strip];
+  out.put(from.points).put(from.invalid).put(from.start).put(from.end);
+  out.put(from.cells.bucket_count());
+  out.putMap(from.cells, [](ByteWriter& o, const Cell& cell) { o.put(cell); });
+}
+
+void SurveyMap::getStrip(int strip, ByteReader& in) {
+  StripCells& to = strips_[strip];
+  in.get(to.points).get(to.invalid).get(to.start).get(to.end);
+  const auto buckets = in.take<std::size_t>();
+  in.getHashed(to.cells, buckets, [](ByteReader& i, Cell& cell) { i.get(cell); });
+}
+
 std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
   // By cell and not by pair, because of a thousand strips few overlap.
   std::vector<std::pair<std::int64_t, int>> touched;
@@ -121,11 +141,13 @@ SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
   constexpr std::uint32_t kEnough = 5;
   constexpr std::size_t kFewestCells = 20;
   std::vector<double> differences;
-  const auto& others = strips_[static_cast<std::size_t>(pair.second)].cells;
-  for (const auto& [key, cell] : strips_[static_cast<std::size_t>(pair.first)].cells) {
+  const StripCells& one = strips_[static_cast<std::size_t>(pair.first)];
+  const StripCells& another = strips_[static_cast<std::size_t>(pair.second)];
+  const auto& others = another.cells;
+  for (const auto& [key, cell] : one.cells) {
     const auto other = others.find(key);
-    if (other == others.end() || cell.last_returns < kEnough ||
-        other->second.last_returns < kEnough) {
+    if (other == others.end() || cell.last_returns < std::min(kEnough, one.enough) ||
+        other->second.last_returns < std::min(kEnough, another.enough)) {
       continue;
     }
     differences.push_back(cell.lowest - other->second.lowest);
@@ -144,14 +166,15 @@ std::string describe(const SurveyMap::HeightOffset& height, const std::string& a
          shortText(SurveyMap::kCell) + " m)";
 }
 
-double SurveyMap::score(const Cell& a, const Cell& b) const {
-  constexpr std::uint32_t kEnough = 10;
+double SurveyMap::score(const StripCells& a, const Cell& in_a, const StripCells& b,
+                        const Cell& in_b) {
   constexpr double kMostlySolid = 0.15;  // share of points of pulses with several returns
   constexpr double kFlat = 0.2;          // metres: flat ground is also used, for heights
   constexpr double kRelief = 2.0;        // metres: further relief has no advantage
   double relief = kRelief;
-  for (const Cell* cell : {&a, &b}) {
-    if (cell->last_returns < kEnough || cell->multiple > kMostlySolid * cell->points) return 0.0;
+  for (const Cell* cell : {&in_a, &in_b}) {
+    const std::uint32_t enough = (cell == &in_a ? a : b).enough;
+    if (cell->last_returns < enough || cell->multiple > kMostlySolid * cell->points) return 0.0;
     const double mean = cell->z_sum / cell->last_returns;
     relief = std::min(relief,
                       std::sqrt(std::max(0.0, cell->z_sq_sum / cell->last_returns - mean * mean)));
@@ -196,10 +219,11 @@ std::vector<SurveyArea> SurveyMap::selectAreas(const std::vector<StripPair>& pai
   std::vector<std::vector<std::int64_t>> wishes;
   for (const StripPair& pair : pairs) {
     std::map<std::int64_t, double> scores;
-    for (const auto& [key, cell] : strips_[pair.first].cells) {
-      const auto other = strips_[pair.second].cells.find(key);
-      if (other == strips_[pair.second].cells.end()) continue;
-      const double gain = score(cell, other->second);
+    const StripCells &a = strips_[pair.first], &b = strips_[pair.second];
+    for (const auto& [key, cell] : a.cells) {
+      const auto other = b.cells.find(key);
+      if (other == b.cells.end()) continue;
+      const double gain = score(a, cell, b, other->second);
       if (gain > 0.0) scores[coarser(key, cells_per_area)] += gain;
     }
     wishes.push_back(ranked(scores));

@@ -8,6 +8,7 @@ namespace pcl_als {
 
 SurveyInput SurveyInput::ofFile(const std::filesystem::path& path, const PointWindow& window) {
   SurveyInput input;
+  input.path = path;
   input.open = [path, window] { return PointReader::open(path, window); };
   return input;
 }

@@ -218,6 +218,16 @@ void AttitudeRecovery::add(const PointColumns& points, std::size_t count) {
   }
 }
 
+void AttitudeRecovery::put(ByteWriter& out) const {
+  out.put(bins_.bucket_count());
+  out.putMap(bins_, [](ByteWriter& o, const detail::PulseSums& sums) { o.plain(sums); });
+}
+
+void AttitudeRecovery::get(ByteReader& in) {
+  const auto buckets = in.take<std::size_t>();
+  in.getHashed(bins_, buckets, [](ByteReader& i, detail::PulseSums& sums) { i.plain(sums); });
+}
+
 void AttitudeRecovery::merge(const AttitudeRecovery& other) {
   for (const auto& [bin, sums] : other.bins_) bins_[bin].add(sums);
 }

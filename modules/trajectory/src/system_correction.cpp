@@ -75,7 +75,7 @@ SystemCorrection::SystemCorrection(const CalibrationResult& calibration, Flight 
   if (calibration.systems.empty()) add(calibration.biases(), Eigen::Vector3d::Zero());
   for (const SystemEstimate& system : calibration.systems)
     add(system.values().head<kSystemParameterCount>(), system.offset);
-  systems_ = SystemLookup(calibration.systems);
+  systems_ = SystemLookup(calibration);
   if (calibration.sources.isZero(0.0)) return;
   sources_ = std::make_shared<const detail::SourceCorrection>(flight_, calibration.sources,
                                                               calibration.source_scale);
@@ -130,7 +130,7 @@ class Gathered {
 
 void SystemCorrection::change(const PointColumns& points, std::size_t count,
                               const EffectColumns& change, CoverageCount& coverage) const {
-  if (evaluators_.size() == 1) {
+  if (systems_.single()) {
     changeOf(evaluators_.front(), points, count, change, coverage);
   } else {
     changeBySystem(points, count, change, coverage);
@@ -141,16 +141,19 @@ void SystemCorrection::changeBySystem(const PointColumns& points, std::size_t co
                                       const EffectColumns& change, CoverageCount& coverage) const {
   if (points.system == nullptr)
     throw UsageError(
-        "the calibration has several systems: points need a point source id, or the id of their "
-        "strip");
+        "the calibration has several systems or fixed strips: points need a point source id, or "
+        "the id of their strip");
   // The columns may be the same: all are gathered before the first one is written.
-  std::vector<std::vector<std::size_t>> chosen(evaluators_.size());
+  std::vector<std::vector<std::size_t>> chosen(evaluators_.size() + 1);
   for (std::size_t i = 0; i < count; ++i) chosen[points.system[i]].push_back(i);
   std::vector<Gathered> parts;
   for (const std::vector<std::size_t>& indices : chosen) parts.emplace_back(points, indices);
   for (std::size_t s = 0; s < parts.size(); ++s) {
-    const EffectColumns part = parts[s].change();
-    changeOf(evaluators_[s], parts[s].points(), chosen[s].size(), part, coverage);
+    const EffectColumns part = parts[s].change();  // zero
+    if (s == systems_.fixed())
+      coverage.points += chosen[s].size();
+    else
+      changeOf(evaluators_[s], parts[s].points(), chosen[s].size(), part, coverage);
     for (std::size_t k = 0; k < chosen[s].size(); ++k) {
       change.x[chosen[s][k]] = part.x[k];
       change.y[chosen[s][k]] = part.y[k];

@@ -108,6 +108,26 @@ void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& 
   }
 }
 
+void TrajectoryPlausibility::putStrip(int strip, ByteWriter& out) const {
+  const Strip& s = strips_[static_cast<std::size_t>(strip)];
+  out.put(s.count).put(s.above).put(s.beside).put(s.ahead).put(s.beside_sum).put(s.ahead_sum);
+  out.put(s.direction_sum).put(s.mean_ahead_sum).put(s.height_sum).put(s.slope_sum);
+  out.put(s.slope_sum_sq).put(s.speed_sum).put(s.along_sum).put(s.point_sum).put(s.sensor_sum);
+  out.plain(s.heading).plain(s.angles);
+  s.times.put(out);
+  if (s.recovery) s.recovery->put(out);
+}
+
+void TrajectoryPlausibility::getStrip(int strip, ByteReader& in) {
+  Strip& s = strips_[static_cast<std::size_t>(strip)];
+  in.get(s.count).get(s.above).get(s.beside).get(s.ahead).get(s.beside_sum).get(s.ahead_sum);
+  in.get(s.direction_sum).get(s.mean_ahead_sum).get(s.height_sum).get(s.slope_sum);
+  in.get(s.slope_sum_sq).get(s.speed_sum).get(s.along_sum).get(s.point_sum).get(s.sensor_sum);
+  in.plain(s.heading).plain(s.angles);
+  s.times.get(in);
+  if (s.recovery) s.recovery->get(in);
+}
+
 std::string TrajectoryPlausibility::objection(const Strip& strip) {
   const auto most = [&strip](std::size_t some) { return 2 * some > strip.count; };
   const auto mean = [](double sum, std::size_t some) {

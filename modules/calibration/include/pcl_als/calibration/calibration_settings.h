@@ -16,6 +16,21 @@
 
 namespace pcl_als {
 
+/** \brief A surface that strips are compared with and that is held fixed: the points of another
+ * survey (airborne, mobile, terrestrial) or the cells of a height raster.
+ *
+ * Its points are those of surfaces as isSurfacePoint() defines them, in the CRS of the block.
+ */
+struct ReferenceSurface {
+  std::string name;  ///< in messages and results, such as the file
+  /// Standard deviation along the normal, metres, > 0: of a point, independent of others, and of
+  /// the surface in an area of 50 m as a whole.
+  double std = 0.02;
+  /// A priori standard deviation of a height error that all its points share (datum, geoid),
+  /// metres; 0: there is none.
+  double offset = 0.0;
+};
+
 /// All settings of a calibration. The defaults suit post-processed survey flights of
 /// 500-3000 m height.
 struct CalibrationSettings {
@@ -27,6 +42,10 @@ struct CalibrationSettings {
   /// one system. UsageError from the engine for a strip that does not exist or is in two groups.
   std::vector<StripGroup> systems;
   OwnUnknowns own;  ///< what systems have of their own
+  /// Strips that are held fixed, by id or pass: of an earlier delivery that the block joins. They
+  /// have neither biases nor trajectory errors. UsageError from the engine for one that does not
+  /// exist.
+  std::vector<std::string> fixed;
   NoiseModel noise;
   SharedErrorModel shared_errors;
   DeterminationLimits limits;

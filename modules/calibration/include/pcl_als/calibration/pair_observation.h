@@ -29,7 +29,8 @@ struct PairObservation {
   static constexpr int kControl = -1;
 
   int a = kControl, b = 0;
-  std::int32_t point = -1;            ///< of strip a, in the area's TIN; -1 for control
+  bool along_normal = false;  ///< of control: its error is one along the normal, not of the height
+  std::int32_t point = -1;    ///< of strip a, in the area's TIN; -1 for control
   double time_a = 0.0, time_b = 0.0;  ///< times of emission of the point and of the patch, seconds
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
@@ -59,6 +60,10 @@ struct PairObservation {
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 
   SystemRow row() const { return row_a - row_b; }
+  /// Of a distance from control: the strip above it, vertically or along the normal of a patch.
+  double aboveControl(double of_distance) const {
+    return -of_distance / (along_normal ? 1.0 : normal.z());
+  }
   /// Normal distance of the corrected point above the corrected patch, metres.
   double distance(const SystemVector& biases) const {
     return misclosure - row() * biases - further;

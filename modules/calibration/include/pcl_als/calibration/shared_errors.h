@@ -105,7 +105,22 @@ struct StripSystems {
   /// By strip, the first strip of the same pass: channels of one scanner have the same trajectory
   /// errors. Empty: every strip is a pass.
   std::vector<int> pass;
+  /// A system that is held fixed: its strips (or the surface) have no biases and no trajectory
+  /// errors.
+  struct Held {
+    double offset = 0.0;  ///< a priori standard deviation of a common height error, metres
+    double local = 0.0;   ///< of its shift in an area, metres; 0: as of other strips
+  };
+  std::vector<Held> held;  ///< the last systems
 
+  /// The place of the system of a strip in held; -1: the strip is not held fixed.
+  int heldIndex(int strip) const {
+    const int index = of(strip) - count + static_cast<int>(held.size());
+    return held.empty() || index < 0 ? -1 : index;
+  }
+  int heldSystem(std::size_t index) const {
+    return count - static_cast<int>(held.size()) + static_cast<int>(index);
+  }
   int of(int strip) const { return system.empty() ? 0 : system[static_cast<std::size_t>(strip)]; }
 };
 
@@ -147,6 +162,11 @@ class SharedErrors {
   bool isOwn(int system, int unknown) const;
   /// A system shares this unknown with the first one, because the data do not determine it.
   void share(int system, int unknown);
+  /// Sets the a priori standard deviation of the common height error of a system that is held
+  /// fixed, metres; by index of StripSystems::held.
+  void setHeldOffset(std::size_t index, double std) { systems_.held[index].offset = std; }
+  /// Standard deviation of the shift of a strip in an area over that of the model.
+  double shiftScale(int strip) const;
   int sourceUnknown(ErrorSource source) const {
     return instrumentBlock() * kPerKnot + indexOf(source);
   }

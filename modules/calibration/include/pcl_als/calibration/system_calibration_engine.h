@@ -14,6 +14,7 @@
 #include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
@@ -23,6 +24,7 @@
 namespace pcl_als {
 
 class AreaMatcher;
+class CalibrationReport;
 
 /// A strip as measured.
 struct FlownStrip {
@@ -76,6 +78,10 @@ class SystemCalibrationEngine {
   SystemCalibrationEngine& operator=(const SystemCalibrationEngine&) = delete;
 
   int addStrip(const std::string& id);
+  /// A surface that is held fixed, as one more strip: its points are passed to survey() and load(),
+  /// their times are not used. UsageError for a standard deviation that is not positive, or a name
+  /// of a strip.
+  int addReference(const ReferenceSurface& surface);
   void setControl(std::vector<ControlPoint> control) { control_ = std::move(control); }
   /// Limits the pairs to these, by strip id; other strips are used for control only. UsageError
   /// from chooseAreas() for an unknown id.
@@ -83,8 +89,21 @@ class SystemCalibrationEngine {
     wanted_pairs_ = std::move(pairs);
   }
 
+  /** \brief Processes that share the calibration; default: one.
+   *
+   * All of them call the same functions in the same order. Each passes the points of its own strips
+   * to survey() and load(), all points of a strip in one process. chooseAreas() and calibrate() are
+   * collective and give the same results in all: each process forms the pairs of its share of the
+   * areas, for which it receives the points, and all adjust the pairs of all.
+   */
+  void setProcesses(Communicator* processes, const SharedItems& strips) {
+    processes_ = processes;
+    strip_shares_ = strips;
+  }
+
   void survey(int strip, const LidarReturn* points, std::size_t count);
-  /// InputError when no strips overlap, or when a strip begins before the trajectory or ends after
+  /// InputError when no strips overlap, when a reference surface overlaps none or lies far above or
+  /// below them, or when a strip begins before the trajectory or ends after
   /// it: such points are to be left out by the caller. Points in gaps of the trajectory are not
   /// used.
   void chooseAreas();
@@ -103,6 +122,8 @@ class SystemCalibrationEngine {
   const std::vector<SurveyArea>& areas() const { return areas_; }
   /// Share of each area in the information about the parameters, sum 1; after calibrate().
   const std::vector<double>& informationShares() const { return information_; }
+  /// Collective, after load(): gives each process the points of its areas.
+  void shareAreas();
   std::size_t loadedPoints() const;
   std::vector<StripPair> const& pairs() const { return pairs_; }
   /// Results of the recovery of attitude, a line for each strip; after chooseAreas().
@@ -113,6 +134,11 @@ class SystemCalibrationEngine {
  private:
   struct State;
 
+  void shareSurvey();
+  bool isMine(std::size_t area) const { return area_shares_.mine(area); }
+  /// Collective: strips with points in the pair areas, summed over these.
+  std::size_t stripsInAreas() const;
+  void forOwnAreas(const std::function<void(std::size_t area)>& work) const;
   void leaveOutUnpaired();
   void leaveOutSmallStrips();
   /// Strips with times rounded to steps in which the sensor moves by more than the error of its
@@ -124,6 +150,27 @@ class SystemCalibrationEngine {
   void describeAttitudes();
   void useNonLinearModel(const std::string& remark);
   void choosePairs();
+  // Surfaces that are held fixed.
+  bool isReference(int strip) const;
+  bool isHeld(int strip) const { return held_of_[static_cast<std::size_t>(strip)] >= 0; }
+  bool isHeld(const PairObservation& o) const {
+    return o.a != PairObservation::kControl && (isHeld(o.a) || isHeld(o.b));
+  }
+  /// By strip, whether it is used and not held fixed.
+  std::vector<bool> correctedStrips() const;
+  /// Finds the fixed strips, and gives each held surface a system that has no unknowns.
+  void holdSurfaces();
+  /// Refuses reference surfaces that no strip overlaps, or that lie far from the strips.
+  void checkReferences() const;
+  std::string objectionTo(int reference) const;
+  /// Adds the fit of the held surfaces to the result: \a after selects the values that are set.
+  void addHeldFit(const std::vector<AreaObservations>& observations, const SystemVector& biases,
+                  bool after, CalibrationResult& result) const;
+  /// Adds the height of each held surface above the rest of the block, by an adjustment in which it
+  /// is unknown, and judges it. The adjustment is restored.
+  void checkHeldHeights(State& state, SharedErrors& errors, CalibrationResult& result) const;
+  /// Observations as those of a block without held surfaces: these become control.
+  void replaceHeld(std::vector<AreaObservations>& observations) const;
   /// Limits of determination for the flying height.
   void adaptLimits();
   int stripNamed(const std::string& id) const;
@@ -186,6 +233,10 @@ class SystemCalibrationEngine {
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
   /// The noise of points and the sizes of the trajectory errors, as estimated.
   ErrorLevels errorLevels(const State& state) const;
+  /// Adds the fits of all pairs, formed anew with the result. \a used: by area, whether the
+  /// adjustment gave a pair of it a weight.
+  void addFits(State& state, const CalibrationReport& report, const std::vector<bool>& used,
+               CalibrationResult& result);
   /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
   /// Adds the parameters that differ between halves of the block.
@@ -200,6 +251,13 @@ class SystemCalibrationEngine {
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is needed
   std::vector<std::string> ids_;
   std::vector<bool> used_;
+  /// The fixed strips together, or a reference surface.
+  struct HeldStrips {
+    ReferenceSurface surface;
+    bool is_reference = false;
+  };
+  std::vector<HeldStrips> held_;
+  std::vector<int> held_of_;  ///< by strip: index in held_; -1: not held
   StripSystems systems_;
   std::vector<ControlPoint> control_;
   bool control_covered_ = false;  ///< whether any strip has a patch at a control point
@@ -216,6 +274,9 @@ class SystemCalibrationEngine {
   std::vector<LeftOutPoints> left_out_;
   HeightError height_error_;  ///< of the trajectory, from recorded scan angles
   ErrorSourceScale source_scale_;
+  Communicator* processes_ = nullptr;
+  SharedItems strip_shares_, area_shares_;  ///< which processes read and form pairs
+  std::size_t loaded_points_ = 0;           ///< of all processes
   std::function<void(const CalibrationIteration&)> progress_;
 };
 

@@ -50,6 +50,26 @@ class ByteWriter {
     for (const T& value : values) put(value);
     return *this;
   }
+  /// Values that consist of numbers and matrices of fixed size only.
+  template <typename T>
+  ByteWriter& putPlain(const std::vector<T>& values) {
+    return put(values.size()).raw(values.data(), sizeof(T) * values.size());
+  }
+  /// A map, ordered or hashed, whose keys are numbers; \a value writes an entry: value(out, v). A
+  /// hashed map gets the same order of iteration from getHashed().
+  template <typename Map, typename Value>
+  ByteWriter& putMap(const Map& map, const Value& value) {
+    put(map.size());
+    for (const auto& [key, entry] : map) {
+      put(key);
+      value(*this, entry);
+    }
+    return *this;
+  }
+  template <typename T>
+  ByteWriter& plain(const T& value) {
+    return raw(&value, sizeof value);
+  }
   ByteWriter& raw(const void* data, std::size_t size) {
     if (size > 0) bytes_.append(static_cast<const char*>(data), size);
     return *this;
@@ -90,6 +110,33 @@ class ByteReader {
     for (std::size_t left = size(1); left > 0; --left) get(values.emplace_back());
     return *this;
   }
+  template <typename T>
+  ByteReader& getPlain(std::vector<T>& values) {
+    values.resize(size(sizeof(T)));
+    return raw(static_cast<void*>(values.data()), sizeof(T) * values.size());
+  }
+  template <typename Map, typename Value>
+  ByteReader& getHashed(Map& map, std::size_t buckets, const Value& value) {
+    std::vector<std::pair<typename Map::key_type, typename Map::mapped_type>> entries(size(1));
+    for (auto& [key, entry] : entries) {
+      get(key);
+      value(*this, entry);
+    }
+    map.clear();
+    map.rehash(buckets);  // new entries are put in front of those of their bucket
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
+      map.emplace(entry->first, std::move(entry->second));
+    return *this;
+  }
+  template <typename Map, typename Value>
+  ByteReader& getMap(Map& map, const Value& value) {
+    map.clear();
+    for (std::size_t left = size(1); left > 0; --left) {
+      const auto key = take<typename Map::key_type>();
+      value(*this, map[key]);
+    }
+    return *this;
+  }
   ByteReader& raw(void* data, std::size_t size) {
     if (size > rest_.size()) throw InputError("a message between processes ends early");
     if (size > 0) std::memcpy(data, rest_.data(), size);
@@ -101,6 +148,11 @@ class ByteReader {
     T value{};
     get(value);
     return value;
+  }
+  /// Values that consist of numbers and matrices of fixed size only.
+  template <typename T>
+  ByteReader& plain(T& value) {
+    return raw(static_cast<void*>(&value), sizeof value);
   }
   bool done() const { return rest_.empty(); }
 

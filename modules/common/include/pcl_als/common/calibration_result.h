@@ -71,14 +71,32 @@ struct ControlFit {
   double mean_before = 0.0, rms_before = 0.0, mean_after = 0.0, rms_after = 0.0;
 };
 
-/// One control point: mean height of the strips above it, metres.
+/// One control point: mean distance of the strips above it, metres.
 struct ControlPointFit {
   std::string id;
+  std::string component =
+      "height";            ///< direction of the distances: "height", or "normal" of a patch
   std::size_t strips = 0;  ///< that see it on a smooth surface
   double sigma = 0.0;      ///< metres, as stated
   double before = 0.0, after = 0.0;
   double expected_std = 0.0;  ///< metres, of after: control, points and trajectory
   bool used = true;           ///< false: rejected as an outlier
+};
+
+/// What a calibration held fixed: strips of an earlier delivery (all of them together), or a
+/// reference surface. Nothing of it is estimated or corrected.
+struct HeldSurface {
+  std::string name;                 ///< "fixed strips", or the file of the surface
+  std::vector<std::string> strips;  ///< the fixed strips; empty for a reference surface
+  double std = 0.0;                 ///< a priori, of its points and of an area of it, metres
+  double offset_prior = 0.0;  ///< a priori standard deviation of a common height error; 0: none
+  std::size_t correspondences = 0;  ///< pairs with other strips
+  /// Normal distances of other strips above it, metres.
+  double mean_before = 0.0, rms_before = 0.0, mean_after = 0.0, rms_after = 0.0;
+  /// Its height above the rest of the block (control, trajectory, other surfaces) where its height
+  /// is not assumed to be known, metres.
+  double offset = 0.0, offset_std = 0.0;
+  bool offset_determined = false;  ///< false: only this surface determines the height of the block
 };
 
 /// Height of one strip above all others after the calibration, from the means of its pairs.
@@ -175,6 +193,7 @@ struct CalibrationResult {
   ResidualHistogram residuals;
   std::vector<ControlFit> control;
   std::vector<ControlPointFit> control_points;  ///< those that a strip sees
+  std::vector<HeldSurface> held;                ///< what was held fixed
   std::vector<StripOffset> strip_offsets;       ///< of the strips that have pairs
   std::vector<StripErrors> strip_errors;        ///< of the strips that were calibrated with
   std::optional<ErrorLevels> error_levels;      ///< as estimated; none: not known

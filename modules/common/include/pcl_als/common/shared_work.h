@@ -23,12 +23,17 @@ class SharedItems {
   /// the same division in every process. \a costs: by item, in any unit.
   SharedItems(const Communicator* processes, const std::vector<double>& costs);
 
+  /// Items with given owners.
+  SharedItems(const Communicator* processes, std::vector<int> owners);
+
   std::size_t count() const { return owner_.size(); }
   int owner(std::size_t item) const { return owner_[item]; }
   bool mine(std::size_t item) const { return owner_[item] == rank_; }
   const std::vector<std::size_t>& ownItems() const { return own_; }
 
  private:
+  void listOwn();
+
   std::vector<int> owner_;
   std::vector<std::size_t> own_;
   int rank_ = 0;
@@ -65,6 +70,15 @@ void shareValues(Communicator* processes, const SharedItems& items, std::vector<
     get(in, values[item]);
     bytes[item] = {};
   }
+}
+
+/// Whether there is more than one process.
+inline bool areShared(const Communicator* processes) {
+  return processes != nullptr && processes->size() > 1;
+}
+/// Whether this process prints and writes the results of the whole job.
+inline bool isRoot(const Communicator* processes) {
+  return processes == nullptr || processes->isRoot();
 }
 
 /// A callback of a job that is distributed: the root reports the progress of all processes, the

@@ -24,11 +24,20 @@ struct TrajectorySample {
   }
 };
 
-/// A surveyed point on the ground, used vertically: against the TIN patch above or below it.
+/// A surveyed point that strips are compared with.
 struct ControlPoint {
+  enum class Kind {
+    height,  ///< on the ground, used vertically: against the TIN patch above or below it
+    patch,   ///< centre of a planar patch (a roof), used along the normal of the patch
+  };
+
   std::string id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, ground frame
-  double sigma = 0.0;  ///< standard deviation of the height, metres; 0 when the file gives none
+  /// Standard deviation of the height (of a patch: along its normal), metres; 0: not stated.
+  double sigma = 0.0;
+  Kind kind = Kind::height;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of a patch; unit, upward
+  double extent = 0.0;                                ///< diameter of a patch, metres
 };
 
 /// A square of ground whose points are kept; points up to \a margin outside belong to it too,

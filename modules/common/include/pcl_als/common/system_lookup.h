@@ -11,21 +11,27 @@
 
 namespace pcl_als {
 
-/// The system of a point of a calibration with several, by its point source id and the channel of
-/// the scanner.
+/// The system of a point of a calibration with several, or with strips that were held fixed, by
+/// its point source id and the channel of the scanner.
 class SystemLookup {
  public:
   SystemLookup() = default;  ///< one system
-  explicit SystemLookup(const std::vector<SystemEstimate>& systems);
+  explicit SystemLookup(const CalibrationResult& calibration);
 
   /// Id of the strip of points without a point source id; the stem of their file.
   void setStrip(std::string strip) { strip_ = std::move(strip); }
+  /// Whether all points are of one system.
   bool single() const { return system_.empty(); }
-  /// Index of the system; InputError for a strip that belongs to none.
+  /// Index of the system; that of strips that were held fixed is fixed(). InputError for a strip
+  /// that belongs to none.
   std::uint8_t of(std::uint16_t source, std::uint8_t channel) const;
+  /// The index after that of the last system: points of it are not corrected.
+  std::uint8_t fixed() const { return fixed_; }
 
  private:
   std::map<std::string, std::uint8_t> system_;  ///< by id of the strip
+  std::uint8_t fixed_ = 1;
+  bool several_ = false;  ///< systems: every strip is of one of them
   std::string strip_;
 };
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <unordered_set>
 
+#include <pcl_als/common/byte_stream.h>
+
 namespace pcl_als {
 
 /** \brief The step to which the GPS times of a strip are rounded, from its points in any order.
@@ -36,6 +38,14 @@ class TimeResolution {
   /// "whole seconds (19 distinct values in 72225 points)", "steps of 0.0312 s (…)"; empty where
   /// step() is zero.
   std::string describe() const;
+
+  void put(ByteWriter& out) const {
+    out.put(points_).put(std::vector<double>(times_.begin(), times_.end()));
+  }
+  void get(ByteReader& in) {
+    const auto times = in.get(points_).take<std::vector<double>>();
+    times_ = {times.begin(), times.end()};
+  }
 
  private:
   static constexpr std::size_t kMostTimes = 2000;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/point_file_info.h>
 #include <pcl_als/common/raster.h>
 
 namespace pcl_als {
@@ -71,7 +72,8 @@ class RasterWriter {
 /** \brief Reads a GeoTIFF window by window.
  *
  * Places are brought to metres from the unit of the file's CRS.
- * Bands of any number type are read as float (no-data as NaN) or, those of bytes, as bytes.
+ * Bands of any number type are read as float (no-data as NaN; with the scale and offset that the
+ * file states) or, those of bytes, as bytes.
  * InputError for a file that is no GeoTIFF, not north up, without georeference, whose cells are not
  * square, whose header declares more cells than such a file can hold (65536 per byte) or whose
  * blocks are larger than 512 MiB. A CRS that is an EPSG code is given as "EPSG:…", another as WKT.
@@ -84,6 +86,10 @@ class RasterReader {
   RasterReader& operator=(const RasterReader&) = delete;
 
   const RasterLayout& layout() const;
+  /// CRS and units, as of a point file whose heights are the values of the first band: in the unit
+  /// that the band states, else in that of the vertical axis of the CRS, else in metres. InputError
+  /// for a unit that is no known unit of length.
+  PointFileInfo info() const;
   int overviews() const;  ///< number of smaller copies of the first band
   void read(std::size_t band, const RasterWindow& window, float* values);
   void read(std::size_t band, const RasterWindow& window, std::uint8_t* values);

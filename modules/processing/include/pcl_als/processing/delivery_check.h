@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/processing/survey_reader.h>
@@ -75,6 +76,10 @@ struct CheckedBlock {
 };
 
 /** \brief Checks one set of strips: three passes over the files, memory for the chosen areas only.
+ *
+ * The processes of the SurveyReader share the work: each measures its share of the areas, for which
+ * it receives the points, and aligns its share of the pairs. All functions are collective and give
+ * the same results in all processes.
  */
 class BlockCheck {
  public:
@@ -92,10 +97,11 @@ class BlockCheck {
   void setAreas(std::vector<SurveyArea> areas);
   const std::vector<SurveyArea>& areas() const { return areas_; }
 
-  /// Second pass, point by point; \a also receives every point, strip by strip.
+  /// Second pass, point by point; \a also receives every point, strip by strip (of several
+  /// processes: in the first one).
   using PointSink = std::function<void(int strip, const LidarReturn& point)>;
   void load(const PointSink& also);
-  std::size_t loadedPoints() const;
+  std::size_t loadedPoints() const { return loaded_points_; }
 
   CheckedBlock assess(const std::function<void(double)>& progress);
 
@@ -108,6 +114,24 @@ class BlockCheck {
   void measureAreas();
   void measureControl(CheckedBlock& block);
   CheckedPair assessOverlap(std::size_t overlap, CellMeans& cells);
+  void alignPairs(std::vector<CheckedPair>& pairs, const std::function<void(double)>& progress);
+  bool isAligned(const CheckedPair& pair) const {
+    return pair.overlap_area >= settings_.minimum_overlap &&
+           pair.assessment.status != PairAssessment::Status::copy;
+  }
+  void readForRoot(const PointSink& sink);
+  // What processes tell each other.
+  void shareStrips();
+  void shareAreas();
+  void shareMeasurements(std::vector<std::vector<double>>& repeated);
+  void receivePoints(std::vector<ByteWriter>& sent);
+  void sharePairPoints(const std::vector<CheckedPair>& pairs, const SharedItems& shares);
+  AreaOffsets& target(std::size_t i) {
+    return i < offsets_.size() ? offsets_[i] : control_offsets_[i - offsets_.size()];
+  }
+  /// Does the work for the own ones of some areas, or of the control points behind them.
+  void forOwn(std::size_t first, std::size_t count,
+              const std::function<void(std::size_t i)>& work) const;
 
   SurveyReader& survey_;
   CheckSettings settings_;
@@ -123,7 +147,11 @@ class BlockCheck {
   std::vector<AreaOffsets> control_offsets_;                     ///< around the control points
   std::vector<std::vector<std::vector<OffsetSample>>> samples_;  ///< by area, then by overlap
   std::vector<std::vector<double>> milliseconds_;                ///< the same
+  std::vector<std::vector<std::size_t>> counts_;                 ///< points by area, then by strip
   std::vector<double> repeated_;                                 ///< by strip
+  SharedItems strip_shares_;
+  SharedItems target_shares_;      ///< of the areas, then of the control points
+  std::size_t loaded_points_ = 0;  ///< of all processes
   Warnings warnings_;
   std::vector<LeftOutPoints> left_out_;
   mutable std::atomic<std::uint64_t> uncovered_{0};  ///< points that the trajectory does not cover

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <pcl_als/common/communicator.h>
-#include <pcl_als/common/progress.h>
+#include <pcl_als/common/shared_work.h>
 
 namespace pcl_als {
 
@@ -54,8 +54,10 @@ class FileBatch {
   /** \brief Collective: does the work for all files that are not complete, in each process for its
    * share, one file after another. Returns the results of all files, from records for those that
    * were kept. \a progress receives the fraction of the bytes that this process has done.
+   * \a given: the division of the files; null: by size, without those that are kept.
    */
-  std::vector<std::string> run(const Work& work, const std::function<void(double)>& progress);
+  std::vector<std::string> run(const Work& work, const std::function<void(double)>& progress,
+                               const SharedItems* given = nullptr);
 
  private:
   void removeTemporaries() const;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pcl_als/common/progress.h>
+#include <pcl_als/processing/file_batch.h>
 #include <pcl_als/processing/intensity_output.h>
 #include <pcl_als/processing/intensity_run.h>
 
@@ -28,6 +29,7 @@ struct IntensityOptions {
   std::optional<StoredRadiometry> stored;  ///< used instead of estimating
   std::vector<ReferenceTarget> targets;    ///< of known reflectance; may be empty
   double target_radius = 1.0;              ///< metres: points this close belong to a target
+  BatchOptions batch;  ///< processes that share the files; continuation of an interrupted run
 
   using SeenPoint = std::function<void(int strip, const Eigen::Vector3d& place)>;
   /// Called once when the files have been read for the first time; what it returns is called with

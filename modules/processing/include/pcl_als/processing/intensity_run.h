@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/processing/intensity_input.h>
 #include <pcl_als/radiometry/intensity_statistics.h>
@@ -41,6 +42,8 @@ struct IntensitySettings {
   StripChoice strips;         ///< points of other strips stay unchanged
   std::optional<int> gps_week;
   int threads = 0;
+  /// That share the files (collective); null: one process.
+  Communicator* processes = nullptr;
 };
 
 /// Counts over a file for the user.
@@ -54,6 +57,9 @@ struct IntensityCounts {
   /// Points of strips in use that no trajectory covers, by label and reason.
   std::map<std::pair<std::size_t, LeftOutReason>, std::uint64_t> uncovered;
   void merge(const IntensityCounts& other);
+  /// All counts, for another process.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
 };
 
 /// A window with the results for its points.
@@ -75,6 +81,8 @@ struct WindowChoice {
 
 /** \brief Point files and their flight, prepared for estimation and correction.
  *
+ * Of several processes each evaluates the windows of its share of the files; sums of files are
+ * merged in the order of the files, so that results do not depend on the number of processes.
  * Memory: that of IntensityInput, a window for each thread, and sums for at most
  * IntensitySettings::most_cells cells.
  */
@@ -86,6 +94,8 @@ class IntensityRun {
   IntensityRun(const IntensityRun&) = delete;
   IntensityRun& operator=(const IntensityRun&) = delete;
 
+  /// The files by the process that reads them.
+  const SharedItems& shares() const { return shares_; }
   /// Names of the strips in use.
   const std::vector<std::string>& strips() const { return arrangement_->names(); }
   const IntensityInput& input(std::size_t file) const { return *inputs_[file]; }
@@ -126,12 +136,25 @@ class IntensityRun {
   }
   double constant() const { return constant_; }  ///< corrected intensity of reflectance 1; 0: none
 
+  /// Calls \a each with the points of strips in use; the file is read as often as it has to be.
+  void visit(std::size_t file,
+             const std::function<void(int strip, const Eigen::Vector3d& place)>& each) const;
   void evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
                 const WindowChoice& choice = WindowChoice()) const;
   bool usable(float intensity) const { return intensity > 0.0F && intensity < saturation_; }
 
  private:
   void openFiles(const std::vector<std::string>& paths);
+  void shareInputs(const std::vector<std::string>& paths);
+  /// Cells of a file: sums over its windows in their order.
+  RadiometricCells cellsOf(std::size_t file, const std::function<void(double)>& progress) const;
+  struct Sample;  ///< a point for the check of the trajectory
+  std::vector<Sample> samplesOf(std::size_t file) const;
+  /// Radii of surfaces by strip, in some windows of a file.
+  std::vector<std::pair<int, double>> radiiOf(std::size_t file) const;
+  /// x, y, corrected intensity of points at targets.
+  std::vector<Eigen::Vector3d> targetPoints(std::size_t file,
+                                            const ReferenceCalibration& calibration) const;
   void alignTimes();
   void arrangeStrips(const std::vector<std::string>& paths);
   void checkTrajectory();
@@ -143,6 +166,7 @@ class IntensityRun {
   double gainControl(double value, const std::string& path) const;
 
   IntensitySettings settings_;
+  SharedItems shares_;
   std::shared_ptr<const Trajectory> trajectory_;
   std::vector<std::unique_ptr<IntensityInput>> inputs_;
   std::vector<TimeAlignment> times_;

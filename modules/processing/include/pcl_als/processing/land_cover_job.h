@@ -11,6 +11,7 @@
 #include <pcl_als/classification/gaussian_classifier.h>
 #include <pcl_als/common/class_site.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/processing/file_batch.h>
 #include <pcl_als/processing/land_cover.h>
 #include <pcl_als/processing/point_classes.h>
 #include <pcl_als/processing/strip_rasters.h>
@@ -36,6 +37,7 @@ struct LandCoverOptions {
   std::filesystem::path grids;      ///< GeoTIFF of nine bands; empty: not kept
   std::filesystem::path posterior;  ///< GeoTIFF of probabilities; empty: none
   std::filesystem::path points;     ///< folder of point files with classes; empty: none
+  BatchOptions batch;  ///< processes that share tiles and files; continuation for point files
   /// Names of the sites in messages: those of their files.
   std::string training_name = "training sites", checks_name = "check sites";
 };

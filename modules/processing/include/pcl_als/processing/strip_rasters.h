@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <pcl_als/classification/surface_rasters.h>
+#include <pcl_als/common/communicator.h>
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/survey/arranged_files.h>
@@ -35,15 +36,24 @@ void chooseStrips(const StripChoice& choice, RasterInput& files);
 struct RasterCounts {
   std::uint64_t points = 0;  ///< inside the raster, without noise
   CellCounts surface, terrain;
+
+  void add(const RasterCounts& other) {
+    points += other.points;
+    surface.merge(other.surface);
+    terrain.merge(other.terrain);
+  }
 };
 
 /** \brief Makes the rasters of SurfaceAccumulator from point files, tile by tile.
  *
  * Each tile reads the files whose box intersects it, so that the memory is that of a tile per
- * thread for any number of points. \a progress is called by one thread at a time.
+ * thread for any number of points. \a progress is called by one thread at a time. Collective: \a
+ * processes (null: one) share the tiles; the first one, which alone has a \a writer, receives and
+ * writes them.
  */
-RasterCounts rasterizeStrips(const RasterInput& files, const SurfaceOptions& options, int tile_side,
-                             int threads, RasterWriter& writer,
-                             const std::function<void(double)>& progress);
+RasterCounts rasterizeStrips(const RasterInput& files, const RasterGrid& grid,
+                             const SurfaceOptions& options, int tile_side, int threads,
+                             RasterWriter* writer, const std::function<void(double)>& progress,
+                             Communicator* processes = nullptr);
 
 }  // namespace pcl_als

@@ -12,6 +12,7 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/trajectory_io.h>
+#include <pcl_als/processing/reference_source.h>
 #include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/survey/strip_arrangement.h>
@@ -24,6 +25,7 @@ struct SurveyCalibrationOptions {
   StripChoice strips;                                      ///< strips that are used; default all
   std::vector<std::pair<std::string, std::string>> pairs;  ///< of strips; empty: all that overlap
   std::vector<ControlPoint> control;
+  std::vector<ReferenceSource> references;  ///< surfaces that strips are compared with
   std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
   SurveyObserver observer;      ///< called during the first reading
   /// Standard deviations of the trajectory over time: their root mean squares over the times of the

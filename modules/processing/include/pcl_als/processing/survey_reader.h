@@ -15,6 +15,7 @@
 
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/progress.h>
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/survey/strip_arrangement.h>
@@ -57,8 +58,10 @@ class SurveyReader {
   /// or that commonReference() refuses.
   /// \a threads: 0: all cores; results do not depend on it.
   /// \a window: the part of the files that is read; InputError where it has no points.
+  /// \a processes: null, or those that share the readings (collective): each reads its share of
+  /// the files and receives what the others found; see read().
   explicit SurveyReader(const std::vector<std::string>& paths, int threads = 0,
-                        const PointWindow& window = {});
+                        const PointWindow& window = {}, Communicator* processes = nullptr);
   /// The same from other sources than files.
   static SurveyReader ofInputs(std::vector<SurveyInput> inputs, int threads = 0);
 
@@ -98,14 +101,30 @@ class SurveyReader {
   /// that were read, 0 … 1; an exception of it ends the reading. Empty: none.
   void setProgress(std::function<void(double share)> progress) { progress_ = std::move(progress); }
 
-  /// Calls \a sink with all points, in runs of one strip; from several threads for different
-  /// strips.
+  /** \brief Calls \a sink with all points, in runs of one strip; from several threads for
+   * different strips.
+   *
+   * Collective where processes share the readings: each process gets all points of its own strips,
+   * strips(), and none of the others.
+   */
   void read(const Sink& sink) const;
   /// The same with all fields of the points.
   void readRuns(const RunSink& sink) const;
+  /// Collective: the first process gets all points of all strips, the others none.
+  void readAtRoot(const Sink& sink) const;
+  void readRunsAtRoot(const RunSink& sink) const;
+
+  Communicator* processes() const { return processes_; }
+  /// The strips by the process that reads them.
+  SharedItems stripShares() const;
 
  private:
-  SurveyReader(int threads, std::vector<SurveyInput> inputs);
+  SurveyReader(int threads, std::vector<SurveyInput> inputs, Communicator* processes);
+  using Groups = std::vector<std::vector<std::size_t>>;
+  SharedItems sharesOf(const Groups& groups) const;
+  /// Reads some groups of files and counts points by group and label.
+  void readGroups(const Groups& groups, const std::vector<std::size_t>& chosen, const RunSink& sink,
+                  std::vector<std::vector<std::uint64_t>>& counts) const;
   std::vector<std::string> alignTimes(const Flight& flight);
   void checkAnyLeft(const Flight& flight) const;
   /// Sets names, expected points and channels of the strips.
@@ -118,9 +137,11 @@ class SurveyReader {
   void readFile(std::size_t file, const RunSink& sink,
                 const std::function<void(std::size_t points)>& done,
                 std::vector<std::uint64_t>& counts) const;
-  std::vector<std::vector<std::size_t>> groupsOfFiles() const;
+  /// Files that have strips in common, by group.
+  Groups groupsOfFiles() const;
 
   int threads_;
+  Communicator* processes_;
   std::string channel_field_;
   std::vector<SurveyInput> inputs_;
   std::vector<SurveyedFile> files_;

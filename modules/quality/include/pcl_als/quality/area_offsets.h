@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/quality/checked_points.h>
 #include <pcl_als/quality/offset_sample.h>
 #include <pcl_als/tin/patch_surface.h>
@@ -41,6 +42,12 @@ class AreaOffsets {
   const SurveyArea& area() const { return area_; }
   const std::vector<LidarReturn>& points(int strip) const { return part(strip).points; }
   std::size_t pointCount() const;
+  /// The points of a strip, for another process; get() replaces those that are there.
+  void put(int strip, ByteWriter& out) const { out.putPlain(part(strip).points); }
+  void get(int strip, ByteReader& in) {
+    in.getPlain(strips_[static_cast<std::size_t>(strip)].points);
+  }
+  void clear() { strips_.assign(strips_.size(), StripPart()); }  ///< deletes all points
 
   /// Removes points high in the vegetation (dropHighVegetation()) and builds the TIN of every strip
   /// with enough points. \a resolution: metres, step of the coordinates.

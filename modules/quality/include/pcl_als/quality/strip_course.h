@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/quality/checked_points.h>
 
 namespace pcl_als {
@@ -23,6 +24,9 @@ class StripCourse {
   std::size_t count() const { return count_; }
   /// Plan unit vector; empty where times do not determine it (no times, or a very short strip).
   std::optional<Eigen::Vector2d> direction() const;
+
+  void put(ByteWriter& out) const { out.plain(*this); }
+  void get(ByteReader& in) { in.plain(*this); }
 
  private:
   std::size_t count_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
@@ -41,6 +42,9 @@ class IntensityStatistics {
   void add(std::size_t strip, double before, double after, double slope,
            std::uint8_t classification);
   void merge(const IntensityStatistics& other);
+  /// All statistics, for another process.
+  void put(ByteWriter& out) const { out.putPlain(strips_).putPlain(classes_); }
+  void get(ByteReader& in) { in.getPlain(strips_).getPlain(classes_); }
 
   std::size_t strips() const { return strips_.size(); }
   const BeforeAfter& strip(std::size_t i) const { return strips_[i].all; }
@@ -65,6 +69,10 @@ class IntensityStatistics {
 struct IntensityHistogram {
   std::vector<std::uint64_t> before = std::vector<std::uint64_t>(65536);
   std::vector<std::uint64_t> after = std::vector<std::uint64_t>(65536);
+
+  /// The counts that are not zero, for another process, and their addition to these.
+  void put(ByteWriter& out) const;
+  void add(ByteReader& in);
 };
 
 }  // namespace pcl_als

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/radiometry/radiometric_model.h>
 
 namespace pcl_als {
@@ -64,6 +65,13 @@ class RadiometricCells {
            const PointRadiometry& point, const LocalSurface& surface);
   void merge(const RadiometricCells& other);
   std::size_t count() const { return cells_.size(); }
+  /// All sums, for another process.
+  void put(ByteWriter& out) const {
+    out.putMap(cells_, [](ByteWriter& o, const std::vector<CellSums>& cell) { o.putPlain(cell); });
+  }
+  void get(ByteReader& in) {
+    in.getMap(cells_, [](ByteReader& i, std::vector<CellSums>& cell) { i.getPlain(cell); });
+  }
   /// Smooth cells of at least two strips, by row and column.
   std::vector<SharedCell> shared(const SmoothCellSettings& settings = SmoothCellSettings()) const;
 

@@ -21,7 +21,8 @@ namespace pcl_als {
 struct SurveyInput {
   /// A reader positioned at the first point; may be called by several threads.
   std::function<std::unique_ptr<PointReader>()> open;
-  std::string strip;  ///< strip of all points; empty: strips are named by StripNaming
+  std::filesystem::path path;  ///< of a file; empty: another source
+  std::string strip;           ///< strip of all points; empty: strips are named by StripNaming
   /// to the time system of the trajectory; default: reconcileTimes()
   std::optional<TimeAlignment> time;
 

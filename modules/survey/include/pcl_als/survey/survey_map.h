@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/survey_types.h>
 
@@ -38,6 +39,9 @@ class SurveyMap {
   explicit SurveyMap(const Eigen::Vector2d& anchor);
 
   int addStrip();  ///< returns its index; not while another thread adds points
+  /// A strip whose points are those of a surface and may be few, such as cells of a raster: one
+  /// point in a cell of 10 m is enough.
+  int addSurface();
 
   /// Adds points to a strip. Points that are not finite are not added and counted.
   void add(int strip, const LidarReturn* points, std::size_t count);
@@ -50,6 +54,10 @@ class SurveyMap {
   double coveredArea(int strip) const {
     return static_cast<double>(strips_[strip].cells.size()) * kCell * kCell;
   }
+
+  /// All that is known of a strip, for another process.
+  void putStrip(int strip, ByteWriter& out) const;
+  void getStrip(int strip, ByteReader& in);
 
   struct Overlap {
     StripPair strips;
@@ -92,10 +100,11 @@ class SurveyMap {
     std::unordered_map<std::int64_t, Cell> cells;
     std::size_t points = 0, invalid = 0;
     double start = 0.0, end = 0.0;
+    std::uint32_t enough = 10;  ///< last returns of a cell that is compared
   };
 
   std::int64_t keyOf(const Eigen::Vector3d& position) const;
-  double score(const Cell& a, const Cell& b) const;
+  static double score(const StripCells& a, const Cell& in_a, const StripCells& b, const Cell& in_b);
 
   Eigen::Vector2d anchor_;
   std::deque<StripCells> strips_;

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/point_reader.h>
 
@@ -44,6 +45,13 @@ class SwathTrack {
   /// In order of time.
   const std::map<std::int64_t, Bin>& bins() const { return bins_; }
   std::uint64_t pointCount() const;
+
+  void put(ByteWriter& out) const {
+    out.put(width_).putMap(bins_, [](ByteWriter& o, const Bin& bin) { o.put(bin); });
+  }
+  void get(ByteReader& in) {
+    in.get(width_).getMap(bins_, [](ByteReader& i, Bin& bin) { i.get(bin); });
+  }
 
  private:
   std::int64_t indexOf(double time) const;

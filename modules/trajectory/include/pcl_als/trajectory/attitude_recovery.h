@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/recovered_attitude.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
@@ -71,6 +72,9 @@ class AttitudeRecovery {
   void add(double time, const Eigen::Vector3d& point,
            double scan_angle = std::numeric_limits<double>::quiet_NaN());
   void merge(const AttitudeRecovery& other);
+  /// All points so far, for another process.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
 
   /// From the 2nd to the 98th percentile over time, radians.
   struct Range {

@@ -74,8 +74,9 @@ class SystemCorrection {
 
   /// The displacements that correct the points, metres. Times are those of the flight
   /// (flightTime()). Points without trajectory or attitude are counted, and their displacement is
-  /// zero. Input and output columns of an axis may be the same. UsageError for a calibration with
-  /// several systems and points without PointColumns::system.
+  /// zero, as is that of points of strips that the calibration held fixed. Input and output columns
+  /// of an axis may be the same. UsageError for a calibration with several systems or fixed strips
+  /// and points without PointColumns::system.
   void change(const PointColumns& points, std::size_t count, const EffectColumns& change,
               CoverageCount& coverage) const;
 

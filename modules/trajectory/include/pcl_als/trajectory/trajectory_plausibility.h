@@ -64,6 +64,9 @@ class TrajectoryPlausibility {
   void addTime(int strip, double time) {
     if (std::isfinite(time)) strips_[static_cast<std::size_t>(strip)].times.add(time);
   }
+  /// All points of a strip so far, for another process.
+  void putStrip(int strip, ByteWriter& out) const;
+  void getStrip(int strip, ByteReader& in);
   /// Excludes a strip that is not used from findings().
   void leaveOut(int strip) { strips_[static_cast<std::size_t>(strip)].used = false; }
 

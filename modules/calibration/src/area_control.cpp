@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The observations of control points by AreaMatcher.
+#include <cmath>
+
+#include "area_matcher.h"
+#include "point_geometry.h"
+
+namespace pcl_als {
+namespace {
+
+/// The effect of the error of a control point on a distance: it is one of the height, or one along
+/// the normal of a patch.
+double errorAlong(const PairObservation& o) {
+  return o.along_normal ? 1.0 : o.normal.z();
+}
+
+/// Sets the factor by which the pairs of one control point share the error of the point, in all
+/// strips that cover it. The pairs are those of \a found from the index \a first on.
+void shareControlError(const ControlPoint& point, std::size_t first, AreaObservations& found) {
+  double up = 0.0;
+  for (std::size_t i = first; i < found.size(); ++i) up += errorAlong(found[i]);
+  for (std::size_t i = first; i < found.size(); ++i) {
+    PairObservation& o = found[i];
+    const double own = errorAlong(o);
+    o.sharing = 1.0 + own * (up - own) * point.sigma * point.sigma / o.variance;
+  }
+}
+
+}  // namespace
+
+AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& control,
+                                           double threshold, const Trajectory& trajectory,
+                                           const NoiseModel& noise, double default_sigma) const {
+  AreaObservations found;
+  const ErrorSourceScale* scale = source_scale_ ? &*source_scale_ : nullptr;
+  PointGeometry foot(trajectory, noise, scale), vertex(trajectory, noise, scale);
+  for (ControlPoint point : control) {
+    if (!area_.contains(point.position)) continue;
+    if (!(point.sigma > 0.0)) point.sigma = default_sigma;
+    const std::size_t first = found.size();
+    for (std::size_t b = 0; b < strips_.size(); ++b) {
+      const int strip = static_cast<int>(b);
+      if (strips_[b].biased.empty() || strips_[b].held()) continue;
+      if (point.kind == ControlPoint::Kind::patch)
+        matchPatch(point, strip, threshold, foot, found);
+      else
+        matchHeight(point, strip, threshold, foot, vertex, found);
+    }
+    shareControlError(point, first, found);
+  }
+  return found;
+}
+
+void AreaMatcher::matchHeight(const ControlPoint& point, int strip, double threshold,
+                              PointGeometry& foot, PointGeometry& vertex,
+                              AreaObservations& found) const {
+  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  const auto match = part.surface.vertical(point.position);
+  if (!match || std::abs(match->signed_normal_distance) > threshold) return;
+  const PatchQuality quality = part.surface.quality(match->triangle);
+  if (!criterion_.isSatisfiedBy(quality, part.median_edge) ||
+      !foot.atFoot(part, *match, quality, vertex))
+    return;
+  found.push_back(controlObservation(point, strip, measuringDirection(quality), foot));
+}
+
+void AreaMatcher::matchPatch(const ControlPoint& point, int strip, double threshold,
+                             PointGeometry& measured, AreaObservations& found) const {
+  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  PatchQuality plane;  // the surveyed plane, on which pulses are taken to end
+  plane.plane_normal = point.normal;
+  plane.plane_centre = point.position;
+  for (std::size_t i = 0; i < part.biased.size(); ++i) {
+    const Eigen::Vector3d from = part.surface.tin().points()[i] - point.position;
+    const double distance = from.dot(point.normal);
+    if (!part.single[i] || std::abs(distance) > threshold ||
+        (from - distance * point.normal).norm() > 0.5 * point.extent ||
+        !measured.atPoint(part, static_cast<std::int32_t>(i), plane))
+      continue;
+    found.push_back(controlObservation(point, strip, {point.normal, 0.0}, measured));
+  }
+}
+
+PairObservation AreaMatcher::controlObservation(const ControlPoint& point, int strip,
+                                                const Direction& direction,
+                                                const PointGeometry& foot) const {
+  PairObservation o;
+  o.b = strip;
+  o.along_normal = point.kind == ControlPoint::Kind::patch;
+  o.time_a = o.time_b = foot.time;
+  o.lateral = foot.lateral;
+  o.height = foot.height;
+  o.normal = direction.normal;
+  o.tilt_variance = direction.variance;
+  o.design = (-foot.design).cast<float>();
+  o.row_b = o.normal.transpose() * foot.design;
+  o.misclosure = o.normal.dot(point.position - foot.position) -
+                 o.effectAtPatch(corrected_for_[static_cast<std::size_t>(strip)]);
+  o.sources = -foot.sourcesAlong(o.normal);
+  const double sigma = point.sigma * errorAlong(o);
+  o.variance = normalVariance(foot.covariance, o.normal) + sigma * sigma;
+  o.pointing = normalVariance(foot.pointing, o.normal);
+  return o;
+}
+
+}  // namespace pcl_als

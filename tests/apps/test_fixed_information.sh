@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026, the pcl_als authors
+#
+# test_fixed_information.sh BIN_DIR SCRATCH_DIR: strips that are held fixed, and reference surfaces. The block has a range
+# bias, which strips alone do not show; the earlier delivery is the same flight without biases.
+source "$(dirname -- "${BASH_SOURCE[0]}")/tool_test.sh"
+
+simulation=(-preset small -scale 0.6 -density 0.5 -noise range)
+run simulate -output new "${simulation[@]}" -bias range_bias=0.2,boresight_roll=60
+run simulate -output earlier "${simulation[@]}" -bias none
+[[ $status == 0 ]] || failed "simulate"
+cp earlier/strip3.las new/strip3.las
+strips=(new/strip1.las new/strip2.las new/strip3.las new/strip4.las)
+flight=(-trajectory new/trajectory.csv)
+calibrate=(calibrate "${strips[@]}" "${flight[@]}" -candidates 10)
+
+range_of() {  # FILE: the range bias, 0 where it is not estimated
+  awk '/"range_bias": *{/ { getline; gsub(/[^-0-9.e]/, "", $2); print $2; exit }' "$1"
+}
+near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(d < t && d > -t) }'; }
+
+# Fixed strips: the range bias is found (3 cm: the trajectory counts as certain to 2 cm), they are recorded, and apply
+# leaves them as they are.
+expect 0 "Strips 3 were held fixed" "${calibrate[@]}" -fixed 3 -output fixed.json -corrected corrected -report report
+check "range bias $(range_of fixed.json)" near "$(range_of fixed.json)" 0.2 0.03
+check "the page names them" grep -q "fixed strips" report/report.md
+check "the fixed strip is unchanged" cmp new/strip3.las corrected/strip3.las
+expect 0 "unchanged, because held fixed: strips 3" apply new/strip3.las applied.las "${flight[@]}" -calibration fixed.json
+check "apply leaves it unchanged" cmp new/strip3.las applied.las
+expect 0 "" apply new/strip2.las applied2.las "${flight[@]}" -calibration fixed.json
+check "apply corrects others" cmp applied2.las corrected/strip2.las
+expect 2 "was held fixed" apply new/strip3.las none.las "${flight[@]}" -calibration fixed.json -uncertainty
+expect 1 "there is no strip 9" "${calibrate[@]}" -fixed 9 -output no.json
+absent none.las no.json
+
+# A reference surface of points.
+expect 0 "| strip2.las           |" calibrate new/strip1.las new/strip2.las "${flight[@]}" -candidates 10 \
+  -reference earlier/strip2.las:0.03 -output points.json
+check "range bias $(range_of points.json)" near "$(range_of points.json)" 0.2 0.03
+check "the result lists the file" grep -q '"earlier/strip2.las"' points.json
+run convert earlier/strip2.las elsewhere.las -bounds 0,0,1,1
+expect 2 "no.las" "${calibrate[@]}" -reference no.las -output no.json
+expect 1 "standard deviation must be positive" "${calibrate[@]}" -reference earlier/strip2.las:0 -output no.json
+absent no.json
+finish

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// Strips and reference surfaces that are held fixed.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <pcl_als/common/errors.h>
+
+#include "simulated_survey.h"
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+using simulation::NoiseOptions;
+using simulation::SimulationOptions;
+using test::SimulatedSurvey;
+
+SimulationOptions small(std::uint64_t seed) {
+  SimulationOptions options = SimulationOptions::preset("small", 0.6, 0.6);
+  options.noise = NoiseOptions::named("realistic");
+  options.seed = seed;
+  return options;
+}
+
+/// A block whose strip 3 is that of an earlier delivery: without biases and trajectory errors.
+SimulatedSurvey withCorrectStrip(std::uint64_t seed) {
+  SimulationOptions options = small(seed);
+  SimulatedSurvey survey(options);
+  options.bias.setZero();
+  options.noise = NoiseOptions::named("range");
+  survey.strips[2] = SimulatedSurvey(options).strips[2];
+  return survey;
+}
+
+CalibrationResult calibrated(const SimulatedSurvey& survey, std::vector<std::string> fixed) {
+  SimulatedSurvey::Request request;
+  request.rigorous = true;
+  request.settings.candidates = 10'000;
+  request.settings.threads = 1;
+  request.settings.diagnose = false;  // half of the time
+  request.settings.fixed = std::move(fixed);
+  return survey.loaded(request)->calibrate();
+}
+
+/// All estimates are within four standard deviations (a chance of 1e-4 each).
+void expectTruth(const CalibrationResult& result, const SystemVector& truth) {
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const ParameterEstimate& p = result[info.parameter];
+    if (p.status != ParameterStatus::estimated) continue;
+    EXPECT_NEAR(p.bias, truth[indexOf(info.parameter)], 4.0 * p.std) << info.name;
+  }
+}
+
+TEST(FixedStrips, DetermineTheRangeBias) {
+  for (const std::uint64_t seed : {4U}) {  // also run with 5 and 6
+    const SimulatedSurvey survey = withCorrectStrip(seed);
+    const CalibrationResult result = calibrated(survey, {"3"});
+    EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+    expectTruth(result, survey.bias);
+    const ParameterEstimate& range = result[P::range_bias];
+    ASSERT_EQ(range.status, ParameterStatus::estimated) << range.reason;
+    EXPECT_LT(range.std, 0.03);  // the truth is larger
+    EXPECT_GT(std::abs(survey.bias[indexOf(P::range_bias)]), 0.03);
+    ASSERT_EQ(result.held.size(), 1U);
+    EXPECT_EQ(result.held[0].strips, std::vector<std::string>{"3"});
+    EXPECT_GT(result.held[0].correspondences, 1000U);
+    EXPECT_LT(result.held[0].rms_after, 0.5 * result.held[0].rms_before);
+    const auto is = [](const std::string& id) {
+      return [id](const StripErrors& strip) { return strip.id == id; };
+    };
+    EXPECT_TRUE(std::any_of(result.strip_errors.begin(), result.strip_errors.end(), is("2")));
+    EXPECT_FALSE(std::any_of(result.strip_errors.begin(), result.strip_errors.end(), is("3")));
+  }
+}
+
+/// Without the option the block has no height, and strip 3 contradicts the others.
+TEST(FixedStrips, AreNeededForIt) {
+  const CalibrationResult result = calibrated(withCorrectStrip(4), {});
+  EXPECT_NE(result[P::range_bias].status, ParameterStatus::estimated);
+  EXPECT_TRUE(result.held.empty());
+}
+
+TEST(FixedStrips, MustExistAndLeaveOthers) {
+  const SimulatedSurvey survey(small(4));
+  EXPECT_THROW(calibrated(survey, {"9"}), UsageError);
+  EXPECT_THROW(calibrated(survey, {"1", "2", "3", "4", "5"}), UsageError);
+}
+
+/// Points of another survey of the same scene, without errors of a system: every fifth point, with
+/// a noise of 2 cm.
+std::vector<LidarReturn> referencePoints(const SimulationOptions& like, double shift = 0.0) {
+  SimulationOptions options = like;
+  options.bias.setZero();
+  options.noise = NoiseOptions::named("none");
+  std::mt19937_64 random(like.seed);
+  std::normal_distribution<double> noise(shift, 0.02);
+  std::vector<LidarReturn> points;
+  for (const auto& strip : SimulatedSurvey(options).strips) {
+    for (std::size_t i = 0; i < strip.size(); i += 5) {
+      points.push_back(strip[i]);
+      points.back().position.z() += noise(random);
+      points.back().time = 0.0;
+    }
+  }
+  return points;
+}
+
+const ReferenceSurface kSurface{"dem.laz", 0.02, 0.0};
+
+struct Compared {
+  ReferenceSurface surface;
+  std::vector<LidarReturn> points;
+  std::vector<ControlPoint> control;
+  std::vector<std::size_t> strips;  ///< of the survey; empty: all
+};
+
+CalibrationResult calibratedWith(const SimulatedSurvey& survey, const Compared& with) {
+  CalibrationSettings settings;
+  settings.candidates = 10'000;
+  settings.threads = 1;
+  settings.diagnose = false;
+  SystemCalibrationEngine calibration(survey.flight(true), settings, survey.corner());
+  std::vector<std::size_t> strips = with.strips;
+  for (std::size_t i = 0; with.strips.empty() && i < survey.strips.size(); ++i) strips.push_back(i);
+  for (const std::size_t i : strips) calibration.addStrip(std::to_string(i + 1));
+  const int reference = calibration.addReference(with.surface);
+  calibration.setControl(with.control);
+  const auto each = [&](const auto& use) {
+    for (std::size_t k = 0; k < strips.size(); ++k)
+      use(static_cast<int>(k), survey.strips[strips[k]].data(), survey.strips[strips[k]].size());
+    use(reference, with.points.data(), with.points.size());
+  };
+  each([&](int strip, const LidarReturn* p, std::size_t n) { calibration.survey(strip, p, n); });
+  calibration.chooseAreas();
+  each([&](int strip, const LidarReturn* p, std::size_t n) { calibration.load(strip, p, n); });
+  return calibration.calibrate();
+}
+
+TEST(ReferenceSurfaces, DetermineTheAbsoluteParameters) {
+  for (const std::uint64_t seed : {11U}) {  // also run with 12
+    const SimulationOptions options = small(seed);
+    const SimulatedSurvey survey(options);
+    const CalibrationResult result =
+        calibratedWith(survey, {kSurface, referencePoints(options), {}, {}});
+    EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+    expectTruth(result, survey.bias);
+    ASSERT_EQ(result[P::range_bias].status, ParameterStatus::estimated);
+    EXPECT_LT(result[P::range_bias].std, 0.03);
+    ASSERT_EQ(result.held.size(), 1U);
+    EXPECT_TRUE(result.held[0].strips.empty());
+    EXPECT_LT(result.held[0].rms_after, 0.5 * result.held[0].rms_before);
+    EXPECT_NEAR(result.held[0].offset, 0.0, 4.0 * result.held[0].offset_std);
+  }
+}
+
+TEST(ReferenceSurfaces, AreComparedWithControl) {
+  const SimulationOptions options = small(14);
+  const SimulatedSurvey survey(options);
+  const auto with = [&](double shift) {
+    return calibratedWith(survey, {kSurface, referencePoints(options, shift), survey.control, {}});
+  };
+  const auto named = [](const CalibrationResult& result) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const Warning& w) {
+      return w.text.find("dem.laz lies") != std::string::npos;
+    });
+  };
+  const CalibrationResult right = with(0.0), wrong = with(0.10);
+  EXPECT_FALSE(named(right));
+  EXPECT_TRUE(right.held[0].offset_determined);
+  EXPECT_NEAR(right.held[0].offset, 0.0, 4.0 * right.held[0].offset_std);
+  EXPECT_TRUE(named(wrong));
+  EXPECT_NEAR(wrong.held[0].offset, 0.10, 4.0 * wrong.held[0].offset_std);
+  EXPECT_LT(wrong.held[0].offset_std, 0.02);
+}
+
+TEST(ReferenceSurfaces, MayHaveACommonOffset) {
+  const SimulationOptions options = small(14);
+  const SimulatedSurvey survey(options);
+  Compared with{{"dem.laz", 0.02, 0.5}, referencePoints(options, 0.10), survey.control, {}};
+  const CalibrationResult result = calibratedWith(survey, with);
+  EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+  expectTruth(result, survey.bias);
+  EXPECT_NEAR(result.held[0].mean_after, 0.0, 0.01);  // the surface counts as lower by its offset
+}
+
+/// A flat surface under one strip shows heights only: range bias, roll and scan angle scale.
+TEST(ReferenceSurfaces, OnFlatGroundDetermineHeightsOnly) {
+  SimulationOptions options = small(15);
+  options.scene.relief = options.scene.buildings = options.scene.trees = 0.0;
+  const SimulatedSurvey survey(options);
+  const CalibrationResult result =
+      calibratedWith(survey, {kSurface, referencePoints(options), {}, {0}});
+  for (const P p : {P::boresight_pitch, P::boresight_heading, P::lever_arm_y}) {
+    EXPECT_EQ(result[p].status, ParameterStatus::not_estimable) << infoOf(p).name;
+    EXPECT_FALSE(result[p].reason.empty()) << infoOf(p).name;
+  }
+  expectTruth(result, survey.bias);
+}
+
+std::string refusal(const SimulatedSurvey& survey, std::vector<LidarReturn> points) {
+  try {
+    calibratedWith(survey, {kSurface, std::move(points), {}, {}});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ReferenceSurfaces, ThatDoNotBelongToTheBlockAreRefused) {
+  const SimulationOptions options = small(14);
+  const SimulatedSurvey survey(options);
+  auto elsewhere = referencePoints(options), in_feet = elsewhere;
+  for (LidarReturn& point : elsewhere) point.position.x() += 10'000.0;
+  for (LidarReturn& point : in_feet) point.position.z() /= 0.3048;
+  EXPECT_NE(refusal(survey, elsewhere).find("dem.laz: overlaps no strip"), std::string::npos);
+  EXPECT_NE(refusal(survey, in_feet).find("in another unit"), std::string::npos);
+  EXPECT_NE(refusal(survey, {}).find("overlaps no strip"), std::string::npos);
+  EXPECT_THROW(calibratedWith(survey, {{"dem.laz", 0.0, 0.0}, {}, {}, {}}), UsageError);
+  EXPECT_THROW(calibratedWith(survey, {{"2", 0.02, 0.0}, {}, {}, {}}), UsageError);
+}
+
+/// Centres of roofs: places where points without noise lie on a plane of 15 degrees and more.
+std::vector<ControlPoint> roofs(const SimulationOptions& like) {
+  SimulationOptions options = like;
+  options.bias.setZero();
+  options.noise = NoiseOptions::named("none");
+  std::vector<LidarReturn> points;
+  for (const auto& strip : SimulatedSurvey(options).strips)
+    points.insert(points.end(), strip.begin(), strip.end());
+  std::vector<ControlPoint> found;
+  for (std::size_t i = 0; i < points.size() && found.size() < 60; i += 97) {
+    std::vector<Eigen::Vector3d> near;
+    for (const LidarReturn& p : points)
+      if ((p.position - points[i].position).norm() < 1.5) near.push_back(p.position);
+    if (near.size() < 8) continue;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : near) centre += p / static_cast<double>(near.size());
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const Eigen::Vector3d& p : near) moments += (p - centre) * (p - centre).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
+    Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    if (normal.z() < 0.0) normal = -normal;
+    const double rms = std::sqrt(solver.eigenvalues()[0] / static_cast<double>(near.size()));
+    if (rms > 0.002 || normal.z() > 0.966 || normal.z() < 0.6) continue;
+    ControlPoint patch;
+    patch.id = "roof" + std::to_string(found.size());
+    patch.position = centre;
+    patch.sigma = 0.01;
+    patch.kind = ControlPoint::Kind::patch;
+    patch.normal = normal;
+    patch.extent = 2.0;
+    found.push_back(patch);
+  }
+  return found;
+}
+
+/// Roofs show shifts in all directions: with them a block has its absolute position.
+TEST(ControlPatches, AreUsedAlongTheirNormals) {
+  const SimulationOptions options = small(21);
+  const SimulatedSurvey survey(options);
+  SimulatedSurvey::Request request;
+  request.rigorous = true;
+  request.settings.candidates = 10'000;
+  request.settings.threads = 1;
+  request.settings.diagnose = false;  // half of the time
+  request.control = roofs(options);
+  ASSERT_GT(request.control.size(), 10U);
+  const CalibrationResult result = survey.loaded(request)->calibrate();
+  EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+  expectTruth(result, survey.bias);
+  ASSERT_EQ(result[P::range_bias].status, ParameterStatus::estimated);
+  ASSERT_GT(result.control_points.size(), 10U);
+  double before = 0.0, after = 0.0;
+  for (const ControlPointFit& fit : result.control_points) {
+    EXPECT_EQ(fit.component, "normal");
+    before += std::abs(fit.before);
+    after += std::abs(fit.after);
+  }
+  EXPECT_LT(after, 0.4 * before);
+}
+
+}  // namespace
+}  // namespace pcl_als
