@@ -110,11 +110,11 @@ TEST(ByteStream, GivesBackWhatWasWritten) {
 
 TEST(SharedItems, GiveTheMostExpensiveItemsFirst) {
   Ranks(2).run([](Communicator& process) {
-    const SharedItems items(&process, {1.0, 5.0, 2.0, 2.0});
+    const SharedItems items(&process, std::vector<double>{1.0, 5.0, 2.0, 2.0});
     EXPECT_EQ(items.owner(1), 0);  // 5 against 2 + 2 + 1
     for (const std::size_t item : {0, 2, 3}) EXPECT_EQ(items.owner(item), 1);
   });
-  EXPECT_EQ(SharedItems(nullptr, {1.0, 2.0}).ownItems().size(), 2U);
+  EXPECT_EQ(SharedItems(nullptr, std::vector<double>{1.0, 2.0}).ownItems().size(), 2U);
 }
 
 TEST(SharedWork, GivesAllResultsToAllProcesses) {
