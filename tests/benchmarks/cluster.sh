@@ -10,6 +10,7 @@
 set -uo pipefail
 export LC_ALL=C OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_MCA_hwloc_base_binding_policy=none  # threads of a process on several processors
 
 # Of a command in N processes of T threads: elapsed seconds; the largest processor time and memory
 # of a process. On a machine with other work the processor time is what can be compared.
@@ -39,7 +40,7 @@ kill_loop() {
     mpirun -n 3 ./rank.sh "$bin/pcl_als_apply" "${args[@]}" -corrected killed -resume \
       >out.txt 2>err.txt &
     local job=$!
-    sleep "$((RANDOM % 3)).$((RANDOM % 10))"
+    sleep "$((RANDOM % 2)).$((RANDOM % 10))"
     pid=pid.$((RANDOM % 3))
     until [[ -s $pid ]]; do sleep 0.01; done
     kill -9 "$(<$pid)" 2>/dev/null
