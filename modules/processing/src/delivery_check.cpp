@@ -138,10 +138,8 @@ void BlockCheck::checkTrajectory() {
                         ", too coarse for the trajectory: its scan angles are the file's");
   }
   try {
-    for (const Warning& warning : plausibility_->check(settings_.force)) {
-      const bool geoid = warning.remedy == Remedy::geoid;  // others concern a calibration
-      warnings_.push_back(geoid ? warning : Warning(warning.text));
-    }
+    for (const Warning& warning : plausibility_->check(settings_.force))  // no remedy but of geoids
+      warnings_.push_back(warning.remedy == Remedy::geoid ? warning : Warning(warning.text));
   } catch (const InputError& error) {
     throw InputError(error.what());  // there is no model without attitude here
   }
