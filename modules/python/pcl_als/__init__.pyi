@@ -194,6 +194,11 @@ class CalibrationSettings:
     @estimate.setter
     def estimate(self, value: Sequence[str]) -> None: ...
     @property
+    def fixed(self) -> List[str]:
+        """strips that are held fixed: an earlier delivery, which is not corrected"""
+    @fixed.setter
+    def fixed(self, value: Sequence[str]) -> None: ...
+    @property
     def force(self) -> bool:
         """continue with a trajectory that cannot belong to the points"""
     @force.setter
@@ -1153,12 +1158,13 @@ class SystemEstimate:
 class UsageError(Error, ValueError):
     """A wrong argument or an impossible value; also a ValueError."""
 
-def calibrate(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], trajectory: Union[Flight, _Path, Sequence[_Path]], *, control: Union[None, _Path, Sequence[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Sequence[str]] = ..., pairs: Sequence[Tuple[str, str]] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
+def calibrate(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], trajectory: Union[Flight, _Path, Sequence[_Path]], *, control: Union[None, _Path, Sequence[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Sequence[str]] = ..., pairs: Sequence[Tuple[str, str]] = [], references: Sequence[str] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
     """Estimates boresight angles, lever arm, range bias and scan angle scale from overlapping
     strips (Habib et al. 2011), as pcl_als_calibrate does. points: files, strips in memory or a
     Survey; trajectory: as delivered; control: points or their CSV file; pairs: of strips,
-    default all that overlap; gps_week: of times in seconds of the week. Whether the result may
-    be applied is its verdict. InputError for data that cannot be used."""
+    default all that overlap; references: surfaces as 'FILE[:STD[:OFFSET]]', m; gps_week: of
+    times in seconds of the week. Whether the result may be applied is its verdict. InputError
+    for data that cannot be used."""
 
 def check(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], *, before: Union[None, Survey, Sequence[Strip], Sequence[_Path], _Path] = None, control: Union[None, _Path, Sequence[ControlPoint]] = None, trajectory: Union[None, Flight, _Path, Sequence[_Path]] = None, quality_level: int = 2, settings: CheckSettings = ..., strips: Union[StripChoice, Sequence[str]] = ..., progress: Optional[Callable[[Progress], Any]] = None) -> CheckResult:
     """Measures how well overlapping strips agree with each other and with control, as
