@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 //
-// simulate_lines FOLDER [LINES [MILLIONS [LENGTH]]]: parallel lines flown to and fro with half their
-// swath in common, MILLIONS of pulses each, LENGTH metres long (default: ten lines of five million
-// and 2500 m), as strip1.las … with trajectory.csv and control.csv: the blocks that pcl_als_check
-// (quality.md) and a mission of eight hours (calibration.md) are timed with.
+// simulate_lines FOLDER [LINES [MILLIONS [LENGTH]]]: parallel lines flown to and fro with half
+// their swath in common, MILLIONS of pulses each, LENGTH metres long (default: ten lines of five
+// million and 2500 m), as strip1.las … with trajectory.csv and control.csv: the blocks that
+// pcl_als_check (quality.md) and a mission of eight hours (calibration.md) are timed with.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
