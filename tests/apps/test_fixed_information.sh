@@ -43,4 +43,12 @@ run convert earlier/strip2.las elsewhere.las -bounds 0,0,1,1
 expect 2 "no.las" "${calibrate[@]}" -reference no.las -output no.json
 expect 1 "standard deviation must be positive" "${calibrate[@]}" -reference earlier/strip2.las:0 -output no.json
 absent no.json
+
+# References and control that lie elsewhere: what no file states, the coordinates show.
+run simulate -output away -preset small -scale 0.6 -density 0.1 -noise none -origin 700000,5560000,1000
+expect 2 "km beside the strips" "${calibrate[@]}" -reference away/strip2.las -output no.json
+awk -F, 'NR == 1 { print; next } { print $1 "," $3 "," $2 "," $4 }' new/control.csv > exchanged.csv
+expect 2 "would lie within them with x and y exchanged" "${calibrate[@]}" -control exchanged.csv -output no.json
+absent no.json
+expect 0 "calibrated without them; they lie" "${calibrate[@]}" -control exchanged.csv -force -output forced.json
 finish

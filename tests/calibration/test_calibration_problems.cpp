@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/errors.h>
+
 #include "simulated_survey.h"
 
 namespace pcl_als {
@@ -175,6 +177,38 @@ TEST(CalibrationProblems, ARejectedControlPointIsNamed) {
   const std::string warnings = allOf(result.warnings);
   EXPECT_NEAR(numberAfter(survey.control[3].id + " (", warnings), 1.0, 0.05) << warnings;
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.reason;
+}
+
+/// What chooseAreas() says of control, or of a calibration with it; "none": nothing.
+std::string refusalOf(const SimulatedSurvey& survey, bool force = false) {
+  SimulatedSurvey::Request request;
+  request.control = survey.control;
+  request.settings.force = force;
+  try {
+    survey.loaded(request);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(CalibrationProblems, ControlInAnotherSystemIsRefusedWithTheCause) {
+  const SimulatedSurvey survey = smallBlock();
+  EXPECT_EQ(refusalOf(survey), "none");
+  const auto with = [&](const auto& change) {
+    SimulatedSurvey other = survey;
+    for (ControlPoint& point : other.control) change(point.position);
+    return other;
+  };
+  const SimulatedSurvey exchanged = with([](Eigen::Vector3d& p) { std::swap(p.x(), p.y()); });
+  EXPECT_NE(refusalOf(exchanged).find("x and y exchanged"), std::string::npos);
+  EXPECT_EQ(refusalOf(exchanged, true), "none");
+  const std::string zone = refusalOf(with([](Eigen::Vector3d& p) { p.x() -= 400e3; }));
+  EXPECT_NE(zone.find("km beside the strips"), std::string::npos) << zone;
+  const std::string datum = refusalOf(with([](Eigen::Vector3d& p) { p.z() += 47.0; }));
+  // Relief within cells of 10 m: some metres.
+  EXPECT_NE(datum.find("control lies 4"), std::string::npos) << datum;
+  EXPECT_NE(datum.find("vertical datum"), std::string::npos) << datum;
 }
 
 }  // namespace

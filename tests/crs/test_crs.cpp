@@ -93,6 +93,38 @@ TEST(Crs, SystemsAreTheSameInMetresOrTheyAreNot) {
   EXPECT_FALSE(sameGroundFrame("EPSG:25832", "nonsense"));
 }
 
+/// WKT 1 of a zone of UTM on the ellipsoid GRS 1980, without any code.
+std::string utmWkt(const std::string& datum, int meridian, const std::string& more = "") {
+  return "PROJCS[\"a zone\",GEOGCS[\"its base\",DATUM[\"" + datum +
+         "\",SPHEROID[\"GRS 1980\",6378137,298.257222101]" + more +
+         "],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
+         "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER["
+         "\"central_meridian\"," +
+         std::to_string(meridian) +
+         "],PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER["
+         "\"false_northing\",0],UNIT[\"metre\",1]]";
+}
+
+/// Descriptions of one system, of which PROJ does not call all equivalent, and of others.
+TEST(Crs, CoordinatesTellSystemsApart) {
+  const Eigen::Vector2d place(600000.0, 5700000.0);
+  for (const char* datum : {"European_Terrestrial_Reference_System_1989", "D_ETRS_1989", "unknown"})
+    EXPECT_FALSE(coordinatesDiffer("EPSG:25832", utmWkt(datum, 9), place)) << datum;
+  EXPECT_FALSE(
+      coordinatesDiffer("EPSG:25832", utmWkt("unknown", 9, ",TOWGS84[0,0,0,0,0,0,0]"), place));
+  EXPECT_TRUE(coordinatesDiffer("EPSG:25832", utmWkt("unknown", 15), place));
+  EXPECT_TRUE(coordinatesDiffer(utmWkt("unknown", 3), utmWkt("unknown", 9), place));
+  // The axes of EPSG:31467 are north and east; files mostly describe it by its parameters.
+  const std::string gauss =
+      "+proj=tmerc +lat_0=0 +lon_0=9 +k=1 +x_0=3500000 +y_0=0 +ellps=bessel "
+      "+towgs84=598.1,73.7,418.2,0.202,0.045,-2.455,6.7 +units=m +type=crs";
+  EXPECT_FALSE(coordinatesDiffer("EPSG:31467", gauss, {3500000.0, 5700000.0}));
+  EXPECT_TRUE(coordinatesDiffer("EPSG:31467", "EPSG:25832", {3500000.0, 5700000.0}));
+  EXPECT_FALSE(coordinatesDiffer("EPSG:25832", "nonsense", place));
+  EXPECT_FALSE(coordinatesDiffer("EPSG:25832", "EPSG:4326", place));
+  EXPECT_FALSE(coordinatesDiffer("EPSG:2271", "EPSG:32128", {600000.0, 100000.0}));
+}
+
 TEST(Crs, OnlyAProjectedCrsPasses) {
   const auto refusal = [](const std::string& crs) {
     return test::messageOf<UsageError>([&] { requireProjectedCrs(crs, "option -crs"); });

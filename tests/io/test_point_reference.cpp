@@ -67,6 +67,23 @@ TEST(PointReference, RefusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(refusal({fileIn("a.las", "EPSG:25832"), fileIn("b.las", "")}), "no error");
 }
 
+/// Without a code the coordinates tell: EPSG:25832 as WKT without one, and its neighbour.
+TEST(PointReference, ComparesDescriptionsWithoutACode) {
+  const auto zone = [](const std::string& name, const std::string& meridian) {
+    PointFileInfo info = fileIn(name, "+proj=tmerc +lon_0=" + meridian +
+                                          " +k=0.9996 +x_0=500000 +ellps=GRS80 +units=m +type=crs");
+    info.minimum << 600000.0, 5700000.0, 0.0;
+    info.maximum << 601000.0, 5701000.0, 100.0;
+    return info;
+  };
+  EXPECT_EQ(refusal({fileIn("a.las", "EPSG:25832"), zone("b.las", "9")}), "no error");
+  EXPECT_EQ(refusal({zone("a.las", "9"), zone("b.las", "9")}), "no error");
+  const std::string other = refusal({fileIn("a.las", "EPSG:25832"), zone("b.las", "15")});
+  EXPECT_NE(other.find("block/b.las: is in "), std::string::npos) << other;
+  EXPECT_NE(other.find("but block/a.las in EPSG:25832; reproject one of them"), std::string::npos);
+  EXPECT_NE(refusal({zone("a.las", "9"), zone("b.las", "15")}), "no error");
+}
+
 /// A file of two points in that CRS.
 std::filesystem::path twoPoints(const std::filesystem::path& path, const std::string& crs) {
   LasWriterOptions options;

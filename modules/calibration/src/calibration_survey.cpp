@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 
 #include "area_matcher.h"
+#include "control_coverage.h"
 #include "system_groups.h"
 
 namespace pcl_als {
@@ -229,6 +230,18 @@ void SystemCalibrationEngine::choosePairs() {
                : "no two strips overlap and there is no control: nothing to compare");
 }
 
+void SystemCalibrationEngine::checkControl() {
+  std::vector<int> strips;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    if (used_[i] && !isReference(static_cast<int>(i))) strips.push_back(static_cast<int>(i));
+  }
+  const ControlCoverage coverage = coverageOf(control_, map_, strips);
+  control_remark_ = coverage.remark;
+  if (coverage.objection.empty()) return;
+  if (!settings_.force) throw InputError(coverage.objection, Remedy::force);
+  warnings_.push_back(coverage.objection);
+}
+
 void SystemCalibrationEngine::adaptLimits() {
   double highest = 0.0;
   for (std::size_t i = 0; i < ids_.size(); ++i)
@@ -247,6 +260,7 @@ void SystemCalibrationEngine::chooseAreas() {
   checkTimes();
   checkTrajectory();
   recoverAttitude();
+  checkControl();
   checkReferences();
   choosePairs();
   areas_ = map_.selectAreas(pairs_, settings_.selection);

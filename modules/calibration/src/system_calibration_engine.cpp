@@ -106,7 +106,8 @@ void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
   if (control_.empty() || points) return;
   warnings_.push_back("none of the " + std::to_string(control_.size()) +
                       " control points lies on a smooth surface of a strip: calibrated without "
-                      "them");
+                      "them" +
+                      (control_remark_.empty() ? "" : "; " + control_remark_));
 }
 
 void SystemCalibrationEngine::weigh(State& state) const {

@@ -80,6 +80,21 @@ ProjObject withUnit(PJ_CONTEXT* context, const PJ* crs, const LengthUnit& unit) 
                                                   nullptr, nullptr));
 }
 
+/// The horizontal part of a CRS with coordinates in metres; null where PROJ does not know it.
+ProjObject inMetres(PJ_CONTEXT* context, const std::string& crs) {
+  if (crs.size() > kLongestCrs) return {};
+  const ProjCrs parts = openCrs(context, crs);
+  return parts.horizontal ? withUnit(context, parts.horizontal.get(), LengthUnit()) : ProjObject();
+}
+
+bool areEquivalent(const ProjObject& a, const ProjObject& b) {
+  return proj_is_equivalent_to(a.get(), b.get(), PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
+}
+
+bool isProjected(const ProjObject& crs) {
+  return crs && proj_get_type(crs.get()) == PJ_TYPE_PROJECTED_CRS;
+}
+
 #endif
 
 }  // namespace
@@ -155,17 +170,31 @@ std::string localCrs(const LengthUnit& unit) {
 bool sameGroundFrame(const std::string& a, const std::string& b) {
   if (a == b) return true;
 #ifdef PCL_ALS_HAVE_PROJ
-  if (a.size() > kLongestCrs || b.size() > kLongestCrs) return false;
   const ProjContext context = quietProjContext();
-  const auto inMetres = [&context](const std::string& crs) {
-    const ProjCrs parts = openCrs(context.get(), crs);
-    return parts.horizontal ? withUnit(context.get(), parts.horizontal.get(), LengthUnit())
-                            : ProjObject();
-  };
-  const ProjObject first = inMetres(a), second = inMetres(b);
-  return first && second &&
-         proj_is_equivalent_to(first.get(), second.get(),
-                               PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
+  const ProjObject first = inMetres(context.get(), a), second = inMetres(context.get(), b);
+  return first && second && areEquivalent(first, second);
+#else
+  return false;
+#endif
+}
+
+bool coordinatesDiffer([[maybe_unused]] const std::string& a, [[maybe_unused]] const std::string& b,
+                       [[maybe_unused]] const Eigen::Vector2d& place) {
+#ifdef PCL_ALS_HAVE_PROJ
+  constexpr double kSame = 1.0;  // metres: more than realisations of one datum differ
+  const ProjContext context = quietProjContext();
+  const ProjObject first = inMetres(context.get(), a), second = inMetres(context.get(), b);
+  if (!isProjected(first) || !isProjected(second) || areEquivalent(first, second)) return false;
+  const ProjObject between(
+      proj_create_crs_to_crs_from_pj(context.get(), first.get(), second.get(), nullptr, nullptr));
+  if (!between) return false;
+  // East before north, whatever the order of the axes in the definitions.
+  const ProjObject eastern(proj_normalize_for_visualization(context.get(), between.get()));
+  if (!eastern) return false;
+  const PJ_COORD there =
+      proj_trans(eastern.get(), PJ_FWD, proj_coord(place.x(), place.y(), 0.0, HUGE_VAL));
+  // Not finite: outside the area that the other projection can represent.
+  return !(std::hypot(there.xy.x - place.x(), there.xy.y - place.y()) <= kSame);
 #else
   return false;
 #endif

@@ -15,11 +15,26 @@ bool isCode(const std::string& crs) {
   return crs.rfind("EPSG:", 0) == 0;
 }
 
+/// Two codes are compared as systems; other descriptions by the coordinates that they give to a
+/// place, because PROJ does not recognise every dialect of a description.
+bool areOfOneSystem(const PointFileInfo& first, const PointFileInfo& other) {
+  if (first.crs == other.crs) return true;
+  if (isCode(first.crs) && isCode(other.crs)) return sameGroundFrame(first.crs, other.crs);
+  const Eigen::Vector2d middle = 0.5 * (other.minimum + other.maximum).head<2>();
+  return !coordinatesDiffer(first.crs, other.crs, middle);
+}
+
+/// "EPSG:25832", or of another description what PROJ calls it.
+std::string nameOf(const PointFileInfo& file) {
+  if (isCode(file.crs)) return file.crs;
+  const std::string name = describeCrs(file.crs).name;
+  return name.empty() ? shortCrsName(file.crs) : "'" + name + "'";
+}
+
 void requireSameCrs(const PointFileInfo& first, const PointFileInfo& other) {
-  if (first.crs == other.crs || !isCode(first.crs) || !isCode(other.crs)) return;
-  if (sameGroundFrame(first.crs, other.crs)) return;
-  throw InputError(other.path.string() + ": is in " + other.crs + " but " + first.path.string() +
-                   " in " + first.crs + "; reproject one of them");
+  if (areOfOneSystem(first, other)) return;
+  throw InputError(other.path.string() + ": is in " + nameOf(other) + " but " +
+                   first.path.string() + " in " + nameOf(first) + "; reproject one of them");
 }
 
 /// A file that states no unit, beside one in feet, could be in either.

@@ -115,6 +115,8 @@ PointFileInfo RasterReader::info() const {
   PointFileInfo info;
   info.path = state_->path;
   info.point_count = grid.cells();
+  info.minimum.head<2>() << grid.west, grid.north - grid.rows * grid.cell;
+  info.maximum.head<2>() << grid.west + grid.columns * grid.cell, grid.north;
   info.crs = grid.crs;
   info.crs_kind = crs.kind;
   info.units = unitsOfCrs(grid.crs);

@@ -10,6 +10,7 @@
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/planning/block_advice.h>
 #include <pcl_als/processing/survey_calibration.h>
+#include <pcl_als/survey/place_in_block.h>
 
 namespace pcl_als {
 namespace {
@@ -76,6 +77,16 @@ struct References {
   }
 };
 
+/// Refuses a reference that its coordinates put elsewhere, whatever CRS it states.
+void requirePlace(const SurveyReader& survey, const PointFileInfo& reference) {
+  const Eigen::AlignedBox2d box(reference.minimum.head<2>().eval(),
+                                reference.maximum.head<2>().eval());
+  const PlaceInBlock place(box, survey.extent());
+  if (reference.point_count == 0 || place.distance == 0.0) return;
+  throw InputError(reference.path.string() + ": lies " + place.text() +
+                   ": give a reference surface of this block, in its coordinate reference system");
+}
+
 /// Refuses references in another CRS than the survey; returns what is assumed of their units.
 std::vector<std::string> checkReferences(const SurveyReader& survey,
                                          const std::vector<ReferenceSource>& references) {
@@ -86,6 +97,7 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
     alone.push_back(reference.info);
   }
   commonReference(files);
+  for (const PointFileInfo& reference : alone) requirePlace(survey, reference);
   return commonReference(alone).remarks;
 }
 

@@ -112,6 +112,23 @@ void SurveyMap::getStrip(int strip, ByteReader& in) {
   in.getHashed(to.cells, buckets, [](ByteReader& i, Cell& cell) { i.get(cell); });
 }
 
+std::optional<double> SurveyMap::lowestAt(int strip, const Eigen::Vector3d& position) const {
+  const auto& cells = strips_[static_cast<std::size_t>(strip)].cells;
+  const auto cell = cells.find(keyOf(position));
+  if (cell == cells.end() || cell->second.last_returns == 0) return std::nullopt;
+  return cell->second.lowest;
+}
+
+Eigen::AlignedBox2d SurveyMap::boxOf(int strip) const {
+  Eigen::AlignedBox2d box;
+  for (const auto& [key, cell] : strips_[static_cast<std::size_t>(strip)].cells) {
+    const Eigen::Vector2d corner = anchor_ + kCell * Eigen::Vector2d(columnOf(key), rowOf(key));
+    box.extend(corner);
+    box.extend(Eigen::Vector2d(corner + Eigen::Vector2d::Constant(kCell)));
+  }
+  return box;
+}
+
 std::vector<SurveyMap::Overlap> SurveyMap::overlaps(double minimum_area) const {
   // By cell and not by pair, because of a thousand strips few overlap.
   std::vector<std::pair<std::int64_t, int>> touched;

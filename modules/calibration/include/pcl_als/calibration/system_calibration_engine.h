@@ -103,9 +103,9 @@ class SystemCalibrationEngine {
 
   void survey(int strip, const LidarReturn* points, std::size_t count);
   /// InputError when no strips overlap, when a reference surface overlaps none or lies far above or
-  /// below them, or when a strip begins before the trajectory or ends after
-  /// it: such points are to be left out by the caller. Points in gaps of the trajectory are not
-  /// used.
+  /// below them, when control lies elsewhere, or when a strip begins before the trajectory or ends
+  /// after it: such points are to be left out by the caller. Points in gaps of the trajectory are
+  /// not used.
   void chooseAreas();
   void load(int strip, const LidarReturn* points, std::size_t count);
   /// Called after every iteration.
@@ -145,6 +145,8 @@ class SystemCalibrationEngine {
   /// trajectory.
   void leaveOutRoundedTimes();
   void checkTrajectory();
+  /// Refuses control that is in another coordinate reference system or unit.
+  void checkControl();
   void checkTimes() const;
   void recoverAttitude();
   void describeAttitudes();
@@ -260,6 +262,7 @@ class SystemCalibrationEngine {
   std::vector<int> held_of_;  ///< by strip: index in held_; -1: not held
   StripSystems systems_;
   std::vector<ControlPoint> control_;
+  std::string control_remark_;    ///< why no strip covers control; empty: unknown
   bool control_covered_ = false;  ///< whether any strip has a patch at a control point
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;
   std::vector<StripPair> pairs_;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/Core>
+
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/point_file_info.h>
 
@@ -53,6 +55,18 @@ std::string localCrs(const LengthUnit& unit);
  * parts are not compared. Without PROJ, texts are compared.
  */
 bool sameGroundFrame(const std::string& a, const std::string& b);
+
+/** \brief Whether two map projections, however they are described, give different coordinates to a
+ * place: by more than one metre.
+ *
+ * For descriptions without a common code: WKT of several dialects, with or without names of the
+ * datum, an axis order or a shift to WGS 84, may be of one system. Differences between realisations
+ * of a datum are below a metre, and are not always known to PROJ. False where either text is not
+ * known to PROJ or no map projection, and in a build without PROJ.
+ *
+ * \param place coordinates in both systems, metres
+ */
+bool coordinatesDiffer(const std::string& a, const std::string& b, const Eigen::Vector2d& place);
 
 /** \brief Refuses a CRS that PROJ does not know, or that is not projected, with a UsageError:
  * "WHAT: …". A build without PROJ accepts every text.

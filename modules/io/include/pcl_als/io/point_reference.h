@@ -18,9 +18,10 @@ struct PointReference {
 /** \brief Finds what files have in common, and refuses those that do not belong together.
  *
  * Files in different units of length belong together when their CRS are the same in metres.
- * InputError for map coordinates of different systems (EPSG codes; other descriptions of a CRS are
- * not compared, for two texts may mean one system), for degrees, and for a file that states no unit
- * beside one that is in feet.
+ * InputError for map coordinates of different systems, for degrees, and for a file that states no
+ * unit beside one that is in feet. Systems with EPSG codes are compared by their definitions,
+ * others by the coordinates that they give to the middle of the file: two texts may mean one
+ * system.
  */
 PointReference commonReference(const std::vector<PointFileInfo>& files);
 /// The same of files that are opened for it.

@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/lidar_return.h>
@@ -58,6 +60,12 @@ class SurveyMap {
   /// All that is known of a strip, for another process.
   void putStrip(int strip, ByteWriter& out) const;
   void getStrip(int strip, ByteReader& in);
+
+  /// The lowest last return of a strip within the cell of 10 m that contains a position, metres;
+  /// none where the strip has no point there.
+  std::optional<double> lowestAt(int strip, const Eigen::Vector3d& position) const;
+  /// Box in plan of the cells with points of a strip, metres; empty where it has none.
+  Eigen::AlignedBox2d boxOf(int strip) const;
 
   struct Overlap {
     StripPair strips;
