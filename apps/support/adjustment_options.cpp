@@ -75,6 +75,9 @@ void addSystemOptions(CommandLine& line) {
       "fixed",
       "strips that are held fixed, e.g. 1,4-6: an earlier delivery, already corrected, "
       "that the block joins; they are not corrected");
+  line.add("fixed_sigma",
+           "standard deviation of an error that all fixed strips share, each axis, m",
+           CalibrationSettings().fixed_sigma);
   line.addOptional("own",
                    "with -system: what a system has of its own: boresight, lever_arm, names of "
                    "parameters, offset of coordinates (default: boresight,range_bias,"
@@ -82,6 +85,7 @@ void addSystemOptions(CommandLine& line) {
 }
 
 void readSystems(const CommandLine& line, CalibrationSettings& settings) {
+  settings.fixed_sigma = line.number("fixed_sigma", 0.0, 10.0, "m");
   if (line.has("fixed")) settings.fixed = stripGroup("fixed=" + line.text("fixed")).strips;
   if (line.has("system")) {
     for (const std::string& text : line.list("system"))

@@ -188,6 +188,8 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
   observation.design = (point.design - foot.design).cast<float>();
   observation.row_a = normal.transpose() * point.design;
   observation.row_b = normal.transpose() * foot.design;
+  observation.turn_a = (normal.transpose() * point.turn).cast<float>();
+  observation.turn_b = (normal.transpose() * foot.turn).cast<float>();
   observation.misclosure =
       normal.dot(point.position - foot.position) +
       observation.effectAtPoint(corrected_for_[static_cast<std::size_t>(observation.a)]) -

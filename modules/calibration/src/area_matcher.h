@@ -37,9 +37,12 @@ class AreaMatcher {
       : area_(area), strips_(strips), corrected_for_(strips, SystemUnknowns::Zero()) {}
 
   void add(int strip, const LidarReturn& point);
-  /// The points of a strip stay where they are, and need no trajectory. \a std: of their
-  /// coordinates, metres.
-  void hold(int strip, double std) { strips_[static_cast<std::size_t>(strip)].held_std = std; }
+  /// The points of a strip stay where they are. \a std: of their coordinates, metres; \a flown:
+  /// their times are those of the trajectory.
+  void hold(int strip, double std, bool flown) {
+    strips_[static_cast<std::size_t>(strip)].held_std = std;
+    strips_[static_cast<std::size_t>(strip)].flown = flown;
+  }
   const SurveyArea& area() const { return area_; }
   std::size_t pointCount() const;
   /// The points of a strip as added, for another process; get() replaces those that are there.
@@ -116,6 +119,7 @@ class AreaMatcher {
     std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
     double median_edge = 0.0;       ///< metres, in plan
     double held_std = 0.0;          ///< metres, of the points of a strip that is held fixed
+    bool flown = true;              ///< false: the points of a surface, without times
 
     bool held() const { return held_std > 0.0; }
   };

@@ -14,8 +14,9 @@ namespace pcl_als {
 TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   knots.fill(-1);
   row.head<kSystemParameterCount>() = o.row();
-  if (o.a != PairObservation::kControl) place({0, o.a, o.time_a, 1.0, o.row_a}, o.normal, errors);
-  place({1, o.b, o.time_b, -1.0, o.row_b}, o.normal, errors);
+  if (o.a != PairObservation::kControl)
+    place({0, o.a, o.time_a, 1.0, o.row_a, o.turn_a}, o.normal, errors);
+  place({1, o.b, o.time_b, -1.0, o.row_b, o.turn_b}, o.normal, errors);
   for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
     knots[kKnots + i] = errors.instrumentBlock() + i;
   row.segment<kErrorSourceCount>(kInstrument) = o.sources;
@@ -23,7 +24,7 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
 
 void TouchedRow::place(const Side& side, const Eigen::Vector3d& normal,
                        const SharedErrors& errors) {
-  if (errors.systems().heldIndex(side.strip) < 0) placeKnots(side, normal, errors);
+  if (errors.systems().isFlown(side.strip)) placeKnots(side, normal, errors);
   strips[static_cast<std::size_t>(side.index)] = side.strip;
   row.segment<kShift>(shift(side.index)) =
       side.sign * errors.shiftScale(side.strip) * normal.transpose();
@@ -34,7 +35,8 @@ void TouchedRow::placeKnots(const Side& side, const Eigen::Vector3d& normal,
                             const SharedErrors& errors) {
   const SharedErrors::Place where = errors.placeOf(side.strip, side.time);
   Eigen::Matrix<double, 1, kKnot> effect;
-  effect << normal.transpose(), side.design.segment<3>(indexOf(SystemParameter::boresight_pitch));
+  effect << normal.transpose(),
+      side.design.segment<3>(indexOf(SystemParameter::boresight_pitch)) + side.turn.cast<double>();
   const int first = 2 * side.index;
   knots[first] = where.knot;
   row.segment<kKnot>(slot(first)) = side.sign * (1.0 - where.next) * effect;

@@ -49,6 +49,7 @@ struct TouchedRow {
     int index, strip;
     double time, sign;
     const SystemRow& design;
+    const PairTurn& turn;
   };
   void place(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
   void placeKnots(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);

@@ -276,7 +276,8 @@ void SystemCalibrationEngine::chooseAreas() {
     AreaMatcher& matcher = matchers_.emplace_back(area, ids_.size());
     for (std::size_t i = 0; i < ids_.size(); ++i)
       if (held_of_[i] >= 0)
-        matcher.hold(static_cast<int>(i), held_[static_cast<std::size_t>(held_of_[i])].surface.std);
+        matcher.hold(static_cast<int>(i), held_[static_cast<std::size_t>(held_of_[i])].surface.std,
+                     !isReference(static_cast<int>(i)));
   }
 }
 

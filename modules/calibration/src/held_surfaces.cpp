@@ -63,8 +63,10 @@ int SystemCalibrationEngine::addReference(const ReferenceSurface& surface) {
 
 void SystemCalibrationEngine::holdSurfaces() {
   const int fixed = static_cast<int>(held_.size());
+  if (!(settings_.fixed_sigma >= 0.0))
+    throw UsageError("the standard deviation of fixed strips must not be negative");
   if (!settings_.fixed.empty())
-    held_.push_back({{kFixedStrips, settings_.noise.range, 0.0}, false});
+    held_.push_back({{kFixedStrips, settings_.noise.range, settings_.fixed_sigma}, false});
   for (const std::string& name : settings_.fixed) {
     bool found = false;
     for (std::size_t i = 0; i < ids_.size(); ++i) {
@@ -80,10 +82,15 @@ void SystemCalibrationEngine::holdSurfaces() {
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     if (held_of_[i] < 0) continue;
     systems_.system[i] = first + held_of_[i];
-    systems_.pass[i] = static_cast<int>(i);  // without trajectory errors
+    // A surface has no trajectory errors.
+    if (isReference(static_cast<int>(i))) systems_.pass[i] = static_cast<int>(i);
   }
-  for (const HeldStrips& held : held_)
-    systems_.held.push_back({held.surface.offset, held.is_reference ? held.surface.std : 0.0});
+  for (const HeldStrips& held : held_) {
+    if (held.is_reference)
+      systems_.held.push_back({held.surface.offset, 0.0, held.surface.std, false});
+    else
+      systems_.held.push_back({held.surface.offset, held.surface.offset, 0.0, true});
+  }
   if (!held_.empty() && std::all_of(held_of_.begin(), held_of_.end(), [](int i) { return i >= 0; }))
     throw UsageError("all strips are held fixed: there is nothing to calibrate");
 }
@@ -220,6 +227,7 @@ void SystemCalibrationEngine::replaceHeld(std::vector<AreaObservations>& observa
         o.b = o.a;
         o.time_b = o.time_a;
         o.row_b = o.row_a;
+        o.turn_b = o.turn_a;
         o.design = -o.design;
         o.sources = -o.sources;
         o.misclosure = -o.misclosure;

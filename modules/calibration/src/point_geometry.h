@@ -24,7 +24,8 @@ class AreaMatcher::PointGeometry {
     time = part.times[index];
     position = part.surface.tin().points()[index];
     held = part.held();
-    if (held) return atHeldPoint(part.held_std);
+    turn.setZero();
+    if (held) return atHeldPoint(part, surface);
     if (!trajectory_.poseAt(time, pose_, cursor_)) return false;
     const ScanGeometry geometry = scanGeometry(pose_, alongBeam(position, surface));
     design = designBlock(geometry);
@@ -47,6 +48,7 @@ class AreaMatcher::PointGeometry {
     time = 0.0;
     position.setZero();
     design.setZero();
+    turn.setZero();
     sources.setZero();
     covariance.setZero();
     pointing.setZero();
@@ -57,6 +59,7 @@ class AreaMatcher::PointGeometry {
       time += weight * vertex.time;
       position += weight * vertex.position;
       design += weight * vertex.design;
+      turn += weight * vertex.turn;
       sources += weight * vertex.sources;
       covariance += weight * weight * vertex.covariance;
       pointing += weight * weight * vertex.pointing;
@@ -73,6 +76,7 @@ class AreaMatcher::PointGeometry {
   double time = 0.0;
   Eigen::Vector3d position;  ///< corrected
   DesignBlock design;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();   ///< of the boresight angles, where held
   SourceEffects sources;                            ///< except slope_ranging
   Eigen::Matrix3d covariance, pointing;             ///< pointing: its part of the covariance
   Eigen::Vector3d beam;                             ///< unit, downward
@@ -87,10 +91,14 @@ class AreaMatcher::PointGeometry {
   }
 
  private:
-  bool atHeldPoint(double std) {
+  bool atHeldPoint(const StripPart& part, const PatchQuality& surface) {
     design.setZero();
     sources.setZero();
-    covariance = std * std * Eigen::Matrix3d::Identity();
+    covariance = part.held_std * part.held_std * Eigen::Matrix3d::Identity();
+    if (part.flown && trajectory_.poseAt(time, pose_, cursor_)) {
+      const ScanGeometry geometry = scanGeometry(pose_, alongBeam(position, surface));
+      turn = designBlock(geometry).middleCols<3>(indexOf(SystemParameter::boresight_pitch));
+    }
     pointing.setZero();
     beam = -Eigen::Vector3d::UnitZ();
     range = lateral = height = 0.0;

@@ -194,7 +194,9 @@ std::vector<double> SharedErrors::systemVariances() const {
     const std::size_t block =
         (static_cast<std::size_t>(systems_.heldSystem(i)) - 1) * kSystemBlocks * kPerKnot;
     const double std = std::max(systems_.held[i].offset, kShared);
+    const double plan = std::max(systems_.held[i].plan, kShared);
     variances[block + kUp] = std * std;
+    variances[block + kUp - 1] = variances[block + kUp - 2] = plan * plan;
   }
   return variances;
 }

@@ -202,7 +202,10 @@ void SystemCalibrationEngine::shrinkThreshold(State& state) const {
 void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeSpan>& spans) {
   adjusted_.strips.clear();
   for (std::size_t i = 0; i < ids_.size(); ++i) {
-    adjusted_.strips.push_back({ids_[i], spans[i], map_.pointCount(static_cast<int>(i))});
+    const int strip = static_cast<int>(i);
+    // Strips that are held fixed are control there.
+    adjusted_.strips.push_back(
+        {ids_[i], isHeld(strip) ? TimeSpan(0.0, 0.0) : spans[i], map_.pointCount(strip)});
   }
   replaceHeld(state.observations);
   adjusted_.observations = std::move(state.observations);
@@ -216,7 +219,7 @@ std::vector<std::vector<TimeSpan>> SystemCalibrationEngine::measuredTimes() cons
   for (const std::size_t area : area_shares_.ownItems()) {
     for (int strip = 0; strip < static_cast<int>(ids_.size()); ++strip) {
       const auto span = matchers_[area].timesOf(strip);
-      if (span && !isHeld(strip)) spans[area].emplace_back(strip, *span);
+      if (span && !isReference(strip)) spans[area].emplace_back(strip, *span);
     }
   }
   shareVectors(processes_, area_shares_, spans);
@@ -244,7 +247,7 @@ std::vector<TimeSpan> SystemCalibrationEngine::flownTimes() const {
   std::vector<TimeSpan> spans;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const int strip = static_cast<int>(i);
-    spans.push_back(used_[i] && !isHeld(strip)
+    spans.push_back(used_[i] && !isReference(strip)
                         ? std::pair(map_.startTime(strip), map_.endTime(strip))
                         : std::pair(0.0, 0.0));
   }

@@ -43,9 +43,11 @@ struct CalibrationSettings {
   std::vector<StripGroup> systems;
   OwnUnknowns own;  ///< what systems have of their own
   /// Strips that are held fixed, by id or pass: of an earlier delivery that the block joins. They
-  /// have neither biases nor trajectory errors. UsageError from the engine for one that does not
-  /// exist.
+  /// have no biases; their errors are those of their own trajectories, which have the a priori
+  /// variances of the other strips, and one that all of them share. They are not corrected for
+  /// either. UsageError from the engine for a strip that does not exist.
   std::vector<std::string> fixed;
+  double fixed_sigma = 0.02;  ///< metres, of the error that fixed strips share, each axis
   NoiseModel noise;
   SharedErrorModel shared_errors;
   DeterminationLimits limits;

@@ -18,6 +18,8 @@ namespace pcl_als {
 using SystemRow = Eigen::Matrix<double, 1, kSystemParameterCount>;
 /// Effect of the parameters on a point, ground frame; single precision, to limit memory.
 using PairDesign = Eigen::Matrix<float, 3, kSystemParameterCount, Eigen::DontAlign>;
+/// Effect of the three boresight angles on a distance; single precision.
+using PairTurn = Eigen::RowVector3f;
 
 /** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs.
  * (11), (12), (34)).
@@ -34,7 +36,10 @@ struct PairObservation {
   double time_a = 0.0, time_b = 0.0;  ///< times of emission of the point and of the patch, seconds
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
-  Eigen::Vector3d normal;               ///< unit, upward, ground frame
+  /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are held
+  /// fixed, whose rows are zero.
+  PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
+  Eigen::Vector3d normal;                  ///< unit, upward, ground frame
   PairDesign design = PairDesign::Zero();  ///< A: row() = n' A
   /// Variance of the direction of the normal, rad^2; zero where the distance is vertical.
   double tilt_variance = 0.0;

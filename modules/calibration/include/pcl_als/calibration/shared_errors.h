@@ -105,11 +105,12 @@ struct StripSystems {
   /// By strip, the first strip of the same pass: channels of one scanner have the same trajectory
   /// errors. Empty: every strip is a pass.
   std::vector<int> pass;
-  /// A system that is held fixed: its strips (or the surface) have no biases and no trajectory
-  /// errors.
+  /// A system that is held fixed: its strips (or the surface) have no biases.
   struct Held {
     double offset = 0.0;  ///< a priori standard deviation of a common height error, metres
+    double plan = 0.0;    ///< the same of a common error to the east and to the north, metres
     double local = 0.0;   ///< of its shift in an area, metres; 0: as of other strips
+    bool flown = false;   ///< strips with trajectory errors; false: a surface
   };
   std::vector<Held> held;  ///< the last systems
 
@@ -117,6 +118,11 @@ struct StripSystems {
   int heldIndex(int strip) const {
     const int index = of(strip) - count + static_cast<int>(held.size());
     return held.empty() || index < 0 ? -1 : index;
+  }
+  /// Whether a strip has trajectory errors.
+  bool isFlown(int strip) const {
+    const int index = heldIndex(strip);
+    return index < 0 || held[static_cast<std::size_t>(index)].flown;
   }
   int heldSystem(std::size_t index) const {
     return count - static_cast<int>(held.size()) + static_cast<int>(index);
