@@ -91,6 +91,45 @@ TEST(Diagnosis, NamesWhatTheBlockCannotDetermine) {
   EXPECT_NE(offset.evidence.find("cannot"), std::string::npos) << offset.evidence;
 }
 
+/// Findings of a block with fewer points, flown on two days.
+std::map<std::string, ErrorFinding> findingsOfTwoDays(const std::string& errors) {
+  auto options = simulation::SimulationOptions::preset("small", 1.0, 0.4);
+  options.noise = simulation::NoiseOptions::named("realistic");
+  options.seed = 2;
+  options.setSessions(2);
+  if (!errors.empty()) options.errors.add(errors);
+  const test::SimulatedSurvey survey(options);
+  test::SimulatedSurvey::Request request;
+  request.control = survey.control;
+  request.rigorous = true;
+  request.settings.candidates = 10'000;
+  request.settings.selection.point_budget = 200'000;
+  return findingsOf(survey.loaded(request)->calibrate());
+}
+
+/// Strip 3 is wrong by a jump in its middle, the second day by its heights: each is found with its
+/// size, and neither is where it was not put.
+TEST(Diagnosis, FindsJumpsAndDifferencesBetweenSessions) {
+  const auto jump = findingsOfTwoDays("strip3:jump_z=0.12"),
+             offset = findingsOfTwoDays("session2:offset_z=0.12");
+  const ErrorFinding& jumped = jump.at("trajectory_jump");
+  EXPECT_GT(jumped.probability, 0.9);
+  EXPECT_NEAR(jumped.value, 0.12, 3.0 * jumped.std);
+  EXPECT_NE(jumped.evidence.find("in strip 3, up"), std::string::npos) << jumped.evidence;
+  EXPECT_LT(offset.at("trajectory_jump").probability, 0.5);
+  const ErrorFinding& up = offset.at("session2_offset_up");
+  EXPECT_GT(up.probability, 0.9);
+  EXPECT_NEAR(up.value, 0.12, 3.0 * up.std);
+  EXPECT_FALSE(up.corrected);
+  EXPECT_NE(up.title.find("session 2 against session 1"), std::string::npos) << up.title;
+  for (const auto* findings : {&jump, &offset}) {
+    for (const auto& [source, finding] : *findings) {
+      if (source.find("session2") != 0 || &finding == &up) continue;
+      EXPECT_LT(finding.probability, 0.5) << source;
+    }
+  }
+}
+
 TEST(Diagnosis, CanBeLeftOut) {
   const CalibrationResult result = calibrated("", 2, false);
   EXPECT_TRUE(result.diagnosis.empty());

@@ -12,6 +12,8 @@
 #include "calibration_state.h"
 #include "chosen_parameters.h"
 #include "error_diagnosis.h"
+#include "group_differences.h"
+#include "jump_search.h"
 
 namespace pcl_als {
 namespace {
@@ -83,6 +85,22 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   weigh(state);
   if (!state.held_sources.isZero(0.0)) state.moved = HUGE_VAL;  // they are removed from the pairs
   return supported != before || !state.held_sources.isZero(0.0);
+}
+
+void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
+                                            const ScanGeometry& edge,
+                                            CalibrationResult& result) const {
+  if (result.diagnosis.empty()) return;  // not asked for, or not solved
+  std::vector<JumpSearch::Strip> strips;
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const int strip = static_cast<int>(i);
+    if (used_[i] && !isHeld(strip) && systems_.pass[i] == strip) strips.push_back({strip, ids_[i]});
+  }
+  const JumpSearch jumps(errors, state.adjustment, state.choice.solution, strips);
+  result.diagnosis.push_back(jumps.finding());
+  if (!compared_.empty())
+    addGroupDifferences(compared_, strips.size(), edge, state.choice, errors, state.adjustment,
+                        result.diagnosis);
 }
 
 void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {

@@ -11,6 +11,7 @@
 
 #include "area_matcher.h"
 #include "control_coverage.h"
+#include "group_differences.h"
 #include "system_groups.h"
 
 namespace pcl_als {
@@ -251,7 +252,10 @@ void SystemCalibrationEngine::adaptLimits() {
 
 void SystemCalibrationEngine::chooseAreas() {
   shareSurvey();
-  systems_ = stripSystems(settings_.systems, settings_.own, ids_);
+  compared_ = settings_.systems.empty() && settings_.diagnose ? comparedGroups(ids_, flownTimes())
+                                                              : std::vector<StripGroup>();
+  systems_ = compared_.empty() ? stripSystems(settings_.systems, settings_.own, ids_)
+                               : stripSystems(compared_, {{}, false}, ids_);
   holdSurfaces();
   adaptLimits();
   leaveOutUnpaired();

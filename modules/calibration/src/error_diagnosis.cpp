@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kSupported = 0.9;  // probability from which a source is corrected
 
-/// Standard deviation of a bias of a new system, for the probability that it is present.
+}  // namespace
+
 double slabOf(SystemParameter p) {
   constexpr double kLever = 0.1, kRange = 0.1, kScale = 5e-4;
   constexpr double kAngle = 100.0 * kRadiansPerArcsec;
@@ -43,6 +44,8 @@ std::string evidenceOf(const ErrorFinding& finding) {
   std::snprintf(text, sizeof text, "%.1f standard deviations from zero", deviations);
   return text;
 }
+
+namespace {
 
 bool isDetermined(double std, const SharedErrorModel::SourcePrior& prior) {
   return std < SharedErrorModel::kDetermined * prior.std;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <pcl_als/calibration/pair_observation.h>
@@ -14,6 +15,12 @@ namespace pcl_als {
 
 /// Geometry at the edge of the highest swath: the largest lateral distance and height of a pair.
 ScanGeometry swathEdge(const std::vector<AreaObservations>& observations);
+
+/// Standard deviation of a bias of a new system, for the probability that it is present; internal
+/// units.
+double slabOf(SystemParameter p);
+/// The evidence for a finding in words, from its value and standard deviation.
+std::string evidenceOf(const ErrorFinding& finding);
 
 /// Whether the data support a source and points are corrected for it.
 bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,

@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kNodeSpacing = 0.25;  // correlation times, between nodes of the smooth component
 
+// A priori standard deviations of differences to the first system, metres and radians: they limit
+// what nothing determines.
+constexpr double kLength = 1.0, kAngle = 0.5 * kRadiansPerDegree, kScale = 2e-3;
+constexpr std::array<double, kSystemUnknownCount> kDifferences{
+    kLength, kLength, kLength, kAngle, kAngle, kAngle, kLength, kScale, kLength, kLength, kLength};
+
 // Places of the smooth and the constant components in SharedErrorLevels::values(), and the kind of
 // an unknown: position, roll and pitch, heading.
 constexpr int kSmooth = 3, kConstant = 6;
@@ -91,13 +97,14 @@ SharedErrors::SharedErrors(const std::vector<TimeSpan>& spans, const SharedError
                            const StripSystems& systems)
     : systems_(systems), model_(model) {
   model_.validate();
-  std::array<bool, kSystemUnknownCount> own{};
+  std::array<double, kSystemUnknownCount> own{};
   for (const SystemParameter p : systems_.own.parameters)
-    own[static_cast<std::size_t>(indexOf(p))] = true;
-  std::fill(own.begin() + kSystemParameterCount, own.end(), systems_.own.offset);
+    own[static_cast<std::size_t>(indexOf(p))] = kDifferences[static_cast<std::size_t>(indexOf(p))];
+  for (std::size_t i = kSystemParameterCount; i < own.size() && systems_.own.offset; ++i)
+    own[i] = kDifferences[i];
   own_.assign(static_cast<std::size_t>(systems_.count - 1), own);
   for (std::size_t i = 0; i < systems_.held.size(); ++i)
-    own_[static_cast<std::size_t>(systems_.heldSystem(i)) - 1].fill(false);
+    own_[static_cast<std::size_t>(systems_.heldSystem(i)) - 1].fill(0.0);
   for (const Pass& pass : passesOf(spans, observed, systems_.pass, pass_)) {
     strips_.push_back(
         knotsOf(pass.span, model_.knot_spacing, observed.empty() ? nullptr : &pass.observed));
@@ -168,24 +175,26 @@ const SharedErrors::StripKnots& SharedErrors::passOf(int strip) const {
 }
 
 bool SharedErrors::isOwn(int system, int unknown) const {
-  return own_[static_cast<std::size_t>(system - 1)][static_cast<std::size_t>(unknown)];
+  return own_[static_cast<std::size_t>(system - 1)][static_cast<std::size_t>(unknown)] > 0.0;
+}
+
+void SharedErrors::setOwn(int system, int unknown, double std) {
+  own_[static_cast<std::size_t>(system - 1)][static_cast<std::size_t>(unknown)] = std;
 }
 
 void SharedErrors::share(int system, int unknown) {
-  own_[static_cast<std::size_t>(system - 1)][static_cast<std::size_t>(unknown)] = false;
+  setOwn(system, unknown, 0.0);
 }
 
 std::vector<double> SharedErrors::systemVariances() const {
-  // Of the differences to the first system, metres and radians: they limit what nothing determines.
-  constexpr double kLength = 1.0, kAngle = 0.5 * kRadiansPerDegree, kScale = 2e-3, kShared = 1e-6;
-  constexpr std::array<double, kSystemUnknownCount> kStd{kLength, kLength, kLength, kAngle,
-                                                         kAngle,  kAngle,  kLength, kScale,
-                                                         kLength, kLength, kLength};
+  constexpr double kShared = 1e-6;  // of what differences may be at most
   std::vector<double> variances;
   for (const auto& own : own_) {
     for (int i = 0; i < kSystemBlocks * kPerKnot; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      const double std = i < kSystemUnknownCount ? kStd[k] * (own[k] ? 1.0 : kShared) : 1.0;
+      const double std = i >= kSystemUnknownCount ? 1.0
+                         : own[k] > 0.0           ? own[k]
+                                                  : kShared * kDifferences[k];
       variances.push_back(std * std);
     }
   }

@@ -335,6 +335,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
       largeStripErrors(result.strip_errors, settings_.shared_errors, kNoticeableCorrection), ids_,
       errors, state.adjustment, state.choice);
   checkHeldHeights(state, errors, result);
+  diagnoseParts(state, errors, swathEdge(state.observations), result);
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
   information_ = state.adjustment.informationShares(state.choice.estimate);
   information_.resize(areas_.size(), 0.0);

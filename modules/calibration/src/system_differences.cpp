@@ -29,23 +29,45 @@ Eigen::VectorXd Adjustment::scatterVariance(const Influence& influence,
   return variance;
 }
 
+SystemMatrix Adjustment::modelCovariance(const std::vector<SystemParameter>& estimate) const {
+  Eigen::MatrixXd inverse;
+  double ignored = 0.0;
+  if (!invert(sub(reduced_->normal, estimate), inverse, ignored)) return SystemMatrix::Zero();
+  return expanded(inverse, estimate);
+}
+
+Adjustment::Influence Adjustment::differenceInfluence(int system, const SystemMatrix& model) const {
+  const Eigen::Index at = Eigen::Index{errors_.systemBlock(system)} * SharedErrors::kPerKnot;
+  const Eigen::Index column = at - Eigen::Index{errors_.systemBlock(1)} * SharedErrors::kPerKnot;
+  Influence influence;
+  influence.biases = -model * reduced_->elimination.middleRows<kSystemUnknownCount>(at).transpose();
+  influence.shared = reduced_->with_systems.middleCols<kSystemUnknownCount>(column) -
+                     reduced_->elimination * influence.biases;
+  return influence;
+}
+
+Adjustment::SystemPosterior Adjustment::systemPosterior(
+    int system, const std::vector<SystemParameter>& estimate,
+    const AdjustmentSolution& solution) const {
+  const Eigen::Index at = Eigen::Index{errors_.systemBlock(system)} * SharedErrors::kPerKnot;
+  const Influence influence = differenceInfluence(system, modelCovariance(estimate));
+  SystemPosterior posterior;
+  posterior.mean = solution.shared.segment<kSystemUnknownCount>(at);
+  const auto covariance = influence.shared.middleRows<kSystemUnknownCount>(at);
+  posterior.covariance = 0.5 * (covariance + covariance.transpose());
+  posterior.scatter = scatterVariance(influence, solution);
+  return posterior;
+}
+
 Adjustment::SystemSolution Adjustment::systemSolution(int system,
                                                       const std::vector<SystemParameter>& estimate,
                                                       const AdjustmentSolution& solution) const {
   constexpr int kUnknowns = kSystemUnknownCount;
   const Eigen::Index at = Eigen::Index{errors_.systemBlock(system)} * SharedErrors::kPerKnot;
-  const Eigen::Index column = at - Eigen::Index{errors_.systemBlock(1)} * SharedErrors::kPerKnot;
   SystemSolution result;
   result.difference = solution.shared.segment<kUnknowns>(at);
-  SystemMatrix model = SystemMatrix::Zero();
-  Eigen::MatrixXd inverse;
-  double ignored = 0.0;
-  if (invert(sub(reduced_->normal, estimate), inverse, ignored))
-    model = expanded(inverse, estimate);
-  Influence on_difference;
-  on_difference.biases = -model * reduced_->elimination.middleRows<kUnknowns>(at).transpose();
-  on_difference.shared = reduced_->with_systems.middleCols<kUnknowns>(column) -
-                         reduced_->elimination * on_difference.biases;
+  const SystemMatrix model = modelCovariance(estimate);
+  const Influence on_difference = differenceInfluence(system, model);
   Influence on_own = on_difference;
   on_own.biases.leftCols<kGlobal>() += model;
   on_own.shared.leftCols<kGlobal>() -= reduced_->elimination * model;

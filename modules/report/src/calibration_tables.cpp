@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -191,15 +192,17 @@ void remedies(const CalibrationResult& result, std::ostringstream& out) {
 
 void diagnosisTable(const CalibrationResult& result, std::ostringstream& out) {
   if (result.diagnosis.empty()) return;
+  std::size_t width = 20;
+  for (const ErrorFinding& f : result.diagnosis) width = std::max(width, f.source.size());
   out << "\nDiagnosis: probability of each error, its size, and its effect at the edge of the "
-         "swath\n\n"
-         "| error                | probability |        value |          std | unit   | effect mm "
-         "|\n"
-         "|----------------------|-------------|--------------|--------------|--------|-----------|"
-         "\n";
+         "swath\n\n| error"
+      << std::string(width - 5, ' ')
+      << " | probability |        value |          std | unit   | effect mm |\n|"
+      << std::string(width + 2, '-')
+      << "|-------------|--------------|--------------|--------|-----------|\n";
   for (const ErrorFinding& f : result.diagnosis) {
-    out << "| " << std::left << std::setw(20) << f.source << " | " << std::right << std::fixed
-        << std::setprecision(3) << std::setw(11);
+    out << "| " << std::left << std::setw(static_cast<int>(width)) << f.source << " | "
+        << std::right << std::fixed << std::setprecision(3) << std::setw(11);
     if (!f.determined) {
       out << "not determ."
           << " | " << std::setw(12) << '-' << " | " << std::setw(12) << '-' << " | " << std::left

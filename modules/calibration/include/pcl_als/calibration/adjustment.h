@@ -102,6 +102,15 @@ class Adjustment {
   SystemSolution systemSolution(int system, const std::vector<SystemParameter>& estimate,
                                 const AdjustmentSolution& solution) const;
 
+  /// The differences of a system after the first to the first one, with their covariance, and their
+  /// variances by the scatter of the areas (scatterVariance()).
+  struct SystemPosterior {
+    SystemUnknowns mean, scatter;
+    Eigen::Matrix<double, kSystemUnknownCount, kSystemUnknownCount> covariance;
+  };
+  SystemPosterior systemPosterior(int system, const std::vector<SystemParameter>& estimate,
+                                  const AdjustmentSolution& solution) const;
+
   /// A solution without estimates: all parameters are held, and there are no shared errors.
   AdjustmentSolution unsolved(const SystemVector& held) const;
 
@@ -146,6 +155,10 @@ class Adjustment {
   };
   /// On the considered error sources.
   Influence sourceInfluence(const SystemMatrix& model) const;
+  /// On the differences of a system to the first one. \a model: covariance of the parameters.
+  Influence differenceInfluence(int system, const SystemMatrix& model) const;
+  /// Covariance of the parameters in \a estimate by the model; zero where they are singular.
+  SystemMatrix modelCovariance(const std::vector<SystemParameter>& estimate) const;
   /// The contributions of each area to the values at a solution.
   std::vector<Eigen::VectorXd> areaScores(const Influence& influence,
                                           const AdjustmentSolution& solution) const;

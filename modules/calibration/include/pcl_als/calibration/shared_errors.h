@@ -166,6 +166,9 @@ class SharedErrors {
   }
   /// Whether a system after the first has an unknown of its own.
   bool isOwn(int system, int unknown) const;
+  /// Gives a system after the first an unknown of its own with this a priori standard deviation,
+  /// internal units.
+  void setOwn(int system, int unknown, double std);
   /// A system shares this unknown with the first one, because the data do not determine it.
   void share(int system, int unknown);
   /// Sets the a priori standard deviation of the common height error of a system that is held
@@ -284,7 +287,8 @@ class SharedErrors {
   std::vector<StripKnots> strips_;  ///< by pass
   std::vector<int> pass_;           ///< by strip: index in strips_
   StripSystems systems_;
-  std::vector<std::array<bool, kSystemUnknownCount>> own_;  ///< by system after the first
+  /// By system after the first: a priori standard deviations of differences; zero: shared.
+  std::vector<std::array<double, kSystemUnknownCount>> own_;
   int knot_count_ = 0, coefficient_count_ = 0;
   /// Information of the Gauss-Markov components with a variance of one, and the logarithm of its
   /// determinant.

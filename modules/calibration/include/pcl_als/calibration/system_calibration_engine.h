@@ -171,6 +171,10 @@ class SystemCalibrationEngine {
   /// Adds the height of each held surface above the rest of the block, by an adjustment in which it
   /// is unknown, and judges it. The adjustment is restored.
   void checkHeldHeights(State& state, SharedErrors& errors, CalibrationResult& result) const;
+  /// Adds to the diagnosis the causes that concern parts of the block: differences between sessions
+  /// or channels, and jumps of the trajectory. The adjustment is restored.
+  void diagnoseParts(State& state, SharedErrors& errors, const ScanGeometry& edge,
+                     CalibrationResult& result) const;
   /// Observations as those of a block without held surfaces: these become control.
   void replaceHeld(std::vector<AreaObservations>& observations) const;
   /// Limits of determination for the flying height.
@@ -261,6 +265,7 @@ class SystemCalibrationEngine {
   std::vector<HeldStrips> held_;
   std::vector<int> held_of_;  ///< by strip: index in held_; -1: not held
   StripSystems systems_;
+  std::vector<StripGroup> compared_;  ///< sessions and channels, where no systems are given
   std::vector<ControlPoint> control_;
   std::string control_remark_;    ///< why no strip covers control; empty: unknown
   bool control_covered_ = false;  ///< whether any strip has a patch at a control point

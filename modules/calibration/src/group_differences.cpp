@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include "group_differences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "error_diagnosis.h"
+#include "spike_and_slab.h"
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+
+constexpr double kSession = 3.0 * 3600.0;  // seconds without a strip between two sessions
+constexpr double kOffset = 0.1;            // metres: standard deviation of an offset, each axis
+constexpr double kAbsent = 0.9;            // prior probability that a difference is absent
+constexpr double kPriorFreedom = 4.0;      // degrees of freedom that the prior contributes
+
+/// By strip, its session from 1; 0 where it is not used.
+std::vector<int> sessionsOf(const std::vector<TimeSpan>& times) {
+  std::vector<std::size_t> order(times.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return times[a].first < times[b].first; });
+  std::vector<int> sessions(times.size(), 0);
+  int session = 0;
+  double last = 0.0;
+  for (const std::size_t i : order) {
+    if (times[i].first == times[i].second) continue;
+    if (session == 0 || times[i].first - last > kSession) ++session;
+    last = session == 1 && last == 0.0 ? times[i].second : std::max(last, times[i].second);
+    sessions[i] = session;
+  }
+  return sessions;
+}
+
+/// What may differ between groups, as index of SystemUnknowns.
+struct Unknown {
+  int index;
+  std::string name, title, unit;
+  double per_unit, slab;
+};
+
+std::vector<Unknown> unknownsOf(bool sessions) {
+  std::vector<Unknown> unknowns;
+  for (const P p : {P::boresight_pitch, P::boresight_roll, P::boresight_heading, P::range_bias,
+                    P::scan_angle_scale}) {
+    const SystemParameterInfo& info = infoOf(p);
+    std::string title(info.name);
+    std::replace(title.begin(), title.end(), '_', ' ');
+    unknowns.push_back({indexOf(p), std::string(info.name), title, std::string(info.unit),
+                        info.internal_per_unit, slabOf(p)});
+  }
+  if (!sessions) return unknowns;
+  const char* const names[] = {"east", "north", "up"};
+  for (int i = 0; i < 3; ++i)
+    unknowns.push_back({kSystemParameterCount + i, std::string("offset_") + names[i],
+                        std::string("coordinates (") + names[i] + ")", "m", 1.0, kOffset});
+  return unknowns;
+}
+
+std::string remedyOf(const Unknown& unknown, bool session) {
+  if (unknown.index >= kSystemParameterCount)
+    return "check base station, antenna height, datum and geoid of this session; or calibrate it "
+           "as a system of its own, with an offset of the coordinates";
+  return session ? "mounting or instrument changed between the sessions: calibrate them as systems "
+                   "of their own"
+                 : "calibrate the channels as systems of their own";
+}
+
+std::string readable(std::string name) {
+  for (const char* word : {"session", "channel"}) {
+    const std::size_t at = name.find(word);
+    if (at != std::string::npos) name.insert(at + std::char_traits<char>::length(word), " ");
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+SpikeAndSlab mixtureOf(const std::vector<Unknown>& unknowns,
+                       const Adjustment::SystemPosterior& posterior, double freedom) {
+  const auto n = static_cast<Eigen::Index>(unknowns.size());
+  Eigen::VectorXd mean(n);
+  Eigen::MatrixXd covariance(n, n);
+  std::vector<SpikeAndSlab::Prior> priors;
+  SpikeAndSlab::Certainty certainty{1.0, freedom};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Unknown& row = unknowns[static_cast<std::size_t>(i)];
+    mean[i] = posterior.mean[row.index];
+    for (Eigen::Index j = 0; j < n; ++j)
+      covariance(i, j) =
+          posterior.covariance(row.index, unknowns[static_cast<std::size_t>(j)].index);
+    priors.push_back({kAbsent, 0.0, row.slab * row.slab});
+    if (std::sqrt(covariance(i, i)) < SharedErrorModel::kDetermined * row.slab)
+      certainty.overdispersion =
+          std::max(certainty.overdispersion, posterior.scatter[row.index] / covariance(i, i));
+  }
+  return {priors, mean, covariance, certainty};
+}
+
+}  // namespace
+
+std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
+                                       const std::vector<TimeSpan>& times) {
+  const std::vector<int> sessions = sessionsOf(times);
+  std::map<std::pair<int, std::string>, std::vector<std::string>> parts;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::string channel = ids[i].substr(passOfStrip(ids[i]).size());  // ".ch1"
+    if (sessions[i] > 0) parts[{sessions[i], channel}].push_back(ids[i]);
+  }
+  if (parts.size() < 2) return {};
+  const bool several = parts.begin()->first.first != parts.rbegin()->first.first;
+  std::vector<StripGroup> groups;
+  for (auto& [key, strips] : parts) {
+    std::string name = several ? "session" + std::to_string(key.first) : "";
+    if (!key.second.empty()) name += (name.empty() ? "channel" : "_channel") + key.second.substr(3);
+    groups.push_back({name, std::move(strips)});
+  }
+  return groups;
+}
+
+void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t strips,
+                         const ScanGeometry& edge, const ParameterChoice& choice,
+                         SharedErrors& errors, Adjustment& adjustment,
+                         std::vector<ErrorFinding>& diagnosis) {
+  const SharedErrorLevels levels = adjustment.levels();
+  const double freedom = std::max(
+      1.0, kPriorFreedom + static_cast<double>(strips) - static_cast<double>(groups.size()));
+  for (std::size_t k = 1; k < groups.size(); ++k) {
+    const bool session = groups[k].name.find("session") != std::string::npos;
+    const std::vector<Unknown> unknowns = unknownsOf(session);
+    const int system = static_cast<int>(k);
+    for (const Unknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
+    adjustment.setLevels(levels);
+    mostLikelyLevels(adjustment, choice.estimate);
+    const AdjustmentSolution solution = adjustment.solve(choice.estimate, choice.solution.biases);
+    const SpikeAndSlab mixture =
+        mixtureOf(unknowns, adjustment.systemPosterior(system, choice.estimate, solution), freedom);
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      const Unknown& u = unknowns[i];
+      const auto at = static_cast<Eigen::Index>(i);
+      errors.share(system, u.index);
+      const double value = mixture.valueIfPresent()[at], std = mixture.stdIfPresent()[at];
+      ErrorFinding finding;
+      finding.source = groups[k].name + "_" + u.name;
+      finding.title =
+          u.title + " of " + readable(groups[k].name) + " against " + readable(groups.front().name);
+      finding.unit = u.unit;
+      finding.probability = mixture.presence()[at];
+      finding.value = value / u.per_unit;
+      finding.std = std / u.per_unit;
+      finding.effect = u.index < kSystemParameterCount
+                           ? (designBlock(edge).col(u.index) * value).norm()
+                           : std::abs(value);
+      finding.determined = solution.solved && std < SharedErrorModel::kDetermined * u.slab;
+      finding.remedy = remedyOf(u, session);
+      finding.evidence = evidenceOf(finding);
+      diagnosis.push_back(std::move(finding));
+    }
+  }
+  adjustment.setLevels(levels);
+}
+
+}  // namespace pcl_als

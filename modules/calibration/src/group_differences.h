@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/common/error_source.h>
+#include <pcl_als/common/strip_group.h>
+#include <pcl_als/trajectory/scan_geometry.h>
+
+namespace pcl_als {
+
+/** \brief Groups of strips that may differ although no systems are given: sessions (three hours or
+ * more without a strip between them) and, where strips are those of channels, channels.
+ *
+ * Named "session1", "session2_channel0" …, in order; empty where there is only one group.
+ *
+ * \param times first and last time by strip; both zero: not used
+ */
+std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
+                                       const std::vector<TimeSpan>& times);
+
+/** \brief Adds to the diagnosis how probable differences of the groups after the first to the first
+ * one are: of boresight, range bias and scan angle scale, and between sessions of the coordinates
+ * (base station, datum, geoid).
+ *
+ * The adjustment is solved with all differences of a group as unknowns and with variance components
+ * estimated together with them: without them, differences inflate these. Presence follows from the
+ * one solution (SpikeAndSlab), with Student's t distribution for the number of strips, to which the
+ * prior of the trajectory errors contributes four degrees of freedom. Adjustment and errors are
+ * restored; nothing is corrected.
+ */
+void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t strips,
+                         const ScanGeometry& edge, const ParameterChoice& choice,
+                         SharedErrors& errors, Adjustment& adjustment,
+                         std::vector<ErrorFinding>& diagnosis);
+
+}  // namespace pcl_als
