@@ -23,7 +23,10 @@ done
 check "every two channels are compared" test "$(grep -c '"a":' channels.json)" = 15
 
 expect 2 "no field 'beam'" check "${strips[@]}" -channels beam -output x.json
-run calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -output c.json
+expect 3 "channel1_boresight_roll: boresight roll of channel 1 against channel 0" \
+  calibrate "${strips[@]}" "${flight[@]}" -channels scanner_channel -output c.json
+check "roll of the second channel in the diagnosis" awk '/"source": "channel1_boresight_roll"/ { getline; getline
+  gsub(/[^0-9.]/, "", $2); found = $2 > 0.9 } END { exit !found }' c.json
 checks=$((checks + 1))
 grep -q '"3.ch1"' c.json || failed "c.json has no strip 3.ch1: status $status"
 

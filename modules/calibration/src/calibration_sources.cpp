@@ -97,10 +97,15 @@ void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
     if (used_[i] && !isHeld(strip) && systems_.pass[i] == strip) strips.push_back({strip, ids_[i]});
   }
   const JumpSearch jumps(errors, state.adjustment, state.choice.solution, strips);
-  result.diagnosis.push_back(jumps.finding());
+  const ErrorFinding& jump = jumps.finding();
+  result.diagnosis.push_back(jump);
+  if (jump.determined && jump.probability > kSupported)
+    result.warnings.push_back(jump.title + ": " + jump.evidence + "; " + jump.remedy);
+  const std::size_t before = result.diagnosis.size();
   if (!compared_.empty())
     addGroupDifferences(compared_, strips.size(), edge, state.choice, errors, state.adjustment,
                         result.diagnosis);
+  judgeDifferences(before, settings_.shared_errors.position, result);
 }
 
 void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {

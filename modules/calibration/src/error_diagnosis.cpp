@@ -9,11 +9,6 @@
 #include "spike_and_slab.h"
 
 namespace pcl_als {
-namespace {
-
-constexpr double kSupported = 0.9;  // probability from which a source is corrected
-
-}  // namespace
 
 double slabOf(SystemParameter p) {
   constexpr double kLever = 0.1, kRange = 0.1, kScale = 5e-4;

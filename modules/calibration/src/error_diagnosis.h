@@ -16,6 +16,8 @@ namespace pcl_als {
 /// Geometry at the edge of the highest swath: the largest lateral distance and height of a pair.
 ScanGeometry swathEdge(const std::vector<AreaObservations>& observations);
 
+constexpr double kSupported = 0.9;  ///< probability from which the data support a source
+
 /// Standard deviation of a bias of a new system, for the probability that it is present; internal
 /// units.
 double slabOf(SystemParameter p);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -164,6 +165,20 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
     }
   }
   adjustment.setLevels(levels);
+}
+
+void judgeDifferences(std::size_t first, double relevant, CalibrationResult& result) {
+  for (std::size_t i = first; i < result.diagnosis.size(); ++i) {
+    const ErrorFinding& f = result.diagnosis[i];
+    if (!f.determined || f.probability <= kSupported) continue;
+    char size[80];
+    std::snprintf(size, sizeof size, " differ by %.3g +- %.2g %s", f.value, f.std, f.unit.c_str());
+    const std::string text = f.source + ": " + f.title + size;
+    result.warnings.push_back(text + "; " + f.remedy);
+    if (f.source.find("offset_") == std::string::npos && f.effect > relevant)
+      result.verdict.object(CalibrationStatus::parameters_affected,
+                            text + ", and no parameters of one system describe both");
+  }
 }
 
 }  // namespace pcl_als

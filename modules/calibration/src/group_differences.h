@@ -8,6 +8,7 @@
 
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/calibration/parameter_choice.h>
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/trajectory/scan_geometry.h>
@@ -38,5 +39,13 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
                          const ScanGeometry& edge, const ParameterChoice& choice,
                          SharedErrors& errors, Adjustment& adjustment,
                          std::vector<ErrorFinding>& diagnosis);
+
+/** \brief Warns of differences that are supported (determined, probability above 0.9), and objects
+ * to a result whose parameters cannot be those of all groups.
+ *
+ * \param first of the findings of addGroupDifferences()
+ * \param relevant smallest effect of the difference of a parameter that is an objection, metres
+ */
+void judgeDifferences(std::size_t first, double relevant, CalibrationResult& result);
 
 }  // namespace pcl_als

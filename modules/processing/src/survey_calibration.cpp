@@ -182,6 +182,19 @@ std::string setPriors(const SurveyCalibrationOptions& options, const SurveyReade
          describe(summary);
 }
 
+/// Channels that are not strips of their own are not compared with each other.
+void warnOfChannels(const SurveyReader& survey, Warnings& warnings) {
+  if (!survey.channelField().empty()) return;
+  std::size_t most = 0;
+  for (const SurveyedFile& file : survey.files())
+    for (const auto& [strip, channels] : file.channels) most = std::max(most, channels.size());
+  if (most < 2) return;
+  warnings.push_back(
+      "strips hold the points of " + counted(most, "channel") +
+      " of the scanner, whose differences are not examined: divide strips by channel "
+      "to find and to calibrate them");
+}
+
 /// A reconstructed path is that of the origin of the pulses as it was assumed, and nothing is known
 /// of the heights and the positions that the points were computed with.
 void leaveOutUndeterminable(CalibrationSettings& settings) {
@@ -233,6 +246,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
     made.result.inputs.push_back(file.sources.info.path.string());
   for (const ReferenceSource& reference : options.references)
     made.result.inputs.push_back(reference.info.path.string());
+  warnOfChannels(survey, made.result.warnings);
   if (!settings.systems.empty() || !settings.fixed.empty())
     made.result.channel_field = survey.channelField();
   made.areas = calibration.areas();
