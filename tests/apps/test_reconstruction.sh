@@ -17,17 +17,54 @@ largest=$(awk -F, 'FNR == 1 { next }
              if (d < 0) d = -d; if (d > most) most = d }; ++n }
   END { print (n > 100 && most < 1) }' "$block/trajectory.csv" path.csv)
 check "positions within a metre of the block's trajectory" test "$largest" = 1
+check "standard deviations of all positions and angles" awk -F, 'NR > 1 {
+    for (i = 8; i <= 13; ++i) if (!($i > 0 && $i < 2)) bad = 1 }
+  END { exit bad || NR < 100 }' path.csv
+
+# As SBET with its accuracies: the same positions, to a tenth of a millimetre.
+expect 0 '' trajectory "${strips[@]}" -output path.sbet
+check "17 values of 8 bytes for each sample" test "$(($(wc -c <path.sbet) / 136 + 1))" = "$(wc -l <path.csv)"
+expect 0 '' trajectory -trajectory path.sbet -crs EPSG:32611 -accuracy path_smrmsg.out -output back.csv
+check "the SBET and its accuracies are those of the text" awk -F, '
+  function off(a, b) { return a - b > b - a ? a - b : b - a }
+  FNR == 1 { next }
+  NR == FNR { for (i = 2; i <= 10; ++i) value[FNR, i] = $i; n = FNR; next }
+  { for (i = 2; i <= 4; ++i) if (off($i, value[FNR, i]) > 1e-4) bad = 1
+    for (i = 8; i <= 10; ++i) if (off($i, value[FNR, i]) > 1e-3) bad = 1 }
+  END { exit bad || FNR != n }' path.csv back.csv
 
 # A trajectory that was written is one that the tools read, with the same result as the word.
 expect 0 'verdict: usable' calibrate "${strips[@]}" -trajectory reconstruct -control "$block/control.csv" \
   -output word.json
 check "lever arm and range bias are not determined" test "$(grep -c not_estimable word.json)" -ge 4
 
+# Roll, pitch and scale within their 95 % intervals of the block's true biases.
+inside() {  # PARAMETER TRUTH
+  awk -v name="\"$1\": {" -v truth="$2" 'index($0, name) { on = 1 }
+    on && /"bias":/ { sub(/.*: /, ""); bias = $0 + 0 }
+    on && /"std":/ { sub(/.*: /, ""); std = $0 + 0; exit }
+    END { d = (bias - truth) / std; exit !(std > 0 && d * d < 1.96 ^ 2) }' word.json
+}
+check "roll without a trajectory" inside boresight_roll -90
+check "pitch without a trajectory" inside boresight_pitch -30
+check "scale without a trajectory" inside scan_angle_scale 1e-4
+
 expect 0 'reconstructed from points' calibrate "${strips[@]}" -trajectory path.csv -control "$block/control.csv" \
   -output file.json
 check "the file is known to be reconstructed" test "$(grep -c not_estimable file.json)" -ge 4
 expect 0 'm above ground' trajectory "${strips[0]}" -positions -output one.csv
-expect 0 '' intensity "${strips[0]}" out.las -trajectory reconstruct
+
+# Intensities within 1 % of those with the block's trajectory (and the rounding of whole numbers).
+intensities() {  # FILE: of all records of 30 bytes
+  od -An -v -tu2 -w30 -j"$(od -An -tu4 -j96 -N4 "$1" | tr -d ' ')" "$1" | awk '{ print $7 }'
+}
+for strip in 1 4; do
+  expect 0 '' intensity "$block/strip$strip.las" "own$strip.las" -trajectory reconstruct -no_fields -no_original
+  expect 0 '' intensity "$block/strip$strip.las" "given$strip.las" -trajectory "$block/trajectory.csv" -no_fields -no_original
+  paste <(intensities "own$strip.las") <(intensities "given$strip.las") >both.txt
+  check "reflectance of strip $strip within 1 %" awk '{ d = $1 - $2; if (d < 0) d = -d
+      if (d > 0.01 * $2 + 1) bad = 1; if ($1 > 0) ++n } END { exit bad || n < 10000 }' both.txt
+done
 expect 0 '' check "${strips[@]}" -trajectory reconstruct -output quality.json
 
 expect 1 'pcl_als_trajectory first' apply "${strips[0]}" out2.las -trajectory reconstruct -biases boresight_roll=10

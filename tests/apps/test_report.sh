@@ -52,6 +52,25 @@ intensity_agrees() {  # PAGE_TEXT
 }
 check "the verdict's numbers are intensity.json's" intensity_agrees intensity_report/report.md
 
+# A trajectory from points: the path on a map with its uncertainty, the rays, and what determined it.
+expect 0 '' trajectory "${strips[@]}" -positions -output path.csv -report trajectory_report
+check "the trajectory's verdict" grep -q "The trajectory of 5 of 5 passes was found" trajectory_report/report.md
+trajectory_page() {  # LINES_OF_THE_TOOL PAGE_TEXT: standard deviations and rays of each strip
+  awk 'NR == FNR { if (/^  strip .* m above ground/) { sub(":", "", $2); std[$2] = $12 " | " $13 " | " $14
+                   for (i = 1; i <= NF; ++i) if ($i == "rays,") rays[$2] = $(i - 1); ++strips }; next }
+    /^\| strip/ { table = /evidence/ ? "paths" : /left out/ ? "rays" : "" }
+    table == "paths" && $2 in std { if (index($0, std[$2]) && / rays \|$/) ++found }
+    table == "rays" && $2 in rays { split($0, cell, " \\| "); if (cell[2] - cell[3] == rays[$2]) ++found }
+    END { exit !(strips == 5 && found == 10) }' "$1" "$2"
+}
+expect 0 'm above ground' trajectory "${strips[@]}" -positions -output path.csv
+cp out.txt stated.txt
+check "the page has the paths and rays that the tool states" trajectory_page stated.txt trajectory_report/report.md
+for words in "The path of the sensor (black)" "Standard deviations of the position over time" \
+  "Distances of the rays from the path over their standard deviations"; do
+  check "a picture of: $words" grep -q "$words" trajectory_report/report.html
+done
+
 # Plots of these very files.
 expect 0 "heights.png" plot quality.json intensity.json -output plots
 for name in heights offset_against_distance offset_against_time offset_against_scan_angle variance_to_mean \
@@ -61,9 +80,9 @@ done
 
 expect 1 "too small" plot quality.json -output plots -plots offset_against_distance -size 200x150
 
-for page in report check intensity_report; do
+for page in report check intensity_report trajectory_report; do
   pictures=$(grep -o '<img ' $page/report.html | wc -l)
-  check "$page has pictures" test "$pictures" -ge 4
+  check "$page has pictures" test "$pictures" -ge "$([[ $page == trajectory_report ]] && echo 3 || echo 4)"
   check "$page fetches nothing" eval '! grep -oE "(src|href)=\"[^\"]{0,40}" $page/report.html | grep -vE "\"data:(image/png;base64)?,"'
 done
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -192,10 +193,12 @@ std::vector<TrajectorySample> splineOfRaysAndAngles(const std::vector<LidarRetur
   if (points.size() < 2) return path;
   SplineAdjustment adjustment(points, raysOf(points, 0.01));
   adjustment.solve();
-  for (double time = points.front().time; time <= points.back().time; time += step) {
+  const auto first = static_cast<std::int64_t>(std::ceil(points.front().time / step));
+  const auto last = static_cast<std::int64_t>(std::floor(points.back().time / step));
+  for (std::int64_t i = first; i <= last; ++i) {
     TrajectorySample& sample = path.emplace_back();
-    sample.time = time;
-    sample.position = adjustment.position(time);
+    sample.time = static_cast<double>(i) * step;
+    sample.position = adjustment.position(sample.time);
   }
   return path;
 }

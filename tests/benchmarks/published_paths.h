@@ -21,7 +21,8 @@ std::vector<TrajectorySample> intersectionOfRays(const std::vector<LidarReturn>&
 /// The method of PDAL's filters.trajectory (after Gatziolis and McGaughey 2019): a piecewise cubic
 /// polynomial with blocks of one second, continuous to the second derivative, by robust least
 /// squares of rays through several returns and of recorded scan angles, one pulse of each kind per
-/// millisecond, with small weights for accelerations. Samples of \a step seconds.
+/// millisecond, with small weights for accelerations. Samples at multiples of \a step
+/// seconds.
 std::vector<TrajectorySample> splineOfRaysAndAngles(const std::vector<LidarReturn>& points,
                                                     double step);
 

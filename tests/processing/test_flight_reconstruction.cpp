@@ -67,6 +67,7 @@ TEST(FlightReconstruction, FindsPositionAndAttitudeOfABlock) {
   ASSERT_EQ(flight.paths.size(), town.files.size());
   ASSERT_EQ(flight.samples.size(), flight.accuracy.size());
   std::size_t compared = 0;
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < flight.samples.size(); ++i) {
     const TrajectorySample& sample = flight.samples[i];
     const TrajectorySample* truth = town.at(sample.time);
@@ -74,6 +75,7 @@ TEST(FlightReconstruction, FindsPositionAndAttitudeOfABlock) {
     ++compared;
     const Eigen::Vector3d error = sample.position - truth->position;
     EXPECT_LT(error.cwiseAbs().maxCoeff(), 0.3) << sample.time;
+    squares += error.cwiseQuotient(flight.accuracy[i].position).cwiseAbs2();
     EXPECT_LT(error.cwiseQuotient(flight.accuracy[i].position).cwiseAbs().maxCoeff(), 8.0)
         << sample.time;  // 5 sigma and 1.5 cm of the trajectory's own errors
     ASSERT_TRUE(sample.hasAttitude()) << flight.attitude;
@@ -82,6 +84,11 @@ TEST(FlightReconstruction, FindsPositionAndAttitudeOfABlock) {
     EXPECT_NEAR(sample.roll, truth->roll, 4.0 * flight.accuracy[i].angles.x());
   }
   EXPECT_GT(compared, 300U);
+  // Some fifteen independent values: 20 %.
+  for (const double square : squares) {
+    EXPECT_GT(std::sqrt(square / static_cast<double>(compared)), 0.6);
+    EXPECT_LT(std::sqrt(square / static_cast<double>(compared)), 1.5);
+  }
 }
 
 /// RMS difference in the worst coordinate to the trajectory that comes with real data, metres.

@@ -18,8 +18,9 @@ namespace pcl_als::test {
 /// line through the sensor, written without any equation of the reconstruction.
 struct RayFlight {
   std::function<Eigen::Vector3d(double)> path;  ///< metres, of a time in seconds
-  std::function<double(double)> roll = [](double) { return 0.0; };  ///< radians
-  double from = 0.0, to = 20.0;                                     ///< seconds
+  std::function<double(double)> roll = [](double) { return 0.0; };   ///< radians
+  std::function<double(double)> pitch = [](double) { return 0.0; };  ///< radians, nose up
+  double from = 0.0, to = 20.0;                                      ///< seconds
   double course = 0.0;           ///< radians clockwise from north, of the scan planes
   double pulses = 2000.0;        ///< per second
   double half_angle = 20.0;      ///< degrees
@@ -44,8 +45,11 @@ struct RayFlight {
       const double angle = sweep * half_angle * kRadiansPerDegree;
       const double vertical = angle - roll(time);  // to the right
       const Eigen::Vector3d sensor = path(time);
-      const Eigen::Vector3d down(std::cos(course) * std::sin(vertical),
-                                 -std::sin(course) * std::sin(vertical), -std::cos(vertical));
+      const double ahead = std::sin(pitch(time)), level = std::cos(pitch(time));
+      const double aside = level * std::sin(vertical);
+      const Eigen::Vector3d down(std::cos(course) * aside + std::sin(course) * ahead,
+                                 -std::sin(course) * aside + std::cos(course) * ahead,
+                                 -level * std::cos(vertical));
       const bool tree = uniform(random) < trees;
       const double top = tree ? tree_height * (0.2 + 0.8 * uniform(random)) : 0.0;
       for (int k = tree ? 0 : 1; k < 2; ++k) {

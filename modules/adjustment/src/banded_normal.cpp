@@ -67,6 +67,7 @@ bool BandedNormal::eliminateCommon() {
   common_solution_ = Eigen::VectorXd::Zero(m_);
   if (m_ == 0) return true;
   reach_ = border_;
+  connected_ = !border_.isZero(0.0);
   for (int c = 0; c < m_; ++c) solveInPlace(reach_.col(c));
   const CholeskyFactor reduced(corner_ - border_.transpose() * reach_);
   if (!reduced.succeeded()) return false;
@@ -100,7 +101,7 @@ bool BandedNormal::solve() {
 
 double BandedNormal::covariance(int i, int j) const {
   const double own = inverse_[i >= j ? at(i, j) : at(j, i)];
-  if (m_ == 0) return own;
+  if (m_ == 0 || !connected_) return own;
   return own + reach_.row(i).dot(corner_inverse_ * reach_.row(j).transpose());
 }
 

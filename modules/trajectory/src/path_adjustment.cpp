@@ -28,6 +28,10 @@ double AdjustedRay::leverage() const {
   return extended * extended + (extended - 1.0) * (extended - 1.0);
 }
 
+Eigen::Matrix3d AdjustedRay::information() const {
+  return (weight / variance) * (Eigen::Matrix3d::Identity() - direction * direction.transpose());
+}
+
 PathAdjustment::PathAdjustment(const PathEvidence& evidence, const TimeRange& span,
                                const TrajectoryReconstruction::Settings& settings)
     : evidence_(evidence),
@@ -38,11 +42,29 @@ PathAdjustment::PathAdjustment(const PathEvidence& evidence, const TimeRange& sp
       across_(kAcross * kAcross),
       roll_(kRoll * kRoll),
       noise_(kAngleNoise * kAngleNoise),
+      pitch_(kPitchMotion * kPitchMotion),
+      along_(kAlongNoise * kAlongNoise),
+      rough_(kRough * kRough),
       scale_(kScale) {
-  const double cube = std::pow(spline_.step(), 3.0);
-  plan_ = height_ = kAgility * kAgility * cube;
+  plan_ = height_ = kAgility * kAgility * perDensity();
+  makeInnovations();
   takeRays();
   takeAngles();
+}
+
+/// The first second difference, which is stationary, and the change of each to the next.
+void PathAdjustment::makeInnovations() {
+  const double keep = std::exp(-spline_.step() / kAccelerationTime);
+  const double start = std::sqrt(1.0 - keep * keep);
+  innovations_.push_back({0, {start, -2.0 * start, start, 0.0}});
+  for (int knot = 0; knot + 3 < spline_.count(); ++knot)
+    innovations_.push_back({knot, {-keep, 1.0 + 2.0 * keep, -2.0 - keep, 1.0}});
+}
+
+/// Variance of an innovation for accelerations of a power density of one at low frequencies.
+double PathAdjustment::perDensity() const {
+  const double change = 1.0 - std::exp(-spline_.step() / kAccelerationTime);
+  return std::pow(spline_.step(), 3.0) * change * change;
 }
 
 void PathAdjustment::takeRays() {
@@ -62,16 +84,18 @@ Eigen::Vector3d PathAdjustment::valueAt(const Weights& at, bool slope) const {
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
   for (int k = 0; k < 4; ++k) {
     const auto a = static_cast<std::size_t>(k);
-    value +=
-        (slope ? at.slope[a] : at.value[a]) * coefficients_.segment<3>(kBlock * (at.first + k));
+    const double factor = slope ? at.slope[a] : at.value[a];
+    for (const int part : kParts)
+      value += factor * coefficients_.segment<3>(kBlock * (at.first + k) + part);
   }
   return value;
 }
 
-double PathAdjustment::rollAt(const Weights& at) const {
+double PathAdjustment::angleAt(const Weights& at, int unknown) const {
   double value = 0.0;
   for (int k = 0; k < 4; ++k)
-    value += at.value[static_cast<std::size_t>(k)] * coefficients_[kBlock * (at.first + k) + 3];
+    value +=
+        at.value[static_cast<std::size_t>(k)] * coefficients_[kBlock * (at.first + k) + unknown];
   return value;
 }
 
@@ -100,55 +124,62 @@ void PathAdjustment::addObservation(const Weights& at, const Eigen::Matrix<doubl
 
 /// The path at the time of a ray is on it: two components across.
 void PathAdjustment::addRays() {
+  const auto addProduct = [this](int left, int top, const Eigen::Matrix3d& matrix) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (top + j <= left + i) normal_.add(left + i, top + j, matrix(i, j));
+  };
   for (const AdjustedRay& ray : rays_) {
     if (!(ray.weight > 0.0)) continue;
-    const Eigen::Matrix3d across =
-        (ray.weight / ray.variance) *
-        (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose());
+    const Eigen::Matrix3d across = ray.information();
     const Eigen::Vector3d right = across * ray.lower;
     for (int a = 0; a < 4; ++a) {
       const double wa = ray.at.value[static_cast<std::size_t>(a)];
-      const int left = kBlock * (ray.at.first + a);
-      for (int i = 0; i < 3; ++i) normal_.addRight(left + i, wa * right[i]);
-      for (int b = 0; b <= a; ++b) {
-        const double wab = wa * ray.at.value[static_cast<std::size_t>(b)];
-        const int top = kBlock * (ray.at.first + b);
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            if (top + j <= left + i) normal_.add(left + i, top + j, wab * across(i, j));
+      for (const int part : kParts) {
+        const int left = kBlock * (ray.at.first + a) + part;
+        for (int i = 0; i < 3; ++i) normal_.addRight(left + i, wa * right[i]);
+        for (int b = 0; b <= a; ++b)
+          for (const int other : kParts)
+            addProduct(left, kBlock * (ray.at.first + b) + other,
+                       wa * ray.at.value[static_cast<std::size_t>(b)] * across);
       }
     }
   }
 }
 
-/// Random second differences of the path, a Gauss-Markov process of the roll, and priors of the
-/// common unknowns. A very weak prior of the position makes the equations regular.
+/// Accelerations that are Gauss-Markov processes, as are processes of roll and pitch, and priors of
+/// the common unknowns. A very weak prior of the position makes the equations regular.
 void PathAdjustment::addPrior() {
-  const int knots = spline_.count();
-  constexpr std::array<double, 3> kDifference = {1.0, -2.0, 1.0};
-  for (int knot = 0; knot + 2 < knots; ++knot) {
+  for (const Innovation& innovation : innovations_) {
     for (int c = 0; c < 3; ++c) {
       const double information = 1.0 / (c < 2 ? plan_ : height_);
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b <= a; ++b)
-          normal_.add(kBlock * (knot + a) + c, kBlock * (knot + b) + c,
-                      information * kDifference[static_cast<std::size_t>(a)] *
-                          kDifference[static_cast<std::size_t>(b)]);
+      for (int a = 0; a < 4; ++a)
+        for (int b = 0; b <= a && innovation.at(a) != 0.0; ++b)
+          normal_.add(kBlock * (innovation.first + a) + c, kBlock * (innovation.first + b) + c,
+                      information * innovation.at(a) * innovation.at(b));
     }
   }
-  const double keep = std::exp(-spline_.step() / kRollTime), information = 1.0 / roll_;
-  const double inner = information / (1.0 - keep * keep);
-  for (int knot = 0; knot < knots; ++knot) {
-    const int i = kBlock * knot + 3;
-    const bool end = knot == 0 || knot + 1 == knots;
-    normal_.add(i, i, inner * (end ? 1.0 : 1.0 + keep * keep));
-    if (knot > 0) normal_.add(i, i - kBlock, -inner * keep);
-    for (int c = 0; c < 3; ++c) normal_.add(i - 3 + c, i - 3 + c, kRegular);
-  }
+  for (int knot = 0; knot < spline_.count(); ++knot)
+    for (int c = 0; c < 3; ++c) normal_.add(kBlock * knot + c, kBlock * knot + c, kRegular);
+  addProcess(kRollOf, roll_, kAttitudeTime);
+  addProcess(kPitchOf, pitch_, kAttitudeTime);
+  for (int c = 0; c < 3; ++c) addProcess(kRoughOf + c, rough_, kRoughTime);
   Eigen::Vector4d priors(scale_, kOffset, evidence_.counts().whole_degrees ? kTruncation : 1e-4,
                          kPitch);
   normal_.addCorner(priors.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix(),
                     Eigen::Vector4d::Zero());
+}
+
+/// A Gauss-Markov process with a correlation time.
+void PathAdjustment::addProcess(int unknown, double variance, double time) {
+  const double keep = std::exp(-spline_.step() / time);
+  const double inner = 1.0 / (variance * (1.0 - keep * keep));
+  for (int knot = 0; knot < spline_.count(); ++knot) {
+    const int i = kBlock * knot + unknown;
+    const bool end = knot == 0 || knot + 1 == spline_.count();
+    normal_.add(i, i, inner * (end ? 1.0 : 1.0 + keep * keep));
+    if (knot > 0) normal_.add(i, i - kBlock, -inner * keep);
+  }
 }
 
 bool PathAdjustment::solve() {
@@ -204,47 +235,53 @@ bool PathAdjustment::estimate() {
     updateRayVariances();
     if (with_angles_) {
       weighAngles();
-      updateAngleVariance();
-      updateRoll();
+      updateAngleVariances();
+      updateAttitude();
     }
-    const Eigen::Vector2d agility(plan_, height_);
+    const Eigen::Vector3d before_variances(plan_, height_, rough_);
     updateAgility();
+    updateRoughness();
     if (!solve()) return false;
     const double change = (coefficients_ - before).lpNorm<Eigen::Infinity>();
-    const double growth =
-        (Eigen::Vector2d(plan_, height_).cwiseQuotient(agility) - Eigen::Vector2d::Ones())
-            .lpNorm<Eigen::Infinity>();
+    const Eigen::Vector3d variances(plan_, height_, rough_);
+    const double growth = (variances.cwiseQuotient(before_variances) - Eigen::Vector3d::Ones())
+                              .lpNorm<Eigen::Infinity>();
     if (change < kConverged && growth < kConvergedVariance) break;
   }
   weighRays(false);
   findInflation();
+  findJitter();
   return true;
+}
+
+Eigen::Matrix3d PathAdjustment::covarianceAt(int first,
+                                             const std::array<double, 4>& factors) const {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  const auto add = [&](double factor, int left, int right) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        covariance(i, j) += factor * normal_.covariance(left + i, right + j);
+  };
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b)
+      for (const int part : kParts)
+        for (const int other : kParts)
+          add(factors[static_cast<std::size_t>(a)] * factors[static_cast<std::size_t>(b)],
+              kBlock * (first + a) + part, kBlock * (first + b) + other);
+  return covariance;
 }
 
 PathSample PathAdjustment::sampleAt(double time) const {
   const Weights at = spline_.at(time);
+  const Eigen::Vector3d factors = inflation_.cwiseSqrt();
+  const Eigen::Matrix3d both = factors * factors.transpose();
   PathSample sample;
   sample.time = time;
   sample.position = origin_ + valueAt(at);
   sample.velocity = valueAt(at, true);
-  sample.covariance.setZero();
-  sample.velocity_covariance.setZero();
-  for (std::size_t a = 0; a < 4; ++a) {
-    for (std::size_t b = 0; b < 4; ++b) {
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-          const double c = normal_.covariance(kBlock * (at.first + static_cast<int>(a)) + i,
-                                              kBlock * (at.first + static_cast<int>(b)) + j);
-          sample.covariance(i, j) += at.value[a] * at.value[b] * c;
-          sample.velocity_covariance(i, j) += at.slope[a] * at.slope[b] * c;
-        }
-      }
-    }
-  }
-  const Eigen::Vector3d factors = inflation_.cwiseSqrt();
-  const Eigen::Matrix3d both = factors * factors.transpose();
-  sample.covariance.array() *= both.array();
-  sample.velocity_covariance.array() *= both.array();
+  sample.covariance = covarianceAt(at.first, at.value).cwiseProduct(both);
+  sample.covariance.diagonal().array() += jitter_;
+  sample.velocity_covariance = covarianceAt(at.first, at.slope).cwiseProduct(both);
   return sample;
 }
 

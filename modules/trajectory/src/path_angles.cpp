@@ -26,8 +26,6 @@ Eigen::Vector2d rightOf(const Eigen::Vector2d& course) {
 void PathAdjustment::takeAngles() {
   if (evidence_.counts().angles == 0) return;
   forBins([this](std::int64_t index, const PathEvidence::Bin& bin) {
-    AdjustedAngle* nearest = nullptr;
-    const std::size_t begin = angles_.size();
     for (std::size_t i = 1; i + 1 < bin.angles.size(); ++i) {
       const ScanAngleSums &low = bin.angles[i - 1], &sums = bin.angles[i],
                           &high = bin.angles[i + 1];
@@ -42,11 +40,45 @@ void PathAdjustment::takeAngles() {
       angle.tangent = sums.tangent / sums.n;
       angle.tangent_z = sums.tangent_z / sums.n;
     }
-    for (std::size_t i = begin; i < angles_.size(); ++i)
-      if (nearest == nullptr || std::abs(angles_[i].tangent) < std::abs(nearest->tangent))
-        nearest = &angles_[i];
-    if (nearest != nullptr) nearest->nadir = std::abs(nearest->tangent) < kNadir;
+    addToMiddle(index, bin);
   });
+  finishMiddles();
+}
+
+/// All classes of the bins of a second, where they reach the vertical: in a shorter time, patterns
+/// such as those of a rosette are not covered evenly.
+void PathAdjustment::addToMiddle(std::int64_t index, const PathEvidence::Bin& bin) {
+  const auto window = static_cast<std::int64_t>(
+      std::floor(static_cast<double>(index) * PathEvidence::kBin / kMiddleTime));
+  if (middles_.empty() || middles_.back().window != window) {
+    middles_.emplace_back();
+    middles_.back().window = window;
+  }
+  AdjustedMiddle& middle = middles_.back();
+  for (const ScanAngleSums& sums : bin.angles) {
+    middle.points += sums.n;
+    middle.time += sums.time + sums.n * static_cast<double>(index) * PathEvidence::kBin;
+    middle.mean += sums.position;
+    middle.covariance += sums.plan_z;
+    middle.tangent += sums.tangent;
+    middle.nadir = middle.nadir || std::abs(sums.tangent) < kNadir * sums.n;
+  }
+}
+
+/// Means from sums.
+void PathAdjustment::finishMiddles() {
+  middles_.erase(std::remove_if(middles_.begin(), middles_.end(),
+                                [](const AdjustedMiddle& middle) {
+                                  return !middle.nadir || middle.points < kFewestOfClass;
+                                }),
+                 middles_.end());
+  for (AdjustedMiddle& middle : middles_) {
+    const double n = middle.points;
+    middle.at = spline_.at(middle.time / n);
+    middle.mean /= n;
+    middle.tangent /= n;
+    middle.covariance = middle.covariance / n - middle.mean.z() * middle.mean.head<2>();
+  }
 }
 
 /// Course from the movement of the points of one class; height, sign and the skew of the scan lines
@@ -91,8 +123,8 @@ bool PathAdjustment::startFromAngles() {
     across += lateral * lateral;
   }
   if (!(tangents > 0.0) || !(across > 0.0)) return false;
-  skew_cosine_ = std::cos(std::atan(skewed / across));
-  start_height_ = std::abs(slope) / (tangents * skew_cosine_);
+  skew_ = skewed / across;
+  start_height_ = std::abs(slope) / (tangents * std::cos(std::atan(skew_)));
   sign_ = slope > 0.0 ? 1.0 : -1.0;
   return start_height_ > 1.0;
 }
@@ -121,76 +153,92 @@ Eigen::Vector2d PathAdjustment::courseAt(const UniformCubicSpline::Weights& at) 
   return velocity.norm() > kSlowest ? velocity.normalized() : start_course_;
 }
 
-double PathAdjustment::heightOf(const AdjustedAngle& angle) const {
+double PathAdjustment::heightOver(const UniformCubicSpline::Weights& at, double ground) const {
   constexpr double kLowest = 5.0;
   if (!solved_) return start_height_;
-  return std::max(kLowest, valueAt(angle.at).z() - angle.mean.z());
+  return std::max(kLowest, valueAt(at).z() - ground);
 }
 
 /// Recorded angles are those in the scan plane, whose tangent across the course is smaller.
 void PathAdjustment::allowForSkew() {
+  const double cosine = std::cos(std::atan(skew_));
   for (AdjustedAngle& angle : angles_) {
-    angle.tangent *= skew_cosine_;
-    angle.tangent_z *= skew_cosine_;
+    angle.tangent *= cosine;
+    angle.tangent_z *= cosine;
   }
-  scale_ = std::hypot(kScale, kSkewShare * (1.0 - skew_cosine_));
+  scale_ = std::hypot(kScale, kSkewShare * (1.0 - cosine));
 }
 
 /// right . (mean - X) = sign (Z T - mean(z T)) (1 + scale)
 ///                      + h (1 + T^2) (offset + roll + truncation sign(T)).
 PathAdjustment::AngleRow PathAdjustment::rowOf(const AdjustedAngle& angle) const {
   const Eigen::Vector2d right = rightOf(courseAt(angle.at));
-  const double height = heightOf(angle), tangent = angle.tangent;
+  const double height = heightOver(angle.at, angle.mean.z()), tangent = angle.tangent;
   const double turned = height * (1.0 + tangent * tangent);
   AngleRow row;
-  row.path << right.x(), right.y(), sign_ * tangent, turned;
+  row.setPath({right.x(), right.y(), sign_ * tangent}, turned, 0.0);
   row.common << sign_ * tangent * height, turned, turned * (tangent > 0.0 ? 1.0 : -1.0), 0.0;
   row.value = right.dot(angle.mean.head<2>()) + sign_ * angle.tangent_z;
   row.metres_per_radian = turned;
   return row;
 }
 
-void PathAdjustment::addAngles() {
-  for (const AdjustedAngle& angle : angles_) {
-    if (!(angle.weight > 0.0)) continue;
-    const AngleRow row = rowOf(angle);
-    addObservation(angle.at, row.path, row.common, row.value,
-                   angle.weight / (noise_ * row.metres_per_radian * row.metres_per_radian));
-    if (angle.nadir) addAlong(angle);
-  }
+/// The middle of the swath lies ahead of the sensor by the height times the tangent of the pitch,
+/// and a place beside it along the scan lines. Where the ground rises ahead, pulses that look ahead
+/// meet it sooner: the mean of their tangents is that of (y - Y) / (Z - z), to first order in z.
+PathAdjustment::AngleRow PathAdjustment::rowOf(const AdjustedMiddle& middle) const {
+  const Eigen::Vector2d course = courseAt(middle.at);
+  AngleRow row;
+  row.metres_per_radian = heightOver(middle.at, middle.mean.z());
+  row.setPath({course.x(), course.y(), 0.0}, 0.0, row.metres_per_radian);
+  row.common << 0.0, 0.0, 0.0, row.metres_per_radian;
+  row.value = course.dot(middle.mean.head<2>() + middle.covariance / row.metres_per_radian) -
+              skew_ * sign_ * middle.tangent * row.metres_per_radian;
+  return row;
 }
 
-/// Points near the vertical lie ahead of the sensor by the height times the tangent of the pitch.
-void PathAdjustment::addAlong(const AdjustedAngle& angle) {
-  const Eigen::Vector2d course = courseAt(angle.at);
-  const double height = heightOf(angle);
-  Eigen::Matrix<double, kBlock, 1> path;
-  Eigen::Matrix<double, kCommon, 1> common;
-  path << course.x(), course.y(), 0.0, 0.0;
-  common << 0.0, 0.0, 0.0, height;
-  const double sigma = kPitchMotion * height;
-  addObservation(angle.at, path, common, course.dot(angle.mean.head<2>()), 1.0 / (sigma * sigma));
+void PathAdjustment::addAngles() {
+  const auto add = [this](const auto& angle, double variance) {
+    if (!(angle.weight > 0.0)) return;
+    const AngleRow row = rowOf(angle);
+    addObservation(angle.at, row.path, row.common, row.value,
+                   angle.weight / (variance * row.metres_per_radian * row.metres_per_radian));
+  };
+  for (const AdjustedAngle& angle : angles_) add(angle, noise_);
+  for (const AdjustedMiddle& middle : middles_) add(middle, along_);
+}
+
+/// Radians.
+template <typename Angle>
+double PathAdjustment::residualOf(const Angle& angle, const AngleRow& row) const {
+  const double of_path = row.path.head<3>().dot(valueAt(angle.at)) +
+                         row.path[kRollOf] * angleAt(angle.at, kRollOf) +
+                         row.path[kPitchOf] * angleAt(angle.at, kPitchOf);
+  return (of_path + row.common.dot(common_) - row.value) / row.metres_per_radian;
 }
 
 void PathAdjustment::weighAngles() {
-  for (AdjustedAngle& angle : angles_) {
-    const AngleRow row = rowOf(angle);
-    Eigen::Matrix<double, kBlock, 1> path;
-    path << valueAt(angle.at), rollAt(angle.at);
-    angle.residual =
-        (row.path.dot(path) + row.common.dot(common_) - row.value) / row.metres_per_radian;
-    const double size = std::abs(angle.residual) / std::sqrt(noise_);
+  const auto weigh = [this](auto& angle, double variance) {
+    angle.residual = residualOf(angle, rowOf(angle));
+    const double size = std::abs(angle.residual) / std::sqrt(variance);
     angle.weight = size > kRejectionLimit ? 0.0 : huberWeight(size);
-  }
+  };
+  for (AdjustedAngle& angle : angles_) weigh(angle, noise_);
+  for (AdjustedMiddle& middle : middles_) weigh(middle, along_);
 }
 
-void PathAdjustment::updateAngleVariance() {
-  double squares = 0.0, weights = 0.0;
-  for (const AdjustedAngle& angle : angles_) {
-    squares += angle.weight * angle.residual * angle.residual;
-    weights += angle.weight;
-  }
-  if (weights > 0.0) noise_ = std::max(squares / weights, kLeastAngleNoise * kLeastAngleNoise);
+void PathAdjustment::updateAngleVariances() {
+  const auto varianceOf = [](const auto& angles, double otherwise) {
+    double squares = 0.0, weights = 0.0;
+    for (const auto& angle : angles) {
+      squares += angle.weight * angle.residual * angle.residual;
+      weights += angle.weight;
+    }
+    constexpr double kLeast = kLeastAngleNoise * kLeastAngleNoise;
+    return weights > 0.0 ? std::max(squares / weights, kLeast) : otherwise;
+  };
+  noise_ = varianceOf(angles_, noise_);
+  if (!rays_.empty()) along_ = varianceOf(middles_, along_);
 }
 
 }  // namespace pcl_als::detail

@@ -9,13 +9,19 @@ namespace pcl_als::detail {
 // Constants of the reconstruction of paths from points; the module's page gives their sources.
 
 inline constexpr double kAcross = 0.01;  // m, standard deviation of a return across, at the start
-inline constexpr double kLeastAcross = 1e-4;  // m
-inline constexpr double kAgility = 0.3;       // m/s^2 per sqrt(Hz), accelerations, at the start
+inline constexpr double kLeastAcross = 1e-4;      // m
+inline constexpr double kAgility = 0.3;           // m/s^2 per sqrt(Hz), accelerations, at the start
+inline constexpr double kAccelerationTime = 5.0;  // s, correlation time of accelerations
+inline constexpr double kRough = 0.010;     // m, rough movements, such as errors of a trajectory
+inline constexpr double kPriorRough = 3.0;  // values that this counts
+inline constexpr double kLeastRough = 1e-5, kMostRough = 0.3;       // m
+inline constexpr double kRoughTime = 10.0;                          // s, their correlation time
 inline constexpr double kLeastAgility = 0.01, kMostAgility = 10.0;  // the same, limits
 inline constexpr double kRoll = 1.0 * kRadiansPerDegree;  // rad, of the roll in recorded angles
-inline constexpr double kLeastRoll = 0.005 * kRadiansPerDegree;
-inline constexpr double kMostRoll = 5.0 * kRadiansPerDegree;
-inline constexpr double kRollTime = 3.0;  // s, correlation time of the roll
+inline constexpr double kLeastRoll = 0.005 * kRadiansPerDegree;  // rad
+inline constexpr double kLeastPitch = 0.2 * kRadiansPerDegree;   // rad, of a calm flight
+inline constexpr double kMostAttitude = 5.0 * kRadiansPerDegree;
+inline constexpr double kAttitudeTime = 3.0;  // s, correlation time of roll and pitch
 inline constexpr double kAngleNoise =
     0.15 * kRadiansPerDegree;  // rad, mean of a class, at the start
 inline constexpr double kLeastAngleNoise = 0.02 * kRadiansPerDegree;
@@ -24,14 +30,20 @@ inline constexpr double kSkewShare = 0.5;  // 1, uncertainty of the effect of sk
 inline constexpr double kOffset = 1.0 * kRadiansPerDegree;       // rad, prior of their offset
 inline constexpr double kTruncation = 0.25 * kRadiansPerDegree;  // rad, of whole degrees
 inline constexpr double kPitch = 3.0 * kRadiansPerDegree;        // rad, prior of the mean pitch
-inline constexpr double kPitchMotion = 4.0 * kRadiansPerDegree;  // rad, of a quarter of a second
-inline constexpr double kRegular = 1e-10;                        // 1/m^2, prior of a coefficient
+inline constexpr double kPitchMotion =
+    1.5 * kRadiansPerDegree;                                    // rad, about its mean, at the start
+inline constexpr double kAlongNoise = 1.5 * kRadiansPerDegree;  // rad, of a second, at the start
+inline constexpr double kMiddleTime = 1.0;                      // s, of a mean of points
+inline constexpr double kRegular = 1e-10;                       // 1/m^2, prior of a coefficient
 inline constexpr double kSlowest = 0.5;         // m/s, speed from which there is a course
 inline constexpr double kSlopeTolerance = 0.3;  // 1, heights from angles over that of rays
 inline constexpr double kRaysSuffice = 0.005;   // std over height: recorded angles are not used
 inline constexpr double kSharedTime = 0.5;      // s, within which rays may share errors
 inline constexpr double kFewestBins = 8.0;      // such times that are needed to see it
-inline constexpr double kLeastFree = 0.25;      // 1, least share of them that is redundant
+inline constexpr double kJitterTime = 0.1;      // s, within which fast movements are one
+inline constexpr int kJitterSteps = 6;
+inline constexpr double kSignificant = 2.5;  // standard deviations
+inline constexpr double kLeastFree = 0.25;   // 1, least share of them that is redundant
 inline constexpr int kRobustSteps = 12, kMostSteps = 80;
 inline constexpr double kConverged = 1e-3;          // m, change of a coefficient
 inline constexpr double kConvergedVariance = 0.01;  // 1, relative change

@@ -43,9 +43,8 @@ void PathAdjustment::describe(ReconstructedPath& path) const {
   if (!solved_) return;
   path.across = std::sqrt(across_);
   path.apart = std::sqrt(apart_);
-  const double cube = std::pow(spline_.step(), 3.0);
-  path.agility_plan = std::sqrt(plan_ / cube);
-  path.agility_height = std::sqrt(height_ / cube);
+  path.agility_plan = std::sqrt(plan_ / perDensity());
+  path.agility_height = std::sqrt(height_ / perDensity());
   path.residuals = residualsByTime(rays_, spline_.from(), spline_.to());
   ReconstructedPath::Angles& angles = path.angles;
   angles.used = with_angles_;

@@ -96,6 +96,8 @@ void PathEvidence::mergeAngles(Bin& bin, const ScanAngleSums& sums, const Eigen:
   ScanAngleSums& own = classOf(bin, sums.index);
   own.n += sums.n;
   own.time += sums.time;
+  own.plan_z += sums.plan_z + shift.z() * sums.position.head<2>() +
+                (sums.position.z() + sums.n * shift.z()) * shift.head<2>();
   own.position += sums.position + sums.n * shift;
   own.tangent += sums.tangent;
   own.tangent_z += sums.tangent_z + shift.z() * sums.tangent;
@@ -123,6 +125,7 @@ void PathEvidence::addAngle(Bin& bin, const LidarReturn& point) {
   sums.n += 1.0;
   sums.time += point.time - static_cast<double>(current_) * kBin;
   sums.position += position;
+  sums.plan_z += position.z() * position.head<2>();
   sums.tangent += tangent;
   sums.tangent_z += tangent * position.z();
 }

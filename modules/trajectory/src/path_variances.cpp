@@ -75,7 +75,9 @@ void PathAdjustment::updateRayVariances() {
                                (normal(0, 0) * right[1] - normal(0, 1) * right[0]) / determinant);
     if (both[1] > 0.0) found = both[0] > 0.0 ? both : Eigen::Vector2d(0.0, right[1] / normal(1, 1));
   }
-  const double free = std::max(2.0 * weights - effectiveUnknowns(), 0.2 * weights);
+  double effective = 0.0;
+  for (int c = 0; c < 3; ++c) effective += effectiveUnknowns(c);
+  const double free = std::max(2.0 * weights - effective, 0.2 * weights);
   found *= 2.0 * weights / free;
   across_ = (weights * found[0] + kPriorRays * kAcross * kAcross) / (weights + kPriorRays);
   if (weights > kManyRays) across_ = found[0];
@@ -83,51 +85,55 @@ void PathAdjustment::updateRayVariances() {
   apart_ = found[1];
 }
 
-double PathAdjustment::secondDifferences(int coordinate, double& uncertainty) const {
-  constexpr std::array<double, 3> kDifference = {1.0, -2.0, 1.0};
-  double squares = 0.0;
-  uncertainty = 0.0;
-  for (int knot = 0; knot + 2 < spline_.count(); ++knot) {
-    double difference = 0.0;
-    for (int a = 0; a < 3; ++a) {
-      const int i = kBlock * (knot + a) + coordinate;
-      const double da = kDifference[static_cast<std::size_t>(a)];
-      difference += da * coefficients_[i];
-      for (int b = 0; b < 3; ++b)
-        uncertainty += da * kDifference[static_cast<std::size_t>(b)] *
-                       normal_.covariance(i, kBlock * (knot + b) + coordinate);
+PathAdjustment::Effect PathAdjustment::accelerations(int coordinate) const {
+  Effect effect;
+  for (const Innovation& innovation : innovations_) {
+    double value = 0.0;
+    for (int a = 0; a < 4; ++a) {
+      if (innovation.at(a) == 0.0) continue;
+      const int i = kBlock * (innovation.first + a) + coordinate;
+      value += innovation.at(a) * coefficients_[i];
+      for (int b = 0; b < 4; ++b)
+        if (innovation.at(b) != 0.0)
+          effect.uncertainty += innovation.at(a) * innovation.at(b) *
+                                normal_.covariance(i, kBlock * (innovation.first + b) + coordinate);
     }
-    squares += difference * difference;
+    effect.squares += value * value;
   }
-  return squares;
+  return effect;
 }
 
-/// Unknowns of the path that the observations determine, in the sense of the trace of the
+/// Unknowns of a coordinate that the observations determine, in the sense of the trace of the
 /// projection.
-double PathAdjustment::effectiveUnknowns() const {
-  double effective = 3.0 * spline_.count();
-  for (int c = 0; c < 3; ++c) {
-    double uncertainty = 0.0;
-    secondDifferences(c, uncertainty);
-    effective -= uncertainty / (c < 2 ? plan_ : height_);
-  }
-  return std::max(0.0, effective);
+double PathAdjustment::effectiveUnknowns(int coordinate) const {
+  return 2.0 * spline_.count() -
+         accelerations(coordinate).uncertainty / (coordinate < 2 ? plan_ : height_) -
+         processOf(kRoughOf + coordinate, kRoughTime).uncertainty / rough_;
 }
 
 void PathAdjustment::updateAgility() {
-  const double cube = std::pow(spline_.step(), 3.0);
-  const double least = kLeastAgility * kLeastAgility * cube,
-               most = kMostAgility * kMostAgility * cube;
+  const double least = kLeastAgility * kLeastAgility * perDensity(),
+               most = kMostAgility * kMostAgility * perDensity();
   const double rank = std::max(1, spline_.count() - 2);
-  std::array<double, 3> squares{}, uncertainty{};
-  for (int c = 0; c < 3; ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    squares[k] = secondDifferences(c, uncertainty[k]);
-  }
-  plan_ = fellnerStep(plan_, squares[0] + squares[1], uncertainty[0] + uncertainty[1], 2.0 * rank);
-  height_ = fellnerStep(height_, squares[2], uncertainty[2], rank);
+  const Effect east = accelerations(0), north = accelerations(1), up = accelerations(2);
+  plan_ = fellnerStep(plan_, east.squares + north.squares, east.uncertainty + north.uncertainty,
+                      2.0 * rank);
+  height_ = fellnerStep(height_, up.squares, up.uncertainty, rank);
   plan_ = std::clamp(plan_, least, most);
   height_ = std::clamp(height_, least, most);
+}
+
+/// Few or imprecise rays leave it at what is usual for the errors of a delivered trajectory.
+void PathAdjustment::updateRoughness() {
+  double squares = kPriorRough * kRough * kRough, uncertainty = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const Effect effect = processOf(kRoughOf + c, kRoughTime);
+    squares += effect.squares;
+    uncertainty += effect.uncertainty;
+  }
+  rough_ =
+      std::clamp(fellnerStep(rough_, squares, uncertainty, kPriorRough + 3.0 * spline_.count()),
+                 kLeastRough * kLeastRough, kMostRough * kMostRough);
 }
 
 /// Errors that rays of a quarter of a second share are not independent of each other: the squares
@@ -140,9 +146,7 @@ void PathAdjustment::findInflation() {
   std::map<std::int64_t, Sums> bins;
   for (const AdjustedRay& ray : rays_) {
     if (!(ray.weight > 0.0)) continue;
-    const Eigen::Matrix3d across =
-        (ray.weight / ray.variance) *
-        (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose());
+    const Eigen::Matrix3d across = ray.information();
     Sums& sums = bins[static_cast<std::int64_t>(std::floor(ray.time / kSharedTime))];
     sums.score += across * (ray.lower - valueAt(ray.at));
     sums.information += across.diagonal();
@@ -155,31 +159,89 @@ void PathAdjustment::findInflation() {
   }
   const auto count = static_cast<double>(bins.size());
   for (int c = 0; c < 3; ++c) {
-    double uncertainty = 0.0;
-    secondDifferences(c, uncertainty);
-    const double used = spline_.count() - uncertainty / (c < 2 ? plan_ : height_);
-    const double free = std::max(count - used, kLeastFree * count);
+    const double free = std::max(count - effectiveUnknowns(c), kLeastFree * count);
     if (expected[c] > 0.0 && count > kFewestBins)
       inflation_[c] = std::max(1.0, squares[c] / expected[c] * count / free);
   }
 }
 
-/// The variance of the roll's Gauss-Markov process.
-void PathAdjustment::updateRoll() {
-  const double keep = std::exp(-spline_.step() / kRollTime), inner = 1.0 / (1.0 - keep * keep);
-  double squares = 0.0, uncertainty = 0.0;
+/// What the rays of a tenth of a second have in common.
+struct PathAdjustment::SharedRays {
+  Eigen::Vector3d score = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d path = Eigen::Matrix3d::Zero();  ///< covariance
+  double own_scores = 0.0, own_information = 0.0;  ///< of each ray by itself
+
+  void add(const Eigen::Matrix3d& across, const Eigen::Vector3d& residual) {
+    score += across * residual;
+    information += across;
+    own_scores += (across * residual).squaredNorm() + (across * path * across).trace();
+    own_information += across.squaredNorm();
+  }
+  /// Products of the residuals of two rays, without the noise of both and with that of the path;
+  /// and what a variance of one would add to them.
+  double products() const {
+    return score.squaredNorm() + (information * path * information).trace() - own_scores;
+  }
+  double pairs() const { return information.squaredNorm() - own_information; }
+};
+
+/// The part of a rough movement that is faster than the knots: its spectrum beyond the frequency pi
+/// / step, of which the estimated variance contains as much again. Or, if it is more, what rays of
+/// a short time have significantly in common beside the uncertainty of the path.
+void PathAdjustment::findJitter() {
+  std::map<std::int64_t, SharedRays> bins;
+  for (const AdjustedRay& ray : rays_) {
+    if (!(ray.weight > 0.0)) continue;
+    const auto [bin, fresh] =
+        bins.try_emplace(static_cast<std::int64_t>(std::floor(ray.time / kJitterTime)));
+    if (fresh) bin->second.path = covarianceAt(ray.at.first, ray.at.value);
+    bin->second.add(ray.information(), ray.lower - valueAt(ray.at));
+  }
+  double common = 0.0;
+  for (int i = 0; i < kJitterSteps; ++i) {
+    double products = 0.0, expected = 0.0, variance = 0.0;
+    for (const auto& entry : bins) {
+      const SharedRays& rays = entry.second;
+      const double scaled = 1.0 / (1.0 + 0.5 * common * rays.information.trace());
+      const double share = scaled * scaled;
+      products += share * rays.products();
+      expected += share * rays.pairs();
+      variance += share * share * 2.0 * rays.pairs();  // of the products, without such movements
+    }
+    const bool significant = products > kSignificant * std::sqrt(variance);
+    common = significant ? products / expected : 0.0;
+    if (!significant) break;
+  }
+  jitter_ = std::max(common, rough_ / kRoughTime * spline_.step() / (kPi * kPi));
+}
+
+/// A Gauss-Markov process, for a variance of one.
+PathAdjustment::Effect PathAdjustment::processOf(int unknown, double time) const {
+  const double keep = std::exp(-spline_.step() / time), inner = 1.0 / (1.0 - keep * keep);
+  Effect effect;
   const auto element = [&](int i, int j, double value) {
-    squares += value * coefficients_[i] * coefficients_[j];
-    uncertainty += value * normal_.covariance(i, j);
+    effect.squares += value * coefficients_[i] * coefficients_[j];
+    effect.uncertainty += value * normal_.covariance(i, j);
   };
   for (int knot = 0; knot < spline_.count(); ++knot) {
-    const int i = kBlock * knot + 3;
+    const int i = kBlock * knot + unknown;
     const bool end = knot == 0 || knot + 1 == spline_.count();
     element(i, i, inner * (end ? 1.0 : 1.0 + keep * keep));
     if (knot > 0) element(i, i - kBlock, -2.0 * inner * keep);
   }
-  roll_ = std::clamp(fellnerStep(roll_, squares, uncertainty, spline_.count()),
-                     kLeastRoll * kLeastRoll, kMostRoll * kMostRoll);
+  return effect;
+}
+
+/// Without rays, movements along the course cannot be told from those of the pitch.
+void PathAdjustment::updateAttitude() {
+  const auto update = [this](int unknown, double variance, double least) {
+    const Effect effect = processOf(unknown, kAttitudeTime);
+    return std::clamp(fellnerStep(variance, effect.squares, effect.uncertainty, spline_.count()),
+                      least * least, kMostAttitude * kMostAttitude);
+  };
+  roll_ = update(kRollOf, roll_, kLeastRoll);
+  if (!rays_.empty()) pitch_ = update(kPitchOf, pitch_, kLeastPitch);
 }
 
 }  // namespace pcl_als::detail

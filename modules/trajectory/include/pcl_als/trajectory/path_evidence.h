@@ -29,6 +29,7 @@ struct ScanAngleSums {
   int index = 0;  ///< of the class: its middle over its width
   double n = 0.0, time = 0.0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, from PathEvidence::origin()
+  Eigen::Vector2d plan_z = Eigen::Vector2d::Zero();    ///< east and north times the height, m^2
   double tangent = 0.0, tangent_z = 0.0;               ///< of the recorded angle; times the height
 };
 
