@@ -24,6 +24,7 @@ near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !(d < t && d
 # leaves them as they are.
 expect 0 "Strips 3 were held fixed" "${calibrate[@]}" -fixed 3 -output fixed.json -corrected corrected -report report
 check "range bias $(range_of fixed.json)" near "$(range_of fixed.json)" 0.2 0.03
+check "fixed strips are no control points" grep -q ", 1 fixed strip, " fixed.json
 check "the page names them" grep -q "fixed strips" report/report.md
 check "the fixed strip is unchanged" cmp new/strip3.las corrected/strip3.las
 expect 0 "unchanged, because held fixed: strips 3" apply new/strip3.las applied.las "${flight[@]}" -calibration fixed.json
@@ -38,11 +39,30 @@ absent none.las no.json
 expect 0 "| strip2.las           |" calibrate new/strip1.las new/strip2.las "${flight[@]}" -candidates 10 \
   -reference earlier/strip2.las:0.03 -output points.json
 check "range bias $(range_of points.json)" near "$(range_of points.json)" 0.2 0.03
+check "a surface is no control point" grep -q ", 1 reference surface, " points.json
+check "a COPC file of the surface" "$bin/las_to_copc" earlier/strip2.las earlier/strip2.copc.laz
+expect 0 "strip2.copc.laz" calibrate new/strip1.las new/strip2.las "${flight[@]}" -candidates 10 \
+  -reference earlier/strip2.copc.laz:0.03 -output copc.json
+check "a COPC surface gives the same range bias" near "$(range_of copc.json)" "$(range_of points.json)" 0.001
 check "the result lists the file" grep -q '"earlier/strip2.las"' points.json
 run convert earlier/strip2.las elsewhere.las -bounds 0,0,1,1
 expect 2 "no.las" "${calibrate[@]}" -reference no.las -output no.json
 expect 1 "standard deviation must be positive" "${calibrate[@]}" -reference earlier/strip2.las:0 -output no.json
 absent no.json
+
+# The same range bias with a selection of pairs, with the channel of the scanner as a strip, and for two systems; both
+# kinds are unaffected by these options. Tolerance as above.
+together=(-select 5 / -channels scanner_channel / -system a=1,2 b=4 -own range_bias)
+options=()
+for word in "${together[@]}" /; do
+  [[ $word == / ]] || { options+=("$word"); continue; }
+  expect 0 "" "${calibrate[@]}" -fixed 3 "${options[@]}" -output together.json
+  check "fixed ${options[*]}: $(range_of together.json)" near "$(range_of together.json)" 0.2 0.03
+  expect 0 "" calibrate new/strip1.las new/strip2.las new/strip4.las "${flight[@]}" -candidates 10 \
+    -reference earlier/strip2.las:0.03 "${options[@]}" -output together.json
+  check "reference ${options[*]}: $(range_of together.json)" near "$(range_of together.json)" 0.2 0.03
+  options=()
+done
 
 # References and control that lie elsewhere: what no file states, the coordinates show.
 run simulate -output away -preset small -scale 0.6 -density 0.1 -noise none -origin 700000,5560000,1000

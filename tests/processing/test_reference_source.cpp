@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <gdal.h>
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
@@ -66,6 +67,43 @@ TEST(ReferenceSource, TakesStandardDeviationsFromItsText) {
   EXPECT_EQ(stated.surface.std, 0.05);
   EXPECT_EQ(stated.surface.offset, 0.3);
   EXPECT_EQ(stated.info.crs, "EPSG:25832");
+}
+
+/// Three cells in a row, 2 m, of another type than ours, as other programs write them.
+std::filesystem::path rasterOf(GDALDataType type, std::vector<double> values, double no_data,
+                               double scale) {
+  GDALAllRegister();
+  const auto path = test::scratch("reference_types") / "dem.tif";
+  const GDALDatasetH file = GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(),
+                                       static_cast<int>(values.size()), 1, 1, type, nullptr);
+  double transform[6] = {500000.0, 2.0, 0.0, 5600000.0, 0.0, -2.0};
+  GDALSetGeoTransform(file, transform);
+  const GDALRasterBandH band = GDALGetRasterBand(file, 1);
+  GDALSetRasterNoDataValue(band, no_data);
+  if (scale != 1.0) GDALSetRasterScale(band, scale);
+  const int count = static_cast<int>(values.size());
+  EXPECT_EQ(
+      GDALRasterIO(band, GF_Write, 0, 0, count, 1, values.data(), count, 1, GDT_Float64, 0, 0),
+      CE_None);
+  GDALClose(file);
+  return path;
+}
+
+/// Whole numbers of decimetres, and doubles whose missing value no float can represent.
+TEST(ReferenceSource, ReadsIntegersAndDoubles) {
+  const auto integers =
+      read(openReference(rasterOf(GDT_Int16, {12345, -32768, -57}, -32768.0, 0.1).string()), 1e7);
+  ASSERT_EQ(integers.size(), 2U);
+  EXPECT_NEAR(integers[0].z(), 1234.5, 1e-4);  // a step of a float at 1235 m is 0.12 mm
+  EXPECT_NEAR(integers[1].z(), -5.7, 1e-6);
+  EXPECT_NEAR(integers[1].x(), 500005.0, 1e-9);
+  for (const double none : {-1.7976931348623157e308, -9999.0, std::nan("")}) {
+    const auto doubles = read(
+        openReference(rasterOf(GDT_Float64, {1234.5678, none, 2.25}, none, 1.0).string()), 1e7);
+    ASSERT_EQ(doubles.size(), 2U) << none;
+    EXPECT_NEAR(doubles[0].z(), 1234.5678, 1e-4);
+    EXPECT_EQ(doubles[1].z(), 2.25);
+  }
 }
 
 TEST(ReferenceSource, RefusesWhatIsNoSurface) {

@@ -260,9 +260,39 @@ ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& traj
   return block;
 }
 
+namespace {
+
+/// What the strips of a calibration are compared with besides each other.
+std::string controlText(const CalibrationResult& result) {
+  std::size_t points = 0, patches = 0, surfaces = 0, strips = 0;
+  for (const ControlPointFit& fit : result.control_points)
+    ++(fit.component == "normal" ? patches : points);
+  for (const HeldSurface& surface : result.held) {
+    strips += surface.strips.size();
+    if (surface.strips.empty()) ++surfaces;
+  }
+  const struct {
+    std::size_t count;
+    const char *one, *several;
+  } kinds[] = {{points, "control point", "control points"},
+               {patches, "planar patch", "planar patches"},
+               {surfaces, "reference surface", "reference surfaces"},
+               {strips, "fixed strip", "fixed strips"}};
+  std::string text;
+  for (const auto& kind : kinds) {
+    if (kind.count == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(kind.count) + " " +
+            (kind.count == 1 ? kind.one : kind.several);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> describeObservability(const SystemCalibrationEngine& calibration,
                                                const CalibrationResult& result) {
-  const ObservedBlock block = observedBlock(calibration.adjusted(), *calibration.trajectory());
+  ObservedBlock block = observedBlock(calibration.adjusted(), *calibration.trajectory());
+  block.control_text = controlText(result);
   if (block.observationCount() == 0) return {};
   const CalibrationSettings& given = calibration.settings();
   ObservabilitySettings settings;

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/planning/block_facts.h>
 
 namespace pcl_als {
@@ -71,6 +72,8 @@ BlockFacts::BlockFacts(const ObservedBlock& block) {
     }
   }
   control = block.control_points;
+  control_text =
+      block.control_text.empty() ? counted(control, "control point") : block.control_text;
   if (tilts.all > 0.0) {
     slope = std::sqrt(tilts.squares / tilts.all);
     sloped = tilts.steep / tilts.all;
@@ -157,7 +160,7 @@ std::string BlockFacts::text() const {
       << (opposite_lines ? "opposite" : "no opposite") << " lines, "
       << (crossing_lines ? "crossing" : "no crossing") << " lines, "
       << (parallel_lines ? "parallel" : "no parallel") << " lines in the same direction, "
-      << control << " control point" << (control == 1 ? "" : "s") << ", ";
+      << control_text << ", ";
   out.precision(0);
   out << std::fixed << 100.0 * sloped << " % of pairs on slopes over 5 degrees";
   return out.str();

@@ -23,6 +23,7 @@ struct BlockFacts {
   double separation = 0.0;  ///< the largest displacement of these, share of the swath's half width
   bool heights_meet = false;       ///< two overlapping strips of different heights
   std::size_t control = 0;         ///< control points covered by a strip
+  std::string control_text;        ///< "6 control points, 1 reference surface"
   double slope = 0.0;              ///< RMS tilt of the measuring normals, radians
   double sloped = 0.0;             ///< share of pairs on surfaces steeper than 5 degrees
   double half_angle = 0.0;         ///< largest angle off the vertical of a pair, radians

@@ -45,6 +45,7 @@ struct ObservedBlock {
   std::vector<AreaObservations> observations;  ///< by area; misclosures are not used
   std::vector<std::vector<double>> weights;    ///< as for Adjustment::accumulate
   std::size_t control_points = 0;
+  std::string control_text;  ///< what the strips are compared with; empty: control points
 
   std::size_t observationCount() const;
   /// Every k-th observation of an area with k times its weight and zero misclosure, so that about
