@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 
 #include "ray_flight.h"
@@ -203,35 +202,6 @@ TEST(TrajectoryReconstruction, PitchOfTheScanLinesContinuesThePath) {
   EXPECT_LT(std::sqrt(normalised), 1.25);
 }
 
-// Where the ground rises ahead by a tenth, the middle of a disc of pulses lies 0.1 tan(20)^2 / 4 of
-// the height behind: 9 m.
-TEST(TrajectoryReconstruction, SlopesDoNotMoveTheMiddleOfADisc) {
-  const auto positionAt = [](double slope) {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> uniform(0.0, 1.0);
-    Points points;
-    for (int i = 0; i < 60000; ++i) {
-      LidarReturn point;
-      point.time = i / 3000.0;
-      const Eigen::Vector3d sensor(0.0, 50.0 * point.time, 1000.0 + slope * 50.0 * point.time);
-      const double turn = 2.0 * kPi * uniform(random);
-      const double size = 0.364 * std::sqrt(uniform(random));
-      const Eigen::Vector3d ray(size * std::sin(turn), size * std::cos(turn), -1.0);
-      // sensor.z - r = slope (sensor.y + r ray.y)
-      const double range = (sensor.z() - slope * sensor.y()) / (1.0 + slope * ray.y());
-      point.position = sensor + range * ray;
-      point.scan_angle = static_cast<float>(std::atan(ray.x()) / kRadiansPerDegree);
-      point.number_of_returns = point.return_number = 1;
-      points.push_back(point);
-    }
-    const ReconstructedPath path = only(points);
-    EXPECT_TRUE(path.found) << path.reason;
-    const PathSample& middle = path.samples[path.samples.size() / 2];
-    return middle.position.y() - 50.0 * middle.time;
-  };
-  EXPECT_NEAR(positionAt(0.1), positionAt(0.0), 1.5);
-}
-
 // Errors of a delivered trajectory walk by 0.3 mm in five milliseconds; knots do not follow.
 TEST(TrajectoryReconstruction, AllowsForMovementsThatTheKnotsDoNotFollow) {
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
@@ -364,13 +334,21 @@ TEST(TrajectoryReconstruction, CountsDuplicatesAndPointsWithoutTime) {
   EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
 }
 
-// In a millisecond the sensor moves 6 cm.
-TEST(TrajectoryReconstruction, AcceptsTimesInMilliseconds) {
-  Points points = wavy().points();
-  for (LidarReturn& point : points) point.time = std::round(1e3 * point.time) / 1e3;
-  const ReconstructedPath path = only(points);
-  ASSERT_TRUE(path.found);
-  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+// In a millisecond the sensor moves 6 cm, in a tenth of a second 6 m. Several pulses share a time:
+// where some returns are numbered, those that are not belong to different pulses.
+TEST(TrajectoryReconstruction, AcceptsRoundedTimes) {
+  for (const double step : {1e-3, 0.1}) {
+    RayFlight flight = wavy();
+    flight.noise = 1e-3;
+    Points points = flight.points();
+    for (LidarReturn& point : points) point.time = step * std::round(point.time / step);
+    const ReconstructedPath path = only(points);
+    ASSERT_TRUE(path.found) << path.reason;
+    EXPECT_FALSE(mentions(path, "have no numbers"));
+    EXPECT_LT(path.rejected, path.rays / 5);
+    EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+    if (step > 0.01) EXPECT_NEAR(path.meanStd().y(), 6.0 / std::sqrt(12.0), 0.5);
+  }
 }
 
 TEST(TrajectoryReconstruction, JoinsStripsOfOneTimeAndDividesAtGaps) {
@@ -388,6 +366,17 @@ TEST(TrajectoryReconstruction, JoinsStripsOfOneTimeAndDividesAtGaps) {
     ASSERT_TRUE(path.found);
     EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
   }
+}
+
+// Source ids that are no strips: each point has one of its own.
+TEST(TrajectoryReconstruction, NamesOfManyJoinedStripsAreShort) {
+  std::vector<Points> strips(40);
+  std::size_t i = 0;
+  for (const LidarReturn& point : wavy().points()) strips[i++ / 7 % 40].push_back(point);
+  const std::vector<ReconstructedPath> paths = reconstructed(strips);
+  ASSERT_EQ(paths.size(), 1U);
+  EXPECT_EQ(paths[0].name, "1 + 2 + 3 + 4 + 36 more");
+  EXPECT_TRUE(paths[0].found);
 }
 
 TEST(TrajectoryReconstruction, RefusesImpossibleSettings) {

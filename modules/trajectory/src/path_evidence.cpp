@@ -66,7 +66,7 @@ void PathEvidence::add(const LidarReturn& point) {
   bin.first = std::min(bin.first, point.time);
   bin.last = std::max(bin.last, point.time);
   bin.points += 1.0;
-  if (point.number_of_returns > 1) ++counts_.multiple;
+  if (point.number_of_returns > 1 && counts_.multiple++ == 0) dropRaysByTime();
   if (std::isfinite(point.scan_angle)) addAngle(bin, point);
   state_->pairing.add(
       point, [this](const LidarReturn& lower, const LidarReturn& upper) { addRay(lower, upper); });
@@ -130,12 +130,28 @@ void PathEvidence::addAngle(Bin& bin, const LidarReturn& point) {
   sums.tangent_z += tangent * position.z();
 }
 
+/// Points of equal, rounded times are not pulses.
+void PathEvidence::dropRaysByTime() {
+  counts_.rays = 0;
+  for (auto& entry : bins_) {
+    Bin& bin = entry.second;
+    const auto end = std::remove_if(bin.rays.begin(), bin.rays.end(),
+                                    [](const PulseRay& ray) { return ray.by_time; });
+    bin.rays.erase(end, bin.rays.end());
+    counts_.rays += bin.rays.size();
+    std::make_heap(bin.rays.begin(), bin.rays.end(), better);
+  }
+}
+
 void PathEvidence::addRay(const LidarReturn& lower, const LidarReturn& upper) {
   PulseRay ray;
   ray.time = lower.time;
   ray.lower = lower.position;
   ray.span = (upper.position - lower.position).cast<float>();
   if (ray.separation() < kLeastSeparation) return;
+  ray.by_time = lower.number_of_returns < 2 && upper.number_of_returns < 2 &&
+                lower.return_number < 2 && upper.return_number < 2;
+  if (ray.by_time && counts_.multiple > 0) return;
   ++counts_.rays;
   std::vector<PulseRay>& rays = bins_[static_cast<std::int64_t>(std::floor(ray.time / kBin))].rays;
   if (rays.size() < kRays) {
@@ -153,7 +169,7 @@ void PathEvidence::finish() {
       [this](const LidarReturn& lower, const LidarReturn& upper) { addRay(lower, upper); });
   counts_.ambiguous = state_->pairing.ambiguous();
   counts_.duplicates = state_->pairing.duplicates();
-  counts_.by_time = state_->pairing.byTime();
+  counts_.by_time = counts_.multiple > 0 ? 0 : state_->pairing.byTime();
   for (auto& entry : bins_) std::sort(entry.second.rays.begin(), entry.second.rays.end(), better);
 }
 
@@ -171,6 +187,10 @@ void PathEvidence::merge(const PathEvidence& other) {
     for (const ScanAngleSums& sums : bin.angles) mergeAngles(own, sums, other.origin_ - origin_);
   }
   counts_.merge(other.counts_);
+  if (counts_.multiple > 0 && counts_.by_time > 0) {
+    dropRaysByTime();
+    counts_.by_time = 0;
+  }
   times_.add(other.times_);
 }
 

@@ -32,6 +32,15 @@ void takeSamples(const PathAdjustment& adjustment, double interval, Reconstructe
   path.height = adjustment.heightAboveGround();
 }
 
+/// Rounded times: a position is that of a time within half a step, on average.
+void allowForRounding(double step, ReconstructedPath& path) {
+  if (!(step > 0.0) || !std::isfinite(step)) return;
+  for (PathSample& sample : path.samples) {
+    const Eigen::Vector3d moved = sample.velocity * (step / std::sqrt(12.0));
+    sample.covariance += moved * moved.transpose();
+  }
+}
+
 /// Largest standard deviation of a coordinate over time, in shares of the height above ground.
 double largestShare(const ReconstructedPath& path) {
   double largest = 0.0;
@@ -61,6 +70,15 @@ std::string whyNone(const PathEvidence::Counts& counts) {
   if (counts.rays > 0 || counts.angles > 0) return {};
   return "no pulse has two returns, and recorded scan angles are zero or absent: nothing shows "
          "from where its points were measured";
+}
+
+/// Of strips with one path; files without meaningful source ids have hundreds.
+std::string joinedName(std::string name, const std::vector<std::string>& others) {
+  constexpr std::size_t kMostNamed = 3;
+  for (std::size_t i = 0; i < std::min(others.size(), kMostNamed); ++i) name += " + " + others[i];
+  if (others.size() > kMostNamed)
+    name += " + " + std::to_string(others.size() - kMostNamed) + " more";
+  return name;
 }
 
 void addFindings(const PathEvidence& evidence, ReconstructedPath& path) {
@@ -98,7 +116,7 @@ TrajectoryReconstruction::TrajectoryReconstruction(const Settings& settings) : s
 }
 
 int TrajectoryReconstruction::addStrip(const std::string& name) {
-  strips_.push_back({name, {}});
+  strips_.push_back({name, {}, {}});
   return static_cast<int>(strips_.size()) - 1;
 }
 
@@ -123,10 +141,11 @@ void TrajectoryReconstruction::joinSimultaneous() {
         continue;
       }
       strips_[i].evidence.merge(strips_[k].evidence);
-      strips_[i].name += " + " + strips_[k].name;
+      strips_[i].joined.push_back(strips_[k].name);
       strips_.erase(strips_.begin() + static_cast<std::ptrdiff_t>(k));
       k = i + 1;
     }
+    strips_[i].name = joinedName(strips_[i].name, strips_[i].joined);
   }
 }
 
@@ -164,7 +183,10 @@ ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip, cons
     }
   }
   adjustment.describe(path);
-  if (solved) trim(path);
+  if (solved) {
+    allowForRounding(strip.evidence.times().step(), path);
+    trim(path);
+  }
   if (!path.found)
     path.reason = solved ? formatted(
                                "the path is uncertain by more than %.0f %% of the height "

@@ -21,6 +21,7 @@ struct PulseRay {
   double time = 0.0;                                ///< seconds
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();  ///< metres, ground frame
   Eigen::Vector3f span = Eigen::Vector3f::UnitZ();  ///< from the lower to the upper return, m
+  bool by_time = false;  ///< of returns without numbers that share a time
   double separation() const { return static_cast<double>(span.norm()); }
 };
 
@@ -39,7 +40,8 @@ struct ScanAngleSums {
  * For every quarter of a second: the rays through first and last returns with the largest
  * separations (at most kRays), and sums over the points by classes of the recorded scan angle.
  * Neither depends on the order of the points; rays of pulses whose returns are far apart in a file
- * are a sample (PulsePairing). About 3 kB for a quarter of a second.
+ * are a sample (PulsePairing). Where some returns have numbers, those without are pulses of their
+ * own, even if they share a time. About 3 kB for a quarter of a second.
  */
 class PathEvidence {
  public:
@@ -87,6 +89,7 @@ class PathEvidence {
 
  private:
   class State;
+  void dropRaysByTime();
   void addRay(const LidarReturn& lower, const LidarReturn& upper);
   void addAngle(Bin& bin, const LidarReturn& point);
   static ScanAngleSums& classOf(Bin& bin, int index);

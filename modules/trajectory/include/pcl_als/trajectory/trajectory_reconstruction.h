@@ -116,6 +116,7 @@ class TrajectoryReconstruction {
   struct Strip {
     std::string name;
     PathEvidence evidence;
+    std::vector<std::string> joined;  ///< names of strips with the same times
   };
   void joinSimultaneous();
   ReconstructedPath reconstruct(const Strip& strip, const TimeRange& span, bool first) const;
