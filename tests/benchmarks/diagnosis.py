@@ -3,7 +3,7 @@
 # Copyright (c) 2026, the pcl_als authors
 """How often the diagnosis of a calibration finds the error sources of simulated blocks.
 
-    tests/benchmarks/diagnosis.py BUILD [--seeds FIRST:LAST] [--preset small]
+    tests/benchmarks/diagnosis.py BUILD [--seeds FIRST:LAST] [--preset small] [--parts]
 
 Every block has none, one or two error sources of random kind and size. Prints Markdown tables: how
 often each source is found where it is present and where it is not, and the errors of its value over
@@ -35,6 +35,13 @@ SOURCES = [
     ("range_incidence", 0.05, 0.15, "slope_ranging", lambda size, angle: size),
 ]
 
+# With --parts: errors of parts of a block, which is flown on two days.
+PARTS = [
+    ("strip3:jump_z", 0.06, 0.2, "trajectory_jump", lambda size, angle: size),
+    ("session2:offset_z", 0.06, 0.2, "session2_offset_up", lambda size, angle: size),
+    ("session2:boresight_roll", 30.0, 120.0, "session2_boresight_roll", lambda size, angle: size),
+]
+
 
 def drawn(seed):
     """The error sources of a block: (index in SOURCES, size), none, one or two."""
@@ -55,10 +62,10 @@ def run(command):
         raise SystemExit(f"{command[0]}: {done.stderr}")
 
 
-def calibrated(build, preset, seed, errors, folder):
+def calibrated(build, preset, seed, errors, folder, sessions):
     """The calibration.json of a block."""
     simulate = [build / "bin/pcl_als_simulate", "-preset", preset, "-noise", "realistic", "-seed",
-                seed, "-output", folder]
+                seed, "-sessions", sessions, "-output", folder]
     for kind, size in errors:
         simulate += ["-error", f"{SOURCES[kind][0]}={size:.9g}"]
     run(simulate)
@@ -97,7 +104,11 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--seeds", default="1:40")
     parser.add_argument("--preset", default="small")
+    parser.add_argument("--parts", action="store_true",
+                        help="also jumps of the trajectory and differences of the second day")
     options = parser.parse_args()
+    if options.parts:
+        SOURCES.extend(PARTS)
     first, last = (int(part) for part in options.seeds.split(":"))
     tallies = {source[3]: Tally() for source in SOURCES}
     blocks_with_false = 0
@@ -105,7 +116,8 @@ def main():
         errors = drawn(seed)
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch) / "block"
-            result = calibrated(options.build.resolve(), options.preset, seed, errors, folder)
+            result = calibrated(options.build.resolve(), options.preset, seed, errors, folder,
+                                2 if options.parts else 1)
             shutil.rmtree(folder)
         angle = math.radians(result["error_sources"]["largest_scan_angle_deg"])
         truth = {SOURCES[kind][3]: SOURCES[kind][4](size, angle) for kind, size in errors}
