@@ -6,6 +6,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/processing/file_batch.h>
 #include <pcl_als/processing/intensity_job.h>
 #include <pcl_als/report/intensity_page.h>
 #include <pcl_als/report/intensity_report.h>
@@ -58,14 +59,9 @@ Files filesOf(const CommandLine& line) {
     return files;
   }
   files.inputs = line.inputs(1, 100000);
-  const std::filesystem::path folder = line.text("corrected");
-  app::makeOutputFolder("corrected", folder);
-  for (const std::string& input : files.inputs) {
-    const std::string output = (folder / std::filesystem::path(input).filename()).string();
-    if (std::find(files.outputs.begin(), files.outputs.end(), output) != files.outputs.end())
-      throw UsageError("option -corrected: two inputs would become " + output);
-    files.outputs.push_back(output);
-  }
+  app::makeOutputFolder("corrected", line.text("corrected"));
+  files.outputs = line.parsed(
+      "corrected", [&files](const std::string& folder) { return outputsIn(folder, files.inputs); });
   return files;
 }
 

@@ -12,7 +12,8 @@ rm -rf -- "$scratch" && mkdir -p -- "$scratch" && cd -- "$scratch" || exit 1
 failures=0
 failed() { failures=$((failures + 1)); echo "FAILED: $1"; }
 
-(cd -- "$sources" && awk -f tests/documentation/markdown.awk share/doc/*.md) |
+(cd -- "$sources" &&
+  awk -f share/doc/doxygen/anchor.awk -f tests/documentation/markdown.awk share/doc/*.md) |
   awk -F '\t' '$1 == "anchor" { print $2 "#" $4 }' >headings.txt
 for tool in "$build"/bin/pcl_als_*; do
   name=$(basename -- "$tool") page=$build/man/$(basename -- "$tool").1

@@ -15,7 +15,7 @@ fault() { echo "$1: $2"; faults=$((faults + 1)); }
 
 mapfile -t pages < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' | sed 's|^\./||' | sort)
 ((${#pages[@]})) || { echo "no Markdown page in $root"; exit 1; }
-facts=$(awk -f "$here/markdown.awk" "${pages[@]}")
+facts=$(awk -f "$here/../../share/doc/doxygen/anchor.awk" -f "$here/markdown.awk" "${pages[@]}")
 
 declare -A anchors linked
 while IFS=$'\t' read -r _ page _ anchor; do anchors[$page#$anchor]=1; done < <(grep '^anchor' <<<"$facts")

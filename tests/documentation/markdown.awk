@@ -1,24 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# awk -f markdown.awk PAGE.md …: the headings and links of Markdown pages, one in a line, with tabs:
+# awk -f anchor.awk -f markdown.awk PAGE.md …, with share/doc/doxygen/anchor.awk: the headings and
+# links of Markdown pages, one in a line, with tabs:
 #   anchor  PAGE  LINE  ANCHOR   as GitHub makes it from the heading
 #   link    PAGE  LINE  TARGET   inline or by reference; targets with a scheme are left out
 # Code is left out.
-function anchor_of(text) {
-  gsub(/`/, "", text)
-  while (match(text, /\[[^]]*\]\([^)]*\)/)) {  # a link: its text
-    link = substr(text, RSTART, RLENGTH)
-    before = substr(text, 1, RSTART - 1)
-    after = substr(text, RSTART + RLENGTH)
-    sub(/\]\(.*/, "", link)
-    text = before substr(link, 2) after
-  }
-  text = tolower(text)
-  gsub(/[^a-z0-9 _\200-\377-]/, "", text)
-  gsub(/ /, "-", text)
-  return text
-}
 function report_link(target) {
   sub(/^</, "", target)
   sub(/[> ].*$/, "", target)  # a title may follow

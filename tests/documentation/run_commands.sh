@@ -17,7 +17,8 @@ bin=$2 scratch=$3/manual
 rm -rf -- "$scratch" && mkdir -p -- "$scratch/work" "$scratch/output" || exit 1
 cd -- "$sources/share/doc" || exit 1
 
-mapfile -t pages < <(awk -f "$here/markdown.awk" README.md |
+mapfile -t pages < <(
+  awk -f "$here/../../share/doc/doxygen/anchor.awk" -f "$here/markdown.awk" README.md |
   awk -F '\t' '$1 == "link" && $4 ~ /^[a-z_]+\.md$/ && !seen[$4]++ { print $4 }')
 pages=(README.md "${pages[@]}")
 if [[ -n ${PCL_ALS_MANUAL_FRESH:-} ]]; then

@@ -25,9 +25,9 @@ std::vector<std::string> namesOf(const std::vector<SystemParameter>& parameters)
 std::vector<SystemParameter> parametersNamed(const std::vector<std::string>& names) {
   std::vector<SystemParameter> parameters;
   for (const std::string& name : names) {
-    if (!systemParameterNamed(name))
-      throw UsageError("estimate: '" + name + "' is no system parameter");
-    parameters.push_back(requireSystemParameter(name));
+    const auto parameter = systemParameterNamed(name);
+    if (!parameter) throw UsageError("estimate: '" + name + "' is no system parameter");
+    parameters.push_back(*parameter);
   }
   return parameters;
 }

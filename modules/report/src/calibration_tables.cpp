@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/report/calibration_tables.h>
 
 namespace pcl_als {
@@ -36,12 +37,6 @@ void parameterTable(const Parameters& parameters, std::ostream& out) {
     }
     out << std::left << std::setw(6) << info.unit << std::right << " |\n";
   }
-}
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
 }
 
 /// The parameters of a system after the first one that are its own.

@@ -16,7 +16,8 @@ find README.md CHANGELOG.md modules share/GLOSSARY.md share/doc share/design sha
   -name '*.md' | sort >"$output/pages.txt"
 while IFS= read -r page; do
   mkdir -p -- "$output/pages/$(dirname -- "$page")"
-  awk -v page="$page" -v pages="$output/pages.txt" -f "$here/page.awk" "$page" >"$output/pages/$page"
+  awk -v page="$page" -v pages="$output/pages.txt" -f "$here/anchor.awk" -f "$here/page.awk" \
+    "$page" >"$output/pages/$page"
 done <"$output/pages.txt"
 # Other files of the project that pages link.
 grep -rhoE '(href|src)="files/[^"]+"' "$output/pages" | sed -E 's/^[a-z]+="files\///; s/"$//' |

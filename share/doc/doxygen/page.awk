@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# awk -v page=share/doc/theory.md -v pages=LIST -f page.awk share/doc/theory.md: the page for Doxygen.
+# awk -v page=share/doc/theory.md -v pages=LIST -f anchor.awk -f page.awk
+# share/doc/theory.md: the page for Doxygen.
 # Headings get identifiers (share_doc_theory, and with the anchor of GitHub share_doc_theory-frames),
 # links to the pages of LIST, one in a line, become references to them, and links to other files of the
 # project lead to their copies in the folder "files". Code stays as it is.
@@ -10,21 +11,6 @@ function identifier(path) {
   sub(/\.md$/, "", path)
   gsub(/[^A-Za-z0-9]/, "_", path)
   return path
-}
-# The anchor that GitHub makes of a heading; tests/documentation/markdown.awk checks links by it.
-function anchor_of(text) {
-  gsub(/`/, "", text)
-  while (match(text, /\[[^]]*\]\([^)]*\)/)) {
-    link = substr(text, RSTART, RLENGTH)
-    before = substr(text, 1, RSTART - 1)
-    after = substr(text, RSTART + RLENGTH)
-    sub(/\]\(.*/, "", link)
-    text = before substr(link, 2) after
-  }
-  text = tolower(text)
-  gsub(/[^a-z0-9 _\200-\377-]/, "", text)
-  gsub(/ /, "-", text)
-  return text
 }
 function resolved(target, parts, out, n, m, i) {
   out = page
