@@ -7,6 +7,7 @@ option(PCL_ALS_WITH_VTK "Build module visualization, its tools and the HTML repo
 option(PCL_ALS_WITH_GDAL "Write GeoTIFF and PNG with GDAL" ON)
 option(PCL_ALS_WITH_CERES "Build the bundle adjustment and pcl_als_orient with Ceres Solver" ON)
 option(PCL_ALS_WITH_MPI "Distribute jobs over processes with Boost.MPI" OFF)
+option(PCL_ALS_UNITY_BUILD "Compile six sources of a module together: less time for a complete build" ON)
 set(PCL_ALS_SANITIZE "" CACHE STRING "Sanitizers for every target, e.g. address,undefined")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

@@ -17,6 +17,9 @@ endif()
 if(PCL_ALS_BUILD_FUZZERS)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
+# Garbage collection of the compiler costs an eighth of its time and saves memory that a machine with
+# PCL has.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 # Most of the time of a test's compilation goes into assertions, whose speed does not matter.
 set(PCL_ALS_TEST_OPTIONS $<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:Release>>:-O1>)
 

@@ -8,12 +8,15 @@ function(_pcl_als_check_arguments caller unparsed)
   endif()
 endfunction()
 
-# als_add_module(NAME io SOURCES src/a.cpp … [MODULES common …] [PUBLIC …] [PRIVATE …] [DEFINITIONS …])
+# als_add_module(NAME io SOURCES src/a.cpp … [MODULES common …] [PUBLIC …] [PRIVATE …] [DEFINITIONS …]
+#   [SEPARATE src/a.cpp …])
 #   MODULES  modules this one may include (checked by tests/architecture)
 #   PUBLIC   third-party targets seen in headers; PRIVATE: used in sources only
+#   SEPARATE  of the sources those that are compiled on their own, because they have names of others
 #   PRECOMPILED  kind of precompiled headers, see als_precompile (default: library)
 function(als_add_module)
-  cmake_parse_arguments(ARG "" "NAME;PRECOMPILED" "SOURCES;MODULES;PUBLIC;PRIVATE;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;PRECOMPILED" "SOURCES;SEPARATE;MODULES;PUBLIC;PRIVATE;DEFINITIONS"
+    ${ARGN})
   _pcl_als_check_arguments(als_add_module "${ARG_UNPARSED_ARGUMENTS}")
   set(target pcl_als_${ARG_NAME})
   add_library(${target} ${ARG_SOURCES})
@@ -28,6 +31,12 @@ function(als_add_module)
     set(ARG_PRECOMPILED library)
   endif()
   als_precompile(${target} ${ARG_PRECOMPILED})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PCL_ALS_UNITY_BUILD}
+    UNITY_BUILD_BATCH_SIZE 6)
+  if(PCL_ALS_UNITY_BUILD)  # sources are then headers to the compiler, which expects other names there
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+  set_source_files_properties(${ARG_SEPARATE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # Installed libraries find each other wherever the prefix is moved to.
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${ARG_NAME} INSTALL_RPATH "$ORIGIN"
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})

@@ -11,6 +11,7 @@
 
 #include "calibration_json.h"
 #include "diagnosis_json.h"
+#include "json_number.h"
 #include "strip_errors_json.h"
 
 namespace pcl_als {
@@ -20,10 +21,6 @@ namespace {
 // Keys stay in the order of the schema. Numbers are written with the fewest digits (at most 17)
 // that read back to the same double.
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 /// RecoveredAttitude::rounded() is what is written.
 double roundedArcseconds(double radians) {

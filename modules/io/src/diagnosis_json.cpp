@@ -9,15 +9,12 @@
 #include <pcl_als/common/error_source.h>
 
 #include "json_node.h"
+#include "json_number.h"
 
 namespace pcl_als::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 constexpr const char* kLargestAngle = "largest_scan_angle_deg";
 constexpr const char* kMedianIntensity = "median_intensity";

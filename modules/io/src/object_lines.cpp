@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <set>
 
-#include <Eigen/Cholesky>
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/io/image_block_io.h>
 
 #include "csv_table.h"
@@ -62,7 +62,7 @@ class CovarianceColumns {
       unit(kCorrelations[i].row, kCorrelations[i].column) = value;
       unit(kCorrelations[i].column, kCorrelations[i].row) = value;
     }
-    if (unit.llt().info() != Eigen::Success)
+    if (!CholeskyFactor(unit).succeeded())
       throw InputError(table.at("the correlations of the line exclude each other"));
     return sigmas.asDiagonal() * unit * sigmas.asDiagonal();
   }

@@ -10,6 +10,8 @@
 
 #include <pcl_als/common/system_parameters.h>
 
+#include "json_number.h"
+
 namespace pcl_als::detail {
 namespace {
 
@@ -33,10 +35,6 @@ constexpr std::array<KnotValue, 6> kKnotValues{
      {"pitch", "arcsec", kRadiansPerArcsec, kLargestTurn},
      {"roll", "arcsec", kRadiansPerArcsec, kLargestTurn},
      {"heading", "arcsec", kRadiansPerArcsec, kLargestTurn}}};
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 /// Standard deviations and correlations need few digits: four.
 double fourDigits(double value) {

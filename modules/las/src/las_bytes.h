@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@ namespace pcl_als::detail {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
               "LAS is little-endian and read as it lies in memory");
+
+inline std::uint8_t byteAt(const std::byte* at) {
+  return std::to_integer<std::uint8_t>(*at);
+}
 
 /// A fixed-size text field, up to its first zero.
 inline std::string textField(const std::byte* at, std::size_t size) {

@@ -6,7 +6,12 @@
 #include <pcl_als/las/las_compatibility.h>
 #include <pcl_als/las/las_record.h>
 
+#include "las_bytes.h"
+
 namespace pcl_als {
+
+using detail::byteAt;
+
 namespace {
 
 /// Position of an extra field; false where the file has none of that name and type.
@@ -17,10 +22,6 @@ bool find(const LasFile& file, const char* name, LasExtraType type, std::size_t&
     return true;
   }
   return false;
-}
-
-unsigned byteAt(const std::byte* at) {
-  return std::to_integer<unsigned>(*at);
 }
 
 }  // namespace

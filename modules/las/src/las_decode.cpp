@@ -7,6 +7,9 @@
 #include "las_bytes.h"
 
 namespace pcl_als {
+
+using detail::byteAt;
+
 namespace {
 
 // Columns are filled for one block of records after the other, so that the records of a block stay
@@ -35,10 +38,6 @@ void decodeCoordinates(const Source& from, const Eigen::Vector3d& scale,
     y[i] = loadLas<std::int32_t>(at + 4) * sy + oy;
     z[i] = loadLas<std::int32_t>(at + 8) * sz + oz;
   }
-}
-
-std::uint8_t byteAt(const std::byte* at) {
-  return std::to_integer<std::uint8_t>(*at);
 }
 
 // Formats 0-5: return number 3 bits, returns 3 bits, direction, edge; class 5 bits, 3 flag bits.

@@ -21,7 +21,6 @@ using laz::Chunk;
 
 constexpr std::size_t kLargestDecodedChunk = std::size_t{1} << 26;  ///< bytes of records
 constexpr std::size_t kReadAheadPerThread = 2;                      ///< runs of chunks
-constexpr std::size_t kRunBytes = std::size_t{1} << 18;             ///< of records, for one thread
 constexpr std::size_t kSkippedRecords = 4096;
 
 /// Consecutive chunks [begin, end) in memory.
@@ -153,7 +152,7 @@ Decoded LazPointReader::State::placed(std::size_t begin, std::size_t end) const 
 std::size_t LazPointReader::State::runEnd(std::size_t begin) const {
   std::size_t end = begin + 1;
   std::uint64_t count = table.chunks[begin].points;
-  for (; end < table.chunks.size() && count * record_length < kRunBytes; ++end)
+  for (; end < table.chunks.size() && count * record_length < laz::kRunBytes; ++end)
     count += table.chunks[end].points;
   return end;
 }

@@ -13,8 +13,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr std::size_t kRunBytes = std::size_t{1} << 18;  ///< of records, for one thread
-constexpr std::size_t kRunsPerThread = 2;                ///< that wait at most
+constexpr std::size_t kRunsPerThread = 2;  ///< that wait at most
 constexpr std::uint64_t kPointer = 8;
 
 /// Consecutive chunks that one thread encodes.
@@ -70,7 +69,7 @@ void LazPointWriter::State::append(const std::uint8_t* records, std::size_t coun
 void LazPointWriter::State::endChunk() {
   if (points() == run.ended()) return;
   run.ends.push_back(points());
-  if (run.records.size() >= kRunBytes) submit();
+  if (run.records.size() >= laz::kRunBytes) submit();
 }
 
 void LazPointWriter::State::submit() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -19,6 +20,9 @@
 #include <pcl_als/common/thread_limit.h>
 
 namespace pcl_als::laz {
+
+/// Bytes of records that one item of work decodes or encodes.
+inline constexpr std::size_t kRunBytes = std::size_t{1} << 18;
 
 /** \brief Items of work that several threads do ahead, and that one thread takes in order.
  *

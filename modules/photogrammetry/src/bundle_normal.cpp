@@ -6,11 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als::photogrammetry {
@@ -29,9 +28,7 @@ Eigen::Index at(std::size_t image) {
 MatrixXd inverseOf(const MatrixXd& normal) {
   const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  return scale.asDiagonal() *
-         MatrixXd(scaled.ldlt().solve(MatrixXd::Identity(normal.rows(), normal.cols()))) *
-         scale.asDiagonal();
+  return scale.asDiagonal() * inverseOfSymmetric(scaled) * scale.asDiagonal();
 }
 
 /// Changes of omega, phi, kappa (columns) for small rotations about the axes of the ground.
@@ -137,12 +134,12 @@ MatrixXd BundleNormal::similarity() const {
 
 BundleNormal::Weakest BundleNormal::weakest() const {
   const MatrixXd tangent = similarity();
-  const Eigen::Matrix<double, 7, 7> datum = tangent.transpose() * reduced_ * tangent;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> eigen(datum);
-  const double value = eigen.eigenvalues()[0];
+  const SymmetricEigen<Eigen::Dynamic> eigen =
+      symmetricEigen(tangent.transpose() * reduced_ * tangent);
+  const double value = eigen.values[0];
   // Below the rounding of the largest eigenvalue nothing is known of the direction.
-  const double least = std::max(value, 1e-13 * eigen.eigenvalues()[6]);
-  return {nameOf(eigen.eigenvectors().col(0)), 1.0 / std::sqrt(std::max(least, 1e-300))};
+  const double least = std::max(value, 1e-13 * eigen.values[6]);
+  return {nameOf(eigen.vectors.col(0)), 1.0 / std::sqrt(std::max(least, 1e-300))};
 }
 
 bool BundleNormal::invert() {

@@ -7,12 +7,12 @@
 #include <map>
 #include <unordered_map>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <ceres/autodiff_cost_function.h>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 
 #include "block_check.h"
 
@@ -197,7 +197,7 @@ Vector3d BundleProblem::started(const std::vector<const Observation*>& rays, dou
     fallback +=
         (image.head<3>() + ray * ((height - image.z()) / down)) / static_cast<double>(rays.size());
   }
-  const Vector3d crossing = normal.ldlt().solve(right);
+  const Vector3d crossing = solveSymmetric(normal, right);
   for (const Observation* o : rays) {
     // Behind the image, or beyond where rays that are nearly parallel would meet.
     const double depth = -inImage(images[o->image].data(), crossing).z();

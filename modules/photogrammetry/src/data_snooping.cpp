@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/adjustment/robust_weight.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als::photogrammetry {
@@ -30,11 +29,11 @@ constexpr double kLargestDepthError = 0.1;
 
 /// v' Q^-1 v over the determined directions, and their number.
 std::pair<double, int> quadraticForm(const Eigen::VectorXd& v, const Eigen::MatrixXd& q) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q);
+  const SymmetricEigen<Eigen::Dynamic> eigen = symmetricEigen(q);
   std::pair<double, int> sum{0.0, 0};
   for (int i = 0; i < v.size(); ++i) {
-    if (eigen.eigenvalues()[i] < kLeastRedundancy) continue;
-    sum.first += std::pow(eigen.eigenvectors().col(i).dot(v), 2) / eigen.eigenvalues()[i];
+    if (eigen.values[i] < kLeastRedundancy) continue;
+    sum.first += std::pow(eigen.vectors.col(i).dot(v), 2) / eigen.values[i];
     ++sum.second;
   }
   return sum;

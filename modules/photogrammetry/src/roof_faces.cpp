@@ -6,9 +6,8 @@
 #include <cmath>
 #include <queue>
 
-#include <Eigen/Cholesky>
-
 #include <pcl_als/adjustment/clustered_regression.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/surface_criterion.h>
 
@@ -200,13 +199,13 @@ FittedPlane fitPlane(const std::vector<Vector3d>& points, const std::vector<std:
     normal += row * row.transpose();
     right += row * d.z();
   }
-  const Eigen::LDLT<Eigen::Matrix3d> factor(normal);
-  plane.unknown = factor.solve(right);
+  const Eigen::Matrix3d inverse = inverseOfSymmetric(normal);
+  plane.unknown = inverse * right;
   double sum = 0.0;
   for (const std::int32_t i : which)
     sum += std::pow(plane.above(points[static_cast<std::size_t>(i)]), 2);
   plane.sigma = std::sqrt(sum / std::max(1.0, static_cast<double>(which.size()) - 3.0));
-  plane.covariance = plane.sigma * plane.sigma * factor.solve(Eigen::Matrix3d::Identity());
+  plane.covariance = plane.sigma * plane.sigma * inverse;
   return plane;
 }
 

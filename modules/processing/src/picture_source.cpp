@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <pcl_als/common/class_name.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/las_point_reader.h>
@@ -230,9 +231,7 @@ PointColoring PointAttribute::coloring() const {
   }
   if (name_ == "class") {
     for (int code = 0; code < 256; ++code) {
-      coloring.categories.push_back({static_cast<float>(code),
-                                     std::to_string(code) + " " + className(code),
-                                     classColor(code)});
+      coloring.categories.push_back({static_cast<float>(code), className(code), classColor(code)});
     }
   }
   if (name_ == "return") {

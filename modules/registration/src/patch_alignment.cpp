@@ -338,7 +338,8 @@ void Alignment::keepSwing(const Unknowns& update) {
 
 /// Reverts the movements of the coarse stage in directions that are not determined.
 Unknowns Alignment::returnToGuess() const {
-  const Eigen::AngleAxisd turn(motion_.rotation());
+  const Eigen::Matrix3d linear = motion_.linear();  // a rotation times a scale
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(linear / std::cbrt(linear.determinant())));
   Unknowns total = Unknowns::Zero();
   total.head<3>() = motion_ * centroid_ - centroid_;
   total.segment<3>(3) = turn.angle() * radius_ * turn.axis();

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <map>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/report/accuracy_report.h>
 
+#include "formatted.h"
 #include "json_number.h"
 #include "left_out_json.h"
 
@@ -60,18 +60,8 @@ Json comparisonJson(const AccuracyComparison& c) {
   return json;
 }
 
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-std::string format(const char* pattern, ...) {
-  char line[400];
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(line, sizeof line, pattern, values);
-  va_end(values);
-  return line;
-}
-
 std::string fixed(double value, int digits) {
-  return std::isfinite(value) ? format("%.*f", digits, value) : "-";
+  return std::isfinite(value) ? formatted("%.*f", digits, value) : "-";
 }
 
 std::string shown(const std::string& name) {
@@ -80,12 +70,12 @@ std::string shown(const std::string& name) {
 
 std::string matrixText(const ConfusionMatrix& matrix) {
   std::string text = "Check points (rows: classified as, columns: reference)\n                ";
-  for (const std::string& name : matrix.classes) text += format(" %14s", shown(name).c_str());
+  for (const std::string& name : matrix.classes) text += formatted(" %14s", shown(name).c_str());
   text += "\n";
   for (Eigen::Index i = 0; i < matrix.counts.rows(); ++i) {
-    text += format("  %-14s", shown(matrix.classes[static_cast<std::size_t>(i)]).c_str());
+    text += formatted("  %-14s", shown(matrix.classes[static_cast<std::size_t>(i)]).c_str());
     for (Eigen::Index j = 0; j < matrix.counts.cols(); ++j)
-      text += format(" %14lld", static_cast<long long>(matrix.counts(i, j)));
+      text += formatted(" %14lld", static_cast<long long>(matrix.counts(i, j)));
     text += "\n";
   }
   return text;
@@ -101,14 +91,15 @@ std::string comparisonText(const AccuracyReport& report) {
   std::string text = "\nAgainst " + report.compared_with + ": overall accuracy " +
                      fixed(100.0 * report.other->overall.value, 1) + " %, kappa " +
                      fixed(report.other->kappa, 3) + "\n";
-  text += format("  overall accuracy %+.1f points, kappa %+.3f +- %s (z %s, p %s)\n",
-                 100.0 * c.overall_difference, c.kappa_difference,
-                 fixed(c.kappa_difference_std, 3).c_str(), fixed(c.kappa_z, 1).c_str(),
-                 probability(c.kappa_p).c_str());
+  text += formatted("  overall accuracy %+.1f points, kappa %+.3f +- %s (z %s, p %s)\n",
+                    100.0 * c.overall_difference, c.kappa_difference,
+                    fixed(c.kappa_difference_std, 3).c_str(), fixed(c.kappa_z, 1).c_str(),
+                    probability(c.kappa_p).c_str());
   if (c.same_points)
-    text += format("  McNemar: %lld points right only here, %lld only there, p %s\n",
-                   static_cast<long long>(c.only_first_right),
-                   static_cast<long long>(c.only_second_right), probability(c.mcnemar_p).c_str());
+    text +=
+        formatted("  McNemar: %lld points right only here, %lld only there, p %s\n",
+                  static_cast<long long>(c.only_first_right),
+                  static_cast<long long>(c.only_second_right), probability(c.mcnemar_p).c_str());
   return text;
 }
 
@@ -134,11 +125,11 @@ std::string accuracyText(const AccuracyReport& report) {
   std::string text = matrixText(report.matrix);
   text += "\n  class             user's %  producer's %   kappa    +-\n";
   for (const ClassAccuracy& c : r.classes)
-    text +=
-        format("  %-14s %11s %13s %7s %5s\n", shown(c.name).c_str(),
-               fixed(100.0 * c.users.value, 1).c_str(), fixed(100.0 * c.producers.value, 1).c_str(),
-               fixed(c.kappa, 3).c_str(), fixed(c.kappa_std, 3).c_str());
-  text += format(
+    text += formatted("  %-14s %11s %13s %7s %5s\n", shown(c.name).c_str(),
+                      fixed(100.0 * c.users.value, 1).c_str(),
+                      fixed(100.0 * c.producers.value, 1).c_str(), fixed(c.kappa, 3).c_str(),
+                      fixed(c.kappa_std, 3).c_str());
+  text += formatted(
       "\nOverall accuracy %.1f %% (95 %%: %.1f to %.1f) of %lld points, kappa %s +- %s\n",
       100.0 * r.overall.value, 100.0 * r.overall.low, 100.0 * r.overall.high,
       static_cast<long long>(r.points), fixed(r.kappa, 3).c_str(), fixed(r.kappa_std, 3).c_str());

@@ -10,11 +10,10 @@
 #include <pcl_als/visualization/ticks.h>
 
 #include "calibration_verdict.h"
+#include "report_parts.h"
 
 namespace pcl_als {
 namespace {
-
-constexpr PictureSize kWide{1400, 640}, kSquare{1200, 900};
 
 ReportTable parameterTable(const CalibrationResult& result) {
   ReportTable table{"parameters",

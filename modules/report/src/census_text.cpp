@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <cstdarg>
 #include <cstdio>
 
+#include <pcl_als/common/class_name.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
+
+#include "formatted.h"
 
 namespace pcl_als {
 namespace {
@@ -16,21 +18,12 @@ namespace {
 constexpr std::size_t kLongestCrs = 60;
 constexpr std::size_t kMostListed = 20;
 
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char line[512];
-  std::va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(line, sizeof line, pattern, values);
-  va_end(values);
-  return line;
-}
-
 double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 std::string entry(const char* name, const std::string& value) {
-  return format("  %-12s", name) + value + '\n';
+  return formatted("  %-12s", name) + value + '\n';
 }
 
 std::string remarksText(const std::vector<std::string>& remarks, const std::string& indent) {
@@ -41,34 +34,33 @@ std::string remarksText(const std::vector<std::string>& remarks, const std::stri
 
 std::string extentText(const PointStatistics& s) {
   const Eigen::Vector3d size = s.maximum - s.minimum;
-  return format("x %.3f … %.3f, y %.3f … %.3f, z %.3f … %.3f (%.1f m x %.1f m x %.1f m)",
-                s.minimum.x(), s.maximum.x(), s.minimum.y(), s.maximum.y(), s.minimum.z(),
-                s.maximum.z(), size.x(), size.y(), size.z());
+  return formatted("x %.3f … %.3f, y %.3f … %.3f, z %.3f … %.3f (%.1f m x %.1f m x %.1f m)",
+                   s.minimum.x(), s.maximum.x(), s.minimum.y(), s.maximum.y(), s.minimum.z(),
+                   s.maximum.z(), size.x(), size.y(), size.z());
 }
 
 std::string timeText(const PointFileInfo& info, const PointStatistics& s) {
   if (info.time_kind == TimeKind::none) return timeKindName(info.time_kind);
   return timeKindName(info.time_kind) +
-         format(", %.3f … %.3f (%.1f s)", s.first_time, s.last_time, s.last_time - s.first_time);
+         formatted(", %.3f … %.3f (%.1f s)", s.first_time, s.last_time, s.last_time - s.first_time);
 }
 
 std::string returnsText(const PointStatistics& s) {
   std::string text;
   for (std::size_t r = 0; r < s.returns.size(); ++r)
     if (s.returns[r] > 0)
-      text += format("%s%zu: %s (%.1f %%)", text.empty() ? "" : ", ", r,
-                     grouped(s.returns[r]).c_str(), percent(s.returns[r], s.points));
-  return text + format("; %.1f %% single", percent(s.single_returns, s.points));
+      text += formatted("%s%zu: %s (%.1f %%)", text.empty() ? "" : ", ", r,
+                        grouped(s.returns[r]).c_str(), percent(s.returns[r], s.points));
+  return text + formatted("; %.1f %% single", percent(s.single_returns, s.points));
 }
 
 std::string classesText(const PointStatistics& s) {
   std::string text;
   for (std::size_t code = 0; code < s.classes.size(); ++code) {
     if (s.classes[code] == 0) continue;
-    const std::string name = className(static_cast<int>(code));
-    text +=
-        format("%s%zu%s%s: %s (%.1f %%)", text.empty() ? "" : ", ", code, name.empty() ? "" : " ",
-               name.c_str(), grouped(s.classes[code]).c_str(), percent(s.classes[code], s.points));
+    text += formatted("%s%s: %s (%.1f %%)", text.empty() ? "" : ", ",
+                      className(static_cast<int>(code)).c_str(), grouped(s.classes[code]).c_str(),
+                      percent(s.classes[code], s.points));
   }
   return text;
 }
@@ -87,7 +79,7 @@ std::string lasText(const std::filesystem::path& path) {
   const LasHeader& h = file.header();
   std::string text =
       entry("software", '"' + h.generating_software + "\", system \"" + h.system_id +
-                            format("\", day %d of %d", h.creation_day, h.creation_year));
+                            formatted("\", day %d of %d", h.creation_day, h.creation_year));
   for (const LasExtraField& field : file.extraFields())
     text += entry("extra field", field.name + " (" + typeName(field) + ")" +
                                      (field.description.empty() ? "" : ": " + field.description));
@@ -100,7 +92,7 @@ std::string lasText(const std::filesystem::path& path) {
   for (const LasVlrEntry& vlr : file.vlrs())
     text +=
         entry(vlr.extended ? "EVLR" : "VLR",
-              vlr.user_id + format(" %d, %s bytes", vlr.record_id, grouped(vlr.length).c_str()) +
+              vlr.user_id + formatted(" %d, %s bytes", vlr.record_id, grouped(vlr.length).c_str()) +
                   (vlr.description.empty() ? "" : " (" + vlr.description + ")"));
   return text;
 }
@@ -119,42 +111,43 @@ std::string fileText(const FileCensus& file) {
     text += entry("CRS name", describeCrs(info.crs).name);
   text += entry(
       "unit", describeUnits(info) + (info.units.metric() ? "" : "; everything below is in metres"));
-  text += entry("resolution", format("%g m x %g m x %g m", info.resolution.x(), info.resolution.y(),
-                                     info.resolution.z()));
+  text += entry("resolution", formatted("%g m x %g m x %g m", info.resolution.x(),
+                                        info.resolution.y(), info.resolution.z()));
   if (s.points > 0) {
     text += entry("extent", extentText(s));
     text += entry("time", timeText(info, s));
     text += entry("returns", returnsText(s));
     text += entry("classes", classesText(s));
-    text += entry("intensity", format("%g … %g", s.least_intensity, s.largest_intensity));
+    text += entry("intensity", formatted("%g … %g", s.least_intensity, s.largest_intensity));
   }
   return text + remarksText(file.remarks, "  ");
 }
 
 std::string stripsText(const SurveyCensus& survey) {
   std::string text =
-      counted(survey.strips.size(), "strip") + format(" (cells of %g m)\n", survey.cell);
-  text += format("  %-16s %12s %16s %16s %5s %9s %9s %9s %14s\n", "id", "points", "from s", "to s",
-                 "gaps", "points/m2", "pulses/m2", "area m2", "scan angle deg");
+      counted(survey.strips.size(), "strip") + formatted(" (cells of %g m)\n", survey.cell);
+  text += formatted("  %-16s %12s %16s %16s %5s %9s %9s %9s %14s\n", "id", "points", "from s",
+                    "to s", "gaps", "points/m2", "pulses/m2", "area m2", "scan angle deg");
   for (const StripCensus& strip : survey.strips) {
     const PointStatistics& s = strip.statistics;
     const double pulses = strip.density * percent(s.first_returns, s.points) / 100.0;
-    text += format("  %-16s %12s %16.3f %16.3f %5zu %9.2f %9.2f %9.0f %6.1f … %5.1f\n",
-                   strip.id.c_str(), grouped(s.points).c_str(), s.first_time, s.last_time,
-                   strip.gaps.size(), strip.density, pulses, strip.area, s.least_scan_angle,
-                   s.largest_scan_angle);
+    text += formatted("  %-16s %12s %16.3f %16.3f %5zu %9.2f %9.2f %9.0f %6.1f … %5.1f\n",
+                      strip.id.c_str(), grouped(s.points).c_str(), s.first_time, s.last_time,
+                      strip.gaps.size(), strip.density, pulses, strip.area, s.least_scan_angle,
+                      s.largest_scan_angle);
   }
   for (const StripCensus& strip : survey.strips) {
     for (std::size_t g = 0; g < std::min(kMostListed, strip.gaps.size()); ++g)
-      text += format("  strip %s: no points from %.3f to %.3f s (%.1f s)\n", strip.id.c_str(),
-                     strip.gaps[g].from, strip.gaps[g].to, strip.gaps[g].to - strip.gaps[g].from);
+      text +=
+          formatted("  strip %s: no points from %.3f to %.3f s (%.1f s)\n", strip.id.c_str(),
+                    strip.gaps[g].from, strip.gaps[g].to, strip.gaps[g].to - strip.gaps[g].from);
     for (const std::string& remark : strip.remarks)
       text += "  ! strip " + strip.id + " " + remark + '\n';
     const std::uint64_t unsorted = strip.statistics.unsorted_times;
     if (unsorted > 0)
-      text += format("  strip %s: %s earlier than the one before in %s file\n", strip.id.c_str(),
-                     unsorted == 1 ? "1 point is" : (grouped(unsorted) + " points are").c_str(),
-                     unsorted == 1 ? "its" : "their");
+      text += formatted("  strip %s: %s earlier than the one before in %s file\n", strip.id.c_str(),
+                        unsorted == 1 ? "1 point is" : (grouped(unsorted) + " points are").c_str(),
+                        unsorted == 1 ? "its" : "their");
   }
   return text;
 }
@@ -162,15 +155,15 @@ std::string stripsText(const SurveyCensus& survey) {
 std::string overlapsText(const SurveyCensus& survey) {
   std::string text;
   for (const StripOverlap& overlap : survey.overlaps)
-    text +=
-        format("  %s - %s: %.0f m2 (%.0f %% of the smaller)\n", survey.strips[overlap.a].id.c_str(),
-               survey.strips[overlap.b].id.c_str(), overlap.area,
-               100.0 * overlap.area /
-                   std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area));
+    text += formatted("  %s - %s: %.0f m2 (%.0f %% of the smaller)\n",
+                      survey.strips[overlap.a].id.c_str(), survey.strips[overlap.b].id.c_str(),
+                      overlap.area,
+                      100.0 * overlap.area /
+                          std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area));
   if (!text.empty()) text = "Overlaps\n" + text;
   for (std::size_t n = 0; n < survey.area_by_strips.size(); ++n)
-    text += format("%s%zu: %.0f m2", n == 0 ? "  covered by number of strips: " : ", ", n + 1,
-                   survey.area_by_strips[n]);
+    text += formatted("%s%zu: %.0f m2", n == 0 ? "  covered by number of strips: " : ", ", n + 1,
+                      survey.area_by_strips[n]);
   return text + (survey.area_by_strips.empty() ? "" : "\n");
 }
 
@@ -179,29 +172,6 @@ std::string overlapsText(const SurveyCensus& survey) {
 std::string timeKindName(TimeKind kind) {
   if (kind == TimeKind::none) return "none";
   return kind == TimeKind::week_seconds ? "seconds of the GPS week" : "adjusted standard GPS time";
-}
-
-std::string className(int code) {
-  static const char* const names[] = {"never classified",
-                                      "unclassified",
-                                      "ground",
-                                      "low vegetation",
-                                      "medium vegetation",
-                                      "high vegetation",
-                                      "building",
-                                      "low noise",
-                                      "",
-                                      "water",
-                                      "rail",
-                                      "road",
-                                      "",
-                                      "wire guard",
-                                      "wire conductor",
-                                      "tower",
-                                      "wire connector",
-                                      "bridge deck",
-                                      "high noise"};
-  return code >= 0 && code <= 18 ? names[code] : "";
 }
 
 std::string censusText(const SurveyCensus& survey, const std::vector<LeftOutPoints>& left_out) {

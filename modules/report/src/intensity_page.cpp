@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 
+#include <pcl_als/common/class_name.h>
 #include <pcl_als/report/intensity_page.h>
 #include <pcl_als/visualization/curve_panels.h>
 #include <pcl_als/visualization/row_plots.h>
@@ -15,7 +16,6 @@
 namespace pcl_als {
 namespace {
 
-constexpr PictureSize kWide{1400, 640}, kTall{1400, 900};
 constexpr std::size_t kBins = 64;     // of a histogram
 constexpr std::size_t kFewest = 100;  // points that a ratio is drawn of
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
@@ -73,8 +73,8 @@ void addClasses(const IntensityReport& intensity, HtmlReport& report) {
   const IntensityStatistics& statistics = intensity.result->outcome.statistics;
   PairTable table("class", "Intensities by class");
   for (int code = 0; code < 256; ++code)
-    table.add(std::to_string(code) + " " + className(code),
-              statistics.classOf(static_cast<std::uint8_t>(code)), meanScale(statistics.all()));
+    table.add(className(code), statistics.classOf(static_cast<std::uint8_t>(code)),
+              meanScale(statistics.all()));
   report.addSection("By class");
   report.addTable(table.table());
 }

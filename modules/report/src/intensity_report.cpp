@@ -5,29 +5,13 @@
 #include <sstream>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/class_name.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/report/intensity_report.h>
 
 namespace pcl_als {
 namespace {
-
-std::string className(int code) {
-  static const std::map<int, std::string> names = {{0, "never classified"},
-                                                   {1, "unclassified"},
-                                                   {2, "ground"},
-                                                   {3, "low vegetation"},
-                                                   {4, "medium vegetation"},
-                                                   {5, "high vegetation"},
-                                                   {6, "building"},
-                                                   {7, "low noise"},
-                                                   {9, "water"},
-                                                   {11, "road"},
-                                                   {17, "bridge"},
-                                                   {18, "high noise"}};
-  const auto at = names.find(code);
-  return at == names.end() ? "class" : at->second;
-}
 
 /// One line of a table: points, means, standard deviations, variance-to-mean ratios, change.
 void pairColumns(const BeforeAfter& pair, double scale, const char* separator, std::ostream& out) {
@@ -227,8 +211,7 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
   for (std::size_t bin = 0; bin <= IntensityStatistics::kSlopeBins; ++bin)
     slopes.add(slopeName(bin), statistics.slope(bin), scale);
   for (int code = 0; code < 256; ++code)
-    classes.add(std::to_string(code) + " " + className(code),
-                statistics.classOf(static_cast<std::uint8_t>(code)), scale);
+    classes.add(className(code), statistics.classOf(static_cast<std::uint8_t>(code)), scale);
   for (std::size_t i = 0; i < statistics.strips(); ++i)
     strips.add(report.result->run->strips()[i], statistics.strip(i),
                meanScale(statistics.strip(i)));

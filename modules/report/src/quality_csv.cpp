@@ -18,7 +18,7 @@ std::string quoted(const std::string& text) {
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
 }
-std::string number(double value, int digits) {
+std::string rounded(double value, int digits) {
   if (!std::isfinite(value)) return {};
   std::ostringstream out;
   out << std::fixed << std::setprecision(digits) << value;
@@ -42,7 +42,7 @@ void summaryCells(const OffsetSummary& s, std::ostream& out) {
   }
   for (const double value :
        {s.mean, s.std_of_mean, s.median, s.std, s.rms, s.percentile_95, s.largest})
-    out << ',' << number(value, 5);
+    out << ',' << rounded(value, 5);
 }
 
 std::string summaryNames(const std::string& what) {
@@ -64,11 +64,11 @@ void alignmentCells(const std::optional<PatchAlignmentResult>& found, std::ostre
     const double unit = angle ? kRadiansPerDegree : 1.0;
     const double value = angle ? found->motion.rotation[i - 3] : found->motion.shift[i];
     const bool known = found->parameters[static_cast<std::size_t>(i)].determined;
-    out << ',' << (known ? number(value / unit, 6) : "") << ','
-        << (known ? number(found->standardDeviation(i) / unit, 6) : "");
+    out << ',' << (known ? rounded(value / unit, 6) : "") << ','
+        << (known ? rounded(found->standardDeviation(i) / unit, 6) : "");
   }
-  for (int i = 0; i < 3; ++i) out << ',' << number(found->motion.centroid[i], 3);
-  out << ',' << number(found->sigma0, 5);
+  for (int i = 0; i < 3; ++i) out << ',' << rounded(found->motion.centroid[i], 3);
+  out << ',' << rounded(found->sigma0, 5);
 }
 
 std::string pairsCsv(const QualityReport& report) {
@@ -84,27 +84,27 @@ std::string pairsCsv(const QualityReport& report) {
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const PairAssessment& p = pair.assessment;
     out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << toString(p.status) << ','
-        << number(pair.overlap_area, 0);
+        << rounded(pair.overlap_area, 0);
     summaryCells(p.vertical, out);
-    out << ',' << (p.vertical_cells.count == 0 ? "" : number(p.vertical_cells.rms, 5)) << ','
+    out << ',' << (p.vertical_cells.count == 0 ? "" : rounded(p.vertical_cells.rms, 5)) << ','
         << levelName(p.quality_level);
     summaryCells(p.normal, out);
     for (const Eigen::Vector3d& v : {p.horizontal.shift, p.horizontal.std})
-      for (int i = 0; i < 3; ++i) out << ',' << (p.horizontal.determined ? number(v[i], 5) : "");
+      for (int i = 0; i < 3; ++i) out << ',' << (p.horizontal.determined ? rounded(v[i], 5) : "");
     out << ',' << toString(p.trends.relation);
     const auto trend = [&](const Trend& t, double factor) {
-      out << ',' << (t.determined ? number(factor * t.slope, 4) : "") << ','
-          << (t.determined ? number(factor * t.std, 4) : "");
+      out << ',' << (t.determined ? rounded(factor * t.slope, 4) : "") << ','
+          << (t.determined ? rounded(factor * t.std, 4) : "");
     };
     trend(p.trends.across, 1e5);
     trend(p.trends.along, 1e5);
     trend(p.trends.time, 1e3);
     trend(p.trends.scan_angle, 1e3);
     for (const OverlapTrends::Roll& roll : {p.trends.roll, p.trends.roll_b})
-      out << ',' << (roll.determined ? number(roll.value / kRadiansPerArcsec, 2) : "") << ','
-          << (roll.determined ? number(roll.std / kRadiansPerArcsec, 2) : "");
+      out << ',' << (roll.determined ? rounded(roll.value / kRadiansPerArcsec, 2) : "") << ','
+          << (roll.determined ? rounded(roll.std / kRadiansPerArcsec, 2) : "");
     alignmentCells(pair.alignment, out);
-    out << ',' << number(pair.memory_mb, 1) << '\n';
+    out << ',' << rounded(pair.memory_mb, 1) << '\n';
   });
   return out.str();
 }
@@ -116,8 +116,8 @@ std::string slopeAspectCsv(const QualityReport& report) {
     for (const SlopeAspectClass& c : pair.assessment.classes) {
       out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << c.slope_from << ','
           << c.slope_to << ',' << aspectName(c.aspect) << ',' << c.count << ','
-          << (c.count == 0 ? "" : number(c.mean, 5)) << ','
-          << (c.count == 0 ? "" : number(c.rms, 5)) << '\n';
+          << (c.count == 0 ? "" : rounded(c.mean, 5)) << ','
+          << (c.count == 0 ? "" : rounded(c.rms, 5)) << '\n';
     }
   });
   return out.str();
@@ -135,9 +135,9 @@ std::string profilesCsv(const QualityReport& report) {
     for (const auto& [over, bins] : profiles)
       for (const ProfileBin& bin : *bins)
         out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ',' << over << ','
-            << number(bin.from, 4) << ',' << number(bin.to, 4) << ',' << bin.count << ','
-            << (bin.count == 0 ? "" : number(bin.mean, 5)) << ','
-            << (bin.count == 0 ? "" : number(bin.std, 5)) << '\n';
+            << rounded(bin.from, 4) << ',' << rounded(bin.to, 4) << ',' << bin.count << ','
+            << (bin.count == 0 ? "" : rounded(bin.mean, 5)) << ','
+            << (bin.count == 0 ? "" : rounded(bin.std, 5)) << '\n';
   });
   return out.str();
 }
@@ -149,12 +149,12 @@ std::string offsetsCsv(const QualityReport& report) {
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     for (const OffsetSample& s : pair.samples) {
       out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b);
-      for (int i = 0; i < 3; ++i) out << ',' << number(s.position[i], 3);
-      out << ',' << number(pair.assessment.trends.distance(s.position), 2) << ','
-          << number(s.time_a, 4) << ',' << number(s.time_b, 4) << ',' << number(s.scan_angle_a, 2)
-          << ',' << number(s.scan_angle_b, 2) << ',' << number(s.slope / kRadiansPerDegree, 2)
-          << ',' << (s.level ? number(s.vertical, 4) : "") << ','
-          << (s.conjugate ? number(s.normal_distance, 4) : "") << '\n';
+      for (int i = 0; i < 3; ++i) out << ',' << rounded(s.position[i], 3);
+      out << ',' << rounded(pair.assessment.trends.distance(s.position), 2) << ','
+          << rounded(s.time_a, 4) << ',' << rounded(s.time_b, 4) << ',' << rounded(s.scan_angle_a, 2)
+          << ',' << rounded(s.scan_angle_b, 2) << ',' << rounded(s.slope / kRadiansPerDegree, 2)
+          << ',' << (s.level ? rounded(s.vertical, 4) : "") << ','
+          << (s.conjugate ? rounded(s.normal_distance, 4) : "") << '\n';
     }
   });
   return out.str();
@@ -167,9 +167,9 @@ std::string controlCsv(const QualityReport& report) {
     if (!block.control) return;
     for (const ControlDifference& d : block.control->differences) {
       out << set << ',' << quoted(d.point) << ',' << quoted(d.strip);
-      for (int i = 0; i < 3; ++i) out << ',' << number(d.position[i], 4);
-      out << ',' << number(d.above, 4) << ',' << number(d.slope / kRadiansPerDegree, 2) << ','
-          << number(d.roughness, 4) << ',' << quoted(d.unfit) << '\n';
+      for (int i = 0; i < 3; ++i) out << ',' << rounded(d.position[i], 4);
+      out << ',' << rounded(d.above, 4) << ',' << rounded(d.slope / kRadiansPerDegree, 2) << ','
+          << rounded(d.roughness, 4) << ',' << quoted(d.unfit) << '\n';
     }
     for (const std::string& point : block.control->unseen)
       out << set << ',' << quoted(point) << ",,,,,,,,no strip covers it\n";
@@ -185,9 +185,9 @@ std::string runCsv(const QualityReport& report) {
   out << "set,a,b,milliseconds,peak_memory_mb\n";
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b) << ','
-        << number(pair.milliseconds, 1) << ",\n";
+        << rounded(pair.milliseconds, 1) << ",\n";
   });
-  out << "all,,,," << number(report.peak_memory_mb, 1) << '\n';
+  out << "all,,,," << rounded(report.peak_memory_mb, 1) << '\n';
   return out.str();
 }
 

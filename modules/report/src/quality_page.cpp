@@ -5,11 +5,10 @@
 
 #include "quality_pictures.h"
 #include "quality_verdict.h"
+#include "report_parts.h"
 
 namespace pcl_als {
 namespace {
-
-constexpr PictureSize kWide{1400, 640}, kTall{1400, 900};
 
 /// Numbers as they are written in text: with a true minus sign.
 std::string shown(std::string cell) {

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <vector>
 
@@ -10,24 +9,17 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/report/quality_report.h>
 
+#include "formatted.h"
+
 namespace pcl_als {
 namespace {
 
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char line[512];
-  std::va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(line, sizeof line, pattern, values);
-  va_end(values);
-  return line;
-}
-
 /// "+0.0123", or a dash for an unknown number.
 std::string metres(double value, int digits = 4) {
-  return std::isfinite(value) ? format("%+.*f", digits, value) : "-";
+  return std::isfinite(value) ? formatted("%+.*f", digits, value) : "-";
 }
 std::string size(double value, int digits = 4) {
-  return std::isfinite(value) ? format("%.*f", digits, value) : "-";
+  return std::isfinite(value) ? formatted("%.*f", digits, value) : "-";
 }
 
 /// Calls row(label, block, pair) for every pair of the report, before and after together.
@@ -79,7 +71,7 @@ QualityTable verticalTable(const QualityReport& report) {
                      {}};
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const OffsetSummary& v = pair.assessment.vertical;
-    std::vector<std::string> row{labelOf(set, pair), format("%.0f", pair.overlap_area),
+    std::vector<std::string> row{labelOf(set, pair), formatted("%.0f", pair.overlap_area),
                                  std::to_string(v.count)};
     if (!judged(pair)) {
       row.push_back(pair.assessment.reason);
@@ -173,10 +165,10 @@ std::string triangleText(const QualityReport& report) {
   constexpr std::size_t kMost = 20;
   const auto& all = report.block.triangles;
   for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
-    text += format("  %s, %s, %s: %s (std %s), %zu cells\n", all[i].a.c_str(), all[i].b.c_str(),
-                   all[i].c.c_str(), metres(all[i].closure).c_str(), size(all[i].std).c_str(),
-                   all[i].cells);
-  if (all.size() > kMost) text += format("  … and %zu more\n", all.size() - kMost);
+    text += formatted("  %s, %s, %s: %s (std %s), %zu cells\n", all[i].a.c_str(), all[i].b.c_str(),
+                      all[i].c.c_str(), metres(all[i].closure).c_str(), size(all[i].std).c_str(),
+                      all[i].cells);
+  if (all.size() > kMost) text += formatted("  … and %zu more\n", all.size() - kMost);
   return text;
 }
 
@@ -213,7 +205,7 @@ std::string controlFigures(const QualityReport& report) {
   std::string text;
   const auto figures = [&](const char* label, const ControlAssessment& control) {
     const VerticalAccuracy& accuracy = control.accuracy;
-    text += format(
+    text += formatted(
         "\n%s%zu points, %zu of no strip. RMSE_V %.4f m (class %.0f cm) with %.4f m for the "
         "survey of the points%s\n  [%s]\n  older: NVA at 95 %% = 1.96 RMSEz = %.4f m [%s]\n  "
         "absolute accuracy %s [%s]\n",
@@ -222,8 +214,8 @@ std::string controlFigures(const QualityReport& report) {
         kPositionalStandard, accuracy.nva_95, kOlderPositionalStandard,
         levelName(control.quality_level).c_str(), kAbsoluteSpecification);
     if (!accuracy.enough_points)
-      text += format("  fewer than the %zu check points that the standard asks for\n",
-                     kFewestCheckPoints);
+      text += formatted("  fewer than the %zu check points that the standard asks for\n",
+                        kFewestCheckPoints);
   };
   if (report.before && report.before->control) figures("Before: ", *report.before->control);
   figures(report.before ? "After: " : "", *report.block.control);
@@ -233,7 +225,7 @@ std::string controlFigures(const QualityReport& report) {
 }  // namespace
 
 std::string levelName(const std::optional<int>& level) {
-  return level ? format("QL%d", *level) : "none";
+  return level ? formatted("QL%d", *level) : "none";
 }
 
 bool judged(const CheckedPair& pair) {
@@ -281,8 +273,8 @@ std::string qualityText(const QualityReport& report) {
     ++all;
     kept += pair.assessment.vertical.rms <= limits.swath_overlap_rmsdz ? 1 : 0;
   }
-  text += format("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n", kept, all,
-                 report.quality_level, limits.swath_overlap_rmsdz, kSwathSpecification);
+  text += formatted("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n", kept, all,
+                    report.quality_level, limits.swath_overlap_rmsdz, kSwathSpecification);
   for (const Warning& warning : report.block.warnings) text += "\nwarning: " + warning.text + '\n';
   return text;
 }

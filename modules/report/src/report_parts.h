@@ -13,6 +13,8 @@
 
 namespace pcl_als {
 
+inline constexpr PictureSize kWide{1400, 640}, kTall{1400, 900}, kSquare{1200, 900};
+
 /// Conclusion from a result, in sentences.
 struct Verdict {
   VerdictGrade grade = VerdictGrade::attention;

@@ -13,7 +13,6 @@
 namespace pcl_als {
 namespace {
 
-constexpr PictureSize kWide{1400, 640}, kTall{1400, 900};
 constexpr double kDegree = 180.0 / kPi;
 
 std::string evidenceOf(const ReconstructedPath& path) {

@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/scanner_detection.h>
 
@@ -41,16 +40,14 @@ struct ConeFit {
 ConeFit fitCone(const ScannerDetection::Channel& channel) {
   const Eigen::Vector3d mean = channel.sum / channel.pulses;
   const Eigen::Matrix3d covariance = channel.products / channel.pulses - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const SymmetricEigen<Eigen::Dynamic> eigen = symmetricEigen(covariance);
   ConeFit fit;
-  fit.axis = eigen.eigenvectors().col(0);
+  fit.axis = eigen.vectors.col(0);
   if (fit.axis.dot(mean) < 0.0) fit.axis = -fit.axis;
   fit.distance = fit.axis.dot(mean);
-  fit.off = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> plan(
-      Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()));
-  fit.round =
-      std::sqrt(std::max(0.0, plan.eigenvalues()[0]) / std::max(1e-12, plan.eigenvalues()[1]));
+  fit.off = std::sqrt(std::max(0.0, eigen.values[0]));
+  const Eigen::Vector2d plan = symmetricEigenvalues2(covariance.topLeftCorner<2, 2>());
+  fit.round = std::sqrt(std::max(0.0, plan[0]) / std::max(1e-12, plan[1]));
   return fit;
 }
 

@@ -11,7 +11,7 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kMargin = 20.0, kTitle = 44.0, kCaption = 30.0, kLabels = 92.0, kFoot = 66.0;
+constexpr double kMargin = 20.0, kTitle = 44.0, kCaption = 30.0, kLabels = 92.0, kBelow = 66.0;
 
 }  // namespace
 
@@ -91,7 +91,7 @@ int ClassMapPicture::heightFor(int width, int lowest, int highest) const {
   double height = 0.0;
   for (const Map& map : maps_)
     height = std::max(height, roomAcross(width) * map.raster.rows / map.raster.columns);
-  height += kMargin + (title_.empty() ? 0.0 : kTitle) + kCaption + kFoot;
+  height += kMargin + (title_.empty() ? 0.0 : kTitle) + kCaption + kBelow;
   return static_cast<int>(std::clamp<double>(std::ceil(height), lowest, highest));
 }
 
@@ -100,7 +100,7 @@ Canvas ClassMapPicture::draw(int width, int height) const {
   Canvas canvas(width, height);
   const std::vector<LegendEntry> entries = legend();
   const double top = kMargin + (title_.empty() ? 0.0 : kTitle);
-  const double room_x = roomAcross(width), room_y = height - top - kCaption - kFoot;
+  const double room_x = roomAcross(width), room_y = height - top - kCaption - kBelow;
   if (room_x < 50.0 || room_y < 50.0 || top + legendSize(entries, heading_).y() > height - 150.0) {
     throw UsageError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                      " pixels is too small for these maps and classes");
@@ -120,8 +120,8 @@ Canvas ClassMapPicture::draw(int width, int height) const {
     legend_x += kLabels + map.raster.columns * map.raster.cell / metres_per_pixel + 2.0 * kMargin;
   }
   drawLegend(canvas, entries, heading_, {legend_x, top + kCaption});
-  drawScaleBar(canvas, metres_per_pixel, 120.0, {legend_x, height - kFoot});
-  drawNorthArrow(canvas, {legend_x + 18.0, height - kFoot - 80.0}, 44.0);
+  drawScaleBar(canvas, metres_per_pixel, 120.0, {legend_x, height - kBelow});
+  drawNorthArrow(canvas, {legend_x + 18.0, height - kBelow - 80.0}, 44.0);
   return canvas;
 }
 

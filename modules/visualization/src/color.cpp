@@ -37,41 +37,11 @@ const std::vector<Color>& stopsOf(const std::string& name) {
   throw UsageError("color map '" + name + "' is none of viridis, cividis, diverging, gray");
 }
 
-struct LasClass {
-  int code;
-  std::uint32_t color;
-  const char* name;
-};
-
 // Ground earth-coloured, vegetation green by height, buildings vermilion, water blue.
-constexpr std::array<LasClass, 20> kClasses = {{
-    {0, 0x8c8c8c, "never classified"},
-    {1, 0xb8b8b8, "unclassified"},
-    {2, 0xc8a465, "ground"},
-    {3, 0xbfe3a0, "low vegetation"},
-    {4, 0x5fb564, "medium vegetation"},
-    {5, 0x0b6e3f, "high vegetation"},
-    {6, 0xd55e00, "building"},
-    {7, 0xff00c8, "low point (noise)"},
-    {8, 0xf0e442, "model key point"},
-    {9, 0x0072b2, "water"},
-    {10, 0x5a2d82, "rail"},
-    {11, 0x4d4d4d, "road surface"},
-    {12, 0xdadada, "overlap"},
-    {13, 0xcc79a7, "wire guard"},
-    {14, 0xe69f00, "wire conductor"},
-    {15, 0x8b1a4b, "transmission tower"},
-    {16, 0xf5c7de, "wire connector"},
-    {17, 0x56b4e9, "bridge deck"},
-    {18, 0xb4009e, "high noise"},
-    {26, 0x6d5f4b, "civil structure"},
-}};
-
-const LasClass* findClass(int code) {
-  const auto* found = std::find_if(kClasses.begin(), kClasses.end(),
-                                   [code](const LasClass& c) { return c.code == code; });
-  return found == kClasses.end() ? nullptr : found;
-}
+constexpr std::array<std::uint32_t, 19> kClassColors = {
+    0x8c8c8c, 0xb8b8b8, 0xc8a465, 0xbfe3a0, 0x5fb564, 0x0b6e3f, 0xd55e00,
+    0xff00c8, 0xf0e442, 0x0072b2, 0x5a2d82, 0x4d4d4d, 0xdadada, 0xcc79a7,
+    0xe69f00, 0x8b1a4b, 0xf5c7de, 0x56b4e9, 0xb4009e};
 
 }  // namespace
 
@@ -110,14 +80,9 @@ Color categoryColor(std::size_t i) {
 }
 
 Color classColor(int code) {
-  const LasClass* found = findClass(code);
-  return found != nullptr ? Color::rgb(found->color)
-                          : categoryColor(static_cast<std::size_t>(std::abs(code)));
-}
-
-std::string className(int code) {
-  const LasClass* found = findClass(code);
-  return found != nullptr ? found->name : "class " + std::to_string(code);
+  const auto at = static_cast<std::size_t>(std::abs(code));
+  if (code == 26) return Color::rgb(0x6d5f4b);  // civil structure, in AHN
+  return at < kClassColors.size() ? Color::rgb(kClassColors[at]) : categoryColor(at);
 }
 
 }  // namespace pcl_als

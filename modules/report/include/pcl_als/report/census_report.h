@@ -32,9 +32,6 @@ std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoin
 /// course, standard deviations.
 std::string flightText(const ListedFlight& flight);
 
-/// Name of an ASPRS class; empty for a code without one.
-std::string className(int code);
-
 std::string timeKindName(TimeKind kind);
 
 }  // namespace pcl_als

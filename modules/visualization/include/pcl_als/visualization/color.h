@@ -53,8 +53,7 @@ class ColorMap {
 /// first eight (Okabe and Ito); later ones repeat darker, then lighter.
 Color categoryColor(std::size_t i);
 
-/// Colour and name of an ASPRS class code (LAS 1.4 R15, table 17), vegetation by lightness too.
+/// Colour of an ASPRS class code, vegetation by lightness too.
 Color classColor(int code);
-std::string className(int code);
 
 }  // namespace pcl_als
