@@ -180,7 +180,8 @@ TEST(ObservedBlock, ThinnedHoldsTheSameInformation) {
   for (int i = 0; i < 5; ++i) SyntheticPairs::addStrip(oneHeight().front(), block);
   SyntheticPairs(SyntheticPairs::Settings()).addPairs(0, block);
   ASSERT_GT(block.observationCount(), 2000U);
-  const ObservedBlock thin = block.thinned(1000);
+  ObservedBlock thin;
+  thin.setThinned(block.observations, block.weights, 1000);
   EXPECT_LT(thin.observationCount(), block.observationCount() / 2);
   const auto sum = [](const ObservedBlock& of) {
     double all = 0.0;

@@ -6,6 +6,7 @@
 
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/ordered_results.h>
 #include <pcl_als/common/parallel.h>
 
 #include "adjustment_reduced.h"
@@ -65,18 +66,16 @@ void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
 }
 
 std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) const {
-  std::vector<AreaNormal::Reduced> reduced(area_normals_.size());
-  parallelFor(area_normals_.size(), threads_, [&](std::size_t area) {
-    reduced[area] = area_normals_[area].reduced(shift_variance);
-  });
   auto normal = std::make_unique<ErrorNormal>(errors_.unknowns());
   const BiasPrior& prior = errors_.model().biases;
   normal->gg.diagonal() += prior.information;
   normal->right_g += prior.information.cwiseProduct(prior.mean);
-  for (std::size_t area = 0; area < reduced.size();
-       ++area) {  // in this order for any number of threads
-    normal->add(reduced[area], area_normals_[area].knots());
-  }
+  computeInOrder(
+      area_normals_.size(), threads_,
+      [&](std::size_t area) { return area_normals_[area].reduced(shift_variance); },
+      [&](std::size_t area, const AreaNormal::Reduced& reduced) {
+        normal->add(reduced, area_normals_[area].knots());
+      });
   return normal;
 }
 

@@ -244,6 +244,7 @@ AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double 
     }
   }
   if (all) shares.setSharing(found);
+  found.shrink_to_fit();
   return found;
 }
 

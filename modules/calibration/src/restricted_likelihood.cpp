@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/common/ordered_results.h>
 #include <pcl_als/common/parallel.h>
 
 #include "block_cholesky.h"
@@ -135,15 +136,15 @@ void LikelihoodEquations::addTrajectory(const InverseEntries& inverse,
 
 ErrorNormal LikelihoodEquations::shiftTerms(const std::vector<AreaNormal>& areas, int threads,
                                             RestrictedLikelihood& result) const {
-  std::vector<AreaNormal::ShiftTerms> terms(areas.size());
-  parallelFor(areas.size(), threads, [&](std::size_t i) {
-    terms[i] = areas[i].shiftTerms(errors_.localVariance(levels_), valuesOf(areas[i]));
-  });
   ErrorNormal sum(errors_.unknowns());
-  for (std::size_t i = 0; i < areas.size(); ++i) {  // in this order for any number of threads
-    sum.add(terms[i].change, areas[i].knots());
-    result.information(kLocal, kLocal) += terms[i].information;
-  }
+  const double variance = errors_.localVariance(levels_);
+  computeInOrder(
+      areas.size(), threads,
+      [&](std::size_t i) { return areas[i].shiftTerms(variance, valuesOf(areas[i])); },
+      [&](std::size_t i, const AreaNormal::ShiftTerms& terms) {
+        sum.add(terms.change, areas[i].knots());
+        result.information(kLocal, kLocal) += terms.information;
+      });
   return sum;
 }
 

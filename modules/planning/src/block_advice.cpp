@@ -17,7 +17,6 @@ namespace {
 using P = SystemParameter;
 
 // observations of a block that is adjusted repeatedly
-constexpr std::size_t kObservations = 20'000;
 constexpr double kLeastBenefit = 0.1;     // least benefit of advice
 constexpr double kReportedRatio = 0.85;   // after / before above which a change is not reported
 constexpr std::size_t kAdviceInText = 6;  // entries in the text; the report contains all
@@ -176,9 +175,8 @@ std::vector<Advice> adviceFor(const ObservedBlock& block, const AdjustedBlock& n
 
 }  // namespace
 
-ObservabilityReport describeObservability(const ObservedBlock& whole,
+ObservabilityReport describeObservability(const ObservedBlock& block,
                                           const ObservabilitySettings& given) {
-  const ObservedBlock block = whole.thinned(kObservations);
   const BlockFacts facts(block);
   ObservabilitySettings settings = given;
   if (!settings.planned) settings.pairs.surface = surfaceOf(facts);
@@ -201,30 +199,34 @@ ObservabilityReport describeObservability(const ObservedBlock& whole,
 
 namespace {
 
-/// Median height and largest angle of the pairs of a strip, from their patches.
-void measure(int index, const std::vector<AreaObservations>& observations, StripGeometry& strip,
-             std::vector<double>& heights) {
-  double widest = 0.01;  // radians
-  for (const AreaObservations& area : observations) {
+/// Of the pairs of a strip, from their patches.
+struct PairGeometry {
+  std::vector<double> heights;
+  double widest = 0.01;  ///< radians
+};
+
+std::vector<PairGeometry> geometryByStrip(const AdjustedSurvey& survey) {
+  std::vector<PairGeometry> strips(survey.strips.size());
+  for (const AreaObservations& area : survey.observations) {
     for (const PairObservation& o : area) {
-      if (o.b != index) continue;
-      heights.push_back(o.height);
-      widest = std::max(widest, std::atan2(o.lateral, o.height));
+      PairGeometry& strip = strips[static_cast<std::size_t>(o.b)];
+      strip.heights.push_back(o.height);
+      strip.widest = std::max(strip.widest, std::atan2(o.lateral, o.height));
     }
   }
-  if (heights.empty()) return;
-  strip.height = medianInPlace(heights);
-  strip.half_angle = widest;
+  return strips;
 }
 
 /// A flown strip as a straight line; without a length where it has no pairs.
-StripGeometry straight(int index, const FlownStrip& flown, const Trajectory& trajectory,
-                       const std::vector<AreaObservations>& observations) {
+StripGeometry straight(const FlownStrip& flown, const Trajectory& trajectory, PairGeometry& pairs) {
   StripGeometry strip;
   strip.id = flown.id;
   strip.first_time = flown.span.first;
-  std::vector<double> heights;
-  measure(index, observations, strip, heights);
+  std::vector<double>& heights = pairs.heights;
+  if (!heights.empty()) {
+    strip.height = medianInPlace(heights);
+    strip.half_angle = pairs.widest;
+  }
   const double duration = flown.span.second - flown.span.first;
   SensorPose first, last;
   std::size_t cursor = 0;
@@ -246,17 +248,16 @@ StripGeometry straight(int index, const FlownStrip& flown, const Trajectory& tra
 
 ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory) {
   ObservedBlock block;
+  std::vector<PairGeometry> pairs = geometryByStrip(survey);
   for (std::size_t i = 0; i < survey.strips.size(); ++i) {
     block.spans.push_back(survey.strips[i].span);
-    block.strips.push_back(
-        straight(static_cast<int>(i), survey.strips[i], trajectory, survey.observations));
+    block.strips.push_back(straight(survey.strips[i], trajectory, pairs[i]));
   }
   for (const AreaObservations& area : survey.observations) {
     const bool control = !area.empty() && area.front().a == PairObservation::kControl;
     if (control) ++block.control_points;
   }
-  block.observations = survey.observations;
-  block.weights = survey.weights;
+  block.setThinned(survey.observations, survey.weights, ObservedBlock::kSufficient);
   return block;
 }
 

@@ -90,7 +90,9 @@ FlightPlanResult FlightPlan::evaluate() const {
   result.expected.converged = true;
   reportParameters(adjusted.choice(), settings_.adjustment.estimate, result.expected);
   warn(result);
-  result.observability = describeObservability(block, settings_.adjustment);
+  ObservedBlock thinned = block;
+  thinned.setThinned(block.observations, block.weights, ObservedBlock::kSufficient);
+  result.observability = describeObservability(thinned, settings_.adjustment);
   return result;
 }
 
