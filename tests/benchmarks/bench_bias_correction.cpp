@@ -111,9 +111,13 @@ void integerRecords(benchmark::State& state) {
     std::memcpy(&records[i * kLength], raw, sizeof raw);
     std::memcpy(&records[i * kLength + 22], &points.time[i], sizeof(double));
   }
+  IntegerBiasCorrection::Layout layout;
+  layout.record_length = kLength;
+  layout.time_position = 22;
+  layout.scale = Eigen::Vector3d::Constant(1e-3);
+  layout.offset = Eigen::Vector3d::Zero();
   const IntegerBiasCorrection correction(
-      "bench", SystemCorrection(biases(static_cast<int>(state.range(0))), flight()),
-      {kLength, 22, Eigen::Vector3d::Constant(1e-3), Eigen::Vector3d::Zero()});
+      "bench", SystemCorrection(biases(static_cast<int>(state.range(0))), flight()), layout);
   const std::vector<std::byte> original = records;
   for (auto _ : state) {
     records = original;  // as reading a block would

@@ -30,15 +30,9 @@ TEST(DescribeObservability, OfACalibratedBlockNamesFactsAndDeterminedDirections)
 
   const ObservedBlock block = observedBlock(calibration->adjusted(), *calibration->trajectory());
   ASSERT_EQ(block.strips.size(), survey.strips.size());
-  // The pairs of the last adjustment, formed once more with its biases for the diagnosis.
-  const auto pairs = static_cast<double>(result.iterations.back().correspondences);
-  const AdjustedSurvey& adjusted = calibration->adjusted();
-  double all = 0.0;
-  for (const AreaObservations& area : adjusted.observations)
-    all += static_cast<double>(area.size());
-  EXPECT_NEAR(all, pairs, 1e-3 * pairs);
-  EXPECT_GT(block.observationCount(), 10'000U);
-  EXPECT_LT(block.observationCount(), 40'000U);
+  // A sample of the pairs of the last adjustment.
+  EXPECT_GT(block.observationCount(), kRepresentative / 2);
+  EXPECT_LT(block.observationCount(), 2 * kRepresentative);
   EXPECT_GT(block.control_points, 0U);
 }
 

@@ -199,6 +199,26 @@ void SystemCalibrationEngine::shrinkThreshold(State& state) const {
   state.threshold = std::clamp(kFactor * widest, kSmallest, state.threshold);
 }
 
+namespace {
+
+/// Sets the height and the swath of the strips from the patches of their pairs.
+void measureStrips(const std::vector<AreaObservations>& observations,
+                   std::vector<FlownStrip>& strips) {
+  std::vector<std::vector<double>> heights(strips.size());
+  for (const AreaObservations& area : observations) {
+    for (const PairObservation& o : area) {
+      const auto strip = static_cast<std::size_t>(o.b);
+      heights[strip].push_back(o.height);
+      strips[strip].half_angle =
+          std::max(strips[strip].half_angle, std::atan2(o.lateral, o.height));
+    }
+  }
+  for (std::size_t i = 0; i < strips.size(); ++i)
+    if (!heights[i].empty()) strips[i].height = medianInPlace(heights[i]);
+}
+
+}  // namespace
+
 void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeSpan>& spans) {
   adjusted_.strips.clear();
   for (std::size_t i = 0; i < ids_.size(); ++i) {
@@ -207,9 +227,9 @@ void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeS
     adjusted_.strips.push_back(
         {ids_[i], isHeld(strip) ? TimeSpan(0.0, 0.0) : spans[i], map_.pointCount(strip)});
   }
+  measureStrips(state.observations, adjusted_.strips);
   replaceHeld(state.observations);
-  adjusted_.observations = std::move(state.observations);
-  adjusted_.weights = state.weights.weights();
+  adjusted_.sample = thinned(state.observations, state.weights.weights(), kRepresentative);
   adjusted_.levels = state.adjustment.levels();
 }
 

@@ -199,38 +199,21 @@ ObservabilityReport describeObservability(const ObservedBlock& block,
 
 namespace {
 
-/// Of the pairs of a strip, from their patches.
-struct PairGeometry {
-  std::vector<double> heights;
-  double widest = 0.01;  ///< radians
-};
-
-std::vector<PairGeometry> geometryByStrip(const AdjustedSurvey& survey) {
-  std::vector<PairGeometry> strips(survey.strips.size());
-  for (const AreaObservations& area : survey.observations) {
-    for (const PairObservation& o : area) {
-      PairGeometry& strip = strips[static_cast<std::size_t>(o.b)];
-      strip.heights.push_back(o.height);
-      strip.widest = std::max(strip.widest, std::atan2(o.lateral, o.height));
-    }
-  }
-  return strips;
-}
-
 /// A flown strip as a straight line; without a length where it has no pairs.
-StripGeometry straight(const FlownStrip& flown, const Trajectory& trajectory, PairGeometry& pairs) {
+StripGeometry straight(const FlownStrip& flown, const Trajectory& trajectory) {
   StripGeometry strip;
   strip.id = flown.id;
   strip.first_time = flown.span.first;
-  std::vector<double>& heights = pairs.heights;
-  if (!heights.empty()) {
-    strip.height = medianInPlace(heights);
-    strip.half_angle = pairs.widest;
+  const bool paired = flown.height > 0.0;
+  if (paired) {
+    constexpr double kLeastAngle = 0.01;  // radians
+    strip.height = flown.height;
+    strip.half_angle = std::max(kLeastAngle, flown.half_angle);
   }
   const double duration = flown.span.second - flown.span.first;
   SensorPose first, last;
   std::size_t cursor = 0;
-  if (heights.empty() || !(duration > 0.0) || !trajectory.poseAt(flown.span.first, first, cursor) ||
+  if (!paired || !(duration > 0.0) || !trajectory.poseAt(flown.span.first, first, cursor) ||
       !trajectory.poseAt(flown.span.second, last, cursor)) {
     return strip;
   }
@@ -248,16 +231,16 @@ StripGeometry straight(const FlownStrip& flown, const Trajectory& trajectory, Pa
 
 ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& trajectory) {
   ObservedBlock block;
-  std::vector<PairGeometry> pairs = geometryByStrip(survey);
-  for (std::size_t i = 0; i < survey.strips.size(); ++i) {
-    block.spans.push_back(survey.strips[i].span);
-    block.strips.push_back(straight(survey.strips[i], trajectory, pairs[i]));
+  for (const FlownStrip& strip : survey.strips) {
+    block.spans.push_back(strip.span);
+    block.strips.push_back(straight(strip, trajectory));
   }
-  for (const AreaObservations& area : survey.observations) {
+  for (const AreaObservations& area : survey.sample.observations) {
     const bool control = !area.empty() && area.front().a == PairObservation::kControl;
     if (control) ++block.control_points;
   }
-  block.setThinned(survey.observations, survey.weights, ObservedBlock::kSufficient);
+  block.observations = survey.sample.observations;
+  block.weights = survey.sample.weights;
   return block;
 }
 

@@ -81,7 +81,7 @@ ObservedBlock FlightPlan::synthesised() const {
 }
 
 FlightPlanResult FlightPlan::evaluate() const {
-  const ObservedBlock block = synthesised();
+  ObservedBlock block = synthesised();
   const AdjustedBlock adjusted(block, settings_.adjustment);
   FlightPlanResult result;
   result.lines = lines_;
@@ -90,9 +90,10 @@ FlightPlanResult FlightPlan::evaluate() const {
   result.expected.converged = true;
   reportParameters(adjusted.choice(), settings_.adjustment.estimate, result.expected);
   warn(result);
-  ObservedBlock thinned = block;
-  thinned.setThinned(block.observations, block.weights, ObservedBlock::kSufficient);
-  result.observability = describeObservability(thinned, settings_.adjustment);
+  WeightedObservations few = thinned(block.observations, block.weights, kRepresentative);
+  block.observations = std::move(few.observations);
+  block.weights = std::move(few.weights);
+  result.observability = describeObservability(block, settings_.adjustment);
   return result;
 }
 

@@ -136,46 +136,10 @@ std::vector<Eigen::Vector2d> SyntheticPairs::spread(std::size_t count,
   return places;
 }
 
-namespace {
-
-std::size_t countOf(const std::vector<AreaObservations>& observations) {
+std::size_t ObservedBlock::observationCount() const {
   std::size_t count = 0;
   for (const AreaObservations& area : observations) count += area.size();
   return count;
-}
-
-}  // namespace
-
-std::size_t ObservedBlock::observationCount() const {
-  return countOf(observations);
-}
-
-void ObservedBlock::setThinned(const std::vector<AreaObservations>& all,
-                               const std::vector<std::vector<double>>& all_weights,
-                               std::size_t count) {
-  constexpr std::size_t kLeast = 20;  // observations of an area
-  constexpr double kGolden = 0.6180339887498949;
-  const std::size_t wanted = std::max<std::size_t>(1, (countOf(all) + count - 1) / count);
-  observations.assign(all.size(), {});
-  weights.assign(all.size(), {});
-  for (std::size_t area = 0; area < all.size(); ++area) {
-    const AreaObservations& from = all[area];
-    // All control is kept, because there is little of it.
-    const bool control = !from.empty() && from.front().a == PairObservation::kControl;
-    const std::size_t step =
-        control ? 1 : std::min(wanted, std::max<std::size_t>(1, from.size() / kLeast));
-    double turn = 0.0;
-    for (std::size_t first = 0; first < from.size(); first += step) {
-      // One observation of every step at varying positions, because neighbours are arranged in
-      // patterns.
-      turn = std::fmod(turn + kGolden, 1.0);
-      const std::size_t length = std::min(step, from.size() - first);
-      const std::size_t i = first + static_cast<std::size_t>(turn * static_cast<double>(length));
-      observations[area].push_back(from[i]);
-      observations[area].back().misclosure = 0.0;
-      weights[area].push_back(all_weights[area][i] * static_cast<double>(length));
-    }
-  }
 }
 
 void SurfaceModel::validate() const {

@@ -85,6 +85,20 @@ struct PairObservation {
 /// The pairs of one area. Areas are the units of computation, and the clusters of the jackknife.
 using AreaObservations = std::vector<PairObservation>;
 
+/// Observations by area, with weights as for Adjustment::accumulate.
+struct WeightedObservations {
+  std::vector<AreaObservations> observations;
+  std::vector<std::vector<double>> weights;
+};
+
+/// So many observations represent a block in further adjustments.
+inline constexpr std::size_t kRepresentative = 20'000;
+
+/// Every k-th observation of an area with k times its weight and zero misclosure, so that about
+/// \a count remain, and all control: nearly the same information at less cost.
+WeightedObservations thinned(const std::vector<AreaObservations>& observations,
+                             const std::vector<std::vector<double>>& weights, std::size_t count);
+
 /// First and last of some times, seconds.
 using TimeSpan = std::pair<double, double>;
 

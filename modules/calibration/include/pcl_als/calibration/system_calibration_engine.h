@@ -31,15 +31,17 @@ struct FlownStrip {
   std::string id;
   std::pair<double, double> span;  ///< first and last firing time, seconds
   std::size_t points = 0;
+  /// Of its pairs: median height of the sensor above the patches, metres, zero without pairs;
+  /// largest angle of a patch from the vertical, radians.
+  double height = 0.0, half_angle = 0.0;
 };
 
 /// The last adjustment of a calibration, for further adjustments of the same block (module
 /// planning).
 struct AdjustedSurvey {
-  std::vector<FlownStrip> strips;              ///< by the index that observations use
-  std::vector<AreaObservations> observations;  ///< by area
-  std::vector<std::vector<double>> weights;    ///< as for Adjustment::accumulate
-  SharedErrorLevels levels;                    ///< as estimated
+  std::vector<FlownStrip> strips;  ///< by the index that observations use
+  WeightedObservations sample;     ///< about kRepresentative observations that represent all
+  SharedErrorLevels levels;        ///< as estimated
 };
 
 /** \brief Geometric calibration of a LiDAR system (Habib et al. 2011, section 2).

@@ -97,7 +97,6 @@ ObservabilityReport describeObservability(const ObservedBlock& block,
 
 /** \brief A calibrated block for describeObservability().
  *
- * ObservedBlock::kSufficient observations represent all.
  * Strips become straight lines from their first to their last pose; their height is the median of
  * their pairs (sensor above patch), their swath the largest angle of these. A strip that was left
  * out has an empty span and no pairs.

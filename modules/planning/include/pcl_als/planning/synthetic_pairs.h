@@ -47,13 +47,7 @@ struct ObservedBlock {
   std::size_t control_points = 0;
   std::string control_text;  ///< what the strips are compared with; empty: control points
 
-  static constexpr std::size_t kSufficient = 20'000;  ///< observations for describeObservability()
-
   std::size_t observationCount() const;
-  /// Sets the observations to every k-th of an area with k times its weight and zero misclosure, so
-  /// that about \a count remain: nearly the same information at less cost.
-  void setThinned(const std::vector<AreaObservations>& all,
-                  const std::vector<std::vector<double>>& all_weights, std::size_t count);
 };
 
 /** \brief Pairs expected between planned lines: rows from the true geometry, noise of the model,
