@@ -49,7 +49,7 @@ struct Matrix {
     dense += Eigen::MatrixXd(prior);
   }
   void add(int a, int b, const Eigen::Matrix<double, kBlock, kBlock>& part) {
-    blocks.try_emplace({a, b}, KnotBlocks::mapped_type::Zero()).first->second += part;
+    if (a >= b) blocks.try_emplace({a, b}, KnotBlocks::mapped_type::Zero()).first->second += part;
     dense.block<kBlock, kBlock>(kBlock * a, kBlock * b) += part;
   }
 };

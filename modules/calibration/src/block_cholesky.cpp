@@ -18,8 +18,10 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// Neighbours of every block, itself included, increasing.
 std::vector<std::vector<int>> neighboursOf(const KnotBlocks& blocks, const Sparse& prior) {
   std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(prior.rows() / kBlock));
-  for (const auto& entry : blocks)
-    neighbours[static_cast<std::size_t>(entry.first.first)].push_back(entry.first.second);
+  for (const auto& [knots, block] : blocks) {
+    neighbours[static_cast<std::size_t>(knots.first)].push_back(knots.second);
+    neighbours[static_cast<std::size_t>(knots.second)].push_back(knots.first);
+  }
   for (int column = 0; column < prior.cols();
        column += kBlock) {  // the others have the same blocks
     for (Sparse::InnerIterator entry(prior, column); entry; ++entry)
@@ -176,14 +178,15 @@ double InverseEntries::traceOfProduct(const Sparse& matrix) const {
 double InverseEntries::traceOfProduct(const KnotBlocks& blocks) const {
   double trace = 0.0;
   for (const auto& [knots, block] : blocks) {
-    const int a = columns_.place[static_cast<std::size_t>(knots.first)];
-    const int b = columns_.place[static_cast<std::size_t>(knots.second)];
-    if (a < b) continue;  // the transposed block is visited
+    const int first = columns_.place[static_cast<std::size_t>(knots.first)];
+    const int second = columns_.place[static_cast<std::size_t>(knots.second)];
+    const int a = std::max(first, second), b = std::min(first, second);
     const auto& node =
         columns_.supernodes[static_cast<std::size_t>(columns_.owner[static_cast<std::size_t>(b)])];
-    const Eigen::Index column = Eigen::Index{kBlock} * (b - node.first);
-    const double sum =
-        block.cwiseProduct(node.panel.block<kBlock, kBlock>(node.rowOf(a), column)).sum();
+    const auto entries =
+        node.panel.block<kBlock, kBlock>(node.rowOf(a), Eigen::Index{kBlock} * (b - node.first));
+    const double sum = first >= second ? block.cwiseProduct(entries).sum()
+                                       : block.cwiseProduct(entries.transpose()).sum();
     trace += a == b ? sum : 2.0 * sum;
   }
   return trace;
@@ -201,12 +204,16 @@ void BlockCholesky::assemble(const KnotBlocks& blocks, const Sparse& prior) {
         .supernodes[static_cast<std::size_t>(columns_.owner[static_cast<std::size_t>(column)])];
   };
   for (const auto& [knots, block] : blocks) {
-    const int a = columns_.place[static_cast<std::size_t>(knots.first)];
-    const int b = columns_.place[static_cast<std::size_t>(knots.second)];
-    if (a < b) continue;
+    const int first = columns_.place[static_cast<std::size_t>(knots.first)];
+    const int second = columns_.place[static_cast<std::size_t>(knots.second)];
+    const int a = std::max(first, second), b = std::min(first, second);
     BlockColumns::Supernode& node = panelOf(b);
-    node.panel.block<kBlock, kBlock>(node.rowOf(a), Eigen::Index{kBlock} * (b - node.first)) +=
-        block;
+    auto entries =
+        node.panel.block<kBlock, kBlock>(node.rowOf(a), Eigen::Index{kBlock} * (b - node.first));
+    if (first >= second)
+      entries += block;
+    else
+      entries += block.transpose();
   }
   for (int column = 0; column < prior.cols(); ++column) {
     const int b = columns_.place[static_cast<std::size_t>(column / kBlock)];

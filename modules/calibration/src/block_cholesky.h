@@ -13,7 +13,8 @@
 
 namespace pcl_als {
 
-/// Normal matrix of the shared errors by pairs of knots, both orders of a pair.
+/// Lower triangle of the normal matrix of the shared errors by pairs (row, column) of knots,
+/// row >= column.
 using KnotBlocks = std::map<std::pair<int, int>,
                             Eigen::Matrix<double, SharedErrors::kPerKnot, SharedErrors::kPerKnot>>;
 

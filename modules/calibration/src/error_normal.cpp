@@ -18,7 +18,7 @@ void ErrorNormal::add(const AreaNormal::Reduced& area, const std::vector<int>& k
     const auto at_i = kGlobal + static_cast<Eigen::Index>(i) * kKnot;
     tg.middleRows<kKnot>(knots[i] * kKnot) += area.matrix.block<kKnot, kGlobal>(at_i, 0);
     right_t.segment<kKnot>(knots[i] * kKnot) += area.right.segment<kKnot>(at_i);
-    for (std::size_t j = 0; j < knots.size(); ++j) {
+    for (std::size_t j = 0; j <= i; ++j) {  // knots increase
       const auto at_j = kGlobal + static_cast<Eigen::Index>(j) * kKnot;
       tt.try_emplace({knots[i], knots[j]}, KnotBlocks::mapped_type::Zero()).first->second +=
           area.matrix.block<kKnot, kKnot>(at_i, at_j);
@@ -31,6 +31,9 @@ Eigen::MatrixXd ErrorNormal::times(const Eigen::MatrixXd& right) const {
   for (const auto& [knots, block] : tt) {
     product.middleRows<kKnot>(knots.first * kKnot).noalias() +=
         block * right.middleRows<kKnot>(knots.second * kKnot);
+    if (knots.first == knots.second) continue;
+    product.middleRows<kKnot>(knots.second * kKnot).noalias() +=
+        block.transpose() * right.middleRows<kKnot>(knots.first * kKnot);
   }
   return product;
 }

@@ -21,7 +21,7 @@ struct ErrorNormal {
   SystemVector right_g = SystemVector::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, kGlobal> tg;
   Eigen::VectorXd right_t;
-  KnotBlocks tt;
+  KnotBlocks tt;  ///< lower triangle
   double log_determinant = 0.0, explained = 0.0;
 
   explicit ErrorNormal(int unknowns);

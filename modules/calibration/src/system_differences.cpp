@@ -9,11 +9,7 @@
 #include "chosen_parameters.h"
 
 namespace pcl_als {
-namespace {
-
-constexpr int kGlobal = kSystemParameterCount;
-
-}  // namespace
+namespace {}  // namespace
 
 Eigen::VectorXd Adjustment::scatterVariance(const Influence& influence,
                                             const AdjustmentSolution& solution) const {
@@ -69,15 +65,15 @@ Adjustment::SystemSolution Adjustment::systemSolution(int system,
   const SystemMatrix model = modelCovariance(estimate);
   const Influence on_difference = differenceInfluence(system, model);
   Influence on_own = on_difference;
-  on_own.biases.leftCols<kGlobal>() += model;
-  on_own.shared.leftCols<kGlobal>() -= reduced_->elimination * model;
+  on_own.biases.leftCols<kSystemParameterCount>() += model;
+  on_own.shared.leftCols<kSystemParameterCount>() -= reduced_->elimination * model;
   const Eigen::VectorXd scatter = scatterVariance(on_difference, solution);
   const Eigen::VectorXd own_scatter = scatterVariance(on_own, solution);
   for (int i = 0; i < kUnknowns; ++i) {
     const double variance = on_difference.shared(at + i, i);
     result.difference_std[i] = std::sqrt(std::max(variance, scatter[i]));
     result.std[i] = result.difference_std[i];
-    if (i >= kGlobal) continue;
+    if (i >= kSystemParameterCount) continue;
     // What made the standard deviation of the first system's parameter larger than the model's.
     const double factor =
         model(i, i) > 0.0 ? std::max(1.0, solution.covariance(i, i) / model(i, i)) : 1.0;

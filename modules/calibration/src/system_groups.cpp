@@ -12,7 +12,6 @@
 namespace pcl_als {
 namespace {
 
-constexpr int kGlobal = kSystemParameterCount;
 constexpr double kOffsetLimit = 0.1;  // metres, each axis
 
 /// The group of a strip: by its id, else by that of its pass; -1: none.
@@ -46,7 +45,8 @@ void checkGroups(const std::vector<StripGroup>& groups, const std::vector<std::s
 }
 
 double limitOf(int unknown, const DeterminationLimits& limits) {
-  return unknown < kGlobal ? limits.of(static_cast<SystemParameter>(unknown)) : kOffsetLimit;
+  return unknown < kSystemParameterCount ? limits.of(static_cast<SystemParameter>(unknown))
+                                         : kOffsetLimit;
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
       p.status = ParameterStatus::estimated;
       p.reason = relative ? "relative to system " + groups.front().name : "";
     }
-    if (!errors.isOwn(system, kGlobal)) continue;
+    if (!errors.isOwn(system, kSystemParameterCount)) continue;
     estimate.offset = solution.difference.tail<3>();
     estimate.offset_std = solution.std.tail<3>();
   }

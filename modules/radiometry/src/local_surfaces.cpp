@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/radiometry/local_surfaces.h>
 
 namespace pcl_als {
@@ -12,7 +13,6 @@ namespace {
 
 constexpr std::size_t kMostPoints = 32;
 constexpr double kWantedPoints = 16.0;
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 /// Cells of the grid never outnumber the points by more.
 constexpr double kCellsPerPoint = 4.0;
 

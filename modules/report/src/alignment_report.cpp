@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/report/alignment_report.h>
 
 #include "left_out_json.h"
@@ -15,8 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Result = PatchAlignmentResult;
-
-constexpr double kRadiansPerDegree = 0.017453292519943295;
 
 /// Internal units (m, rad) per unit of the file (m, deg).
 double unitOf(int parameter) {
