@@ -180,6 +180,7 @@ void SystemCalibrationEngine::checkTrajectory() {
     warnings_.push_back(warning);
   }
   height_error_ = plausibility_.heightError();
+  plausibility_.release();
 }
 
 int SystemCalibrationEngine::stripNamed(const std::string& id) const {

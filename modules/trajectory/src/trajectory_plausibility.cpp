@@ -52,6 +52,11 @@ int TrajectoryPlausibility::addStrip(const std::string& name) {
   return static_cast<int>(strips_.size()) - 1;
 }
 
+void TrajectoryPlausibility::release() {
+  for (Strip& strip : strips_) strip.recovery.reset();
+  path_.reset();
+}
+
 std::size_t TrajectoryPlausibility::spacing(std::size_t count, double duration) const {
   constexpr double kMost = 32.0, kPointsPerSecond = 1e4;
   if (!path_) return static_cast<std::size_t>(kMost);

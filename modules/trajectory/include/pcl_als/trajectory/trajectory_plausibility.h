@@ -98,6 +98,9 @@ class TrajectoryPlausibility {
   /// findings are returned, as are those that only warn, and with \a force_height those of a wrong
   /// height, of which the caller judges the effect by heightError().
   Warnings check(bool force, bool force_height = false) const;
+  /// Frees the second trajectory, with which check() compares the attitude: nothing may be added or
+  /// checked after it.
+  void release();
   /// The error of the trajectory's height; none where another finding comes first.
   HeightError heightError() const;
 
