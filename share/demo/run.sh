@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# share/demo/run.sh [OUT_DIR]: from a fresh Debian 12 to a calibrated block. Installs what is
-# missing, builds, simulates six strips over 1 km x 2 km, calibrates them, corrects every strip, checks
-# strips and control before and after, and shows all beside the truth. What is there is not repeated.
+# share/demo/run.sh [OUT_DIR]: from a fresh Debian 12 to a calibrated block. Installs what is missing,
+# builds the tools that it runs, simulates six strips over 1 km x 2 km, calibrates and corrects them,
+# checks strips and control before and after, and shows all beside the truth. What is there is kept.
 #   OUT_DIR            where the block and the results go (default: ./pcl_als_demo; about 1.2 GB)
 #   PCL_ALS_BUILD_DIR  build folder (default: build/ in the sources)
 #   PCL_ALS_DEMO_PRESET  the block: paper (default, 11 million points) or small (a tenth of that)
@@ -36,7 +36,8 @@ pcl_als_install build
 
 pcl_als_step "Building in $pcl_als_build"
 pcl_als_configure
-cmake --build "$pcl_als_build" --target pcl_als_tools
+cmake --build "$pcl_als_build" \
+  --target pcl_als_app_{simulate,calibrate,apply,view,profile,check}
 
 pcl_als_step "Simulating the block"
 if outdated "$block/truth.json" "$bin/pcl_als_simulate"; then

@@ -127,7 +127,7 @@ TEST_F(Robustness, WaterWithHolesAndStrayReturns) {
 
 TEST_F(Robustness, ControlOutsideTheBlockSaysNothing) {
   SimulatedSurvey survey = *clean;
-  for (ControlPoint& point : survey.control) point.position.x() += 50000.0;
+  for (ControlPoint& point : survey.control) point.position.x() += 15000.0;
   const CalibrationResult result = calibrated(survey);
   EXPECT_EQ(result[P::range_bias].status, ParameterStatus::not_estimable);
   EXPECT_FALSE(result[P::range_bias].reason.empty());
@@ -137,6 +137,12 @@ TEST_F(Robustness, ControlOutsideTheBlockSaysNothing) {
   EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), about_control));
   EXPECT_NEAR(result[P::boresight_roll].bias, clean->bias[indexOf(P::boresight_roll)],
               3.0 * result[P::boresight_roll].std);
+}
+
+TEST_F(Robustness, ControlOfAnotherRegionIsRefused) {
+  SimulatedSurvey survey = *clean;
+  for (ControlPoint& point : survey.control) point.position.x() += 50000.0;
+  EXPECT_THROW(calibrated(survey), InputError);
 }
 
 TEST_F(Robustness, AWrongControlPointIsOutvoted) {

@@ -220,10 +220,13 @@ FittedPlane fitPlaneInCells(const std::vector<Vector3d>& points,
     regression.add(column * (std::int64_t{1} << 31) + row, Vector3d(1.0, d.x(), d.y()), d.z());
   }
   const ClusteredRegression::Result result = regression.solve();
-  // One factor for all: correlations from few cells are not reliable.
-  if (result.determined)
-    plane.covariance *=
-        result.covariance_formal.diagonal().cwiseQuotient(plane.covariance.diagonal()).mean();
+  if (!result.determined) return plane;
+  // One factor for all: correlations from few cells are not reliable. The estimate follows
+  // Student's distribution with the degrees of freedom of the cells, whose variance is larger.
+  const double freedom = std::max(3.0, static_cast<double>(result.clusters) - 3.0);
+  plane.covariance *=
+      freedom / (freedom - 2.0) *
+      result.covariance_formal.diagonal().cwiseQuotient(plane.covariance.diagonal()).mean();
   return plane;
 }
 

@@ -199,6 +199,11 @@ class CalibrationSettings:
     @fixed.setter
     def fixed(self, value: Sequence[str]) -> None: ...
     @property
+    def fixed_sigma(self) -> float:
+        """standard deviation of the error that fixed strips share, m, each axis"""
+    @fixed_sigma.setter
+    def fixed_sigma(self, value: float) -> None: ...
+    @property
     def force(self) -> bool:
         """continue with a trajectory that cannot belong to the points"""
     @force.setter

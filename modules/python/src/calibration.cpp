@@ -94,6 +94,8 @@ void bindSettings(py::module_& m) {
           "what systems have of their own: names of parameters, 'boresight', 'lever_arm', 'offset'")
       .def_readwrite("fixed", &Settings::fixed,
                      "strips that are held fixed: an earlier delivery, which is not corrected")
+      .def_readwrite("fixed_sigma", &Settings::fixed_sigma,
+                     "standard deviation of the error that fixed strips share, m, each axis")
       .def_readwrite("noise", &Settings::noise)
       .def_readwrite("shared_errors", &Settings::shared_errors)
       .def_readwrite("candidates", &Settings::candidates,

@@ -338,11 +338,10 @@ void Alignment::keepSwing(const Unknowns& update) {
 
 /// Reverts the movements of the coarse stage in directions that are not determined.
 Unknowns Alignment::returnToGuess() const {
-  const Eigen::Matrix3d linear = motion_.linear();  // a rotation times a scale
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(linear / std::cbrt(linear.determinant())));
-  Unknowns total = Unknowns::Zero();
-  total.head<3>() = motion_ * centroid_ - centroid_;
-  total.segment<3>(3) = turn.angle() * radius_ * turn.axis();
+  const double scale = std::cbrt(motion_.linear().determinant());
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(motion_.linear() / scale));
+  Unknowns total;
+  total << motion_ * centroid_ - centroid_, turn.angle() * radius_ * turn.axis(), 0.0;
   const auto weak = directions_.vectors.leftCols(directions_.weak);
   return -(weak * (weak.transpose() * total));
 }
