@@ -86,11 +86,12 @@ void RadarEquation(benchmark::State& state) {
   for (auto _ : state) {
     RadiometryCursor cursor;
     double sum = 0.0;
-    for (const PointLidar& p : *flown.cloud)
-      sum +=
-          evaluator
-              .evaluate({p.gps_time, flown.frame.toGround(p.getVector3fMap()), 1, 1}, level, cursor)
-              .factor;
+    for (const PointLidar& p : *flown.cloud) {
+      LidarReturn point;
+      point.position = flown.frame.toGround(p.getVector3fMap());
+      point.time = p.gps_time;
+      sum += evaluator.evaluate(point, level, cursor).factor;
+    }
     benchmark::DoNotOptimize(sum);
   }
   perPoint(state, flown.cloud->size());

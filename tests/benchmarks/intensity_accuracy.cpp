@@ -144,13 +144,16 @@ RadiometricCells cellsOf(const test::SimulatedStrips& block, const RadiometricMo
     RadiometryCursor cursor;
     for (const PointLidar& p : *strip.cloud) {
       const Eigen::Vector3d place = strip.frame.toGround(p.getVector3fMap());
+      LidarReturn point;
+      point.position = place;
+      point.time = p.gps_time;
+      point.return_number = p.return_number;
+      point.number_of_returns = p.number_of_returns;
       LocalSurface surface;
       if (p.return_number >= p.number_of_returns) surface = surfaces.at(p.getVector3fMap());
       cells.add(static_cast<int>(s), place.x(), place.y(), static_cast<double>(p.intensity),
                 p.intensity > 0.0F && p.intensity < 65535.0F && p.number_of_returns == 1,
-                evaluator.evaluate({p.gps_time, place, p.return_number, p.number_of_returns},
-                                   surface, cursor),
-                surface);
+                evaluator.evaluate(point, surface, cursor), surface);
     }
   }
   return cells;
