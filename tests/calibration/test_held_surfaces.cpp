@@ -118,7 +118,7 @@ TEST(FixedStrips, MustExistAndLeaveOthers) {
 }
 
 /// Strip 3 is too high by 12 cm, twice the standard deviation that is stated for it: the range bias
-/// is wrong by as much, and its standard deviation says so. Stated as free of errors it does not.
+/// is wrong by as much, which its standard deviation includes, unless they are stated as exact.
 TEST(FixedStrips, HaveAnErrorInCommon) {
   SimulatedSurvey survey = withCorrectStrip(4);
   for (LidarReturn& point : survey.strips[2]) point.position.z() += 0.12;

@@ -151,9 +151,10 @@ std::string offsetsCsv(const QualityReport& report) {
       out << set << ',' << quoted(pair.a) << ',' << quoted(pair.b);
       for (int i = 0; i < 3; ++i) out << ',' << rounded(s.position[i], 3);
       out << ',' << rounded(pair.assessment.trends.distance(s.position), 2) << ','
-          << rounded(s.time_a, 4) << ',' << rounded(s.time_b, 4) << ',' << rounded(s.scan_angle_a, 2)
-          << ',' << rounded(s.scan_angle_b, 2) << ',' << rounded(s.slope / kRadiansPerDegree, 2)
-          << ',' << (s.level ? rounded(s.vertical, 4) : "") << ','
+          << rounded(s.time_a, 4) << ',' << rounded(s.time_b, 4) << ','
+          << rounded(s.scan_angle_a, 2) << ',' << rounded(s.scan_angle_b, 2) << ','
+          << rounded(s.slope / kRadiansPerDegree, 2) << ','
+          << (s.level ? rounded(s.vertical, 4) : "") << ','
           << (s.conjugate ? rounded(s.normal_distance, 4) : "") << '\n';
     }
   });

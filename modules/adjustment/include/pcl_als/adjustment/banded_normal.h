@@ -57,7 +57,7 @@ class BandedNormal {
   void invert();
 
   int n_, band_, m_;
-  bool connected_ = true;  ///< the common unknowns with the others
+  bool connected_ = true;                          ///< the common unknowns with the others
   std::vector<double> matrix_, factor_, inverse_;  ///< lower bands; factor_: D on the diagonal
   Eigen::VectorXd right_, corner_right_, solution_, common_solution_;
   Eigen::MatrixXd border_, corner_, reach_, corner_inverse_;  ///< reach_: A^-1 F
