@@ -227,8 +227,8 @@ void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeS
     adjusted_.strips.push_back(
         {ids_[i], isHeld(strip) ? TimeSpan(0.0, 0.0) : spans[i], map_.pointCount(strip)});
   }
-  measureStrips(state.observations, adjusted_.strips);
   replaceHeld(state.observations);
+  measureStrips(state.observations, adjusted_.strips);
   adjusted_.sample = thinned(state.observations, state.weights.weights(), kRepresentative);
   adjusted_.levels = state.adjustment.levels();
 }

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <sstream>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/statistics.h>
+#include <pcl_als/common/text_values.h>
 #include <pcl_als/planning/block_advice.h>
 
 #include "virtual_lines.h"
@@ -255,20 +257,13 @@ std::string controlText(const CalibrationResult& result) {
     strips += surface.strips.size();
     if (surface.strips.empty()) ++surfaces;
   }
-  const struct {
-    std::size_t count;
-    const char *one, *several;
-  } kinds[] = {{points, "control point", "control points"},
-               {patches, "planar patch", "planar patches"},
-               {surfaces, "reference surface", "reference surfaces"},
-               {strips, "fixed strip", "fixed strips"}};
-  std::string text;
-  for (const auto& kind : kinds) {
-    if (kind.count == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(kind.count) + " " +
-            (kind.count == 1 ? kind.one : kind.several);
-  }
-  return text;
+  std::vector<std::string> kinds;
+  if (points > 0) kinds.push_back(counted(points, "control point"));
+  if (patches > 0)
+    kinds.push_back(std::to_string(patches) + " planar patch" + (patches > 1 ? "es" : ""));
+  if (surfaces > 0) kinds.push_back(counted(surfaces, "reference surface"));
+  if (strips > 0) kinds.push_back(counted(strips, "fixed strip"));
+  return joined(kinds);
 }
 
 }  // namespace

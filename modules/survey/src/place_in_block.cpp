@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/common/zone_difference.h>
 #include <pcl_als/survey/place_in_block.h>
 
 namespace pcl_als {
@@ -14,10 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Box = Eigen::AlignedBox2d;
 
-constexpr double kFoot = 0.3048;                        // metres
-constexpr double kMetresPerDegree = 111320.0 * 0.9996;  // of a meridian, and on the equator
-constexpr double kZoneTolerance = 0.04;                 // of the width of a zone
-constexpr double kNorthing = 6e4;                       // metres
+constexpr double kFoot = 0.3048;  // metres
 
 Box scaled(const Box& box, double factor) {
   return {factor * box.min(), factor * box.max()};
@@ -33,16 +30,6 @@ Box exchanged(const Box& box) {
 
 bool areDegrees(const Box& box) {
   return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff() <= 360.0;
-}
-
-/// Eastings of neighbouring zones differ by the width of a zone at this latitude, northings by
-/// little.
-bool isNextZone(const Vector2d& given, const Vector2d& block, double degrees) {
-  const double latitude = std::abs(block.y()) / kMetresPerDegree * kRadiansPerDegree;
-  if (!(latitude < 85.0 * kRadiansPerDegree) || block.y() < kNorthing) return false;
-  const double width = degrees * kMetresPerDegree * std::cos(latitude);
-  const Vector2d d = given - block;
-  return std::abs(std::abs(d.x()) - width) < kZoneTolerance * width && std::abs(d.y()) < kNorthing;
 }
 
 std::string causeOf(const Box& given, const Box& block) {
@@ -62,12 +49,7 @@ std::string causeOf(const Box& given, const Box& block) {
     cause = std::string("its coordinates would lie within them ") + text;
   }
   if (!cause.empty()) return cause;
-  for (const double degrees : {6.0, 3.0}) {
-    if (isNextZone(given.center(), block.center(), degrees))
-      return "its eastings differ by those of a zone " + std::to_string(std::lround(degrees)) +
-             " degrees away";
-  }
-  return {};
+  return zoneDifference(given.center(), block.center());
 }
 
 }  // namespace

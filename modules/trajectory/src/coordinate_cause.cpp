@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/common/zone_difference.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -19,22 +19,10 @@ constexpr double kFoot = 0.3048;                          // metres
 constexpr double kLowest = 10.0, kHighest = 20e3;         // metres above the points
 constexpr double kBeside = 2.0;                           // heights
 constexpr double kFirstLeapSeconds = 13.0, kMost = 19.0;  // UTC since 2006 and for some years
-constexpr double kMetresPerDegree = 111320.0 * 0.9996;    // of a meridian, and on the equator
-constexpr double kZoneTolerance = 0.04, kNorthing = 6e4;  // of the width of a zone; metres
 
 bool fits(const Vector3d& sensor, const Vector3d& points) {
   const Vector3d d = sensor - points;
   return d.z() > kLowest && d.z() < kHighest && d.head<2>().norm() < kBeside * d.z();
-}
-
-/// Eastings of neighbouring zones differ by the width of a zone at this latitude, northings by
-/// little.
-bool isNextZone(const Vector3d& sensor, const Vector3d& points, double degrees) {
-  const double latitude = std::abs(points.y()) / kMetresPerDegree * kRadiansPerDegree;
-  if (!(latitude < 85.0 * kRadiansPerDegree) || points.y() < kNorthing) return false;
-  const double width = degrees * kMetresPerDegree * std::cos(latitude);
-  const Eigen::Vector2d d = (sensor - points).head<2>();
-  return std::abs(std::abs(d.x()) - width) < kZoneTolerance * width && std::abs(d.y()) < kNorthing;
 }
 
 }  // namespace
@@ -59,12 +47,7 @@ std::string coordinateCause(const Vector3d& sensor, const Vector3d& points) {
     cause = text;
   }
   if (!cause.empty()) return cause;
-  for (const double degrees : {6.0, 3.0}) {
-    if (!isNextZone(sensor, points, degrees)) continue;
-    return "its eastings differ by those of a zone " + std::to_string(std::lround(degrees)) +
-           " degrees away";
-  }
-  return {};
+  return zoneDifference(sensor.head<2>(), points.head<2>());
 }
 
 std::string timeCause(double seconds_ahead) {
