@@ -5,8 +5,8 @@
 # cluster.sh BIN_DIR FOLDER JOB…: time and memory of jobs (apply, calibrate, check, intensity,
 # classify) in 1, 2 and 4 processes of one thread, and in one process of two threads, on the block
 # that pcl_als_simulate wrote into FOLDER/block.
-# cluster.sh kill BIN_DIR FOLDER: kills a random process of pcl_als_apply at 20 random moments on the
-# files in FOLDER/links, and continues the job.
+# cluster.sh kill BIN_DIR FOLDER: kills a random process of pcl_als_apply at 20 random moments of a
+# run on the files in FOLDER/links, and continues the job.
 set -uo pipefail
 export LC_ALL=C OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversubscribe=1
@@ -28,24 +28,36 @@ measure() {  # N T JOB ARG…
           "  load %s\n", job, n, t, seconds, most, all, kb / 1024, load }' use.txt
 }
 
+# seconds of a command
+duration() {
+  local start
+  start=$(date +%s.%N)
+  "$@" >out.txt 2>err.txt
+  echo "$(date +%s.%N) - $start" | bc
+}
+
 kill_loop() {
-  local bin=$1 folder=$2 round status pid left=0 wrong=0
+  local bin=$1 folder=$2 hit=0 status pid left=0 wrong=0 whole
   cd -- "$folder" || exit 1
   args=(links/*.las -trajectory block/trajectory.csv -biases boresight_roll=100 -threads 1)
-  [[ -d whole ]] || "$bin/pcl_als_apply" "${args[@]}" -corrected whole >/dev/null
+  rm -rf whole
+  whole=$(duration mpirun -n 3 "$bin/pcl_als_apply" "${args[@]}" -corrected whole)
+  echo "uninterrupted: $whole s"
   printf '#!/bin/bash\necho $$ >pid.$OMPI_COMM_WORLD_RANK\nexec "$@"\n' >rank.sh
   chmod +x rank.sh
-  for round in {1..20}; do
+  while ((hit < 20)); do
     rm -rf killed pid.*
     mpirun -n 3 ./rank.sh "$bin/pcl_als_apply" "${args[@]}" -corrected killed -resume \
       >out.txt 2>err.txt &
     local job=$!
-    sleep "$((RANDOM % 2)).$((RANDOM % 10))"
+    sleep "$(echo "scale=3; $whole * $RANDOM / 32768" | bc)"
     pid=pid.$((RANDOM % 3))
     until [[ -s $pid ]]; do sleep 0.01; done
     kill -9 "$(<$pid)" 2>/dev/null
     wait $job
     status=$?
+    ((status != 0)) || continue  # it had ended before
+    hit=$((hit + 1))
     for file in killed/*.las; do
       [[ -e $file ]] && ! cmp -s "$file" "whole/${file##*/}" && wrong=$((wrong + 1))
     done
@@ -55,7 +67,7 @@ kill_loop() {
     local again=$?
     diff -r -x .pcl_als_resume whole killed >/dev/null || wrong=$((wrong + 1))
     left=$(find killed -name '*.partial' | wc -l)
-    echo "$round: ${pid#pid.} killed, status $status, $complete complete, $partial temporary;" \
+    echo "$hit: ${pid#pid.} killed, status $status, $complete complete, $partial temporary;" \
       "resumed: status $again, $left temporary, $wrong wrong so far"
   done
 }

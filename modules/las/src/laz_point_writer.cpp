@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kRunsPerThread = 2;  ///< that wait at most
 constexpr std::uint64_t kPointer = 8;
+constexpr std::uint64_t kMostReserved = 8 * laz::kRunBytes;  ///< more grows with the records
 
 /// Consecutive chunks that one thread encodes.
 struct Run {
@@ -58,6 +59,8 @@ void LazPointWriter::State::append(const std::uint8_t* records, std::size_t coun
   while (count > 0) {
     const std::size_t begun = points() - run.ended();
     const std::size_t part = std::min<std::size_t>(count, schema.chunk_size - begun);
+    if (run.records.empty())
+      run.records.reserve(std::min(kMostReserved, schema.chunk_size * record_length));
     run.records.insert(run.records.end(), records, records + part * record_length);
     records += part * record_length;
     count -= part;
