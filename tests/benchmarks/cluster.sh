@@ -6,14 +6,15 @@
 # classify) in 1, 2 and 4 processes of one thread, and in one process of two threads, on the block
 # that pcl_als_simulate wrote into FOLDER/block.
 # cluster.sh kill BIN_DIR FOLDER: kills a random process of pcl_als_apply at 20 random moments of a
-# run on the files in FOLDER/links, and continues the job.
+# run on the files in FOLDER/files (copies, no links), and continues the job.
 set -uo pipefail
 export LC_ALL=C OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_rmaps_base_oversubscribe=1
 export OMPI_MCA_hwloc_base_binding_policy=none  # threads of a process on several processors
 
 # Of a command in N processes of T threads: elapsed seconds; the largest processor time and memory
-# of a process. On a machine with other work the processor time is what can be compared.
+# of a process; whether the outputs are those of the first run, byte for byte. On a machine with
+# other work the processor time is what can be compared.
 measure() {  # N T JOB ARG…
   local n=$1 t=$2 job=$3 start
   shift 3
@@ -21,11 +22,15 @@ measure() {  # N T JOB ARG…
   start=$(date +%s.%N)
   mpirun -n "$n" /usr/bin/time -a -o use.txt -f '%U %S %M' "$bin/pcl_als_$job" "$@" \
     -threads "$t" >out.txt 2>err.txt || echo "$job: exit status $?, see err.txt"
-  awk -v job="$job" -v n="$n" -v t="$t" -v seconds="$(echo "$(date +%s.%N) - $start" | bc)" \
-    -v load="$(cut -d' ' -f1 /proc/loadavg)" '
+  local end sums
+  end=$(date +%s.%N)
+  sums=$(cd out && find . -type f -print0 | sort -z | xargs -0 md5sum | md5sum)
+  [[ $n$t == 11 ]] && first=$sums
+  awk -v job="$job" -v n="$n" -v t="$t" -v seconds="$(echo "$end - $start" | bc)" \
+    -v same="$([[ $sums == "$first" ]] && echo equal || echo different)" '
     /^[0-9]/ { used = $1 + $2; all += used; if (used > most) most = used; if ($3 > kb) kb = $3 }
     END { printf "%-10s %d x %d  %7.1f s elapsed  %7.1f s of a process  %7.1f s of all  %6.0f MB" \
-          "  load %s\n", job, n, t, seconds, most, all, kb / 1024, load }' use.txt
+          "  outputs %s\n", job, n, t, seconds, most, all, kb / 1024, same }' use.txt
 }
 
 # seconds of a command
@@ -39,9 +44,10 @@ duration() {
 kill_loop() {
   local bin=$1 folder=$2 hit=0 status pid left=0 wrong=0 whole
   cd -- "$folder" || exit 1
-  args=(links/*.las -trajectory block/trajectory.csv -biases boresight_roll=100 -threads 1)
+  args=(files/*.las -trajectory block/trajectory.csv -biases boresight_roll=100 -threads 1)
   rm -rf whole
   whole=$(duration mpirun -n 3 "$bin/pcl_als_apply" "${args[@]}" -corrected whole)
+  ls whole/*.las >/dev/null || { cat err.txt; exit 1; }
   echo "uninterrupted: $whole s"
   printf '#!/bin/bash\necho $$ >pid.$OMPI_COMM_WORLD_RANK\nexec "$@"\n' >rank.sh
   chmod +x rank.sh

@@ -19,10 +19,15 @@ namespace {
 /// at most, of a tile that is processed, see SurfaceAccumulator
 constexpr double kBytesPerCell = 380.0;
 
+/// Of the bands of one round of tiles that the first of several processes receives, unless there
+/// are more threads.
+constexpr double kRoundBytes = 1e9;
+
 /// A file and the box its header gives, wider by its resolution.
 struct BoxedFile {
   std::filesystem::path path;
   std::size_t place;  ///< among all files
+  std::uint64_t points;
   double min_x, min_y, max_x, max_y;
 
   bool meets(const RasterGrid& grid) const {
@@ -164,7 +169,7 @@ std::vector<BoxedFile> boxedFiles(const RasterInput& files) {
     const PointFileInfo info = PointReader::open(path)->info();
     const double x = info.resolution.x(), y = info.resolution.y();
     if (info.point_count > 0)
-      boxed.push_back({path, place, info.minimum.x() - x, info.minimum.y() - y,
+      boxed.push_back({path, place, info.point_count, info.minimum.x() - x, info.minimum.y() - y,
                        info.maximum.x() + x, info.maximum.y() + y});
   }
   return boxed;
@@ -176,6 +181,29 @@ int leastOf(Communicator* processes, int value) {
   for (const std::string& bytes : processes->gatherAll(ByteWriter().put(value).take()))
     value = std::min(value, ByteReader(bytes).take<int>());
   return value;
+}
+
+/// By tile of a round: points that are read, and cells. Both take time.
+std::vector<double> costsOf(const std::vector<RasterTile>& tiles, std::size_t first,
+                            std::size_t count, const std::vector<BoxedFile>& files) {
+  std::vector<double> costs;
+  for (std::size_t i = first; i < first + count; ++i) {
+    costs.push_back(static_cast<double>(tiles[i].padded.cells()));
+    for (const BoxedFile& file : files)
+      if (file.meets(tiles[i].padded)) costs.back() += static_cast<double>(file.points);
+  }
+  return costs;
+}
+
+/// One process writes tiles as they come; several send them round by round. Long rounds divide the
+/// work more evenly.
+std::size_t tilesPerRound(const Communicator* processes, const std::vector<RasterTile>& tiles,
+                          int threads) {
+  if (!areShared(processes)) return tiles.size();
+  const double bytes = static_cast<double>(tiles.front().window.cells()) *
+                       static_cast<double>(SurfaceAccumulator::bandNames().size() * sizeof(float));
+  return std::max(static_cast<std::size_t>(threads) * static_cast<std::size_t>(processes->size()),
+                  static_cast<std::size_t>(kRoundBytes / bytes));
 }
 
 /// Share of all tiles that are done, where \a done of the own ones of a round are.
@@ -211,15 +239,12 @@ RasterCounts rasterizeStrips(const RasterInput& files, const RasterGrid& grid,
   const std::vector<BoxedFile> boxed = boxedFiles(files);
   const std::vector<RasterTile> tiles = tilesOf(grid, tile_side, options.margin(grid.cell));
   threads = leastOf(processes, threadsFor(tiles.front(), threads));
-  // One process writes tiles as they come; several send them round by round.
-  const std::size_t round = areShared(processes) ? static_cast<std::size_t>(threads) *
-                                                       static_cast<std::size_t>(processes->size())
-                                                 : tiles.size();
+  const std::size_t round = tilesPerRound(processes, tiles, threads);
   RasterCounts all;
   std::mutex writing;
   for (std::size_t first = 0; first < tiles.size(); first += round) {
     std::vector<TileResult> results(std::min(round, tiles.size() - first));
-    const SharedItems shares(processes, std::vector<double>(results.size(), 1.0));
+    const SharedItems shares(processes, costsOf(tiles, first, results.size(), boxed));
     std::size_t done = 0;
     doTogether(processes, [&] {
       parallelFor(shares.ownItems().size(), threads, [&](std::size_t own) {
