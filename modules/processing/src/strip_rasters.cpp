@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <optional>
 
 #include <pcl_als/common/errors.h>
