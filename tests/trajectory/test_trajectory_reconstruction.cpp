@@ -139,6 +139,16 @@ TEST(TrajectoryReconstruction, AllowsForSkewedScanLines) {
   EXPECT_LT(is.normalised.maxCoeff(), 2.0);
 }
 
+// A tile that a strip crosses in less than a second: its speed needs means of shorter times.
+TEST(TrajectoryReconstruction, UsesScanAnglesOfShortTiles) {
+  RayFlight flight = wavy();
+  flight.trees = 0.0;
+  flight.from = 4.1, flight.to = 4.9;
+  const ReconstructedPath path = only(flight.points());
+  ASSERT_TRUE(path.found) << path.reason;
+  EXPECT_LT(deviation(path, wavyPath).normalised.maxCoeff(), 2.0);
+}
+
 TEST(TrajectoryReconstruction, AllowsForRollInScanAngles) {
   RayFlight flight = wavy();
   flight.trees = 0.0;

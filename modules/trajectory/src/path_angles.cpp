@@ -46,10 +46,14 @@ void PathAdjustment::takeAngles() {
 }
 
 /// All classes of the bins of a second, where they reach the vertical: in a shorter time, patterns
-/// such as those of a rosette are not covered evenly.
+/// such as those of a rosette are not covered evenly. Of a short pass those of a quarter, because
+/// its speed is that between the middles.
 void PathAdjustment::addToMiddle(std::int64_t index, const PathEvidence::Bin& bin) {
-  const auto window = static_cast<std::int64_t>(
-      std::floor(static_cast<double>(index) * PathEvidence::kBin / kMiddleTime));
+  const double time = std::min(kMiddleTime, 0.25 * (span_.last - span_.first));
+  const auto bins =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(time / PathEvidence::kBin)));
+  const auto window =
+      static_cast<std::int64_t>(std::floor(static_cast<double>(index) / static_cast<double>(bins)));
   if (middles_.empty() || middles_.back().window != window) {
     middles_.emplace_back();
     middles_.back().window = window;
