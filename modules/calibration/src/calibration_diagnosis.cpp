@@ -24,9 +24,10 @@ bool SystemCalibrationEngine::hasPairs(int strip, const CalibrationResult& resul
 std::string SystemCalibrationEngine::reasonWithoutPairs(int strip) const {
   SurveyMap::HeightOffset best;
   int partner = -1;
-  for (const StripPair& pair : pairs_) {
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    const StripPair& pair = pairs_[i];
     if (pair.first != strip && pair.second != strip) continue;
-    SurveyMap::HeightOffset found = map_.heightOffset(pair);
+    SurveyMap::HeightOffset found = pair_heights_[i];
     if (found.cells <= best.cells) continue;
     partner = pair.first == strip ? pair.second : pair.first;
     if (pair.second == strip) found.offset = -found.offset;

@@ -8,6 +8,8 @@
 
 #include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/memory.h>
+#include <pcl_als/common/parallel.h>
 
 #include "area_matcher.h"
 #include "control_coverage.h"
@@ -251,6 +253,15 @@ void SystemCalibrationEngine::adaptLimits() {
   settings_.limits = settings_.limits.atHeight(highest);
 }
 
+/// The cells of a large survey need as much memory as its pairs do later.
+void SystemCalibrationEngine::releaseMap() {
+  pair_heights_.resize(pairs_.size());
+  parallelFor(pairs_.size(), settings_.threads,
+              [this](std::size_t i) { pair_heights_[i] = map_.heightOffset(pairs_[i]); });
+  map_.releaseCells();
+  returnFreeMemory();
+}
+
 void SystemCalibrationEngine::chooseAreas() {
   shareSurvey();
   compared_ = settings_.systems.empty() && settings_.diagnose ? comparedGroups(ids_, flownTimes())
@@ -269,6 +280,7 @@ void SystemCalibrationEngine::chooseAreas() {
   checkReferences();
   choosePairs();
   areas_ = map_.selectAreas(pairs_, settings_.selection);
+  releaseMap();
   pair_areas_ = areas_.size();
   for (const ControlPoint& point : control_) {
     const double size = std::max(kControlAreaSize, point.extent);

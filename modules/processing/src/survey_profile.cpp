@@ -16,7 +16,7 @@ std::vector<SectionSearch::Place> findPlaces(const SurveyReader& survey) {
   SectionSearch search(survey.corner(), survey.farCorner(),
                        sectionCell(stripDensities(survey.files(), survey.arrangement()), all),
                        strips);
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  survey.readAlone([&](int strip, const LidarReturn* points, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (points[i].isSingle()) search.add(points[i].position, static_cast<std::size_t>(strip));
     }
@@ -47,7 +47,7 @@ std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
   const SectionLine& line = places[0].line;
   // By strip: they are read at the same time.
   std::vector<StripPart> parts(survey.strips().size());
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  survey.readAlone([&](int strip, const LidarReturn* points, std::size_t count) {
     StripPart& part = parts[static_cast<std::size_t>(strip)];
     for (std::size_t i = 0; i < count; ++i) {
       if (!line.contains(points[i].position.head<2>(), kLargestShift)) continue;

@@ -24,9 +24,10 @@ std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths,
   return inputs;
 }
 
-/// Passes runs on as points.
-SurveyReader::RunSink asRuns(const SurveyReader::Sink& sink) {
-  return [&sink](int strip, const SurveyReader::Run& run) {
+}  // namespace
+
+SurveyReader::RunSink SurveyReader::asRuns(const Sink& sink) {
+  return [&sink](int strip, const Run& run) {
     thread_local std::vector<LidarReturn> points;
     points.clear();
     points.reserve(run.to - run.from);
@@ -34,8 +35,6 @@ SurveyReader::RunSink asRuns(const SurveyReader::Sink& sink) {
     sink(strip, points.data(), points.size());
   };
 }
-
-}  // namespace
 
 SurveyReader::SurveyReader(const std::vector<std::string>& paths, int threads,
                            const PointWindow& window, Communicator* processes)
@@ -294,10 +293,6 @@ LidarReturn SurveyReader::Run::point(std::size_t row) const {
   return point;
 }
 
-void SurveyReader::read(const Sink& sink) const {
-  readRuns(asRuns(sink));
-}
-
 void SurveyReader::readGroups(const Groups& groups, const std::vector<std::size_t>& chosen,
                               const RunSink& sink,
                               std::vector<std::vector<std::uint64_t>>& counts) const {
@@ -332,17 +327,19 @@ void SurveyReader::readRuns(const RunSink& sink) const {
   left_out_ = counts.empty() ? std::vector<LeftOutPoints>() : arrangement_->leftOut(counts[0]);
 }
 
-void SurveyReader::readAtRoot(const Sink& sink) const {
-  readRunsAtRoot(asRuns(sink));
+void SurveyReader::readRunsAtRoot(const RunSink& sink) const {
+  doTogether(processes_, [&] {
+    if (isRoot(processes_)) readAllGroups(sink);
+  });
 }
 
-void SurveyReader::readRunsAtRoot(const RunSink& sink) const {
+void SurveyReader::readAllGroups(const RunSink& sink) const {
   const Groups groups = groupsOfFiles();
   std::vector<std::vector<std::uint64_t>> counts(
       groups.size(), std::vector<std::uint64_t>(arrangement_->labels().size()));
-  std::vector<std::size_t> all(isRoot(processes_) ? groups.size() : 0);
+  std::vector<std::size_t> all(groups.size());
   std::iota(all.begin(), all.end(), 0);
-  doTogether(processes_, [&] { readGroups(groups, all, sink, counts); });
+  readGroups(groups, all, sink, counts);
 }
 
 SharedItems SurveyReader::sharesOf(const Groups& groups) const {

@@ -174,6 +174,10 @@ SurveyMap::HeightOffset SurveyMap::heightOffset(const StripPair& pair) const {
   return {medianInPlace(differences), count};
 }
 
+void SurveyMap::releaseCells() {
+  for (StripCells& strip : strips_) strip.cells = {};
+}
+
 std::string describe(const SurveyMap::HeightOffset& height, const std::string& a,
                      const std::string& b) {
   char offset[48];

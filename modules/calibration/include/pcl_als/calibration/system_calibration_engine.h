@@ -154,6 +154,7 @@ class SystemCalibrationEngine {
   void describeAttitudes();
   void useNonLinearModel(const std::string& remark);
   void choosePairs();
+  void releaseMap();
   // Surfaces that are held fixed.
   bool isReference(int strip) const;
   bool isHeld(int strip) const { return held_of_[static_cast<std::size_t>(strip)] >= 0; }
@@ -273,6 +274,7 @@ class SystemCalibrationEngine {
   bool control_covered_ = false;  ///< whether any strip has a patch at a control point
   std::vector<std::pair<std::string, std::string>> wanted_pairs_;
   std::vector<StripPair> pairs_;
+  std::vector<SurveyMap::HeightOffset> pair_heights_;  ///< by pair
   std::vector<SurveyArea> areas_;
   std::size_t pair_areas_ = 0;  ///< the first ones of areas_; the others surround control points
   std::unique_ptr<AreaIndex> index_;

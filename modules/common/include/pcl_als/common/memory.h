@@ -4,6 +4,9 @@
 
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace pcl_als {
 
@@ -18,6 +21,13 @@ inline double peakMemory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1e-3 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Returns memory that was deleted in small pieces to the system, where the C library keeps it.
+inline void returnFreeMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace pcl_als

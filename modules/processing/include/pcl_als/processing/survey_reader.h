@@ -107,12 +107,14 @@ class SurveyReader {
    * Collective where processes share the readings: each process gets all points of its own strips,
    * strips(), and none of the others.
    */
-  void read(const Sink& sink) const;
+  void read(const Sink& sink) const { readRuns(asRuns(sink)); }
   /// The same with all fields of the points.
   void readRuns(const RunSink& sink) const;
   /// Collective: the first process gets all points of all strips, the others none.
-  void readAtRoot(const Sink& sink) const;
+  void readAtRoot(const Sink& sink) const { readRunsAtRoot(asRuns(sink)); }
   void readRunsAtRoot(const RunSink& sink) const;
+  /// Not collective: this process gets all points of all strips, whatever the others do.
+  void readAlone(const Sink& sink) const { readAllGroups(asRuns(sink)); }
 
   Communicator* processes() const { return processes_; }
   /// The strips by the process that reads them.
@@ -121,6 +123,8 @@ class SurveyReader {
  private:
   SurveyReader(int threads, std::vector<SurveyInput> inputs, Communicator* processes);
   using Groups = std::vector<std::vector<std::size_t>>;
+  /// Passes runs on as points.
+  static RunSink asRuns(const Sink& sink);
   SharedItems sharesOf(const Groups& groups) const;
   /// Reads some groups of files and counts points by group and label.
   void readGroups(const Groups& groups, const std::vector<std::size_t>& chosen, const RunSink& sink,
@@ -130,6 +134,7 @@ class SurveyReader {
   /// Sets names, expected points and channels of the strips.
   void divide(bool by_channel);
   std::vector<std::set<std::uint8_t>> channelsByStrip() const;
+  void readAllGroups(const RunSink& sink) const;
   /// Passes on a run of points of one strip of the arrangement, channel by channel.
   void passOn(int strip, const Run& run, const RunSink& sink) const;
   /// Adds the points of each label to \a counts.

@@ -83,6 +83,9 @@ class SurveyMap {
   };
   HeightOffset heightOffset(const StripPair& pair) const;
 
+  /// Deletes the cells: from then on strips have numbers of points and times only.
+  void releaseCells();
+
   struct Selection {
     double area_size = 50.0;  ///< metres
     double margin = 8.0;      ///< metres

@@ -19,8 +19,8 @@ struct SurveyProfile {
 /** \brief The gable roof or slope of a survey at which a misfit of its strips is most visible;
  * empty where no two strips cover one.
  *
- * Reads all points twice. Memory: that of SectionSearch during the search, then the section's
- * points.
+ * Reads all points twice, in this process alone. Memory: that of SectionSearch during the search,
+ * then the section's points.
  */
 std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
                                          const BiasEvaluator& correction);
