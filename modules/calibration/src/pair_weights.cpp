@@ -61,7 +61,7 @@ double unlikeliness(const Values& values, double pointing_factor) {
 }  // namespace
 
 PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
-  if (o.a == PairObservation::kControl) return {o.a, o.along_normal ? o.a - 1 : o.a};
+  if (o.a == PairObservation::kControl) return {o.a, o.a - static_cast<int>(o.control_error)};
   return {std::min(o.a, o.b), std::max(o.a, o.b)};
 }
 
