@@ -173,19 +173,20 @@ struct Posterior {
   void refine();
   void summarise(double area);
   double largestStd() const { return std::sqrt(symmetricEigenvalues2(covariance)[1]); }
-  double smallestStd() const {
-    return std::sqrt(std::max(0.0, symmetricEigenvalues2(covariance)[0]));
-  }
+  double smallestStd() const { return std::sqrt(symmetricEigenvalues2(covariance)[0]); }
   /// Sum of the probabilities of cells with a property.
   template <typename Property>
   double probability(const Property& property) const {
     double with = 0.0, all = 0.0;
     for (const Cell& cell : cells) {
-      const double p = std::exp(cell.log_probability - cells.front().log_probability);
-      all += p;
-      if (property(cell.centre)) with += p;
+      all += weightOf(cell);
+      if (property(cell.centre)) with += weightOf(cell);
     }
     return with / all;
+  }
+  /// The probability over that of the most probable cell.
+  double weightOf(const Cell& cell) const {
+    return std::exp(cell.log_probability - cells.front().log_probability);
   }
 };
 
@@ -225,7 +226,7 @@ void Posterior::summarise(double area) {
   covariance.setZero();
   const Eigen::Vector2d origin = cells.front().centre;
   for (const Cell& cell : cells) {
-    const double p = std::exp(cell.log_probability - cells.front().log_probability);
+    const double p = weightOf(cell);
     const Eigen::Vector2d from = cell.centre - origin;
     sum += p;
     mean += p * from;
@@ -306,8 +307,8 @@ void addSystematic(const std::vector<TargetPoint>& points, const TargetSearch& s
     if (std::abs((p.place - location.centre).norm() - search.radius) < kEdgeZone * location.blur)
       at_edge += 1.0;
   const double coordinates = 2.0 * search.noise * search.noise / std::max(2.0, at_edge);
-  const double slope = std::sqrt(2.0 * 3.14159265358979) * location.blur;  // of h, its inverse
-  const double texture = kTexture * slope / location.contrast;
+  constexpr double kRootOfTwoPi = 2.5066;  // times the blur: inverse slope of h at the edge
+  const double texture = kTexture * kRootOfTwoPi * location.blur / location.contrast;
   location.covariance.diagonal().array() += coordinates + texture * texture;
 }
 
@@ -350,19 +351,10 @@ void listCertain(const std::vector<TargetPoint>& points, double radius, TargetLo
 }  // namespace
 
 std::string_view reasonOf(TargetStatus status) {
-  switch (status) {
-    case TargetStatus::too_few_points:
-      return "too few points";
-    case TargetStatus::no_contrast:
-      return "no contrast of intensity of this size";
-    case TargetStatus::ambiguous:
-      return "its place is ambiguous";
-    case TargetStatus::at_edge:
-      return "it is displaced too far";
-    case TargetStatus::located:
-      break;
-  }
-  return "located";
+  constexpr std::array<std::string_view, 5> kReasons{
+      "located", "too few points", "no contrast of intensity of this size",
+      "its place is ambiguous", "it is displaced too far"};
+  return kReasons[static_cast<std::size_t>(status)];
 }
 
 TargetLocation locateTarget(const std::vector<TargetPoint>& points, const TargetSearch& search) {
@@ -381,7 +373,7 @@ TargetLocation locateTarget(const std::vector<TargetPoint>& points, const Target
   const double local = std::max(kLocal * search.radius, search.radius + kLocalSpacings * spacing);
   const std::vector<TargetPoint> around =
       pointsNear(all, first.mean, local + first.largestStd(), true);
-  if (around.size() < 3) return location;
+  if (around.size() < 3) return {};
   const Posterior last = posteriorOf(around, nearby);
   location.status = statusOf(last, nearby);
   location.centre = last.mean;
