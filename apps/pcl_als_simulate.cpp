@@ -22,6 +22,8 @@ void declareScene(CommandLine& line) {
   line.addFlag("images",
                "also images of the block with a frame camera, in the folder images: camera.json, "
                "images.csv, measurements.csv, checkpoints.csv and the truth");
+  line.add<int>("targets", "number of white level circular targets in control.csv, 0 to 1000", 0);
+  line.add<double>("target_diameter", "diameter of the targets, m", 2.0);
   line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
   line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
   line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
@@ -142,6 +144,8 @@ SimulationOptions optionsFrom(const CommandLine& line) {
   options.scene.relief *= line.number("relief", 0.0, 1.5, "(factor)");
   options.scene.buildings = line.number("buildings", 0.0, 1.0, "(factor)");
   options.scene.trees = line.number("trees", 0.0, 4.0, "(factor)");
+  options.targets = static_cast<int>(line.whole("targets", 0, 1000));
+  options.target_diameter = line.number("target_diameter", 0.1, 20.0, "m");
   setIntensity(line, options);
   options.check();
   return options;

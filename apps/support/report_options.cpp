@@ -23,7 +23,8 @@ void addControlOptions(CommandLine& line) {
   line.addOptional(
       "control",
       "control points: CSV id,x,y,z[,sigma], used vertically; a calibration uses planar "
-      "patches, rows with nx,ny,nz[,extent], along their normals");
+      "patches, rows with nx,ny,nz[,extent], along their normals, and circular targets, rows with "
+      "diameter[,sigma_plan], in three dimensions");
   addUnitsOption(line, "control", "the control file");
 }
 

@@ -64,6 +64,21 @@ for word in "${together[@]}" /; do
   options=()
 done
 
+# Targets: the tool lists their places in plan, and refuses diameters that cannot be.
+run simulate -output targets -preset small -scale 0.6 -density 2 -noise range -targets 6 -target_diameter 3
+[[ $status == 0 ]] || failed "simulate targets"
+check "truth.json has the targets" grep -q '"diameter_m": 3.0' targets/truth.json
+awk -F, 'NR == 1 || $5 != ""' targets/control.csv >targets_only.csv
+expect 0 "Targets in the strips to the east and north" calibrate targets/strip?.las -trajectory targets/trajectory.csv \
+  -control targets_only.csv -candidates 10 -output targets.json
+check "east and north are components" test "$(grep -c '"component": "\(east\|north\)"' targets.json)" -ge 8
+check "the range bias is determined by targets" near "$(range_of targets.json)" 0.12 0.04
+check "targets are named as such" grep -q "[56] targets" targets.json
+sed '2s/,3.000$/,0.01/' targets_only.csv >narrow.csv
+expect 2 "column 'diameter'*must be 0.1 to 20 m" calibrate targets/strip?.las -trajectory targets/trajectory.csv \
+  -control narrow.csv -output no.json
+absent no.json
+
 # References and control that lie elsewhere: what no file states, the coordinates show.
 run simulate -output away -preset small -scale 0.6 -density 0.1 -noise none -origin 700000,5560000,1000
 expect 2 "km beside the strips" "${calibrate[@]}" -reference away/strip2.las -output no.json

@@ -59,6 +59,30 @@ TEST(Control, ReadsPlanarPatches) {
             std::string::npos);
 }
 
+TEST(Control, ReadsTargets) {
+  const std::string header = "id,x,y,z,sigma,diameter,sigma_plan\n";
+  const auto points =
+      readControl(file(header + "T1,1,2,3,0.01,2,0.02\nT2,1,2,3,0.01,1.5,\nG,1,2,3,,,\n"));
+  EXPECT_EQ(points[0].kind, ControlPoint::Kind::target);
+  EXPECT_EQ(points[0].diameter, 2.0);
+  EXPECT_EQ(points[0].sigma_plan, 0.02);
+  EXPECT_EQ(points[1].kind, ControlPoint::Kind::target);
+  EXPECT_EQ(points[1].sigma_plan, 0.0);
+  EXPECT_EQ(points[2].kind, ControlPoint::Kind::height);
+  const LengthUnit feet = lengthUnitNamed("ft", "control");
+  const auto in_feet = readControl(file(header + "T1,1,2,3,0.01,5,0.02\n"), feet);
+  EXPECT_NEAR(in_feet[0].diameter, 1.524, 1e-12);
+  EXPECT_NEAR(in_feet[0].sigma_plan, 0.006096, 1e-12);
+  EXPECT_NE(refusal(header + "T1,1,2,3,,0.05,\n").find("line 2, column 'diameter'"),
+            std::string::npos);
+  EXPECT_NE(refusal(header + "T1,1,2,3,,25,\n").find("must be 0.1 to 20 m"), std::string::npos);
+  EXPECT_NE(refusal(header + "T1,1,2,3,,2,-1\n").find("must not be negative"), std::string::npos);
+  EXPECT_NE(refusal(header + "T1,1,2,3,,,0.02\n").find("needs its diameter"), std::string::npos);
+  EXPECT_NE(
+      refusal("id,x,y,z,nx,ny,nz,diameter\nT1,1,2,3,0,0,1,2\n").find("a normal or a diameter"),
+      std::string::npos);
+}
+
 TEST(Control, ErrorsNameLineAndColumn) {
   EXPECT_NE(refusal("id,x,y\na,1,2\n").find("no column 'z'"), std::string::npos);
   EXPECT_NE(refusal("id,x,y,z\na,1,2,high\n").find("line 2, column 'z': 'high'"),

@@ -10,21 +10,31 @@
 namespace pcl_als {
 namespace {
 
-/// The effect of the error of a control point on a distance: it is one of the height, or one along
-/// the normal of a patch.
-double errorAlong(const PairObservation& o) {
-  return o.along_normal ? 1.0 : o.normal.z();
+/// The effect of the error of a control point on a distance: the product of two of them and the
+/// variance of the error is their covariance.
+Eigen::Vector3d errorEffect(const PairObservation& o) {
+  if (o.control_error == PairObservation::ControlError::height)
+    return {0.0, 0.0, o.effectOfControl()};
+  return o.normal;
 }
 
 /// Sets the factor by which the pairs of one control point share the error of the point, in all
 /// strips that cover it. The pairs are those of \a found from the index \a first on.
 void shareControlError(const ControlPoint& point, std::size_t first, AreaObservations& found) {
-  double up = 0.0;
-  for (std::size_t i = first; i < found.size(); ++i) up += errorAlong(found[i]);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // of heights and of the pairs of a patch
+  for (std::size_t i = first; i < found.size(); ++i)
+    if (!found[i].isInPlan()) sum += errorEffect(found[i]);
   for (std::size_t i = first; i < found.size(); ++i) {
     PairObservation& o = found[i];
-    const double own = errorAlong(o);
-    o.sharing = 1.0 + own * (up - own) * point.sigma * point.sigma / o.variance;
+    const Eigen::Vector3d own = errorEffect(o);
+    if (!o.isInPlan()) {
+      o.sharing = 1.0 + own.dot(sum - own) * point.sigma * point.sigma / o.variance;
+      continue;
+    }
+    double others = 0.0;  // the axes of strips differ
+    for (std::size_t k = first; k < found.size(); ++k)
+      if (k != i && found[k].isInPlan()) others += std::abs(own.dot(errorEffect(found[k])));
+    o.sharing = 1.0 + others * point.sigma_plan * point.sigma_plan / o.variance;
   }
 }
 
@@ -39,12 +49,15 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
   for (ControlPoint point : control) {
     if (!area_.contains(point.position)) continue;
     if (!(point.sigma > 0.0)) point.sigma = default_sigma;
+    if (!(point.sigma_plan > 0.0)) point.sigma_plan = point.sigma;
     const std::size_t first = found.size();
     for (std::size_t b = 0; b < strips_.size(); ++b) {
       const int strip = static_cast<int>(b);
       if (strips_[b].biased.empty() || strips_[b].held()) continue;
       if (point.kind == ControlPoint::Kind::patch)
         matchPatch(point, strip, threshold, foot, found);
+      else if (point.kind == ControlPoint::Kind::target)
+        matchTarget(point, strip, threshold, noise, foot, vertex, found);
       else
         matchHeight(point, strip, threshold, foot, vertex, found);
     }
@@ -88,7 +101,8 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, int s
                                                 const PointGeometry& foot) const {
   PairObservation o;
   o.b = strip;
-  o.along_normal = point.kind == ControlPoint::Kind::patch;
+  if (point.kind == ControlPoint::Kind::patch)
+    o.control_error = PairObservation::ControlError::along_normal;
   o.time_a = o.time_b = foot.time;
   o.lateral = foot.lateral;
   o.height = foot.height;
@@ -99,7 +113,7 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, int s
   o.misclosure = o.normal.dot(point.position - foot.position) -
                  o.effectAtPatch(corrected_for_[static_cast<std::size_t>(strip)]);
   o.sources = -foot.sourcesAlong(o.normal);
-  const double sigma = point.sigma * errorAlong(o);
+  const double sigma = point.sigma * o.effectOfControl();
   o.variance = normalVariance(foot.covariance, o.normal) + sigma * sigma;
   o.pointing = normalVariance(foot.pointing, o.normal);
   return o;

@@ -17,6 +17,7 @@
 #include <pcl_als/common/lidar_return.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/survey/survey_map.h>
+#include <pcl_als/survey/target_location.h>
 #include <pcl_als/tin/patch_surface.h>
 #include <pcl_als/tin/surface_criterion.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
@@ -25,6 +26,12 @@
 #include "pair_selection.h"
 
 namespace pcl_als {
+
+/// Whether a target was located in a strip.
+struct TargetInStrip {
+  int strip = 0;
+  TargetStatus status = TargetStatus::located;
+};
 
 /** \brief The points of one area by strip, their TINs, and the pairs found between them.
  *
@@ -102,10 +109,14 @@ class AreaMatcher {
   AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
                          const Trajectory& trajectory, const NoiseModel& noise,
                          Points chosen = Points::candidates, std::size_t every = 1) const;
-  /// The pairs of control points inside the area with the patches above or below them.
+  /// The pairs of control points inside the area with the patches above or below them, and the
+  /// places of targets, which are searched for within \a threshold in each coordinate.
   AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
                                 const Trajectory& trajectory, const NoiseModel& noise,
                                 double default_sigma) const;
+  /// The strips that cover a target, and whether it was located there.
+  std::vector<TargetInStrip> targetsIn(const ControlPoint& point, double window,
+                                       const Trajectory& trajectory, const NoiseModel& noise) const;
 
  private:
   struct StripPart {
@@ -147,6 +158,18 @@ class AreaMatcher {
   /// All single returns on the patch.
   void matchPatch(const ControlPoint& point, int strip, double threshold, PointGeometry& measured,
                   AreaObservations& found) const;
+  /// Searches a target in a strip; its certain returns are those of the strip.
+  TargetLocation targetIn(const ControlPoint& point, int strip, double window,
+                          const NoiseModel& noise, PointGeometry& measured) const;
+  /// The height and the plan position of a target that is located in a strip.
+  void matchTarget(const ControlPoint& point, int strip, double window, const NoiseModel& noise,
+                   PointGeometry& foot, PointGeometry& vertex, AreaObservations& found) const;
+  /// \param vertex a return of the target; \param foot its centre, which gets the height
+  void addHeight(const ControlPoint& point, int strip, const TargetLocation& target,
+                 const PointGeometry& vertex, PointGeometry& foot, AreaObservations& found) const;
+  /// Along the principal axes of the covariance of the place, whose errors are independent.
+  void addPlan(const ControlPoint& point, int strip, const TargetLocation& target,
+               const PointGeometry& foot, AreaObservations& found) const;
   PairObservation controlObservation(const ControlPoint& point, int strip,
                                      const Direction& direction, const PointGeometry& foot) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;

@@ -4,8 +4,10 @@
 // Diagnosis of the strips of a block after the adjustment (SystemCalibrationEngine).
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/common/shared_vectors.h>
 
 #include "calibration_state.h"
 #include "control_consistency.h"
@@ -43,6 +45,32 @@ std::string SystemCalibrationEngine::reasonWithoutPairs(int strip) const {
          describe(best, ids_[static_cast<std::size_t>(strip)],
                   ids_[static_cast<std::size_t>(partner)]) +
          "; check its heights (unit, height reference, trajectory)";
+}
+
+void SystemCalibrationEngine::warnOfTargets(CalibrationResult& result) const {
+  std::vector<std::vector<TargetInStrip>> found(matchers_.size());
+  forOwnAreas([&](std::size_t area) {
+    if (area < pair_areas_) return;
+    const ControlPoint& point = control_[area - pair_areas_];
+    if (point.kind == ControlPoint::Kind::target)
+      found[area] = matchers_[area].targetsIn(point, settings_.max_normal_distance, *trajectory_,
+                                              settings_.noise);
+  });
+  shareVectors(processes_, area_shares_, found);
+  std::map<TargetStatus, std::vector<std::string>> missing;
+  for (std::size_t area = pair_areas_; area < found.size(); ++area) {
+    std::map<TargetStatus, std::string> strips;
+    for (const TargetInStrip& target : found[area]) {
+      std::string& list = strips[target.status];
+      list += (list.empty() ? "" : "+") + ids_[static_cast<std::size_t>(target.strip)];
+    }
+    for (const auto& [status, list] : strips)
+      missing[status].push_back(control_[area - pair_areas_].id + " in strip " + list);
+  }
+  missing.erase(TargetStatus::located);
+  for (const auto& [status, list] : missing)
+    result.warnings.push_back("targets that were not located (" + std::string(reasonOf(status)) +
+                              "): " + listedNames(list));
 }
 
 void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& errors,

@@ -54,6 +54,7 @@ FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Res
   for (const AreaObservations& area : observations) {
     for (const PairObservation& o : area) {
       const double distance = residual(o);
+      if (o.isInPlan()) continue;
       if (o.a == PairObservation::kControl) {
         statistics[{o.a, o.b}].add(o.aboveControl(distance));
       } else {
@@ -127,37 +128,83 @@ void CalibrationReport::addFit(const std::vector<AreaObservations>& observations
       histogramOf(observations, histogram.edges, distance);
 }
 
+namespace {
+
+/// Mean heights of strips above a control point, or distances along the normal of a patch.
+ControlPointFit heightFit(const AreaObservations& area, bool patch, const SystemVector& biases,
+                          double trajectory_std) {
+  ControlPointFit fit;
+  if (patch) fit.component = "normal";
+  double variance = 0.0, shared = 0.0, count = 0.0;
+  std::set<int> strips;
+  for (const PairObservation& o : area) {
+    if (o.isInPlan()) continue;
+    strips.insert(o.b);
+    fit.before += o.aboveControl(o.misclosure);
+    fit.after += o.aboveControl(o.distance(biases));
+    variance += o.variance;
+    shared += o.variance * o.sharing;
+    count += 1.0;
+  }
+  fit.strips = strips.size();
+  if (fit.strips == 0) return fit;
+  fit.before /= count;
+  fit.after /= count;
+  // Points of a patch share its error; the strips above a point are few.
+  const double of_mean = (patch ? shared / count : variance) / count;
+  fit.expected_std =
+      std::sqrt(of_mean + trajectory_std * trajectory_std / static_cast<double>(fit.strips));
+  return fit;
+}
+
+/// The mean place of a target in the strips, to the east (0) or north (1) of the surveyed one.
+ControlPointFit planFit(const AreaObservations& area, int axis, const SystemVector& biases,
+                        double trajectory_std) {
+  ControlPointFit fit;
+  fit.component = axis == 0 ? "east" : "north";
+  double variance = 0.0;
+  std::set<int> strips;
+  for (const PairObservation& o : area) {
+    if (!o.isInPlan()) continue;
+    strips.insert(o.b);
+    const double part = o.normal[axis];
+    fit.before += part * o.aboveControl(o.misclosure);
+    fit.after += part * o.aboveControl(o.distance(biases));
+    variance += part * part * o.variance * o.sharing;
+  }
+  const auto count = static_cast<double>(strips.size());
+  fit.strips = strips.size();
+  if (fit.strips == 0) return fit;
+  fit.before /= count;
+  fit.after /= count;
+  fit.expected_std =
+      std::sqrt(variance / (count * count) + trajectory_std * trajectory_std / count);
+  return fit;
+}
+
+}  // namespace
+
 void CalibrationReport::addControlPoints(const std::vector<ControlPoint>& control,
                                          const std::vector<AreaObservations>& observations,
-                                         const std::vector<bool>& used, double trajectory_std,
+                                         const std::vector<AreaUse>& used, double trajectory_std,
                                          CalibrationResult& result) const {
   const std::size_t first = observations.size() - control.size();
   for (std::size_t i = 0; i < control.size(); ++i) {
+    const ControlPoint& point = control[i];
     const AreaObservations& area = observations[first + i];
-    if (area.empty()) continue;
-    ControlPointFit fit;
-    fit.id = control[i].id;
-    if (control[i].kind == ControlPoint::Kind::patch) fit.component = "normal";
-    fit.sigma = control[i].sigma;
-    fit.used = used[first + i];
-    double variance = 0.0, shared = 0.0;
-    std::set<int> strips;
-    for (const PairObservation& o : area) {
-      strips.insert(o.b);
-      fit.before += o.aboveControl(o.misclosure);
-      fit.after += o.aboveControl(o.distance(result.biases()));
-      variance += o.variance;
-      shared += o.variance * o.sharing;
-    }
-    const auto count = static_cast<double>(area.size());
-    fit.strips = strips.size();
-    fit.before /= count;
-    fit.after /= count;
-    // Points of a patch share its error; the strips above a point are few.
-    const double of_mean = (fit.component == "normal" ? shared / count : variance) / count;
-    fit.expected_std =
-        std::sqrt(of_mean + trajectory_std * trajectory_std / static_cast<double>(fit.strips));
-    result.control_points.push_back(std::move(fit));
+    const auto add = [&](ControlPointFit fit, double sigma, bool is_used) {
+      if (fit.strips == 0) return;
+      fit.id = point.id;
+      fit.sigma = sigma;
+      fit.used = is_used;
+      result.control_points.push_back(std::move(fit));
+    };
+    const bool patch = point.kind == ControlPoint::Kind::patch;
+    add(heightFit(area, patch, result.biases(), trajectory_std), point.sigma,
+        used[first + i].heights);
+    const double in_plan = point.sigma_plan > 0.0 ? point.sigma_plan : point.sigma;
+    for (const int axis : {0, 1})
+      add(planFit(area, axis, result.biases(), trajectory_std), in_plan, used[first + i].plan);
   }
 }
 

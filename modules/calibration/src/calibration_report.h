@@ -12,6 +12,11 @@
 
 namespace pcl_als {
 
+/// Whether observations of an area have a weight: of heights and strips, and of targets in plan.
+struct AreaUse {
+  bool heights = false, plan = false;
+};
+
 /// Fills a CalibrationResult and adds the warnings.
 class CalibrationReport {
  public:
@@ -28,11 +33,10 @@ class CalibrationReport {
                      CalibrationResult& result) const;
 
   /// Residuals of every control point that a strip covers, from all pairs of the control areas
-  /// formed anew with the widest threshold. \a used: by area, whether the adjustment gave a pair of
-  /// it a weight.
+  /// formed anew with the widest threshold. \a used: by area, what the adjustment gave a weight.
   void addControlPoints(const std::vector<ControlPoint>& control,
                         const std::vector<AreaObservations>& observations,
-                        const std::vector<bool>& used, double trajectory_std,
+                        const std::vector<AreaUse>& used, double trajectory_std,
                         CalibrationResult& result) const;
 
   /// The estimated trajectory errors of each strip, with their standard deviations.

@@ -11,6 +11,7 @@
 #include <pcl_als/calibration/system_calibration_engine.h>
 
 #include "area_matcher.h"
+#include "calibration_report.h"
 #include "pair_weights.h"
 
 namespace pcl_als {
@@ -27,13 +28,15 @@ struct SystemCalibrationEngine::State {
   long redundancy() const {
     return static_cast<long>(weights.kept()) - static_cast<long>(choice.estimate.size());
   }
-  /// By area, whether any of its pairs has a weight.
-  std::vector<bool> usedAreas() const {
-    std::vector<bool> used;
-    for (const std::vector<double>& area : weights.weights()) {
-      used.push_back(std::any_of(area.begin(), area.end(), [](double w) { return w > 0.0; }));
+  /// Whether the adjustment gave observations of each area a weight.
+  std::vector<AreaUse> usedAreas() const {
+    std::vector<AreaUse> used(observations.size());
+    for (std::size_t area = 0; area < weights.weights().size(); ++area) {
+      for (std::size_t i = 0; i < weights.weights()[area].size(); ++i) {
+        if (!(weights.weights()[area][i] > 0.0)) continue;
+        (observations[area][i].isInPlan() ? used[area].plan : used[area].heights) = true;
+      }
     }
-    used.resize(observations.size(), false);
     return used;
   }
   /** \brief Phases of the iteration.

@@ -24,6 +24,13 @@ constexpr double kControlAreaSize = 4.0;  // metres: contains the patch at a con
 // estimated with the vertical model is one arc-second.
 constexpr double kVertical = 0.0087;
 
+/// Side of the area that contains a target wherever it is searched for, and the ground around it.
+double targetAreaSize(const ControlPoint& point, double window) {
+  constexpr double kAround = 2.0;  // diameters
+  if (point.kind != ControlPoint::Kind::target) return 0.0;
+  return 2.0 * window + kAround * point.diameter;
+}
+
 std::string seconds(double from, double to) {
   std::ostringstream text;
   text.precision(3);
@@ -283,7 +290,8 @@ void SystemCalibrationEngine::chooseAreas() {
   releaseMap();
   pair_areas_ = areas_.size();
   for (const ControlPoint& point : control_) {
-    const double size = std::max(kControlAreaSize, point.extent);
+    const double size = std::max(
+        {kControlAreaSize, point.extent, targetAreaSize(point, settings_.max_normal_distance)});
     const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * size);
     areas_.push_back({point.position.head<2>() - half, size, settings_.selection.margin});
   }

@@ -25,15 +25,6 @@ std::string inMetres(double value, const char* format = "%+.3f m") {
   return text;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i) {
-    text += (i == 0 ? "" : ", ") + names[i];
-  }
-  if (names.size() > kNamed) text += " and " + std::to_string(names.size() - kNamed) + " more";
-  return text;
-}
-
 struct Split {
   std::size_t lower = 0;  ///< points of the lower group
   double separation = 0.0, within = 0.0;
@@ -62,19 +53,35 @@ Split bestSplit(const std::vector<double>& values) {
 
 }  // namespace
 
+std::string listedNames(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  if (names.size() > kNamed) text += " and " + std::to_string(names.size() - kNamed) + " more";
+  return text;
+}
+
 ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& points) {
-  std::vector<double> standardised, expected;
-  RunningStatistics residuals;
+  std::vector<double> standardised, expected, plan;
+  RunningStatistics residuals, in_plan;
+  std::vector<const ControlPointFit*> order;  // all but positions of targets in plan
   for (const ControlPointFit& point : points) {
+    if (point.isInPlan()) {
+      plan.push_back(point.after / point.expected_std);
+      if (point.used) in_plan.add(point.after);
+      continue;
+    }
+    order.push_back(&point);
     expected.push_back(point.expected_std);
     if (point.expected_std > 0.0) standardised.push_back(point.after / point.expected_std);
     if (point.used) residuals.add(point.after);
   }
   rms = residuals.rms();
   if (standardised.size() >= kEnough) scatter = robustSigma(standardised);
-  if (points.size() < kEnough) return;
-  std::vector<const ControlPointFit*> order;
-  for (const ControlPointFit& point : points) order.push_back(&point);
+  plan_rms = in_plan.rms();
+  if (plan.size() >= kEnough) plan_scatter = robustSigma(plan);
+  if (order.size() < kEnough) return;
   std::sort(order.begin(), order.end(),
             [](const ControlPointFit* a, const ControlPointFit* b) { return a->after < b->after; });
   std::vector<double> values;
@@ -98,7 +105,7 @@ SystemVector controlSpread(const ControlConsistency& control,
     for (std::size_t i = 0; i < adjustment.control.size(); ++i) {
       if (std::find(group.begin(), group.end(), adjustment.control[i]) == group.end()) continue;
       for (PairObservation& o : moved[adjustment.first_control + i]) {
-        o.misclosure += shift * (o.along_normal ? 1.0 : o.normal.z());
+        if (!o.isInPlan()) o.misclosure += shift * o.effectOfControl();
       }
     }
     Adjustment solver(adjustment.errors, adjustment.threads);
@@ -131,25 +138,45 @@ std::string enlarge(const SystemVector& spread, CalibrationResult& result) {
   return names;
 }
 
+void warnOfPlan(const ControlConsistency& control, CalibrationResult& result) {
+  if (!(control.plan_scatter > kScatter)) return;
+  char times[32];
+  std::snprintf(times, sizeof times, "%.1f", control.plan_scatter);
+  result.warnings.push_back(
+      {"targets fit in plan with an RMS of " + inMetres(control.plan_rms, "%.3f m") + ", " + times +
+           " times what their stated standard deviations and those of the points and the "
+           "trajectory explain: check the coordinates and the diameters of the targets and the "
+           "datum of the trajectory, and state a realistic sigma_plan",
+       Remedy::control_sigma});
+}
+
 }  // namespace
 
 void judgeControl(const ControlConsistency& control, const SystemVector& spread,
                   CalibrationResult& result) {
-  std::vector<std::string> rejected;
+  std::vector<std::string> rejected, displaced;
   for (const ControlPointFit& point : result.control_points) {
-    if (!point.used) rejected.push_back(point.id + " (" + inMetres(point.after) + ")");
+    if (point.used) continue;
+    std::vector<std::string>& list = point.isInPlan() ? displaced : rejected;
+    const std::string direction = point.isInPlan() ? " " + point.component : "";
+    list.push_back(point.id + direction + " (" + inMetres(point.after) + ")");
   }
   if (!rejected.empty()) {
     result.warnings.push_back("control points rejected as outliers, strips above them by: " +
-                              listed(rejected));
+                              listedNames(rejected));
   }
+  if (!displaced.empty()) {
+    result.warnings.push_back("targets rejected in plan as outliers, displaced in the strips by: " +
+                              listedNames(displaced));
+  }
+  warnOfPlan(control, result);
   if (control.two_groups) {
     const std::string what = "the control points contradict each other: the strips lie " +
                              inMetres(control.separation, "%.3f m") + " higher above " +
                              std::to_string(control.higher.size()) + " of them (" +
-                             listed(control.higher) + ") than above the other " +
-                             std::to_string(control.lower.size()) + " (" + listed(control.lower) +
-                             ")";
+                             listedNames(control.higher) + ") than above the other " +
+                             std::to_string(control.lower.size()) + " (" +
+                             listedNames(control.lower) + ")";
     const std::string affected = enlarge(spread, result);
     const std::string effect =
         affected.empty() ? "; no parameter depends on it"

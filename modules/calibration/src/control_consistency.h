@@ -24,9 +24,11 @@ namespace pcl_als {
  */
 struct ControlConsistency {
   double scatter = 1.0;
-  double rms = 0.0;         ///< metres, of the residuals of the points that were used
-  bool two_groups = false;  ///< the other members below are set
-  double separation = 0.0;  ///< metres, between the groups' means
+  double rms = 0.0;  ///< metres, of the residuals of the points that were used
+  /// The same of the east and north coordinates of targets, which take no part in the groups.
+  double plan_scatter = 1.0, plan_rms = 0.0;
+  bool two_groups = false;                 ///< the other members below are set
+  double separation = 0.0;                 ///< metres, between the groups' means
   std::vector<std::string> higher, lower;  ///< ids, by the height of the strips above the points
 
   explicit ControlConsistency(const std::vector<ControlPointFit>& points);
@@ -52,6 +54,9 @@ struct ControlledAdjustment {
  */
 SystemVector controlSpread(const ControlConsistency& control,
                            const ControlledAdjustment& adjustment);
+
+/// The first names of a list and the number of the others, for a sentence.
+std::string listedNames(const std::vector<std::string>& names);
 
 /// Adds the assessment of control to a result: warnings that name rejected points and state where
 /// control is less accurate than given; for two groups an objection in the verdict, and standard

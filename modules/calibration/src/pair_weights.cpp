@@ -23,6 +23,11 @@ constexpr std::size_t kEnoughForScale = 30;
 // accidental.
 constexpr double kLeastScale = 0.25;
 
+bool isOfPlan(const PairWeights::Group& group) {
+  constexpr int kPlan = static_cast<int>(PairObservation::ControlError::plan);
+  return group.first == PairObservation::kControl && group.second == group.first - kPlan;
+}
+
 double robustWeight(double standardised, bool reject) {
   if (reject && std::abs(standardised) > kRejectionLimit) return 0.0;
   return huberWeight(standardised);
@@ -61,7 +66,7 @@ double unlikeliness(const Values& values, double pointing_factor) {
 }  // namespace
 
 PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
-  if (o.a == PairObservation::kControl) return {o.a, o.along_normal ? o.a - 1 : o.a};
+  if (o.a == PairObservation::kControl) return {o.a, o.a - static_cast<int>(o.control_error)};
   return {std::min(o.a, o.b), std::max(o.a, o.b)};
 }
 
@@ -88,7 +93,12 @@ void PairWeights::findScales(const std::vector<AreaObservations>& observations,
   });
   pointing_ = kFactors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
                                                 costs.begin())];
-  for (const auto& [group, values] : groups) scales_[group] = scatterOf(values, pointing_);
+  for (const auto& [group, values] : groups) {
+    // Places of targets are few, and unknowns of the strips fit them: their residuals are no
+    // evidence of a smaller variance.
+    const double least = isOfPlan(group) ? 1.0 : kLeastScale;
+    scales_[group] = std::max(scatterOf(values, pointing_), least);
+  }
 }
 
 void PairWeights::update(const std::vector<AreaObservations>& observations,

@@ -21,8 +21,8 @@ namespace pcl_als {
  */
 class PairWeights {
  public:
-  /// Strips of an observation, smaller first; all control together, because a single strip covers
-  /// few control points.
+  /// Strips of an observation, smaller first; all control of one kind together, because a single
+  /// strip covers few control points.
   using Group = std::pair<int, int>;
   static Group groupOf(const PairObservation& observation);
 

@@ -87,15 +87,24 @@ void SystemCalibrationEngine::formPairs(State& state) {
         i < pair_areas_
             ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise,
                             state.chosen_points, state.sampling)
-            : matcher.matchControl({control_[i - pair_areas_]}, state.threshold, *trajectory_,
-                                   settings_.noise, settings_.control_sigma);
+            : matcher.matchControl({control_[i - pair_areas_]}, controlThreshold(state, i),
+                                   *trajectory_, settings_.noise, settings_.control_sigma);
     removeSources(state.held_sources, state.observations[i]);
   });
   shareVectors(processes_, area_shares_, state.observations);
 }
 
+double SystemCalibrationEngine::controlThreshold(const State& state, std::size_t area) const {
+  // Strips that agree with each other may all be displaced in plan.
+  const bool target = control_[area - pair_areas_].kind == ControlPoint::Kind::target;
+  return target ? settings_.max_normal_distance : state.threshold;
+}
+
 void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
-  const auto seen = [](const AreaObservations& area) { return !area.empty(); };
+  const auto seen = [](const AreaObservations& area) {
+    return std::any_of(area.begin(), area.end(),
+                       [](const PairObservation& o) { return !o.isInPlan(); });
+  };
   const auto held = [this](const AreaObservations& area) {
     return std::any_of(area.begin(), area.end(),
                        [this](const PairObservation& o) { return isHeld(o); });
@@ -306,7 +315,8 @@ ErrorLevels SystemCalibrationEngine::errorLevels(const State& state) const {
 }
 
 void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& report,
-                                      const std::vector<bool>& used, CalibrationResult& result) {
+                                      CalibrationResult& result) {
+  const std::vector<AreaUse> used = state.usedAreas();
   state.threshold = settings_.max_normal_distance;
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
@@ -318,6 +328,7 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);
   report.addFit(state.observations, result.biases(), true, result);
   addHeldFit(state.observations, result.biases(), true, result);
+  warnOfTargets(result);
 }
 
 CalibrationResult SystemCalibrationEngine::calibrate() {
@@ -359,9 +370,8 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   if (!result.converged) weigh(state);  // the last pairs are newer than their weights
   information_ = state.adjustment.informationShares(state.choice.estimate);
   information_.resize(areas_.size(), 0.0);
-  const std::vector<bool> used = state.usedAreas();
   keepAdjusted(state, spans);
-  addFits(state, report, used, result);
+  addFits(state, report, result);
   result.misfit = misfit.change(state.observations, result.biases());
   diagnose(result);
   assessControl(state, errors, result);

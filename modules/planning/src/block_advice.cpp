@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include <pcl_als/common/count_text.h>
@@ -251,8 +252,11 @@ namespace {
 /// What the strips of a calibration are compared with besides each other.
 std::string controlText(const CalibrationResult& result) {
   std::size_t points = 0, patches = 0, surfaces = 0, strips = 0;
+  std::set<std::string> targets;  // with their heights, which are no other control points
   for (const ControlPointFit& fit : result.control_points)
-    ++(fit.component == "normal" ? patches : points);
+    if (fit.isInPlan()) targets.insert(fit.id);
+  for (const ControlPointFit& fit : result.control_points)
+    if (targets.count(fit.id) == 0) ++(fit.component == "normal" ? patches : points);
   for (const HeldSurface& surface : result.held) {
     strips += surface.strips.size();
     if (surface.strips.empty()) ++surfaces;
@@ -261,6 +265,7 @@ std::string controlText(const CalibrationResult& result) {
   if (points > 0) kinds.push_back(counted(points, "control point"));
   if (patches > 0)
     kinds.push_back(std::to_string(patches) + " planar patch" + (patches > 1 ? "es" : ""));
+  if (!targets.empty()) kinds.push_back(counted(targets.size(), "target"));
   if (surfaces > 0) kinds.push_back(counted(surfaces, "reference surface"));
   if (strips > 0) kinds.push_back(counted(strips, "fixed strip"));
   return joined(kinds);

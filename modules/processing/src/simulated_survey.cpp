@@ -99,16 +99,36 @@ std::string trajectoryText(const std::vector<TrajectorySample>& samples) {
   return text;
 }
 
-/// A column sigma only where there is one to state.
-std::string controlText(const std::vector<ControlPoint>& points, bool with_sigma) {
-  std::string text = with_sigma ? "id,x,y,z,sigma\n" : "id,x,y,z\n";
+/// Columns only where there is something to state.
+std::string controlText(const std::vector<ControlPoint>& points, const SimulationOptions& options) {
+  const bool with_sigma = options.noise.control > 0.0, with_targets = options.targets > 0;
+  std::string text = "id,x,y,z";
+  if (with_sigma) text += ",sigma";
+  if (with_targets) text += ",diameter";
+  text += '\n';
   for (const ControlPoint& p : points) {
     appendLine(text, "%s,%.4f,%.4f,%.4f", p.id.c_str(), p.position.x(), p.position.y(),
                p.position.z());
     if (with_sigma) appendLine(text, ",%.4f", p.sigma);
+    if (with_targets) text += ',';
+    if (p.kind == ControlPoint::Kind::target) appendLine(text, "%.3f", p.diameter);
     text += '\n';
   }
   return text;
+}
+
+/// The true centres of the targets.
+nlohmann::ordered_json targetsJson(const Simulator& simulator) {
+  auto json = nlohmann::ordered_json::array();
+  for (const ControlPoint& point : simulator.controlPoints()) {
+    if (point.kind != ControlPoint::Kind::target) continue;
+    const auto& disc = simulator.scene().targets()[json.size()].disc;
+    const Eigen::Vector3d centre = simulator.options().origin + disc.centre;
+    json.push_back({{"id", point.id},
+                    {"centre_m", {centre.x(), centre.y(), centre.z()}},
+                    {"diameter_m", 2.0 * disc.radius}});
+  }
+  return json;
 }
 
 std::string sitesText(const std::vector<simulation::LandCoverSite>& sites) {
@@ -234,7 +254,7 @@ std::string writeSurveyFiles(const Simulator& simulator, const std::filesystem::
   const auto control = simulator.controlPoints();
   const auto training = simulator.landCoverSites(60, 0), check = simulator.landCoverSites(150, 1);
   writeFile(folder / "trajectory.csv", trajectoryText(samples));
-  writeFile(folder / "control.csv", controlText(control, simulator.options().noise.control > 0.0));
+  writeFile(folder / "control.csv", controlText(control, simulator.options()));
   writeFile(folder / "training.csv", sitesText(training));
   writeFile(folder / "checkpoints.csv", sitesText(check));
   return grouped(samples.size()) + " samples, " + grouped(control.size()) + " control points, " +
@@ -275,6 +295,7 @@ void writeTruth(const Simulator& simulator, const std::string& noise_name,
                        {"temperature_c", s.atmosphere.temperature_c},
                        {"pressure_kpa", s.atmosphere.pressure_kpa}};
   json["scene"] = sceneJson(simulator);
+  if (s.targets > 0) json["targets"] = targetsJson(simulator);
   json["tool_version"] = PCL_ALS_VERSION;
   writeFile(options.folder / "truth.json", json.dump(1) + "\n");
 }

@@ -416,13 +416,19 @@ class ControlFit:
     def strip(self) -> str: ...
 
 class ControlPoint:
-    """A surveyed point on the ground, used vertically."""
-    def __init__(self, id: str, x: float, y: float, z: float, sigma: float = 0.0) -> None: ...
+    """A surveyed point on the ground, used vertically, or the centre of a target."""
+    def __init__(self, id: str, x: float, y: float, z: float, sigma: float = 0.0, diameter: float = 0.0, sigma_plan: float = 0.0) -> None: ...
+    @property
+    def diameter(self) -> float:
+        """of a level circular target, m; 0: not a target"""
     @property
     def id(self) -> str: ...
     @property
     def sigma(self) -> float:
         """standard deviation of the height, m; 0: not stated"""
+    @property
+    def sigma_plan(self) -> float:
+        """standard deviation of x and of y of a target, m; 0: that of the height"""
     @property
     def x(self) -> float:
         """m"""

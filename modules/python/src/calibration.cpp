@@ -123,11 +123,19 @@ void bindSettings(py::module_& m) {
 }
 
 void bindControl(py::module_& m) {
-  py::class_<ControlPoint>(m, "ControlPoint", "A surveyed point on the ground, used vertically.")
-      .def(py::init([](const std::string& id, double x, double y, double z, double sigma) {
-             return ControlPoint{id, Eigen::Vector3d(x, y, z), sigma};
+  py::class_<ControlPoint>(
+      m, "ControlPoint",
+      "A surveyed point on the ground, used vertically, or the centre of a target.")
+      .def(py::init([](const std::string& id, double x, double y, double z, double sigma,
+                       double diameter, double sigma_plan) {
+             ControlPoint point{id, Eigen::Vector3d(x, y, z), sigma};
+             if (diameter > 0.0) point.kind = ControlPoint::Kind::target;
+             point.diameter = diameter;
+             point.sigma_plan = sigma_plan;
+             return point;
            }),
-           py::arg("id"), py::arg("x"), py::arg("y"), py::arg("z"), py::arg("sigma") = 0.0)
+           py::arg("id"), py::arg("x"), py::arg("y"), py::arg("z"), py::arg("sigma") = 0.0,
+           py::arg("diameter") = 0.0, py::arg("sigma_plan") = 0.0)
       .def_readonly("id", &ControlPoint::id)
       .def_property_readonly(
           "x", [](const ControlPoint& p) { return p.position.x(); }, "m")
@@ -136,7 +144,11 @@ void bindControl(py::module_& m) {
       .def_property_readonly(
           "z", [](const ControlPoint& p) { return p.position.z(); }, "m")
       .def_readonly("sigma", &ControlPoint::sigma,
-                    "standard deviation of the height, m; 0: not stated");
+                    "standard deviation of the height, m; 0: not stated")
+      .def_readonly("diameter", &ControlPoint::diameter,
+                    "of a level circular target, m; 0: not a target")
+      .def_readonly("sigma_plan", &ControlPoint::sigma_plan,
+                    "standard deviation of x and of y of a target, m; 0: that of the height");
   m.def(
       "read_control", [](const std::filesystem::path& path) { return readControl(path); },
       py::arg("path"),

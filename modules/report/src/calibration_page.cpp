@@ -65,7 +65,7 @@ ReportTable controlTable(const CalibrationResult& result) {
 ReportTable controlPointTable(const CalibrationResult& result) {
   ReportTable table{"",
                     "Mean height of the strips above each control point (or distance along another "
-                    "component), m",
+                    "component: normal of a patch, east and north of a target), m",
                     {"point", "component", "strips", "before", "after", "expected std", "used"},
                     {}};
   for (const ControlPointFit& fit : result.control_points) {

@@ -117,6 +117,23 @@ void controlTable(const CalibrationResult& result, std::ostream& out) {
   }
 }
 
+/// The mean places of the targets in the strips.
+void targetTable(const CalibrationResult& result, std::ostream& out) {
+  const auto in_plan = [](const ControlPointFit& fit) { return fit.isInPlan(); };
+  if (std::none_of(result.control_points.begin(), result.control_points.end(), in_plan)) return;
+  out << "\nTargets in the strips to the east and north of the surveyed ones (m)\n\n"
+      << "| target          | axis  | strips |  before |   after | expected std | used |\n"
+      << "|-----------------|-------|--------|---------|---------|--------------|------|\n";
+  for (const ControlPointFit& fit : result.control_points) {
+    if (!fit.isInPlan()) continue;
+    out << "| " << std::left << std::setw(15) << fit.id << " | " << std::setw(5) << fit.component
+        << std::right << " | " << std::setw(6) << fit.strips << " | " << std::setprecision(4)
+        << std::showpos << std::setw(7) << fit.before << " | " << std::setw(7) << fit.after
+        << std::noshowpos << " | " << std::setw(12) << fit.expected_std << " | "
+        << (fit.used ? "yes " : "no  ") << " |\n";
+  }
+}
+
 /// What was held fixed, with the fit of the strips to it.
 void heldTable(const CalibrationResult& result, std::ostream& out) {
   if (result.held.empty()) return;
@@ -259,6 +276,7 @@ std::string calibrationTables(const CalibrationResult& result) {
   systemTables(result, out);
   pairTable(result, out);
   controlTable(result, out);
+  targetTable(result, out);
   heldTable(result, out);
   stripTable(result, out);
   diagnosisTable(result, out);

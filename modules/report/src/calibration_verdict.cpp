@@ -86,6 +86,22 @@ void addControl(const CalibrationResult& result, std::vector<std::string>& sente
                       std::to_string(result.control.size()) + " strips).");
 }
 
+void addTargets(const CalibrationResult& result, std::vector<std::string>& sentences) {
+  double squares_before = 0.0, squares_after = 0.0, count = 0.0;
+  for (const ControlPointFit& fit : result.control_points) {
+    if (!fit.isInPlan() || !fit.used) continue;
+    squares_before += fit.before * fit.before;
+    squares_after += fit.after * fit.after;
+    count += 0.5;
+  }
+  if (count == 0.0) return;
+  sentences.push_back("Targets fit in plan with an RMS of " +
+                      centimetres(std::sqrt(squares_after / count)) + " (" +
+                      centimetres(std::sqrt(squares_before / count)) + " as delivered; " +
+                      countText(static_cast<std::size_t>(count)) +
+                      " targets, distances of their mean places in the strips).");
+}
+
 }  // namespace
 
 Verdict verdictOf(const CalibrationResult& result) {
@@ -113,6 +129,7 @@ Verdict verdictOf(const CalibrationResult& result) {
     verdict.sentences.push_back(againstSpecification(after));
   }
   addControl(result, verdict.sentences);
+  addTargets(result, verdict.sentences);
   const auto worst = std::max_element(
       result.pairs.begin(), result.pairs.end(),
       [](const PairFit& a, const PairFit& b) { return a.rms_after < b.rms_after; });

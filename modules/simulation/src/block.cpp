@@ -130,30 +130,93 @@ int swathsOver(const Eigen::Vector2d& place, const SimulationOptions& options, d
   return count;
 }
 
+namespace {
+
+/// Calls \a take with places that suit control, spread over the block; fewer than \a count where
+/// there is no room. \param least_upward vertical component of the normal of the ground
+template <typename Take>
+void spreadPlaces(const Scene& scene, const SimulationOptions& options, int count,
+                  double least_upward, Places& places, const Take& take) {
+  std::vector<Eigen::Vector2d> taken;
+  const auto wanted = static_cast<std::size_t>(count);
+  const auto [lower, upper] = plannedRectangle(options);
+  double distance = std::sqrt((upper - lower).prod() / std::max<double>(1.0, count));
+  constexpr int kTries = 4000;  // after which the points may be closer together
+  for (int round = 0; round < 12 && taken.size() < wanted; ++round, distance *= 0.7)
+    for (int i = 0; i < kTries && taken.size() < wanted; ++i) {
+      const Eigen::Vector2d place = places.next();
+      if (!farFromAll(place, taken, distance) || !suitsControl(place, scene, options)) continue;
+      if (scene.terrain().normal(place.x(), place.y()).z() < least_upward) continue;
+      taken.push_back(place);
+      take(place);
+    }
+}
+
+/// The id of control: "GCP01" and so on.
+std::string numbered(const char* kind, std::size_t number) {
+  char id[32];
+  std::snprintf(id, sizeof id, "%s%02zu", kind, number);
+  return id;
+}
+
+/// The board lies just above the highest ground under it.
+Target targetAt(const Eigen::Vector2d& place, double radius, const Terrain& terrain) {
+  constexpr double kClearance = 0.02;  // metres
+  constexpr int kAround = 16;
+  double highest = terrain.height(place.x(), place.y());
+  for (int i = 0; i < kAround; ++i) {
+    const double angle = 2.0 * kPi * i / kAround;
+    highest = std::max(highest, terrain.height(place.x() + radius * std::cos(angle),
+                                               place.y() + radius * std::sin(angle)));
+  }
+  Target target;
+  target.disc = {{place.x(), place.y(), highest + kClearance}, radius};
+  return target;
+}
+
+void appendTargets(const Scene& scene, const SimulationOptions& options,
+                   std::vector<ControlPoint>& points) {
+  Random random(keyOf({options.seed, 0x7A63}));
+  const double sigma = options.noise.control;
+  for (std::size_t i = 0; i < scene.targets().size(); ++i) {
+    const Disc& disc = scene.targets()[i].disc;
+    ControlPoint& point = points.emplace_back();
+    point.id = numbered("TGT", i + 1);
+    point.kind = ControlPoint::Kind::target;
+    point.diameter = 2.0 * disc.radius;
+    point.position = options.origin + disc.centre;
+    for (int axis = 0; axis < 3; ++axis) point.position[axis] += sigma * random.normal();
+    point.sigma = point.sigma_plan = sigma;
+  }
+}
+
+}  // namespace
+
+std::vector<Target> chooseTargets(const Scene& scene, const SimulationOptions& options) {
+  constexpr double kNearlyLevel = 0.9976;  // cosine of 4 degrees
+  Places places(options, keyOf({options.seed, 0x7A62}));
+  std::vector<Target> targets;
+  spreadPlaces(scene, options, options.targets, kNearlyLevel, places,
+               [&](const Eigen::Vector2d& place) {
+                 targets.push_back(targetAt(place, 0.5 * options.target_diameter, scene.terrain()));
+               });
+  return targets;
+}
+
 std::vector<ControlPoint> chooseControlPoints(const Scene& scene,
                                               const SimulationOptions& options) {
   std::vector<ControlPoint> points;
-  std::vector<Eigen::Vector2d> taken;
-  const auto wanted = static_cast<std::size_t>(options.control_points);
   Places places(options, keyOf({options.seed, 0xC0}));
-  const auto [lower, upper] = plannedRectangle(options);
-  double distance =
-      std::sqrt((upper - lower).prod() / std::max<double>(1.0, options.control_points));
-  constexpr int kTries = 4000;  // after which the points may be closer together
-  for (int round = 0; round < 12 && points.size() < wanted; ++round, distance *= 0.7)
-    for (int i = 0; i < kTries && points.size() < wanted; ++i) {
-      const Eigen::Vector2d place = places.next();
-      if (!farFromAll(place, taken, distance) || !suitsControl(place, scene, options)) continue;
-      taken.push_back(place);
-      ControlPoint& point = points.emplace_back();
-      char id[16];
-      std::snprintf(id, sizeof id, "GCP%02zu", points.size());
-      point.id = id;
-      const double height = scene.terrain().height(place.x(), place.y());
-      point.position = options.origin + Eigen::Vector3d(place.x(), place.y(), height);
-      point.position.z() += options.noise.control * places.random().normal();
-      point.sigma = options.noise.control;
-    }
+  spreadPlaces(scene, options, options.control_points, 0.0, places,
+               [&](const Eigen::Vector2d& place) {
+                 ControlPoint& point = points.emplace_back();
+                 point.id = numbered("GCP", points.size());
+                 const double height = scene.terrain().height(place.x(), place.y());
+                 point.position = options.origin + Eigen::Vector3d(place.x(), place.y(), height);
+                 point.position.z() += options.noise.control * places.random().normal();
+                 point.sigma = options.noise.control;
+               });
+  appendTargets(scene, options, points);
   return points;
 }
 

@@ -17,6 +17,10 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> sceneRectangle(const SimulationOptio
 /// Number of planned swaths over a place, narrowed by a margin (metres).
 int swathsOver(const Eigen::Vector2d& place, const SimulationOptions& options, double margin);
 
+/// Level boards above open ground under several swaths.
+std::vector<Target> chooseTargets(const Scene& scene, const SimulationOptions& options);
+
+/// Points on the ground, then the surveyed centres of the targets of the scene.
 std::vector<ControlPoint> chooseControlPoints(const Scene& scene, const SimulationOptions& options);
 std::vector<LandCoverSite> chooseSites(const Scene& scene, const SimulationOptions& options,
                                        int per_class, int set);

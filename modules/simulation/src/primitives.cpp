@@ -53,4 +53,14 @@ std::optional<double> Ball::intersect(const Eigen::Vector3d& origin,
   return range;
 }
 
+std::optional<double> Disc::intersect(const Eigen::Vector3d& origin,
+                                      const Eigen::Vector3d& direction) const {
+  if (direction.z() == 0.0) return std::nullopt;
+  const double range = (centre.z() - origin.z()) / direction.z();
+  if (!(range > 0.0)) return std::nullopt;
+  const Eigen::Vector2d from = (origin + range * direction - centre).head<2>();
+  if (from.squaredNorm() > radius * radius) return std::nullopt;
+  return range;
+}
+
 }  // namespace pcl_als::simulation

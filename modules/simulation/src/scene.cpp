@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <pcl_als/simulation/scene.h>
@@ -45,17 +46,23 @@ std::uint8_t asprsClassOf(LandCover cover) {
 
 struct Scene::State {
   State(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, const SceneOptions& options,
-        std::uint64_t scene_seed)
+        std::uint64_t scene_seed, std::vector<Target> placed)
       : minimum(lower),
         maximum(upper),
         seed(scene_seed),
         terrain(lower, upper, options.relief, scene_seed, options.mountains),
-        cover(lower, upper, scene_seed) {
+        cover(lower, upper, scene_seed),
+        targets(std::move(placed)) {
     Layout layout = layOut(terrain, lower, upper, options, scene_seed, cover);
     buildings = std::move(layout.buildings);
     for (const Building& building : buildings) add(building);
     for (const Tree& tree : layout.trees) add(tree);
     tree_count = layout.trees.size();
+    for (const Target& target : targets) {
+      const Eigen::Vector3d& centre = target.disc.centre;
+      const double above = centre.z() - terrain.height(centre.x(), centre.y());
+      object_height = std::max(object_height, above + terrain.maximumSlope() * target.disc.radius);
+    }
     makeGrid();
   }
 
@@ -66,6 +73,11 @@ struct Scene::State {
                 SurfaceHit& hit) const;
   void collect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double ground,
                std::vector<SurfaceHit>& hits) const;
+  bool isBall(std::uint32_t object) const {
+    return object >= polygons.size() && object < polygons.size() + balls.size();
+  }
+  std::optional<double> rangeOf(std::uint32_t object, const Eigen::Vector3d& origin,
+                                const Eigen::Vector3d& direction) const;
   /// Range from which a ray that intersects the terrain at a given range can intersect an object.
   double objectsFrom(const Eigen::Vector3d& direction, double ground) const {
     const double sideways = std::hypot(direction.x(), direction.y());
@@ -82,6 +94,7 @@ struct Scene::State {
   std::vector<float> polygon_reflectance;
   std::vector<Ball> balls;
   std::vector<float> ball_reflectance;
+  std::vector<Target> targets;
   std::size_t tree_count = 0;
   double object_height = 0.0;  ///< bound of the heights of all objects above the ground near them
   ObjectGrid grid;
@@ -111,14 +124,25 @@ void Scene::State::add(const Tree& tree) {
 
 void Scene::State::makeGrid() {
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> boxes;
-  boxes.reserve(polygons.size() + balls.size());
+  boxes.reserve(polygons.size() + balls.size() + targets.size());
   for (const Polygon& p : polygons)
     boxes.emplace_back(p.minimum().head<2>(), p.maximum().head<2>());
   for (const Ball& b : balls) {
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(b.radius);
     boxes.emplace_back(b.centre.head<2>() - reach, b.centre.head<2>() + reach);
   }
+  for (const Target& t : targets) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(t.disc.radius);
+    boxes.emplace_back(t.disc.centre.head<2>() - reach, t.disc.centre.head<2>() + reach);
+  }
   grid = ObjectGrid(minimum, maximum, boxes);
+}
+
+std::optional<double> Scene::State::rangeOf(std::uint32_t object, const Eigen::Vector3d& origin,
+                                            const Eigen::Vector3d& direction) const {
+  if (object < polygons.size()) return polygons[object].intersect(origin, direction);
+  if (isBall(object)) return balls[object - polygons.size()].intersect(origin, direction);
+  return targets[object - polygons.size() - balls.size()].disc.intersect(origin, direction);
 }
 
 void Scene::State::collect(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
@@ -126,14 +150,12 @@ void Scene::State::collect(const Eigen::Vector3d& origin, const Eigen::Vector3d&
   const auto visit = [&](const std::uint32_t* first, const std::uint32_t* last, double from,
                          double to) {
     for (; first != last; ++first) {
-      const bool polygon = *first < polygons.size();
-      const auto range = polygon ? polygons[*first].intersect(origin, direction)
-                                 : balls[*first - polygons.size()].intersect(origin, direction);
+      const auto range = rangeOf(*first, origin, direction);
       if (!range || *range < from || *range >= to) continue;
       SurfaceHit& hit = hits.emplace_back();
       hit.range = *range;
       hit.object = *first;
-      hit.opacity = polygon ? 1.0 : kBallOpacity;
+      hit.opacity = isBall(*first) ? kBallOpacity : 1.0;
     }
   };
   grid.walk(origin, direction, objectsFrom(direction, ground), ground, visit);
@@ -160,6 +182,9 @@ void Scene::State::describe(const Eigen::Vector3d& origin, const Eigen::Vector3d
     hit.cover = LandCover::building;
     hit.reflectance = static_cast<float>(polygon_reflectance[hit.object] *
                                          textureAt(point.x(), point.y() + point.z(), seed));
+  } else if (!isBall(hit.object)) {
+    hit.cover = cover.at(point.x(), point.y());
+    hit.reflectance = targets[hit.object - polygons.size() - balls.size()].reflectance;
   } else {
     const Ball& ball = balls[hit.object - polygons.size()];
     hit.normal = (point - ball.centre) / ball.radius;
@@ -169,8 +194,8 @@ void Scene::State::describe(const Eigen::Vector3d& origin, const Eigen::Vector3d
 }
 
 Scene::Scene(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum,
-             const SceneOptions& options, std::uint64_t seed)
-    : state_(std::make_unique<const State>(minimum, maximum, options, seed)) {}
+             const SceneOptions& options, std::uint64_t seed, std::vector<Target> targets)
+    : state_(std::make_unique<const State>(minimum, maximum, options, seed, std::move(targets))) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
 
@@ -185,6 +210,9 @@ const std::vector<Polygon>& Scene::polygons() const {
 }
 const std::vector<Ball>& Scene::balls() const {
   return state_->balls;
+}
+const std::vector<Target>& Scene::targets() const {
+  return state_->targets;
 }
 std::size_t Scene::treeCount() const {
   return state_->tree_count;

@@ -139,6 +139,8 @@ void SimulationOptions::check() const {
   require(mean_pitch, -kLargest, kLargest, "mean pitch (rad)");
   require(largest_crab, 0.0, 2.0 * kLargest, "crab (rad)");
   require(control_points, 0, 100000, "number of control points");
+  require(targets, 0, 10000, "number of targets");
+  require(target_diameter, 0.1, 20.0, "diameter of targets (m)");
   require(noise.range, 0.0, 1.0, "range noise (m)");
   require(noise.scan_angle, 0.0, 0.01, "scan angle noise (rad)");
   require(noise.position, 0.0, 10.0, "position noise (m)");

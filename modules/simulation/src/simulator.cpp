@@ -37,7 +37,8 @@ Scene makeScene(const SimulationOptions& options) {
       throw UsageError("simulation: line " + std::to_string(line.id) +
                        " is flown into the terrain: more height or less relief is needed");
   }
-  return scene;
+  if (options.targets == 0) return scene;
+  return {lower, upper, options.scene, options.seed, chooseTargets(scene, options)};
 }
 
 std::vector<FlownLine> fly(const SimulationOptions& options) {

@@ -29,17 +29,23 @@ using PairTurn = Eigen::RowVector3f;
  */
 struct PairObservation {
   static constexpr int kControl = -1;
+  /// What the error of a control point is an error of.
+  enum class ControlError : std::int8_t {
+    height,
+    along_normal,  ///< of a planar patch
+    plan,          ///< of the position of a target in plan; the normal is horizontal
+  };
 
   int a = kControl, b = 0;
-  bool along_normal = false;  ///< of control: its error is one along the normal, not of the height
-  std::int32_t point = -1;    ///< of strip a, in the area's TIN; -1 for control
+  ControlError control_error = ControlError::height;  ///< of control only
+  std::int32_t point = -1;            ///< of strip a, in the area's TIN; -1 for control
   double time_a = 0.0, time_b = 0.0;  ///< times of emission of the point and of the patch, seconds
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
   /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are held
   /// fixed, whose rows are zero.
   PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
-  Eigen::Vector3d normal;                  ///< unit, upward, ground frame
+  Eigen::Vector3d normal;                  ///< unit, upward or horizontal, ground frame
   PairDesign design = PairDesign::Zero();  ///< A: row() = n' A
   /// Variance of the direction of the normal, rad^2; zero where the distance is vertical.
   double tilt_variance = 0.0;
@@ -65,10 +71,15 @@ struct PairObservation {
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 
   SystemRow row() const { return row_a - row_b; }
-  /// Of a distance from control: the strip above it, vertically or along the normal of a patch.
-  double aboveControl(double of_distance) const {
-    return -of_distance / (along_normal ? 1.0 : normal.z());
+  /// The plan position of a target; other control shows the height of strips above it.
+  bool isInPlan() const { return a == kControl && control_error == ControlError::plan; }
+  /// The effect of the error of a control point on the distance.
+  double effectOfControl() const {
+    return control_error == ControlError::height ? normal.z() : 1.0;
   }
+  /// Of a distance from control: the strip above it, vertically or along the normal of a patch; in
+  /// plan, the strip's target beyond the surveyed one in the direction of the normal.
+  double aboveControl(double of_distance) const { return -of_distance / effectOfControl(); }
   /// Normal distance of the corrected point above the corrected patch, metres.
   double distance(const SystemVector& biases) const {
     return misclosure - row() * biases - further;

@@ -242,10 +242,12 @@ class SystemCalibrationEngine {
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
   /// The noise of points and the sizes of the trajectory errors, as estimated.
   ErrorLevels errorLevels(const State& state) const;
-  /// Adds the fits of all pairs, formed anew with the result. \a used: by area, whether the
-  /// adjustment gave a pair of it a weight.
-  void addFits(State& state, const CalibrationReport& report, const std::vector<bool>& used,
-               CalibrationResult& result);
+  /// Adds the fits of all pairs, formed anew with the result.
+  void addFits(State& state, const CalibrationReport& report, CalibrationResult& result);
+  /// Names the strips that cover a target that was not located there.
+  void warnOfTargets(CalibrationResult& result) const;
+  /// The threshold of a control point; of a target, the size of the window that is searched.
+  double controlThreshold(const State& state, std::size_t area) const;
   /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
   /// Adds the parameters that differ between halves of the block.

@@ -71,16 +71,19 @@ struct ControlFit {
   double mean_before = 0.0, rms_before = 0.0, mean_after = 0.0, rms_after = 0.0;
 };
 
-/// One control point: mean distance of the strips above it, metres.
+/// One control point: mean distance of the strips above it, metres; a target has three, the
+/// others are those of its place in the strips to the east and north of the surveyed one.
 struct ControlPointFit {
   std::string id;
-  std::string component =
-      "height";            ///< direction of the distances: "height", or "normal" of a patch
+  /// Direction of the distances: "height", "normal" of a patch, "east" or "north" of a target.
+  std::string component = "height";
   std::size_t strips = 0;  ///< that see it on a smooth surface
   double sigma = 0.0;      ///< metres, as stated
   double before = 0.0, after = 0.0;
   double expected_std = 0.0;  ///< metres, of after: control, points and trajectory
   bool used = true;           ///< false: rejected as an outlier
+
+  bool isInPlan() const { return component == "east" || component == "north"; }
 };
 
 /// What a calibration held fixed: strips of an earlier delivery (all of them together), or a

@@ -29,6 +29,8 @@ struct ControlPoint {
   enum class Kind {
     height,  ///< on the ground, used vertically: against the TIN patch above or below it
     patch,   ///< centre of a planar patch (a roof), used along the normal of the patch
+    target,  ///< centre of a level circular target, used in three dimensions: it is found in the
+             ///< points by its contrast of intensity
   };
 
   std::string id;
@@ -38,6 +40,9 @@ struct ControlPoint {
   Kind kind = Kind::height;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of a patch; unit, upward
   double extent = 0.0;                                ///< diameter of a patch, metres
+  double diameter = 0.0;                              ///< of a target, metres
+  /// Standard deviation of each horizontal coordinate of a target, metres; 0: that of the height.
+  double sigma_plan = 0.0;
 };
 
 /// A square of ground whose points are kept; points up to \a margin outside belong to it too,

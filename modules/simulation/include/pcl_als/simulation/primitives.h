@@ -42,4 +42,15 @@ struct Ball {
                                   const Eigen::Vector3d& direction) const;
 };
 
+/// A level disc; opaque, visible from both sides.
+struct Disc {
+  Eigen::Vector3d centre;
+  double radius = 1.0;
+
+  /// Distance along the ray to the disc (border included); empty when the ray misses it or points
+  /// away.
+  std::optional<double> intersect(const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction) const;
+};
+
 }  // namespace pcl_als::simulation

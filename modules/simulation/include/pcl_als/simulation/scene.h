@@ -31,7 +31,8 @@ struct SurfaceHit {
   double opacity = 1.0;             ///< share of the arriving energy that stays; 1: nothing behind
   float reflectance = 0.0F;         ///< diffuse, at 1064 nm, with texture
   LandCover cover = LandCover::grass;
-  std::uint32_t object = kGround;  ///< index in polygons(), then in balls(); or kGround
+  std::uint32_t object = kGround;  ///< index in polygons(), then in balls(), then
+                                   ///< in targets(); or kGround
 };
 
 /// A house with its ridge along its axis, or a flat roof. Metres, local frame.
@@ -44,6 +45,12 @@ struct Building {
   double pitch = 0.0;                 ///< of the roof, radians; 0: flat
   double floor = 0.0;                 ///< lower end of the walls, under the terrain
   float roof_reflectance = 0.2F, wall_reflectance = 0.3F;
+};
+
+/// A level circular board above the ground. Local frame.
+struct Target {
+  Disc disc;
+  float reflectance = 0.85F;  ///< white paint at 1064 nm
 };
 
 /** \brief A suburb: terrain, streets, houses and trees, with reflectances, from a seed.
@@ -61,7 +68,7 @@ class Scene {
 
   /// Covers the rectangle; surfaces outside are not simulated.
   Scene(const Eigen::Vector2d& minimum, const Eigen::Vector2d& maximum, const SceneOptions& options,
-        std::uint64_t seed);
+        std::uint64_t seed, std::vector<Target> targets = {});
   ~Scene();
   Scene(Scene&&) noexcept;
 
@@ -69,6 +76,7 @@ class Scene {
   const std::vector<Building>& buildings() const;
   const std::vector<Polygon>& polygons() const;  ///< roofs and walls
   const std::vector<Ball>& balls() const;
+  const std::vector<Target>& targets() const;
   std::size_t treeCount() const;
   const Eigen::Vector2d& minimum() const;
   const Eigen::Vector2d& maximum() const;
@@ -80,11 +88,11 @@ class Scene {
   bool trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
              std::vector<SurfaceHit>& hits) const;
 
-  /// True when no building or tree is within \a radius (plan) of a ray that intersects the terrain
-  /// at \a ground_range.
+  /// True when no building, tree or target is within \a radius (plan) of a ray that intersects the
+  /// terrain at \a ground_range.
   bool isOpen(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double ground_range,
               double radius) const;
-  /// True when no building or tree is within \a radius of a place.
+  /// True when no building, tree or target is within \a radius of a place.
   bool isOpen(const Eigen::Vector2d& place, double radius) const;
 
   LandCover groundCover(double x, double y) const;  ///< of the bare ground

@@ -28,7 +28,7 @@ struct NoiseOptions {
   ErrorProcess process = ErrorProcess::gauss_markov;  ///< of the trajectory errors
   double correlation_time = 20.0;                     ///< seconds, of the trajectory errors
   double intensity = 0.0;                             ///< relative, white, one value per return
-  double control = 0.0;                               ///< metres, heights of the control points
+  double control = 0.0;    ///< metres, heights of control points, coordinates of targets
   bool footprint = false;  ///< returns are formed over the beam's footprint, not along its axis
 
   bool trajectory() const { return position > 0.0 || roll_pitch > 0.0 || heading > 0.0; }
@@ -90,6 +90,8 @@ struct SimulationOptions {
   double mean_pitch = 1.0 * kRadiansPerDegree;
   double largest_crab = 3.0 * kRadiansPerDegree;
   int control_points = 37;
+  int targets = 0;                               ///< circular targets, control in three dimensions
+  double target_diameter = 2.0;                  ///< metres
   SystemVector mounting = SystemVector::Zero();  ///< true parameters (scale: difference from 1)
   SystemVector bias = SystemVector::Zero();      ///< assumed - true, internal units
   ErrorSources errors;

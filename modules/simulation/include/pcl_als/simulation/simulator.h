@@ -76,7 +76,7 @@ class Simulator {
   std::vector<TrajectorySample> trajectory() const;
   std::vector<TrajectorySample> trueTrajectory() const;
 
-  /// Points on bare ground, clear of objects, where several strips overlap.
+  /// Points on bare ground, clear of objects, where several strips overlap, then the targets.
   std::vector<ControlPoint> controlPoints() const;
   /// \a per_class places for each of tree, grass, soil and built_up, away from borders; \a set
   /// gives independent sets (0: training, 1: check).
