@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -42,6 +43,23 @@ TEST(ParallelFor, RethrowsTheExceptionOfABody) {
     } catch (const std::runtime_error& error) {
       EXPECT_STREQ(error.what(), "chunk 37");
     }
+  }
+}
+
+// Chunk 1 fails while chunk 0 still runs: the message that users see is that of chunk 0.
+TEST(ParallelFor, RethrowsTheExceptionOfTheFirstChunk) {
+  std::atomic<bool> failed{false};
+  try {
+    parallelFor(2, 2, [&](std::size_t chunk) {
+      if (chunk == 1) failed = true;
+      for (int i = 0; chunk == 0 && !failed && i < 1000; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (chunk == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      throw std::runtime_error("chunk " + std::to_string(chunk));
+    });
+    FAIL() << "no exception";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "chunk 0");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/common/parallel.h>
@@ -16,6 +17,26 @@ namespace {
 
 std::atomic<int> limit{0};          // 0: the number of cores
 std::atomic<unsigned> reserved{0};  // threads beside their callers
+
+/// Of the failures of several chunks that of the first one. Chunks are begun in order, so it is the
+/// same one however threads are scheduled.
+class FirstFailure {
+ public:
+  void keep(std::size_t chunk, std::exception_ptr failure) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (failure_ && chunk_ < chunk) return;
+    chunk_ = chunk;
+    failure_ = std::move(failure);
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t chunk_ = 0;
+  std::exception_ptr failure_;
+};
 
 }  // namespace
 
@@ -52,14 +73,13 @@ void parallelFor(std::size_t chunk_count, int threads,
     return;
   }
   std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
+  FirstFailure failure;
   const auto work = [&] {
+    std::size_t chunk = next++;
     try {
-      for (std::size_t chunk = next++; chunk < chunk_count; chunk = next++) body(chunk);
+      for (; chunk < chunk_count; chunk = next++) body(chunk);
     } catch (...) {
-      const std::lock_guard<std::mutex> lock(failure_mutex);
-      if (!failure) failure = std::current_exception();
+      failure.keep(chunk, std::current_exception());
       next = chunk_count;
     }
   };
@@ -76,7 +96,7 @@ void parallelFor(std::size_t chunk_count, int threads,
   }
   work();
   for (std::thread& thread : pool) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  failure.rethrow();
 }
 
 }  // namespace pcl_als

@@ -13,8 +13,8 @@ unsigned threadCount(int requested);
 /** \brief Calls body(chunk) once for every chunk in [0, chunk_count), on up to \a threads threads.
  *
  * Which thread runs a chunk is not fixed; a result that must not depend on the number of threads is
- * kept per chunk and combined in chunk order afterwards. The first exception thrown by a body is
- * rethrown here once all threads ended.
+ * kept per chunk and combined in chunk order afterwards. Of the exceptions thrown by bodies that
+ * of the first chunk is rethrown here once all threads ended.
  */
 void parallelFor(std::size_t chunk_count, int threads,
                  const std::function<void(std::size_t chunk)>& body);
