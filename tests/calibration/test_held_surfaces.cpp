@@ -12,6 +12,7 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "expected_truth.h"
 #include "simulated_survey.h"
 
 namespace pcl_als {
@@ -20,6 +21,7 @@ namespace {
 using P = SystemParameter;
 using simulation::NoiseOptions;
 using simulation::SimulationOptions;
+using test::expectTruth;
 using test::SimulatedSurvey;
 
 /// Few points: all statements are relative to the standard deviations that follow from them.
@@ -70,15 +72,6 @@ CalibrationResult calibrated(const SimulatedSurvey& survey, std::vector<std::str
   request.settings.fixed = std::move(fixed);
   request.settings.fixed_sigma = sigma;
   return survey.loaded(request)->calibrate();
-}
-
-/// All estimates are within four standard deviations (a chance of 1e-4 each).
-void expectTruth(const CalibrationResult& result, const SystemVector& truth) {
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& p = result[info.parameter];
-    if (p.status != ParameterStatus::estimated) continue;
-    EXPECT_NEAR(p.bias, truth[indexOf(info.parameter)], 4.0 * p.std) << info.name;
-  }
 }
 
 TEST(FixedStrips, DetermineTheRangeBias) {

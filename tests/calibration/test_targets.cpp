@@ -11,6 +11,7 @@
 #include <pcl_als/common/statistics.h>
 
 #include "area_matcher.h"
+#include "expected_truth.h"
 #include "simulated_survey.h"
 
 namespace pcl_als {
@@ -19,6 +20,7 @@ namespace {
 using P = SystemParameter;
 using simulation::NoiseOptions;
 using simulation::SimulationOptions;
+using test::expectTruth;
 using test::SimulatedSurvey;
 
 constexpr double kRadius = 1.0;
@@ -176,15 +178,6 @@ CalibrationResult calibrated(const SimulatedSurvey& survey) {
   request.settings.diagnose = false;
   request.control = survey.control;
   return survey.loaded(request)->calibrate();
-}
-
-/// All estimates are within four standard deviations (a chance of 1e-4 each).
-void expectTruth(const CalibrationResult& result, const SystemVector& truth) {
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const ParameterEstimate& p = result[info.parameter];
-    if (p.status != ParameterStatus::estimated) continue;
-    EXPECT_NEAR(p.bias, truth[indexOf(info.parameter)], 4.0 * p.std) << info.name;
-  }
 }
 
 TEST(Targets, FitWithinTheirStandardDeviations) {

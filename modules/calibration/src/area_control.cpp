@@ -34,7 +34,7 @@ void shareControlError(const ControlPoint& point, std::size_t first, AreaObserva
     double others = 0.0;  // the axes of strips differ
     for (std::size_t k = first; k < found.size(); ++k)
       if (k != i && found[k].isInPlan()) others += std::abs(own.dot(errorEffect(found[k])));
-    o.sharing = 1.0 + others * point.sigma_plan * point.sigma_plan / o.variance;
+    o.sharing = 1.0 + others * std::pow(point.sigmaInPlan(), 2) / o.variance;
   }
 }
 
@@ -49,7 +49,6 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
   for (ControlPoint point : control) {
     if (!area_.contains(point.position)) continue;
     if (!(point.sigma > 0.0)) point.sigma = default_sigma;
-    if (!(point.sigma_plan > 0.0)) point.sigma_plan = point.sigma;
     const std::size_t first = found.size();
     for (std::size_t b = 0; b < strips_.size(); ++b) {
       const int strip = static_cast<int>(b);

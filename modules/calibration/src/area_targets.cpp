@@ -106,7 +106,7 @@ void AreaMatcher::addPlan(const ControlPoint& point, int strip, const TargetLoca
     const Eigen::Vector3d axis(axes.vectors(0, i), axes.vectors(1, i), 0.0);
     PairObservation o = controlObservation(point, strip, {axis, 0.0}, foot);
     o.control_error = PairObservation::ControlError::plan;
-    o.variance = axes.values[i] + point.sigma_plan * point.sigma_plan;
+    o.variance = axes.values[i] + std::pow(point.sigmaInPlan(), 2);
     o.pointing = 0.0;  // a part of the posterior of the centre, which the scatter shows
     o.sources[slope] = -lengthened * axis.dot(foot.beam);
     found.push_back(o);

@@ -202,9 +202,9 @@ void CalibrationReport::addControlPoints(const std::vector<ControlPoint>& contro
     const bool patch = point.kind == ControlPoint::Kind::patch;
     add(heightFit(area, patch, result.biases(), trajectory_std), point.sigma,
         used[first + i].heights);
-    const double in_plan = point.sigma_plan > 0.0 ? point.sigma_plan : point.sigma;
     for (const int axis : {0, 1})
-      add(planFit(area, axis, result.biases(), trajectory_std), in_plan, used[first + i].plan);
+      add(planFit(area, axis, result.biases(), trajectory_std), point.sigmaInPlan(),
+          used[first + i].plan);
   }
 }
 

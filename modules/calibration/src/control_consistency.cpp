@@ -138,22 +138,19 @@ std::string enlarge(const SystemVector& spread, CalibrationResult& result) {
   return names;
 }
 
-void warnOfPlan(const ControlConsistency& control, CalibrationResult& result) {
-  if (!(control.plan_scatter > kScatter)) return;
+/// Control that scatters more than its accuracy explains. \param fits "control fits" or what of it
+/// does; \param stated "its" or "their"; \param remedy what to check and to state
+Warning scatterWarning(const std::string& fits, double rms, double scatter,
+                       const std::string& stated, const std::string& remedy) {
   char times[32];
-  std::snprintf(times, sizeof times, "%.1f", control.plan_scatter);
-  result.warnings.push_back(
-      {"targets fit in plan with an RMS of " + inMetres(control.plan_rms, "%.3f m") + ", " + times +
-           " times what their stated standard deviations and those of the points and the "
-           "trajectory explain: check the coordinates and the diameters of the targets and the "
-           "datum of the trajectory, and state a realistic sigma_plan",
-       Remedy::control_sigma});
+  std::snprintf(times, sizeof times, "%.1f", scatter);
+  return {fits + " with an RMS of " + inMetres(rms, "%.3f m") + ", " + times + " times what " +
+              stated + " stated standard deviations and those of the points and the trajectory " +
+              "explain: " + remedy,
+          Remedy::control_sigma};
 }
 
-}  // namespace
-
-void judgeControl(const ControlConsistency& control, const SystemVector& spread,
-                  CalibrationResult& result) {
+void warnOfRejected(CalibrationResult& result) {
   std::vector<std::string> rejected, displaced;
   for (const ControlPointFit& point : result.control_points) {
     if (point.used) continue;
@@ -169,7 +166,19 @@ void judgeControl(const ControlConsistency& control, const SystemVector& spread,
     result.warnings.push_back("targets rejected in plan as outliers, displaced in the strips by: " +
                               listedNames(displaced));
   }
-  warnOfPlan(control, result);
+}
+
+}  // namespace
+
+void judgeControl(const ControlConsistency& control, const SystemVector& spread,
+                  CalibrationResult& result) {
+  warnOfRejected(result);
+  if (control.plan_scatter > kScatter) {
+    result.warnings.push_back(scatterWarning(
+        "targets fit in plan", control.plan_rms, control.plan_scatter, "their",
+        "check the coordinates and the diameters of the targets and the datum of the trajectory, "
+        "and state a realistic sigma_plan"));
+  }
   if (control.two_groups) {
     const std::string what = "the control points contradict each other: the strips lie " +
                              inMetres(control.separation, "%.3f m") + " higher above " +
@@ -184,14 +193,9 @@ void judgeControl(const ControlConsistency& control, const SystemVector& spread,
     result.warnings.push_back(what + effect);
     result.verdict.object(CalibrationStatus::parameters_affected, what + effect);
   } else if (control.scatter > kScatter) {
-    char times[32];
-    std::snprintf(times, sizeof times, "%.1f", control.scatter);
     result.warnings.push_back(
-        {"control fits with an RMS of " + inMetres(control.rms, "%.3f m") + ", " + times +
-             " times what its stated standard deviations and those of the points "
-             "and the trajectory explain: check the control points and state a "
-             "realistic sigma",
-         Remedy::control_sigma});
+        scatterWarning("control fits", control.rms, control.scatter, "its",
+                       "check the control points and state a realistic sigma"));
   }
 }
 

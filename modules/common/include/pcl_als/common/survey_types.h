@@ -43,6 +43,8 @@ struct ControlPoint {
   double diameter = 0.0;                              ///< of a target, metres
   /// Standard deviation of each horizontal coordinate of a target, metres; 0: that of the height.
   double sigma_plan = 0.0;
+
+  double sigmaInPlan() const { return sigma_plan > 0.0 ? sigma_plan : sigma; }
 };
 
 /// A square of ground whose points are kept; points up to \a margin outside belong to it too,
