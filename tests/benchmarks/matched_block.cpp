@@ -48,7 +48,7 @@ void MatchedBlock::prepare(const CalibrationSettings& settings) {
   for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
   const std::size_t candidates = candidatesPerStrip(settings.candidates, strips_in_areas);
   parallelFor(matchers_.size(), 0, [&](std::size_t i) {
-    matchers_[i].prepare(limits_, i < pair_areas_ ? candidates : 0, settings.resolution);
+    matchers_[i].prepare(limits_, i < pair_areas_ ? candidates : 0, settings.resolution, *flight_);
   });
 }
 

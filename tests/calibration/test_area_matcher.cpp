@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -54,7 +55,7 @@ AreaMatcher matcherOf(const std::vector<LidarReturn>& a, const std::vector<Lidar
   AreaMatcher matcher(kArea, 2);
   for (const LidarReturn& p : a) matcher.add(0, p);
   for (const LidarReturn& p : b) matcher.add(1, p);
-  matcher.prepare(SurfaceCriterion(), candidates, 0.001);
+  matcher.prepare(SurfaceCriterion(), candidates, 0.001, flight());
   return matcher;
 }
 
@@ -141,7 +142,7 @@ TEST(AreaMatcher, PatchesAreThoseOfTheWholeTin) {
   AreaMatcher whole(SurveyArea{{0.0, 0.0}, 50.0, 60.0}, 2);
   for (const LidarReturn& p : a) whole.add(0, p);
   for (const LidarReturn& p : b) whole.add(1, p);
-  whole.prepare(SurfaceCriterion(), 500, 0.001);
+  whole.prepare(SurfaceCriterion(), 500, 0.001, trajectory);
   ASSERT_GT(whole.pointCount(), 2 * part.pointCount());
   const PatchSurface &tin_of_part = part.surfaceOf(1), &tin_of_whole = whole.surfaceOf(1);
   for (const LidarReturn& p : a) {
@@ -166,6 +167,56 @@ TEST(AreaMatcher, CorrectsItsPoints) {
   // lifts them.
   const auto& moved = matcher.surfaceOf(0).tin().points();
   EXPECT_NEAR(moved[0].z() - a[0].position.z(), 0.1, 1e-4);
+}
+
+/// The second strip measures the area ahead of the sensor at \a first and behind it at \a second.
+AreaObservations pairsOfLooks(double first, double second, const Trajectory& trajectory) {
+  const auto a = sampled(12, -8.0, 58.0, {0, 0, 0});
+  auto b = sampled(13, -8.0, 58.0, {0, 0, 0.10}), back = sampled(14, -8.0, 58.0, {0, 0, -0.05});
+  for (LidarReturn& p : b) p.time = first;
+  for (LidarReturn& p : back) p.time = second;
+  b.insert(b.end(), back.begin(), back.end());
+  return matcherOf(a, b).match({{0, 1}}, 0.5, trajectory, NoiseModel());
+}
+
+TEST(AreaMatcher, MeasuresEachLookOfAConicalScanner) {
+  const Trajectory trajectory = flight();
+  const AreaObservations found = pairsOfLooks(5.0, 15.0, trajectory);
+  std::map<std::pair<int, int>, int> pairs;
+  for (const PairObservation& o : found) {
+    ++pairs[{o.surfaceA(), o.surfaceB()}];
+    const auto offset = [&](int strip, Look look) {
+      return strip == 0 ? 0.0 : look == Look::ahead ? 0.10 : -0.05;
+    };
+    const double expected = offset(o.a, o.look_a) - offset(o.b, o.look_b);
+    // Curvature; a triangle that joins both looks would be 0.05 m off on average.
+    EXPECT_NEAR(o.distance(SystemVector::Zero()), expected * o.normal.z(), 0.03);
+    const auto time = [&](int strip, Look look) {
+      return strip == 0 ? 10.0 : look == Look::ahead ? 5.0 : 15.0;
+    };
+    EXPECT_NEAR(o.time_a, time(o.a, o.look_a), 1e-9);
+    EXPECT_NEAR(o.time_b, time(o.b, o.look_b), 1e-9);
+  }
+  // Two looks with the other strip and with each other, in both directions.
+  const int ahead = PairObservation::surfaceIndex(1, Look::ahead),
+            back = PairObservation::surfaceIndex(1, Look::back);
+  ASSERT_EQ(pairs.size(), 6U);
+  for (const auto& [a, b] : {std::pair(0, ahead), {0, back}, {ahead, back}}) {
+    EXPECT_GT((pairs[{a, b}]), 100);
+    EXPECT_GT((pairs[{b, a}]), 100);
+  }
+}
+
+TEST(AreaMatcher, KeepsAStripWholeThatIsMeasuredOnce) {
+  const Trajectory trajectory = flight();
+  for (const double second : {10.2, 5.0}) {  // 10.2: successive lines; 5.0: only ahead
+    const double first = second < 10.0 ? 3.0 : 10.0;
+    for (const PairObservation& o : pairsOfLooks(first, second, trajectory)) {
+      ASSERT_NE(o.a, o.b);
+      ASSERT_EQ(o.look_a, Look::whole);
+      ASSERT_EQ(o.look_b, Look::whole);
+    }
+  }
 }
 
 struct MeanDistance {

@@ -81,7 +81,7 @@ AreaMatcher matcherOf(const std::vector<std::vector<LidarReturn>>& strips) {
   AreaMatcher matcher(kArea, strips.size());
   for (std::size_t i = 0; i < strips.size(); ++i)
     for (const LidarReturn& p : strips[i]) matcher.add(static_cast<int>(i), p);
-  matcher.prepare(SurfaceCriterion(), 0, 0.001);
+  matcher.prepare(SurfaceCriterion(), 0, 0.001, *flight());
   return matcher;
 }
 

@@ -50,37 +50,34 @@ AreaObservations AreaMatcher::matchControl(const std::vector<ControlPoint>& cont
     if (!area_.contains(point.position)) continue;
     if (!(point.sigma > 0.0)) point.sigma = default_sigma;
     const std::size_t first = found.size();
-    for (std::size_t b = 0; b < strips_.size(); ++b) {
-      const int strip = static_cast<int>(b);
-      if (strips_[b].biased.empty() || strips_[b].held()) continue;
+    for (const StripPart& part : surfaces_) {
+      if (part.biased.empty() || part.held()) continue;
       if (point.kind == ControlPoint::Kind::patch)
-        matchPatch(point, strip, threshold, foot, found);
+        matchPatch(point, part, threshold, foot, found);
       else if (point.kind == ControlPoint::Kind::target)
-        matchTarget(point, strip, threshold, noise, foot, vertex, found);
+        matchTarget(point, part, threshold, noise, foot, vertex, found);
       else
-        matchHeight(point, strip, threshold, foot, vertex, found);
+        matchHeight(point, part, threshold, foot, vertex, found);
     }
     shareControlError(point, first, found);
   }
   return found;
 }
 
-void AreaMatcher::matchHeight(const ControlPoint& point, int strip, double threshold,
+void AreaMatcher::matchHeight(const ControlPoint& point, const StripPart& part, double threshold,
                               PointGeometry& foot, PointGeometry& vertex,
                               AreaObservations& found) const {
-  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
   const auto match = part.surface.vertical(point.position);
   if (!match || std::abs(match->signed_normal_distance) > threshold) return;
   const PatchQuality quality = part.surface.quality(match->triangle);
   if (!criterion_.isSatisfiedBy(quality, part.median_edge) ||
       !foot.atFoot(part, *match, quality, vertex))
     return;
-  found.push_back(controlObservation(point, strip, measuringDirection(quality), foot));
+  found.push_back(controlObservation(point, part, measuringDirection(quality), foot));
 }
 
-void AreaMatcher::matchPatch(const ControlPoint& point, int strip, double threshold,
+void AreaMatcher::matchPatch(const ControlPoint& point, const StripPart& part, double threshold,
                              PointGeometry& measured, AreaObservations& found) const {
-  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
   PatchQuality plane;  // the surveyed plane, on which pulses are taken to end
   plane.plane_normal = point.normal;
   plane.plane_centre = point.position;
@@ -91,15 +88,16 @@ void AreaMatcher::matchPatch(const ControlPoint& point, int strip, double thresh
         (from - distance * point.normal).norm() > 0.5 * point.extent ||
         !measured.atPoint(part, static_cast<std::int32_t>(i), plane))
       continue;
-    found.push_back(controlObservation(point, strip, {point.normal, 0.0}, measured));
+    found.push_back(controlObservation(point, part, {point.normal, 0.0}, measured));
   }
 }
 
-PairObservation AreaMatcher::controlObservation(const ControlPoint& point, int strip,
+PairObservation AreaMatcher::controlObservation(const ControlPoint& point, const StripPart& part,
                                                 const Direction& direction,
                                                 const PointGeometry& foot) const {
   PairObservation o;
-  o.b = strip;
+  o.b = part.strip;
+  o.look_b = part.look;
   if (point.kind == ControlPoint::Kind::patch)
     o.control_error = PairObservation::ControlError::along_normal;
   o.time_a = o.time_b = foot.time;
@@ -110,7 +108,7 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, int s
   o.design = (-foot.design).cast<float>();
   o.row_b = o.normal.transpose() * foot.design;
   o.misclosure = o.normal.dot(point.position - foot.position) -
-                 o.effectAtPatch(corrected_for_[static_cast<std::size_t>(strip)]);
+                 o.effectAtPatch(corrected_for_[static_cast<std::size_t>(part.strip)]);
   o.sources = -foot.sourcesAlong(o.normal);
   const double sigma = point.sigma * o.effectOfControl();
   o.variance = normalVariance(foot.covariance, o.normal) + sigma * sigma;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/common/statistics.h>
@@ -14,16 +16,10 @@
 #include "point_geometry.h"
 
 namespace pcl_als {
-namespace {
-
-/// A strip with fewer points in an area and its margin has no TIN there.
-constexpr std::size_t kTooFew = 30;
-
-}  // namespace
 
 void AreaMatcher::add(int strip, const LidarReturn& point) {
   if (!area_.covers(point.position) || !isSurfacePoint(point)) return;
-  StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  StripPart& part = surfaces_[static_cast<std::size_t>(strip)];
   part.biased.push_back(point.position);
   part.times.push_back(point.time);
   part.single.push_back(point.isSingle());
@@ -32,53 +28,73 @@ void AreaMatcher::add(int strip, const LidarReturn& point) {
 }
 
 void AreaMatcher::put(int strip, ByteWriter& out) const {
-  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  const StripPart& part = surfaces_[static_cast<std::size_t>(strip)];
   out.putPlain(part.biased).put(part.times);
   out.put(std::vector<char>(part.single.begin(), part.single.end()));
   out.put(part.intensity).put(part.turning);
 }
 
 void AreaMatcher::get(int strip, ByteReader& in) {
-  StripPart& part = strips_[static_cast<std::size_t>(strip)];
+  StripPart& part = surfaces_[static_cast<std::size_t>(strip)];
   in.getPlain(part.biased).get(part.times);
   const auto single = in.take<std::vector<char>>();
   part.single.assign(single.begin(), single.end());
   in.get(part.intensity).get(part.turning);
 }
 
+void AreaMatcher::clear() {
+  surfaces_.assign(corrected_for_.size(), StripPart());
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) surfaces_[i].strip = static_cast<int>(i);
+}
+
 std::size_t AreaMatcher::pointCount() const {
   std::size_t count = 0;
-  for (const StripPart& part : strips_) count += part.biased.size();
+  for (const StripPart& part : surfaces_) count += part.biased.size();
   return count;
 }
 
 std::size_t AreaMatcher::stripCount() const {
   return static_cast<std::size_t>(std::count_if(
-      strips_.begin(), strips_.end(), [](const StripPart& part) { return !part.biased.empty(); }));
+      surfaces_.begin(), surfaces_.end(),
+      [](const StripPart& part) { return !part.biased.empty() && part.look != Look::back; }));
 }
 
-std::optional<TimeSpan> AreaMatcher::timesOf(int strip) const {
-  const std::vector<double>& times = strips_[static_cast<std::size_t>(strip)].times;
-  if (times.empty()) return std::nullopt;
-  const auto [first, last] = std::minmax_element(times.begin(), times.end());
-  return TimeSpan(*first, *last);
+std::vector<TimeSpan> AreaMatcher::timesOf(int strip) const {
+  std::vector<TimeSpan> spans;
+  for (const StripPart& part : surfaces_) {
+    if (part.strip != strip || part.times.empty()) continue;
+    const auto [first, last] = std::minmax_element(part.times.begin(), part.times.end());
+    spans.emplace_back(*first, *last);
+  }
+  return spans;
+}
+
+void AreaMatcher::buildSurface(StripPart& part, double resolution) const {
+  part.surface = PatchSurface(Tin(part.biased, resolution));
+  part.median_edge = typicalPlanEdge(part.surface.tin());
 }
 
 void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candidates,
-                          double resolution) {
+                          double resolution, const Trajectory& trajectory) {
   criterion_ = criterion;
-  for (StripPart& part : strips_) {
+  for (std::size_t strip = 0; strip < corrected_for_.size(); ++strip) {
+    StripPart& part = surfaces_[strip];
     if (part.biased.size() < kTooFew) {
       part = StripPart();
+      part.strip = static_cast<int>(strip);
       continue;
     }
     // A polygon turns one way, and many files do not say which: a constant sign says nothing.
     const auto constant = [&](std::int8_t sign) { return sign == part.turning.front(); };
     if (std::all_of(part.turning.begin(), part.turning.end(), constant))
       std::fill(part.turning.begin(), part.turning.end(), std::int8_t{0});
-    part.surface = PatchSurface(Tin(part.biased, resolution));
-    part.median_edge = typicalPlanEdge(part.surface.tin());
-    chooseCandidates(part, candidates);
+    buildSurface(part, resolution);
+    if (!divideByLook(strip, resolution, trajectory)) {
+      chooseCandidates(part, candidates);
+      continue;
+    }
+    chooseCandidates(surfaces_[strip], candidates / 2);
+    chooseCandidates(surfaces_.back(), candidates / 2);
   }
 }
 
@@ -123,7 +139,7 @@ void AreaMatcher::collectSourceScale(const Trajectory& trajectory, double& large
   constexpr std::size_t kEvery = 16;  // points
   std::size_t cursor = 0;
   SensorPose pose;
-  for (const StripPart& part : strips_) {
+  for (const StripPart& part : surfaces_) {
     for (std::size_t i = 0; i < part.biased.size() && !part.held(); i += kEvery) {
       intensities.push_back(part.intensity[i]);
       if (trajectory.poseAt(part.times[i], pose, cursor))
@@ -133,7 +149,7 @@ void AreaMatcher::collectSourceScale(const Trajectory& trajectory, double& large
 }
 
 void AreaMatcher::collectRoughness(std::vector<double>& values) const {
-  for (const StripPart& part : strips_) {
+  for (const StripPart& part : surfaces_) {
     values.insert(values.end(), part.roughness.begin(), part.roughness.end());
   }
 }
@@ -144,14 +160,15 @@ void AreaMatcher::keep(const AreaObservations& observations,
   for (const ChosenPair& pair : chosen) {
     const PairObservation& o = observations[pair.index];
     if (o.a != PairObservation::kControl)
-      kept_[{o.a, o.b}].push_back({o.point, o.sharing / pair.represented, pair.offset});
+      kept_[{o.surfaceA(), o.surfaceB()}].push_back(
+          {o.point, o.sharing / pair.represented, pair.offset});
   }
 }
 
 void AreaMatcher::correct(const std::vector<StripCorrection>& corrections) {
-  for (std::size_t strip = 0; strip < strips_.size(); ++strip) {
-    StripPart& part = strips_[strip];
+  for (StripPart& part : surfaces_) {
     if (part.held()) continue;
+    const auto strip = static_cast<std::size_t>(part.strip);
     const StripCorrection& correction = corrections[strip];
     corrected_for_[strip] << correction.biases->biases(), correction.offset;
     const std::size_t count = part.biased.size();
@@ -199,51 +216,96 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
   observation.sources = point.sourcesAlong(normal) - foot.sourcesAlong(normal);
 }
 
+std::vector<std::pair<std::size_t, std::size_t>> AreaMatcher::surfacePairs(
+    const std::vector<StripPair>& pairs) const {
+  const std::size_t strips = corrected_for_.size();
+  std::vector<std::size_t> back(strips, 0);  // 0: not divided
+  for (std::size_t i = strips; i < surfaces_.size(); ++i)
+    back[static_cast<std::size_t>(surfaces_[i].strip)] = i;
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  const auto add = [&](std::size_t a, std::size_t b) {
+    if (!surfaces_[a].biased.empty() && !surfaces_[b].biased.empty())
+      found.insert(found.end(), {{a, b}, {b, a}});
+  };
+  for (const auto& [first, second] : pairs) {
+    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
+    add(a, b);
+    if (back[a] != 0) add(back[a], b);
+    if (back[b] != 0) add(a, back[b]);
+    if (back[a] != 0 && back[b] != 0) add(back[a], back[b]);
+  }
+  std::set<int> paired;
+  for (const auto& [first, second] : pairs) paired.insert({first, second});
+  for (const int strip : paired) {
+    const auto index = static_cast<std::size_t>(strip);
+    if (back[index] != 0 && !surfaces_[index].held()) add(index, back[index]);
+  }
+  return found;
+}
+
+struct AreaMatcher::Matching {
+  using Geometry = std::tuple<const Trajectory&, const NoiseModel&, const ErrorSourceScale*>;
+  Matching(double limit, Points which, std::size_t step, const std::vector<std::size_t>& points,
+           const Geometry& geometry)
+      : threshold(limit),
+        chosen(which),
+        every(step),
+        shares(points),
+        point(std::make_from_tuple<PointGeometry>(geometry)),
+        foot(std::make_from_tuple<PointGeometry>(geometry)),
+        vertex(std::make_from_tuple<PointGeometry>(geometry)) {}
+
+  double threshold;
+  Points chosen;
+  std::size_t every;
+  NoiseShares shares;
+  PointGeometry point, foot, vertex;
+};
+
+void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b,
+                                AreaObservations& found) const {
+  const StripPart &from = surfaces_[a], &to = surfaces_[b];
+  PairObservation observation;
+  observation.a = from.strip, observation.look_a = from.look;
+  observation.b = to.strip, observation.look_b = to.look;
+  const bool all = matching.chosen == Points::candidates;
+  const auto kept = kept_.find({observation.surfaceA(), observation.surfaceB()});
+  if (!all && kept == kept_.end()) return;
+  const SurfaceCriterion criterion = criterionOf(to);
+  const std::size_t count = all ? from.candidates.size() : kept->second.size();
+  for (std::size_t c = 0; c < count; c += all ? matching.every : 1) {
+    const std::int32_t i = all ? from.candidates[c] : kept->second[c].point;
+    const auto match = to.surface.closest(from.surface.tin().points()[i], matching.threshold);
+    if (!match) continue;
+    const PatchQuality quality = to.surface.quality(match->triangle);
+    if (!criterion.isSatisfiedBy(quality, to.median_edge) ||
+        !matching.point.atPoint(from, i, quality) ||
+        !matching.foot.atFoot(to, *match, quality, matching.vertex))
+      continue;
+    observation.point = i;
+    measure(matching.point, matching.foot, quality, observation);
+    matching.shares.add(a, i, b, to.surface.tin().triangles()[match->triangle], match->weights,
+                        normalVariance(matching.point.covariance, observation.normal),
+                        normalVariance(matching.vertex.covariance, observation.normal));
+    if (!all) {
+      observation.sharing = kept->second[c].sharing;
+      observation.offset = kept->second[c].offset;
+      observation.misclosure += observation.offset;
+    }
+    found.push_back(observation);
+  }
+}
+
 AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
                                     const Trajectory& trajectory, const NoiseModel& noise,
                                     Points chosen, std::size_t every) const {
   AreaObservations found;
   std::vector<std::size_t> points;
-  for (const StripPart& part : strips_) points.push_back(part.biased.size());
-  NoiseShares shares(points);
-  const ErrorSourceScale* scale = source_scale_ ? &*source_scale_ : nullptr;
-  PointGeometry point(trajectory, noise, scale), foot(trajectory, noise, scale),
-      vertex(trajectory, noise, scale);
-  const bool all = chosen == Points::candidates;
-  for (std::size_t k = 0; k < 2 * pairs.size(); ++k) {
-    const StripPair& pair = pairs[k / 2];
-    PairObservation observation;
-    observation.a = k % 2 == 0 ? pair.first : pair.second;
-    observation.b = k % 2 == 0 ? pair.second : pair.first;
-    const StripPart& a = strips_[observation.a];
-    const StripPart& b = strips_[observation.b];
-    if (b.biased.empty()) continue;
-    const auto kept = kept_.find({observation.a, observation.b});
-    if (!all && kept == kept_.end()) continue;
-    const SurfaceCriterion criterion = criterionOf(b);
-    const std::size_t count = all ? a.candidates.size() : kept->second.size();
-    for (std::size_t c = 0; c < count; c += all ? every : 1) {
-      const std::int32_t i = all ? a.candidates[c] : kept->second[c].point;
-      const auto match = b.surface.closest(a.surface.tin().points()[i], threshold);
-      if (!match) continue;
-      const PatchQuality quality = b.surface.quality(match->triangle);
-      if (!criterion.isSatisfiedBy(quality, b.median_edge) || !point.atPoint(a, i, quality) ||
-          !foot.atFoot(b, *match, quality, vertex))
-        continue;
-      observation.point = i;
-      measure(point, foot, quality, observation);
-      shares.add(observation, b.surface.tin().triangles()[match->triangle], match->weights,
-                 normalVariance(point.covariance, observation.normal),
-                 normalVariance(vertex.covariance, observation.normal));
-      if (!all) {
-        observation.sharing = kept->second[c].sharing;
-        observation.offset = kept->second[c].offset;
-        observation.misclosure += observation.offset;
-      }
-      found.push_back(observation);
-    }
-  }
-  if (all) shares.setSharing(found);
+  for (const StripPart& part : surfaces_) points.push_back(part.biased.size());
+  Matching matching(threshold, chosen, every, points,
+                    {trajectory, noise, source_scale_ ? &*source_scale_ : nullptr});
+  for (const auto& [a, b] : surfacePairs(pairs)) matchSurfaces(matching, a, b, found);
+  if (chosen == Points::candidates) matching.shares.setSharing(found);
   found.shrink_to_fit();
   return found;
 }

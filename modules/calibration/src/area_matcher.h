@@ -41,14 +41,16 @@ struct TargetInStrip {
 class AreaMatcher {
  public:
   AreaMatcher(const SurveyArea& area, std::size_t strips)
-      : area_(area), strips_(strips), corrected_for_(strips, SystemUnknowns::Zero()) {}
+      : area_(area), corrected_for_(strips, SystemUnknowns::Zero()) {
+    clear();
+  }
 
   void add(int strip, const LidarReturn& point);
   /// The points of a strip stay where they are. \a std: of their coordinates, metres; \a flown:
   /// their times are those of the trajectory.
   void hold(int strip, double std, bool flown) {
-    strips_[static_cast<std::size_t>(strip)].held_std = std;
-    strips_[static_cast<std::size_t>(strip)].flown = flown;
+    surfaces_[static_cast<std::size_t>(strip)].held_std = std;
+    surfaces_[static_cast<std::size_t>(strip)].flown = flown;
   }
   const SurveyArea& area() const { return area_; }
   std::size_t pointCount() const;
@@ -56,17 +58,25 @@ class AreaMatcher {
   void put(int strip, ByteWriter& out) const;
   void get(int strip, ByteReader& in);
   bool hasPoints(int strip) const {
-    return !strips_[static_cast<std::size_t>(strip)].biased.empty();
+    return !surfaces_[static_cast<std::size_t>(strip)].biased.empty();
   }
-  void clear() { strips_.assign(strips_.size(), StripPart()); }  ///< deletes all points
+  void clear();                    ///< deletes all points
   std::size_t stripCount() const;  ///< strips with points in the area or its margin
 
-  /// Times at which a strip measured the area with its margin; empty without points in it.
-  std::optional<TimeSpan> timesOf(int strip) const;
+  /// Times at which a strip measured the area with its margin, a span for each of its surfaces.
+  std::vector<TimeSpan> timesOf(int strip) const;
 
-  /// Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
-  /// aspects.
-  void prepare(const SurfaceCriterion& criterion, std::size_t candidates, double resolution);
+  /** \brief Builds the TINs and chooses at most \a candidates points a strip, even over slopes and
+   * aspects.
+   *
+   * Where a strip measures the same ground twice within seconds (conical scanners; several planes
+   * whose channels are not recorded), the points ahead of the sensor and those behind it form
+   * surfaces of their own, which also form pairs with each other. Triangles with vertices of both
+   * looks would have trajectory errors of two times, which differ by centimetres and are the same
+   * for all pairs of the area, and biases of two directions of the pulse.
+   */
+  void prepare(const SurfaceCriterion& criterion, std::size_t candidates, double resolution,
+               const Trajectory& trajectory);
   /// Roughness of the patches under the candidates of all strips on gentle slopes, metres (for
   /// setting the limit).
   void collectRoughness(std::vector<double>& values) const;
@@ -87,9 +97,10 @@ class AreaMatcher {
   /// these pairs have the weight of those that they represent.
   void keep(const AreaObservations& observations, const std::vector<ChosenPair>& chosen);
 
-  /// The TIN of a strip, as corrected last; empty where the strip has too few points in the area.
+  /// The TIN of a strip (or of its look ahead), as corrected last; empty where the strip has too
+  /// few points in the area.
   const PatchSurface& surfaceOf(int strip) const {
-    return strips_[static_cast<std::size_t>(strip)].surface;
+    return surfaces_[static_cast<std::size_t>(strip)].surface;
   }
 
   /// The correction of the points of a strip; not used of strips that are held fixed.
@@ -101,7 +112,7 @@ class AreaMatcher {
   void correct(const std::vector<StripCorrection>& corrections);
   /// All strips alike.
   void correct(const BiasEvaluator& biases) {
-    correct(std::vector<StripCorrection>(strips_.size(), {&biases}));
+    correct(std::vector<StripCorrection>(corrected_for_.size(), {&biases}));
   }
 
   /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
@@ -119,7 +130,13 @@ class AreaMatcher {
                                        const Trajectory& trajectory, const NoiseModel& noise) const;
 
  private:
+  /// Fewer points of a strip or a look in the area and its margin form no surface.
+  static constexpr std::size_t kTooFew = 30;
+
+  /// The points of a strip, or those of one look, and their TIN.
   struct StripPart {
+    int strip = 0;
+    Look look = Look::whole;
     std::vector<Eigen::Vector3d> biased;  ///< ground frame, as read
     std::vector<double> times;
     std::vector<bool> single;
@@ -136,6 +153,13 @@ class AreaMatcher {
   };
   class PointGeometry;
 
+  void buildSurface(StripPart& part, double resolution) const;
+  /// Divides the points of a strip by look where that separates times which its TIN mixes.
+  bool divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory);
+  /// The surfaces of the point and of the patch, one entry for each direction: of all looks of
+  /// these strips, and of the two looks of each strip.
+  std::vector<std::pair<std::size_t, std::size_t>> surfacePairs(
+      const std::vector<StripPair>& pairs) const;
   /// The criterion of a strip's patches: that of the block, or of the points of a surface that are
   /// noisier.
   SurfaceCriterion criterionOf(const StripPart& part) const;
@@ -149,38 +173,44 @@ class AreaMatcher {
     double variance = 0.0;  ///< rad^2
   };
   Direction measuringDirection(const PatchQuality& quality) const;
+  /// The pairs of the points of one surface with the patches of another.
+  struct Matching;
+  void matchSurfaces(Matching& matching, std::size_t a, std::size_t b,
+                     AreaObservations& found) const;
   /// Fills the equation of the pair of a point and its foot in a patch.
   void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
                PairObservation& observation) const;
   // The pairs of a control point with one strip.
-  void matchHeight(const ControlPoint& point, int strip, double threshold, PointGeometry& foot,
-                   PointGeometry& vertex, AreaObservations& found) const;
+  void matchHeight(const ControlPoint& point, const StripPart& part, double threshold,
+                   PointGeometry& foot, PointGeometry& vertex, AreaObservations& found) const;
   /// All single returns on the patch.
-  void matchPatch(const ControlPoint& point, int strip, double threshold, PointGeometry& measured,
-                  AreaObservations& found) const;
+  void matchPatch(const ControlPoint& point, const StripPart& part, double threshold,
+                  PointGeometry& measured, AreaObservations& found) const;
   /// Searches a target in a strip; its certain returns are those of the strip.
-  TargetLocation targetIn(const ControlPoint& point, int strip, double window,
+  TargetLocation targetIn(const ControlPoint& point, const StripPart& part, double window,
                           const NoiseModel& noise, PointGeometry& measured) const;
   /// The height and the plan position of a target that is located in a strip.
-  void matchTarget(const ControlPoint& point, int strip, double window, const NoiseModel& noise,
-                   PointGeometry& foot, PointGeometry& vertex, AreaObservations& found) const;
+  void matchTarget(const ControlPoint& point, const StripPart& part, double window,
+                   const NoiseModel& noise, PointGeometry& foot, PointGeometry& vertex,
+                   AreaObservations& found) const;
   /// \param vertex a return of the target; \param foot its centre, which gets the height
-  void addHeight(const ControlPoint& point, int strip, const TargetLocation& target,
+  void addHeight(const ControlPoint& point, const StripPart& part, const TargetLocation& target,
                  const PointGeometry& vertex, PointGeometry& foot, AreaObservations& found) const;
   /// Along the principal axes of the covariance of the place, whose errors are independent.
-  void addPlan(const ControlPoint& point, int strip, const TargetLocation& target,
+  void addPlan(const ControlPoint& point, const StripPart& part, const TargetLocation& target,
                const PointGeometry& foot, AreaObservations& found) const;
-  PairObservation controlObservation(const ControlPoint& point, int strip,
+  PairObservation controlObservation(const ControlPoint& point, const StripPart& part,
                                      const Direction& direction, const PointGeometry& foot) const;
   void chooseCandidates(StripPart& part, std::size_t count) const;
 
   SurveyArea area_;
-  std::vector<StripPart> strips_;
+  /// By strip; looks back at the end.
+  std::vector<StripPart> surfaces_;
   struct KeptPoint {
     std::int32_t point = 0;
     double sharing = 1.0, offset = 0.0;  ///< of its pair, see ChosenPair
   };
-  /// Points of the first strip that form pairs with the second.
+  /// Points of the first surface that form pairs with the second, PairObservation::surfaceIndex().
   std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;
   SurfaceCriterion criterion_;
   std::vector<SystemUnknowns> corrected_for_;     ///< by strip, taken out of the surfaces

@@ -15,8 +15,8 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   knots.fill(-1);
   row.head<kSystemParameterCount>() = o.row();
   if (o.a != PairObservation::kControl)
-    place({0, o.a, o.time_a, 1.0, o.row_a, o.turn_a}, o.normal, errors);
-  place({1, o.b, o.time_b, -1.0, o.row_b, o.turn_b}, o.normal, errors);
+    place({0, o.a, o.surfaceA(), o.time_a, 1.0, o.row_a, o.turn_a}, o.normal, errors);
+  place({1, o.b, o.surfaceB(), o.time_b, -1.0, o.row_b, o.turn_b}, o.normal, errors);
   for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
     knots[kKnots + i] = errors.instrumentBlock() + i;
   row.segment<kErrorSourceCount>(kInstrument) = o.sources;
@@ -25,7 +25,7 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
 void TouchedRow::place(const Side& side, const Eigen::Vector3d& normal,
                        const SharedErrors& errors) {
   if (errors.systems().isFlown(side.strip)) placeKnots(side, normal, errors);
-  strips[static_cast<std::size_t>(side.index)] = side.strip;
+  surfaces[static_cast<std::size_t>(side.index)] = side.surface;
   row.segment<kShift>(shift(side.index)) =
       side.sign * errors.shiftScale(side.strip) * normal.transpose();
   placeSystem(side, normal, errors);
@@ -58,8 +58,8 @@ void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
 
 namespace {
 
-/// Sums over observations of the same knots and strips; successive observations mostly share them.
-/// Their rows are collected, so that the products are those of matrices and not of vectors.
+/// Sums over observations of the same knots and surfaces; successive observations mostly share
+/// them. Their rows are collected, so that the products are those of matrices and not of vectors.
 class Partial {
  public:
   void add(const TouchedRow& touched, double misclosure, double weight) {
@@ -98,8 +98,8 @@ std::map<PartialKey, Partial> partialSums(const AreaObservations& observations,
   for (std::size_t i = 0; i < observations.size(); ++i) {
     if (weights[i] == 0.0) continue;
     const TouchedRow touched(observations[i], errors);
-    partial[{touched.knots, touched.strips}].add(touched, observations[i].misclosure,
-                                                 weights[i] / observations[i].variance);
+    partial[{touched.knots, touched.surfaces}].add(touched, observations[i].misclosure,
+                                                   weights[i] / observations[i].variance);
   }
   for (auto& [key, sums] : partial) sums.flush();
   return partial;
@@ -121,10 +121,10 @@ AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<d
   const std::map<PartialKey, Partial> partial = partialSums(observations, weights, errors);
   for (const auto& [key, sums] : partial) {
     for (const int knot : key.first) insertSorted(knots_, knot);
-    for (const int strip : key.second) insertSorted(strips_, strip);
+    for (const int surface : key.second) insertSorted(surfaces_, surface);
   }
   const auto shifts = kSystemParameterCount + static_cast<int>(knots_.size()) * TouchedRow::kKnot;
-  const auto size = shifts + static_cast<int>(strips_.size()) * TouchedRow::kShift;
+  const auto size = shifts + static_cast<int>(surfaces_.size()) * TouchedRow::kShift;
   matrix_.setZero(size, size);
   right_.setZero(size);
   for (const auto& [key, sums] : partial) {
@@ -134,7 +134,7 @@ AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<d
       if (key.first[i] >= 0) parts.push_back({TouchedRow::slot(i), at, TouchedRow::kKnot});
     }
     for (int i = 0; i < 2; ++i) {
-      const int at = shifts + positionOf(strips_, key.second[i]) * TouchedRow::kShift;
+      const int at = shifts + positionOf(surfaces_, key.second[i]) * TouchedRow::kShift;
       if (key.second[i] >= 0) parts.push_back({TouchedRow::shift(i), at, TouchedRow::kShift});
     }
     for (const auto& r : parts) {
@@ -147,7 +147,7 @@ AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<d
 }
 
 AreaNormal::Reduced AreaNormal::reduced(double shift_variance) const {
-  const auto shifts = static_cast<Eigen::Index>(strips_.size()) * TouchedRow::kShift;
+  const auto shifts = static_cast<Eigen::Index>(surfaces_.size()) * TouchedRow::kShift;
   const Eigen::Index kept = matrix_.rows() - shifts;
   Reduced reduced;
   reduced.matrix = matrix_.topLeftCorner(kept, kept);
@@ -172,7 +172,7 @@ AreaNormal::Reduced AreaNormal::reduced(double shift_variance) const {
 
 AreaNormal::ShiftTerms AreaNormal::shiftTerms(double shift_variance,
                                               const Eigen::VectorXd& values) const {
-  const auto shifts = static_cast<Eigen::Index>(strips_.size()) * TouchedRow::kShift;
+  const auto shifts = static_cast<Eigen::Index>(surfaces_.size()) * TouchedRow::kShift;
   const Eigen::Index kept = matrix_.rows() - shifts;
   ShiftTerms terms;
   terms.change.matrix.setZero(kept, kept);

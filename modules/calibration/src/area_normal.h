@@ -13,7 +13,7 @@
 namespace pcl_als {
 
 /// Row of one observation: the eight parameters; four knots, six each; the shifts of its two
-/// strips, three each; the blocks of the instrument, six each; those of the systems of its two
+/// surfaces, three each; the blocks of the instrument, six each; those of the systems of its two
 /// strips. All but the first block of the instrument are mostly unused.
 struct TouchedRow {
   static constexpr int kKnot = SharedErrors::kPerKnot;
@@ -40,13 +40,13 @@ struct TouchedRow {
   }
 
   Eigen::Matrix<double, 1, kSize> row = Eigen::Matrix<double, 1, kSize>::Zero();
-  std::array<int, kSlots> knots;  ///< -1: not used
-  std::array<int, 2> strips{-1, -1};
+  std::array<int, kSlots> knots;        ///< -1: not used
+  std::array<int, 2> surfaces{-1, -1};  ///< PairObservation::surfaceIndex()
 
  private:
   /// The point (side 0) or the patch (side 1) of a strip.
   struct Side {
-    int index, strip;
+    int index, strip, surface;
     double time, sign;
     const SystemRow& design;
     const PairTurn& turn;
@@ -57,7 +57,7 @@ struct TouchedRow {
 };
 
 /// Normal equations of one area: parameters, the knots of its observations, the shifts of its
-/// strips.
+/// surfaces.
 class AreaNormal {
  public:
   AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
@@ -88,7 +88,7 @@ class AreaNormal {
   }
 
  private:
-  std::vector<int> knots_, strips_;
+  std::vector<int> knots_, surfaces_;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_;
 };

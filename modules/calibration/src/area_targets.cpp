@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // The observations of targets by AreaMatcher.
+#include <algorithm>
 #include <cmath>
 
 #include <pcl_als/common/linear_solvers.h>
@@ -36,9 +37,9 @@ TargetHeight heightAt(const Eigen::Vector2d& centre, const std::vector<Eigen::Ve
 
 }  // namespace
 
-TargetLocation AreaMatcher::targetIn(const ControlPoint& point, int strip, double window,
-                                     const NoiseModel& noise, PointGeometry& measured) const {
-  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
+TargetLocation AreaMatcher::targetIn(const ControlPoint& point, const StripPart& part,
+                                     double window, const NoiseModel& noise,
+                                     PointGeometry& measured) const {
   const TargetSearch search{point.position.head<2>(), 0.5 * point.diameter, window, 0.0, 0.0};
   const double reach = window + 2.0 * search.radius;
   std::vector<TargetPoint> near;
@@ -61,11 +62,10 @@ TargetLocation AreaMatcher::targetIn(const ControlPoint& point, int strip, doubl
   return location;
 }
 
-void AreaMatcher::matchTarget(const ControlPoint& point, int strip, double window,
+void AreaMatcher::matchTarget(const ControlPoint& point, const StripPart& part, double window,
                               const NoiseModel& noise, PointGeometry& foot, PointGeometry& vertex,
                               AreaObservations& found) const {
-  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
-  const TargetLocation target = targetIn(point, strip, window, noise, vertex);
+  const TargetLocation target = targetIn(point, part, window, noise, vertex);
   if (!target.located()) return;
   Eigen::Vector3d centre(target.centre.x(), target.centre.y(), point.position.z());
   const auto match = part.surface.vertical(centre);
@@ -76,35 +76,35 @@ void AreaMatcher::matchTarget(const ControlPoint& point, int strip, double windo
   level.plane_centre = centre;
   if (!foot.atFoot(part, *match, level, vertex)) return;
   foot.position = centre;
-  if (!target.certain.empty()) addHeight(point, strip, target, vertex, foot, found);
-  addPlan(point, strip, target, foot, found);
+  if (!target.certain.empty()) addHeight(point, part, target, vertex, foot, found);
+  addPlan(point, part, target, foot, found);
 }
 
-void AreaMatcher::addHeight(const ControlPoint& point, int strip, const TargetLocation& target,
-                            const PointGeometry& vertex, PointGeometry& foot,
-                            AreaObservations& found) const {
-  const StripPart& part = strips_[static_cast<std::size_t>(strip)];
+void AreaMatcher::addHeight(const ControlPoint& point, const StripPart& part,
+                            const TargetLocation& target, const PointGeometry& vertex,
+                            PointGeometry& foot, AreaObservations& found) const {
   std::vector<Eigen::Vector3d> on_target;
   for (const int i : target.certain)
     on_target.push_back(part.surface.tin().points()[static_cast<std::size_t>(i)]);
   const double of_one = vertex.covariance(2, 2);
   const TargetHeight measured = heightAt(target.centre, on_target, of_one);
   foot.position.z() = measured.height;
-  PairObservation o = controlObservation(point, strip, {Eigen::Vector3d::UnitZ(), 0.0}, foot);
+  PairObservation o = controlObservation(point, part, {Eigen::Vector3d::UnitZ(), 0.0}, foot);
   o.variance = measured.variance * of_one + point.sigma * point.sigma;
   o.pointing = measured.variance * vertex.pointing(2, 2);
   found.push_back(o);
 }
 
-void AreaMatcher::addPlan(const ControlPoint& point, int strip, const TargetLocation& target,
-                          const PointGeometry& foot, AreaObservations& found) const {
+void AreaMatcher::addPlan(const ControlPoint& point, const StripPart& part,
+                          const TargetLocation& target, const PointGeometry& foot,
+                          AreaObservations& found) const {
   const SymmetricEigen<2> axes = symmetricEigen2(target.covariance);
   // Ranging on slopes lengthens the range as it does where the height is measured.
   const int slope = indexOf(ErrorSource::slope_ranging);
   const double lengthened = foot.sourcesAlong(Eigen::Vector3d::UnitZ())[slope] / foot.beam.z();
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector3d axis(axes.vectors(0, i), axes.vectors(1, i), 0.0);
-    PairObservation o = controlObservation(point, strip, {axis, 0.0}, foot);
+    PairObservation o = controlObservation(point, part, {axis, 0.0}, foot);
     o.control_error = PairObservation::ControlError::plan;
     o.variance = axes.values[i] + std::pow(point.sigmaInPlan(), 2);
     o.pointing = 0.0;  // a part of the posterior of the centre, which the scatter shows
@@ -118,12 +118,16 @@ std::vector<TargetInStrip> AreaMatcher::targetsIn(const ControlPoint& point, dou
                                                   const NoiseModel& noise) const {
   std::vector<TargetInStrip> found;
   PointGeometry measured(trajectory, noise, nullptr);
-  for (std::size_t b = 0; b < strips_.size(); ++b) {
-    const int strip = static_cast<int>(b);
-    if (strips_[b].biased.empty() || strips_[b].held() ||
-        !strips_[b].surface.vertical(point.position))
-      continue;
-    found.push_back({strip, targetIn(point, strip, window, noise, measured).status});
+  for (const StripPart& part : surfaces_) {
+    if (part.biased.empty() || part.held() || !part.surface.vertical(point.position)) continue;
+    const TargetStatus status = targetIn(point, part, window, noise, measured).status;
+    const auto known = std::find_if(found.begin(), found.end(), [&](const TargetInStrip& other) {
+      return other.strip == part.strip;
+    });
+    if (known == found.end())
+      found.push_back({part.strip, status});
+    else if (status == TargetStatus::located)
+      known->status = status;  // one of two looks suffices
   }
   return found;
 }

@@ -58,7 +58,7 @@ FitStatistics fitOf(const std::vector<AreaObservations>& observations, const Res
       if (o.a == PairObservation::kControl) {
         statistics[{o.a, o.b}].add(o.aboveControl(distance));
       } else {
-        statistics[std::minmax(o.a, o.b)].add(o.a < o.b ? distance : -distance);
+        statistics[std::minmax(o.a, o.b)].add(o.sign() * distance);
       }
     }
   }
@@ -93,7 +93,7 @@ std::vector<std::size_t> histogramOf(const std::vector<AreaObservations>& observ
   for (const AreaObservations& area : observations) {
     for (const PairObservation& o : area) {
       if (o.a == PairObservation::kControl) continue;
-      const double distance = o.a < o.b ? residual(o) : -residual(o);
+      const double distance = o.sign() * residual(o);
       const double bin = std::floor((distance - edges.front()) / width);
       if (bin >= 0.0 && bin < kHistogramBins) ++counts[static_cast<std::size_t>(bin)];
     }

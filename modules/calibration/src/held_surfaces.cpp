@@ -225,6 +225,7 @@ void SystemCalibrationEngine::replaceHeld(std::vector<AreaObservations>& observa
       if (!isHeld(o)) continue;
       if (isHeld(o.b)) {  // control is compared with the strip's patch
         o.b = o.a;
+        o.look_b = o.look_a;
         o.time_b = o.time_a;
         o.row_b = o.row_a;
         o.turn_b = o.turn_a;

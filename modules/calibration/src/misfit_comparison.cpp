@@ -66,7 +66,7 @@ MisfitComparison::MisfitComparison(const std::vector<AreaObservations>& delivere
     for (const PairObservation& o : area) {
       if (o.a == PairObservation::kControl) continue;
       const double distance = o.distance(SystemVector::Zero());
-      distances.push_back({o.a, o.b, o.point, static_cast<float>(distance)});
+      distances.push_back({o.surfaceA(), o.surfaceB(), o.point, static_cast<float>(distance)});
     }
     std::sort(distances.begin(), distances.end());
   }
@@ -78,7 +78,7 @@ MisfitChange MisfitComparison::change(const std::vector<AreaObservations>& calib
   for (std::size_t area = 0; area < calibrated.size() && area < delivered_.size(); ++area) {
     for (const PairObservation& o : calibrated[area]) {
       if (o.a == PairObservation::kControl) continue;
-      const Distance key{o.a, o.b, o.point, 0.0F};
+      const Distance key{o.surfaceA(), o.surfaceB(), o.point, 0.0F};
       const auto& before = delivered_[area];
       const auto found = std::lower_bound(before.begin(), before.end(), key);
       if (found == before.end() || key < *found) continue;

@@ -33,7 +33,7 @@ class MisfitComparison {
 
  private:
   struct Distance {
-    int a = 0, b = 0;
+    int a = 0, b = 0;  ///< surfaces, PairObservation::surfaceA()
     std::int32_t point = -1;
     float before = 0.0F;  ///< metres
 

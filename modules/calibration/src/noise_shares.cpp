@@ -10,14 +10,15 @@ NoiseShares::NoiseShares(const std::vector<std::size_t>& points) {
   for (const std::size_t count : points) used_.emplace_back(count, 0.0);
 }
 
-void NoiseShares::add(const PairObservation& o, const Tin::Triangle& triangle,
-                      const Eigen::Vector3d& weights, double point_variance,
-                      double vertex_variance) {
-  Pair pair{{}, weights, point_variance, vertex_variance};
-  used_[static_cast<std::size_t>(o.a)][static_cast<std::size_t>(o.point)] += 1.0;
+void NoiseShares::add(std::size_t of_point, std::int32_t point, std::size_t of_patch,
+                      const Tin::Triangle& triangle, const Eigen::Vector3d& weights,
+                      double point_variance, double vertex_variance) {
+  Pair pair{of_point,       static_cast<std::size_t>(point), of_patch, {}, weights, point_variance,
+            vertex_variance};
+  used_[pair.of_point][pair.point] += 1.0;
   for (int i = 0; i < 3; ++i) {
     pair.vertex[i] = static_cast<std::size_t>(triangle.vertex[i]);
-    used_[static_cast<std::size_t>(o.b)][pair.vertex[i]] += weights[i];
+    used_[pair.of_patch][pair.vertex[i]] += weights[i];
   }
   pairs_.push_back(pair);
 }
@@ -26,10 +27,10 @@ void NoiseShares::setSharing(AreaObservations& observations) const {
   for (std::size_t k = 0; k < observations.size(); ++k) {
     PairObservation& o = observations[k];
     const Pair& pair = pairs_[k];
-    const std::vector<double>& vertices = used_[static_cast<std::size_t>(o.b)];
+    const std::vector<double>& vertices = used_[pair.of_patch];
     double patch = 0.0;
     for (int i = 0; i < 3; ++i) patch += pair.weights[i] * vertices[pair.vertex[i]];
-    const double point = used_[static_cast<std::size_t>(o.a)][static_cast<std::size_t>(o.point)];
+    const double point = used_[pair.of_point][pair.point];
     const double row = pair.point_variance * point + pair.vertex_variance * patch;
     o.sharing = std::max(1.0, row / o.variance);
   }

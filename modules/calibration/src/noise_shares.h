@@ -25,24 +25,27 @@ namespace pcl_als {
  */
 class NoiseShares {
  public:
-  /// \param points number of points of every strip
+  /// \param points number of points of every surface
   explicit NoiseShares(const std::vector<std::size_t>& points);
 
+  /// The point is one of the surface \a of_point, the patch of the surface \a of_patch.
   /// \param triangle and \param weights of the patch; \param point_variance and
   /// \param vertex_variance of the point and of one vertex along the pair's normal, m^2.
-  void add(const PairObservation& o, const Tin::Triangle& triangle, const Eigen::Vector3d& weights,
-           double point_variance, double vertex_variance);
+  void add(std::size_t of_point, std::int32_t point, std::size_t of_patch,
+           const Tin::Triangle& triangle, const Eigen::Vector3d& weights, double point_variance,
+           double vertex_variance);
 
   /// Sets the sharing of the observations that were added, in that order.
   void setSharing(AreaObservations& observations) const;
 
  private:
   struct Pair {
+    std::size_t of_point, point, of_patch;
     std::array<std::size_t, 3> vertex;
     Eigen::Vector3d weights;
     double point_variance, vertex_variance;
   };
-  std::vector<std::vector<double>> used_;  ///< u, by strip and point
+  std::vector<std::vector<double>> used_;  ///< u, by surface and point
   std::vector<Pair> pairs_;
 };
 

@@ -95,8 +95,9 @@ std::vector<PairSelection::Group> PairSelection::groupsOf(std::size_t area,
     if (o.a == PairObservation::kControl) chosen_[area].push_back({i});
     if (o.a == PairObservation::kControl || weights[i] == 0.0) continue;
     const auto orientation = static_cast<int>(OrientationClasses::of(o.normal));
-    Group& group = here[{std::min(o.a, o.b), std::max(o.a, o.b), orientation}];
-    const double weight = weights[i] / o.variance, sign = o.a < o.b ? 1.0 : -1.0;
+    Group& group = here[{std::min(o.surfaceA(), o.surfaceB()), std::max(o.surfaceA(), o.surfaceB()),
+                         orientation}];
+    const double weight = weights[i] / o.variance, sign = o.sign();
     const SystemRow row = adjustment.reducedRow(o);
     group.influence += weight / o.sharing * (row * worth * row.transpose()).value();  // w^2 v
     const Eigen::Array2d times(sign > 0.0 ? o.time_a : o.time_b, sign > 0.0 ? o.time_b : o.time_a);

@@ -64,7 +64,8 @@ void SystemCalibrationEngine::prepare() {
   std::vector<std::vector<double>> roughness(matchers_.size());
   forOwnAreas([&](std::size_t i) {
     const bool control = i >= pair_areas_;
-    matchers_[i].prepare(settings_.patches, control ? 0 : candidates, settings_.resolution);
+    matchers_[i].prepare(settings_.patches, control ? 0 : candidates, settings_.resolution,
+                         *trajectory_);
     matchers_[i].collectRoughness(roughness[i]);
   });
   shareVectors(processes_, area_shares_, roughness);
@@ -247,8 +248,9 @@ std::vector<std::vector<TimeSpan>> SystemCalibrationEngine::measuredTimes() cons
   std::vector<std::vector<StripSpan>> spans(matchers_.size());
   for (const std::size_t area : area_shares_.ownItems()) {
     for (int strip = 0; strip < static_cast<int>(ids_.size()); ++strip) {
-      const auto span = matchers_[area].timesOf(strip);
-      if (span && !isReference(strip)) spans[area].emplace_back(strip, *span);
+      if (isReference(strip)) continue;
+      for (const TimeSpan& span : matchers_[area].timesOf(strip))
+        spans[area].emplace_back(strip, span);
     }
   }
   shareVectors(processes_, area_shares_, spans);

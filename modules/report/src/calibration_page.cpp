@@ -37,10 +37,12 @@ ReportTable parameterTable(const CalibrationResult& result) {
 }
 
 ReportTable pairTable(const CalibrationResult& result) {
-  ReportTable table{"",
-                    "Normal distances of point-patch pairs, m; mean: first strip above the second",
-                    {"strips", "pairs", "RMS before", "RMS after", "mean before", "mean after"},
-                    {}};
+  ReportTable table{
+      "",
+      "Normal distances of point-patch pairs, m; mean: first strip above the second; of a "
+      "strip with itself: its points ahead of the sensor above those behind it",
+      {"strips", "pairs", "RMS before", "RMS after", "mean before", "mean after"},
+      {}};
   for (const PairFit& pair : result.pairs) {
     table.rows.push_back({pair.a + " : " + pair.b, countText(pair.correspondences),
                           numberText(pair.rms_before, 4), numberText(pair.rms_after, 4),

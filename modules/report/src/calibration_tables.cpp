@@ -84,9 +84,12 @@ void systemTables(const CalibrationResult& result, std::ostream& out) {
 }
 
 void pairTable(const CalibrationResult& result, std::ostream& out) {
+  const bool looks = std::any_of(result.pairs.begin(), result.pairs.end(),
+                                 [](const PairFit& pair) { return pair.a == pair.b; });
   out << "\nNormal distances of point-patch pairs between strips (m; mean: first above second; "
-         "strips: with "
-         "strip corrections)\n\n"
+         "strips: with strip corrections"
+      << (looks ? "; of a strip with itself: points ahead of the sensor above those behind it" : "")
+      << ")\n\n"
       << "| strips          |   pairs | rms before | after  | strips | mean before | after   | "
          "strips "
          " |\n"

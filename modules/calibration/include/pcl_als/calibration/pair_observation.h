@@ -21,6 +21,13 @@ using PairDesign = Eigen::Matrix<float, 3, kSystemParameterCount, Eigen::DontAli
 /// Effect of the three boresight angles on a distance; single precision.
 using PairTurn = Eigen::RowVector3f;
 
+/// Which part of the points of a strip a surface consists of, see AreaMatcher::prepare().
+enum class Look : std::int8_t {
+  whole,
+  ahead = whole,  ///< pulses ahead of the sensor
+  back,           ///< pulses behind the sensor
+};
+
 /** \brief One point-patch pair as one scalar equation, n'(y - A delta) with A = A_A - A_B (Eqs.
  * (11), (12), (34)).
  *
@@ -37,6 +44,7 @@ struct PairObservation {
   };
 
   int a = kControl, b = 0;
+  Look look_a = Look::whole, look_b = Look::whole;    ///< of the strips' surfaces
   ControlError control_error = ControlError::height;  ///< of control only
   std::int32_t point = -1;            ///< of strip a, in the area's TIN; -1 for control
   double time_a = 0.0, time_b = 0.0;  ///< times of emission of the point and of the patch, seconds
@@ -71,6 +79,13 @@ struct PairObservation {
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
 
   SystemRow row() const { return row_a - row_b; }
+  /// The surfaces of the point and of the patch, counted over all strips of the block.
+  int surfaceA() const { return surfaceIndex(a, look_a); }
+  int surfaceB() const { return surfaceIndex(b, look_b); }
+  static int surfaceIndex(int strip, Look look) { return 2 * strip + static_cast<int>(look); }
+  /// Pairs exist in both directions. Distances are reported as heights of the first strip above the
+  /// second, or of the look ahead above the look back: 1, or -1 where the patch is in the first.
+  double sign() const { return surfaceA() < surfaceB() ? 1.0 : -1.0; }
   /// The plan position of a target; other control shows the height of strips above it.
   bool isInPlan() const { return a == kControl && control_error == ControlError::plan; }
   /// The effect of the error of a control point on the distance.

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The division of a strip's points by look, by AreaMatcher.
+#include <algorithm>
+#include <utility>
+
+#include "area_matcher.h"
+
+namespace pcl_als {
+namespace {
+
+/// Seconds between the vertices of a triangle that is called mixed. Successive lines of a scanner
+/// are at most a few tenths of a second apart; trajectory errors change within seconds.
+constexpr double kApart = 0.5;
+constexpr double kMixedShare = 0.05;  // of the triangles: a strip with fewer is not divided
+/// The share in a look over that of the whole from which the division does not separate the times.
+constexpr double kStillMixed = 0.6;
+
+double mixedShare(const Tin& tin, const std::vector<double>& times) {
+  std::size_t mixed = 0;
+  for (const Tin::Triangle& triangle : tin.triangles()) {
+    const auto [first, last] = std::minmax({times[static_cast<std::size_t>(triangle.vertex[0])],
+                                            times[static_cast<std::size_t>(triangle.vertex[1])],
+                                            times[static_cast<std::size_t>(triangle.vertex[2])]});
+    if (last - first > kApart) ++mixed;
+  }
+  return static_cast<double>(mixed) /
+         static_cast<double>(std::max<std::size_t>(1, tin.triangles().size()));
+}
+
+}  // namespace
+
+bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory) {
+  const StripPart& whole = surfaces_[strip];
+  if (!whole.flown) return false;
+  const double mixed = mixedShare(whole.surface.tin(), whole.times);
+  if (!(mixed > kMixedShare)) return false;
+  StripPart looks[2];
+  std::size_t cursor = 0;
+  SensorPose pose;
+  for (std::size_t i = 0; i < whole.biased.size(); ++i) {
+    const bool ahead = !trajectory.poseAt(whole.times[i], pose, cursor) ||
+                       (pose.rotation.transpose() * (whole.biased[i] - pose.position)).y() > 0.0;
+    StripPart& look = looks[ahead ? 0 : 1];
+    look.biased.push_back(whole.biased[i]);
+    look.times.push_back(whole.times[i]);
+    look.single.push_back(whole.single[i]);
+    look.intensity.push_back(whole.intensity[i]);
+    look.turning.push_back(whole.turning[i]);
+  }
+  for (StripPart& look : looks) {
+    if (look.biased.size() < kTooFew) return false;
+    look.strip = whole.strip;
+    look.held_std = whole.held_std;
+    buildSurface(look, resolution);
+    if (mixedShare(look.surface.tin(), look.times) > kStillMixed * mixed) return false;
+  }
+  looks[0].look = Look::ahead;
+  looks[1].look = Look::back;
+  surfaces_[strip] = std::move(looks[0]);
+  surfaces_.push_back(std::move(looks[1]));
+  return true;
+}
+
+}  // namespace pcl_als
