@@ -63,7 +63,8 @@ void MatchedBlock::limitRoughness() {
 
 void MatchedBlock::correct(const SystemVector& biases) {
   const BiasEvaluator correction(flight_, biases);
-  parallelFor(matchers_.size(), 0, [&](std::size_t i) { matchers_[i].correct(correction); });
+  parallelFor(matchers_.size(), 0,
+              [&](std::size_t i) { matchers_[i].correct(correction, *flight_); });
 }
 
 std::vector<AreaObservations> MatchedBlock::match(double threshold, const NoiseModel& noise) const {

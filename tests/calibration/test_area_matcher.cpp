@@ -162,7 +162,7 @@ TEST(AreaMatcher, CorrectsItsPoints) {
   AreaMatcher matcher = matcherOf(a, b);
   SystemVector biases = SystemVector::Zero();
   biases[indexOf(SystemParameter::range_bias)] = 0.1;
-  matcher.correct(BiasEvaluator(std::make_shared<Trajectory>(trajectory), biases));
+  matcher.correct(BiasEvaluator(std::make_shared<Trajectory>(trajectory), biases), trajectory);
   // Nadir, nearly: a range bias of 10 cm put points 10 cm too low (Eq. (8)), so the correction
   // lifts them.
   const auto& moved = matcher.surfaceOf(0).tin().points();
@@ -216,6 +216,32 @@ TEST(AreaMatcher, KeepsAStripWholeThatIsMeasuredOnce) {
       ASSERT_EQ(o.look_a, Look::whole);
       ASSERT_EQ(o.look_b, Look::whole);
     }
+  }
+}
+
+/// Of the second strip all returns are e times as intense, and 5 cm too long.
+TEST(AreaMatcher, RemovesErrorSourcesFromItsPoints) {
+  const Trajectory trajectory = flight();
+  auto a = sampled(15, -8.0, 58.0, {0, 0, 0}), b = sampled(16, -8.0, 58.0, {0, 0, -0.05});
+  for (LidarReturn& p : a) p.intensity = 100.0F;
+  for (LidarReturn& p : b) p.intensity = 271.828F;
+  AreaMatcher matcher = matcherOf(a, b);
+  ErrorSourceScale scale;
+  scale.largest_angle = 0.3;
+  scale.median_intensity = 100.0;
+  matcher.considerSources(scale);
+  ErrorSourceVector value = ErrorSourceVector::Zero();
+  value[indexOf(ErrorSource::intensity_ranging)] = 0.05;
+  const BiasEvaluator none(std::make_shared<Trajectory>(trajectory), SystemVector::Zero());
+  matcher.correct({{&none}, {&none}}, value, trajectory);
+  EXPECT_NEAR(matcher.surfaceOf(0).tin().points()[0].z() - a[0].position.z(), 0.0, 1e-12);
+  EXPECT_NEAR(matcher.surfaceOf(1).tin().points()[0].z() - b[0].position.z(), 0.05, 1e-4);
+  const AreaObservations found = matcher.match({{0, 1}}, 0.02, trajectory, NoiseModel());
+  EXPECT_GT(found.size(), 500U);
+  for (const PairObservation& o : found) {
+    // The equation remains that of the points as read; 1 cm: curvature.
+    EXPECT_NEAR(o.distance(SystemVector::Zero()), o.sources * value, 0.01);
+    EXPECT_NEAR(std::abs(o.sources * value), 0.05 * o.normal.z(), 2e-3);
   }
 }
 

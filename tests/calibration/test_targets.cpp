@@ -141,7 +141,7 @@ TEST(Targets, RowsAreDerivatives) {
     std::array<Eigen::Vector3d, 2> corrected;
     for (const int side : {0, 1}) {
       const SystemVector biases = side == 0 ? step : SystemVector(-step);
-      matcher.correct(BiasEvaluator(trajectory, biases));
+      matcher.correct(BiasEvaluator(trajectory, biases), *trajectory);
       const AreaObservations moved =
           matcher.matchControl({target()}, 2.0, *trajectory, NoiseModel(), 0.01);
       ASSERT_EQ(moved.size(), 3U) << info.name;

@@ -130,6 +130,21 @@ TEST(CalibrationJson, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.inputs[0], written.inputs[0]);
 }
 
+CalibrationResult writtenAndRead(const CalibrationResult& result) {
+  const auto path = test::scratch("calibration_json") / "written.json";
+  writeCalibration(path, result);
+  return readCalibration(path);
+}
+
+TEST(CalibrationJson, KeepsTheScanPlanes) {
+  CalibrationResult result = example();
+  EXPECT_EQ(writtenAndRead(result).scan_planes, ScanPlanes());
+  result.scan_planes = {{0.6, 0.8, 0.0}, {-0.6, 0.8, 0.0}};
+  EXPECT_EQ(writtenAndRead(result).scan_planes, result.scan_planes);
+  result.scan_planes[0] *= 1.1;
+  EXPECT_THROW(writtenAndRead(result), InputError);
+}
+
 TEST(CalibrationJson, KeepsTheSystems) {
   CalibrationResult written = example();
   written.channel_field = "user_data";

@@ -39,6 +39,7 @@ struct SimulatedSurvey {
     point.scan_angle = p.scan_angle;
     point.intensity = static_cast<float>(p.intensity);
     point.flags = p.flags;
+    point.channel = p.channel;
     point.return_number = p.return_number;
     point.number_of_returns = p.number_of_returns;
     return point;

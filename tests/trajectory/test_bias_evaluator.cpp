@@ -103,6 +103,25 @@ TEST(BiasEvaluator, EqualsTheScalarFormForEveryParameterAlone) {
   }
 }
 
+TEST(BiasEvaluator, EqualsTheScalarFormInSeveralPlanes) {
+  const auto trajectory = std::make_shared<const Trajectory>(
+      circle()->withScanPlanes({{0.24, 0.970773, 0.0}, {-0.24, 0.970773, 0.0}}));
+  Points points = swath(1000);
+  const BiasEvaluator evaluator(trajectory, allBiases()), in_one_plane(circle(), allBiases());
+  CoverageCount coverage;
+  in_one_plane.effect(points.columns(), points.time.size(), points.effects(), coverage);
+  const std::vector<double> other = points.effect_x;
+  evaluator.effect(points.columns(), points.time.size(), points.effects(), coverage);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < points.time.size(); ++k) {
+    const Eigen::Vector3d expected =
+        reference(*trajectory, points.time[k], points.position(k), allBiases());
+    ASSERT_LT((points.effect(k) - expected).norm(), 1e-9) << k;
+    largest = std::max(largest, std::abs(points.effect_x[k] - other[k]));
+  }
+  EXPECT_GT(largest, 0.01);
+}
+
 TEST(BiasEvaluator, ScanAngleIsRightAllAroundTheSensor) {
   const auto trajectory = std::make_shared<Trajectory>(sampled(straight(0), 0.0, 10.0, 1.0));
   const SystemVector biases = allBiases().cwiseProduct(SystemVector::Unit(7));

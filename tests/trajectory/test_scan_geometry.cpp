@@ -115,6 +115,51 @@ TEST(DesignBlock, EqualsCentralDifferencesOfEquation2) {
   }
 }
 
+/// A plane whose line is turned by atan(3/4) about the vertical, 3 m forward for 4 m to the right:
+/// its normal is (-0.6, 0.8, 0).
+TEST(DesignBlock, HasTheScanAngleOfTheScanPlane) {
+  const ScanPlanes planes = {{0.6, 0.8, 0.0}, {-0.6, 0.8, 0.0}};
+  SensorPose pose;
+  pose.position.setZero();
+  pose.has_attitude = true;
+  pose.planes = &planes;
+  const ScanGeometry geometry = scanGeometry(pose, {240.0, 180.0, -400.0});
+  EXPECT_EQ(geometry.normal, planes[1]);
+  const double beta = -0.64350110879328;  // -atan(300 / 400)
+  EXPECT_NEAR(geometry.beta, beta, 1e-14);
+  const Eigen::Vector3d expected = beta * Eigen::Vector3d(-320.0, -240.0, -300.0);
+  EXPECT_LT(
+      (designBlock(geometry).col(indexOf(SystemParameter::scan_angle_scale)) - expected).norm(),
+      1e-10);
+}
+
+TEST(DesignBlock, EqualsCentralDifferencesOfTheCorrectionInSeveralPlanes) {
+  const double tilt = 0.17;
+  const ScanPlanes planes = {{0.0, std::cos(tilt), std::sin(tilt)},
+                             {0.0, std::cos(tilt), -std::sin(tilt)},
+                             {-0.24, std::sqrt(1.0 - 0.24 * 0.24), 0.0}};
+  SensorPose pose;
+  pose.position = Eigen::Vector3d(400.0, -300.0, 1200.0);
+  pose.rotation = turnedBy(std::cos(1.0), std::sin(1.0));
+  pose.has_attitude = true;
+  pose.planes = &planes;
+  for (const Eigen::Vector3d& normal : planes) {
+    for (const double beta : {-0.4, -0.05, 0.3}) {
+      const Eigen::Vector3d lowest = (normal.z() * normal - Eigen::Vector3d::UnitZ()).normalized();
+      const Eigen::Vector3d point =
+          pose.position + 1300.0 * (pose.rotation * (Eigen::AngleAxisd(beta, normal) * lowest));
+      const DesignBlock design = designBlock(scanGeometry(pose, point));
+      for (int i = 0; i < kSystemParameterCount; ++i) {
+        const SystemVector step = 1e-4 * SystemVector::Unit(i);
+        const Eigen::Vector3d difference =
+            (corrected(pose, point, -step) - corrected(pose, point, step)) / 2e-4;
+        // Rounding: 1e3 m * 2e-16 / 1e-4; truncation: 1300 m 1e-8 / 6.
+        EXPECT_LT((design.col(i) - difference).norm(), 1e-5) << i << ' ' << beta;
+      }
+    }
+  }
+}
+
 TEST(DesignBlock, DetectsAWrongSignOfBeta) {
   SensorPose pose = poseAlong(0.0, 1.0);
   ScanGeometry geometry = scanGeometry(pose, pose.position + Eigen::Vector3d(200.0, 0.0, -900.0));

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using Pulses = std::function<Vector3d(int i, int channel)>;
 
 /// 10 s north with roll and pitch of a degree.
-DetectedScanner detected(const Pulses& pulses, int channels, bool with_attitude) {
+ScannerDetection filled(const Pulses& pulses, int channels, bool with_attitude) {
   auto samples = test::sampled(test::straight(0.0), 0.0, 10.0, 0.005);
   for (TrajectorySample& sample : samples) {
     sample.roll = kRadiansPerDegree * std::sin(1.1 * sample.time);
@@ -45,7 +45,11 @@ DetectedScanner detected(const Pulses& pulses, int channels, bool with_attitude)
     point.position = pose.position + 1000.0 / -beam.z() * beam;
     detection.add(point);
   }
-  return detection.assess();
+  return detection;
+}
+
+DetectedScanner detected(const Pulses& pulses, int channels, bool attitude) {
+  return filled(pulses, channels, attitude).assess();
 }
 
 /// Part of a sweep, 0 to 1: 50 sweeps a second.
@@ -110,6 +114,27 @@ TEST(ScannerDetection, WithAttitude) {
   EXPECT_EQ(pattern(dualPulse, 2), ScannerPattern::dual_look);
   EXPECT_EQ(pattern(crossPulse, 2), ScannerPattern::crossed);
   EXPECT_EQ(pattern(multiPulse, 4), ScannerPattern::multi_channel);
+}
+
+TEST(ScannerDetection, FindsTheScanPlanes) {
+  const ScannerDetection dual = filled(dualPulse, 2, true), cross = filled(crossPulse, 2, true),
+                         mirror = filled(mirrorPulse, 1, true), multi = filled(multiPulse, 4, true);
+  const double tilt = 10.0 * kRadiansPerDegree, turn = 14.0 * kRadiansPerDegree;
+  const ScanPlanes looks = scanPlanes({&dual, &dual}), lines = scanPlanes({&cross});
+  ASSERT_EQ(looks.size(), 2U);
+  EXPECT_LT((looks[0] - Vector3d(0.0, std::cos(tilt), std::sin(tilt))).norm(), 1e-6);
+  EXPECT_LT((looks[1] - Vector3d(0.0, std::cos(tilt), -std::sin(tilt))).norm(), 1e-6);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_LT((lines[0] - Vector3d(-std::sin(turn), std::cos(turn), 0.0)).norm(), 1e-6);
+  EXPECT_LT((lines[1] - Vector3d(std::sin(turn), std::cos(turn), 0.0)).norm(), 1e-6);
+  EXPECT_TRUE(scanPlanes({&mirror}).empty());  // one plane
+  EXPECT_TRUE(scanPlanes({&multi}).empty());   // cones
+  ByteWriter out;
+  cross.put(out);
+  ByteReader in(out.bytes());
+  ScannerDetection received = filled(mirrorPulse, 1, true);
+  received.get(in);
+  EXPECT_EQ(scanPlanes({&received}), lines);
 }
 
 TEST(ScannerDetection, WithoutAttitude) {

@@ -110,6 +110,7 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, const
   o.misclosure = o.normal.dot(point.position - foot.position) -
                  o.effectAtPatch(corrected_for_[static_cast<std::size_t>(part.strip)]);
   o.sources = -foot.sourcesAlong(o.normal);
+  o.misclosure += o.sources * corrected_sources_;
   const double sigma = point.sigma * o.effectOfControl();
   o.variance = normalVariance(foot.covariance, o.normal) + sigma * sigma;
   o.pointing = normalVariance(foot.pointing, o.normal);

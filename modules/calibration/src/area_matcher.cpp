@@ -165,30 +165,53 @@ void AreaMatcher::keep(const AreaObservations& observations,
   }
 }
 
-void AreaMatcher::correct(const std::vector<StripCorrection>& corrections) {
+std::vector<Eigen::Vector3d> AreaMatcher::reconstructed(const StripPart& part,
+                                                        const StripCorrection& correction) {
+  const std::size_t count = part.biased.size();
+  std::vector<double> columns[3], effects[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    columns[axis].reserve(count);
+    for (const Eigen::Vector3d& point : part.biased) columns[axis].push_back(point[axis]);
+    effects[axis].resize(count);
+  }
+  CoverageCount ignored;  // the calibration checked that the trajectory covers every strip
+  correction.biases->effect(
+      {part.times.data(), columns[0].data(), columns[1].data(), columns[2].data()}, count,
+      {effects[0].data(), effects[1].data(), effects[2].data()}, ignored);
+  std::vector<Eigen::Vector3d> points(count);
+  for (std::size_t i = 0; i < count; ++i)
+    points[i] = part.biased[i] - correction.offset -
+                Eigen::Vector3d(effects[0][i], effects[1][i], effects[2][i]);
+  return points;
+}
+
+void AreaMatcher::removeSources(const StripPart& part, const Trajectory& trajectory,
+                                std::vector<Eigen::Vector3d>& points) const {
+  if (corrected_sources_.isZero(0.0) || !source_scale_) return;
+  SourceEffect effect(trajectory);
+  SensorPose pose;
+  std::size_t cursor = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!trajectory.poseAt(part.times[i], pose, cursor)) continue;
+    SourceEffects effects = SourceEffects::Zero();
+    effect.add({part.times[i], part.intensity[i], part.turning[i]}, pose,
+               scanGeometry(pose, points[i]), *source_scale_, effects);
+    points[i] -= effects * corrected_sources_;
+  }
+}
+
+void AreaMatcher::correct(const std::vector<StripCorrection>& corrections,
+                          const ErrorSourceVector& sources, const Trajectory& trajectory) {
+  corrected_sources_ = sources;
+  corrected_sources_[indexOf(ErrorSource::slope_ranging)] = 0.0;
   for (StripPart& part : surfaces_) {
     if (part.held()) continue;
     const auto strip = static_cast<std::size_t>(part.strip);
-    const StripCorrection& correction = corrections[strip];
-    corrected_for_[strip] << correction.biases->biases(), correction.offset;
-    const std::size_t count = part.biased.size();
-    if (count == 0) continue;
-    std::vector<double> columns[3], effects[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      columns[axis].reserve(count);
-      for (const Eigen::Vector3d& point : part.biased) columns[axis].push_back(point[axis]);
-      effects[axis].resize(count);
-    }
-    CoverageCount ignored;  // the calibration checked that the trajectory covers every strip
-    correction.biases->effect(
-        {part.times.data(), columns[0].data(), columns[1].data(), columns[2].data()}, count,
-        {effects[0].data(), effects[1].data(), effects[2].data()}, ignored);
-    std::vector<Eigen::Vector3d> moved(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      moved[i] = part.biased[i] - correction.offset -
-                 Eigen::Vector3d(effects[0][i], effects[1][i], effects[2][i]);
-    }
-    part.surface.movePoints(std::move(moved));
+    corrected_for_[strip] << corrections[strip].biases->biases(), corrections[strip].offset;
+    if (part.biased.empty()) continue;
+    std::vector<Eigen::Vector3d> points = reconstructed(part, corrections[strip]);
+    removeSources(part, trajectory, points);
+    part.surface.movePoints(std::move(points));
   }
 }
 
@@ -214,6 +237,7 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
   observation.variance = normalVariance(point.covariance + foot.covariance, normal);
   observation.pointing = normalVariance(point.pointing + foot.pointing, normal);
   observation.sources = point.sourcesAlong(normal) - foot.sourcesAlong(normal);
+  observation.misclosure += observation.sources * corrected_sources_;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> AreaMatcher::surfacePairs(

@@ -108,11 +108,15 @@ class AreaMatcher {
     const BiasEvaluator* biases;
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the coordinates, metres
   };
-  /// Reconstructs the points with Eq. (13), by strip; the TINs keep their topology.
-  void correct(const std::vector<StripCorrection>& corrections);
-  /// All strips alike.
-  void correct(const BiasEvaluator& biases) {
-    correct(std::vector<StripCorrection>(corrected_for_.size(), {&biases}));
+  /// Reconstructs the points with Eq. (13), by strip, and removes the effects of error sources,
+  /// which are considered, from them; the TINs keep their topology. The value of slope_ranging,
+  /// which depends on surfaces, is ignored.
+  void correct(const std::vector<StripCorrection>& corrections, const ErrorSourceVector& sources,
+               const Trajectory& trajectory);
+  /// All strips alike, without sources.
+  void correct(const BiasEvaluator& biases, const Trajectory& trajectory) {
+    correct(std::vector<StripCorrection>(corrected_for_.size(), {&biases}),
+            ErrorSourceVector::Zero(), trajectory);
   }
 
   /// The pairs between these strips (both directions) whose corrected normal distance is at most \a
@@ -153,6 +157,11 @@ class AreaMatcher {
   };
   class PointGeometry;
 
+  /// The points of a strip, corrected.
+  static std::vector<Eigen::Vector3d> reconstructed(const StripPart& part,
+                                                    const StripCorrection& correction);
+  void removeSources(const StripPart& part, const Trajectory& trajectory,
+                     std::vector<Eigen::Vector3d>& points) const;
   void buildSurface(StripPart& part, double resolution) const;
   /// Divides the points of a strip by look where that separates times which its TIN mixes.
   bool divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory);
@@ -213,7 +222,8 @@ class AreaMatcher {
   /// Points of the first surface that form pairs with the second, PairObservation::surfaceIndex().
   std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;
   SurfaceCriterion criterion_;
-  std::vector<SystemUnknowns> corrected_for_;     ///< by strip, taken out of the surfaces
+  std::vector<SystemUnknowns> corrected_for_;  ///< by strip, taken out of the surfaces
+  ErrorSourceVector corrected_sources_ = ErrorSourceVector::Zero();  ///< the same, of all strips
   std::optional<ErrorSourceScale> source_scale_;  ///< empty: sources are not considered
 };
 

@@ -63,6 +63,16 @@ double largestMovement(const std::vector<AreaObservations>& observations,
   return largest;
 }
 
+/// Change of the distances by a change of the error sources, metres.
+double largestEffectOfSources(const std::vector<AreaObservations>& observations,
+                              const ErrorSourceVector& change) {
+  double largest = 0.0;
+  if (change.isZero(0.0)) return largest;
+  for (const AreaObservations& area : observations)
+    for (const PairObservation& o : area) largest = std::max(largest, std::abs(o.sources * change));
+  return largest;
+}
+
 /// The same of a change of the differences between systems.
 double largestEffect(const std::vector<AreaObservations>& observations,
                      const std::vector<SystemUnknowns>& before,
@@ -80,11 +90,14 @@ double largestEffect(const std::vector<AreaObservations>& observations,
 }  // namespace
 
 void SystemCalibrationEngine::correctPoints(State& state) {
+  const ErrorSourceVector sources = sourcesOf(state);
   const bool unchanged = state.corrected == state.choice.solution.biases &&
-                         state.corrected_differences == state.differences;
+                         state.corrected_differences == state.differences &&
+                         state.corrected_sources == sources;
   if (!state.solved() || unchanged) return;
   state.corrected = state.choice.solution.biases;
   state.corrected_differences = state.differences;
+  state.corrected_sources = sources;
   std::vector<BiasEvaluator> evaluators;
   for (const SystemUnknowns& difference : state.differences) {
     const SystemVector biases =
@@ -96,7 +109,7 @@ void SystemCalibrationEngine::correctPoints(State& state) {
     const auto system = static_cast<std::size_t>(systems_.of(static_cast<int>(strip)));
     corrections.push_back({&evaluators[system], state.differences[system].tail<3>()});
   }
-  forOwnAreas([&](std::size_t i) { matchers_[i].correct(corrections); });
+  forOwnAreas([&](std::size_t i) { matchers_[i].correct(corrections, sources, *trajectory_); });
 }
 
 void SystemCalibrationEngine::selectPairs(State& state) {
@@ -226,6 +239,7 @@ void SystemCalibrationEngine::closeConverged(State& state) const {
 void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   const SystemVector before = state.choice.solution.biases;
   const std::vector<SystemUnknowns> differences = state.differences;
+  const ErrorSourceVector sources = sourcesOf(state);
   const std::size_t done = result.iterations.size();
   openIteration(state, done);
   const bool components_open = state.components.last == done + 1;
@@ -236,7 +250,8 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   const double of_systems = largestEffect(state.observations, differences, state.differences);
   const double effect = largestEffect(state.observations, biases - before) + of_systems;
   recordUpdate(state, before);
-  state.update.movement = std::max(state.update.movement, of_systems);
+  const double of_sources = largestEffectOfSources(state.observations, sourcesOf(state) - sources);
+  state.update.movement = std::max({state.update.movement, of_systems, of_sources});
   state.moved += state.update.movement;
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());

@@ -19,6 +19,7 @@ void SystemCalibrationEngine::shareSurvey() {
     map_.putStrip(strip, out);
     plausibility_.putStrip(strip, out);
     if (!recoveries_.empty()) recoveries_[index].put(out);
+    if (!scanners_.empty()) scanners_[index].put(out);
     strips[index] = out.take();
   }
   shareBytes(processes_, strip_shares_, strips);
@@ -29,6 +30,7 @@ void SystemCalibrationEngine::shareSurvey() {
     map_.getStrip(strip, in);
     plausibility_.getStrip(strip, in);
     if (!recoveries_.empty()) recoveries_[index].get(in);
+    if (!scanners_.empty()) scanners_[index].get(in);
   }
 }
 

@@ -83,8 +83,19 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   state.adjustment.setLevels(state.adjustment.levels());
   choose(state);
   weigh(state);
-  if (!state.held_sources.isZero(0.0)) state.moved = HUGE_VAL;  // they are removed from the pairs
-  return supported != before || !state.held_sources.isZero(0.0);
+  const bool changed = supported != before || !state.held_sources.isZero(0.0);
+  if (changed) state.moved = HUGE_VAL;  // they are removed from the points
+  return changed;
+}
+
+ErrorSourceVector SystemCalibrationEngine::sourcesOf(const State& state) {
+  ErrorSourceVector values = state.held_sources;
+  if (!state.choice.solution.solved) return values;
+  for (const ErrorSource source : state.errors.consideredSources()) {
+    if (source != ErrorSource::slope_ranging)
+      values[indexOf(source)] += state.choice.solution.shared[state.errors.sourceUnknown(source)];
+  }
+  return values;
 }
 
 void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,

@@ -111,6 +111,7 @@ struct SystemCalibrationEngine::State {
   /// Biases and differences between systems of the last correction of the points.
   SystemVector corrected = SystemVector::Zero();
   std::vector<SystemUnknowns> corrected_differences;
+  ErrorSourceVector corrected_sources = ErrorSourceVector::Zero();  ///< the same, of all points
   /// Upper bound of the movement of points since the pairs were formed, metres; infinite: other
   /// points are to be paired.
   double moved = 0.0;

@@ -46,6 +46,7 @@ int SystemCalibrationEngine::addStrip(const std::string& id) {
   held_of_.push_back(-1);
   plausibility_.addStrip(id);
   if (attitude_ == AttitudeSource::none) recoveries_.emplace_back(trajectory_);
+  if (trajectory_->hasAttitude()) scanners_.emplace_back(trajectory_);
   return map_.addStrip();
 }
 
@@ -58,8 +59,10 @@ void SystemCalibrationEngine::survey(int strip, const LidarReturn* points, std::
   for (std::size_t i = 0; i < count; i += every) {
     plausibility_.add(strip, points[i].time, points[i].position, points[i].scan_angle);
   }
+  constexpr std::size_t kEvery = 16;  // points used for the attitude and for the scan planes
+  for (std::size_t i = 0; i < count && !scanners_.empty(); i += kEvery)
+    scanners_[static_cast<std::size_t>(strip)].add(points[i]);
   if (recoveries_.empty()) return;
-  constexpr std::size_t kEvery = 16;  // every so many points are used for the attitude
   AttitudeRecovery& recovery = recoveries_[static_cast<std::size_t>(strip)];
   for (std::size_t i = 0; i < count; i += kEvery) recovery.add(points[i].time, points[i].position);
 }
@@ -121,6 +124,19 @@ void SystemCalibrationEngine::recoverAttitude() {
   } else {
     warnings_.push_back(outcome.remark);
   }
+}
+
+void SystemCalibrationEngine::findScanPlanes() {
+  std::vector<const ScannerDetection*> strips;
+  for (std::size_t strip = 0; strip < scanners_.size(); ++strip) {
+    if (used_[strip] && !isReference(static_cast<int>(strip))) strips.push_back(&scanners_[strip]);
+  }
+  const ScanPlanes planes = scanPlanes(strips);
+  scanners_.clear();
+  if (planes.empty()) return;
+  attitude_remarks_.push_back("the scanner has " + std::to_string(planes.size()) +
+                              " scan planes; scan angles are those in the plane of each pulse");
+  trajectory_ = std::make_shared<const Trajectory>(trajectory_->withScanPlanes(planes));
 }
 
 void SystemCalibrationEngine::leaveOutSmallStrips() {
@@ -283,6 +299,7 @@ void SystemCalibrationEngine::chooseAreas() {
   checkTimes();
   checkTrajectory();
   recoverAttitude();
+  findScanPlanes();
   checkControl();
   checkReferences();
   choosePairs();

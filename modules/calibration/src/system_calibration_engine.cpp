@@ -356,6 +356,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   result.left_out = left_out_;
   result.attitude = attitude_;
   result.recovered_attitude = recovered_attitude_;
+  result.scan_planes = trajectory_->scanPlanes();
   result.line_fit_half_width = trajectory_->lineFitHalfWidth();
   report.addParameters(state.choice, settings_.estimate, result);
   addSystems(state.adjustment, errors, state.choice, settings_.systems, ids_, result);

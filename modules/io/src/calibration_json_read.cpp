@@ -219,6 +219,16 @@ void readStripOffsets(const Node& strips, CalibrationResult& result) {
   }
 }
 
+void readScanPlanes(const Node& node, CalibrationResult& result) {
+  for (const Node& plane : node.items()) {
+    const std::vector<Node> values = plane.items();
+    if (values.size() != 3) plane.refuse("must have three numbers, the normal of a scan plane");
+    const Eigen::Vector3d normal(values[0].number(), values[1].number(), values[2].number());
+    if (!(std::abs(normal.norm() - 1.0) < 1e-6)) plane.refuse("must have a length of one");
+    result.scan_planes.push_back(normal);
+  }
+}
+
 void readRecoveredAttitude(const Node& passes, CalibrationResult& result) {
   constexpr double kRightAngle = 324000.0;  // arc-seconds
   for (const Node& node : passes.items()) {
@@ -314,6 +324,7 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
   if (root.has("held")) readHeld(root["held"], result);
   if (root.has("strip_offsets")) readStripOffsets(root["strip_offsets"], result);
   readStripErrors(root, result);
+  if (root.has("scan_planes")) readScanPlanes(root["scan_planes"], result);
   if (root.has("recovered_attitude")) {
     readRecoveredAttitude(root["recovered_attitude"], result);
   }

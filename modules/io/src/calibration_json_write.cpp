@@ -118,6 +118,13 @@ Json histogramOf(const ResidualHistogram& histogram) {
       {"edges_m", histogram.edges}, {"before", histogram.before}, {"after", histogram.after}};
 }
 
+Json scanPlanesOf(const ScanPlanes& planes) {
+  Json normals = Json::array();
+  for (const Eigen::Vector3d& normal : planes)
+    normals.push_back({normal.x(), normal.y(), normal.z()});
+  return normals;
+}
+
 /// Lists by column: a knot of a long flight takes a fifth of what an object with names would.
 Json recoveredAttitudeOf(const CalibrationResult& result) {
   Json passes = Json::array();
@@ -243,6 +250,7 @@ std::string calibrationToJson(const CalibrationResult& result) {
   if (!result.held.empty()) root["held"] = heldOf(result);
   root["strip_offsets"] = stripOffsetsOf(result);
   writeStripErrors(result, root);
+  if (!result.scan_planes.empty()) root["scan_planes"] = scanPlanesOf(result.scan_planes);
   if (!result.recovered_attitude.empty()) {
     root["recovered_attitude"] = recoveredAttitudeOf(result);
   }

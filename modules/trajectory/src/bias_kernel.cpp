@@ -134,10 +134,21 @@ ALS_VECTOR_CLONES void all(const FlightSpan& span, const MountingBias& bias,
   kernel<true, true>(span, bias, points, count, effect);
 }
 
+/// The scale acts in the plane of each pulse, which is searched for.
+void inSeveralPlanes(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
+                     std::size_t count, const EffectColumns& effect) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d point(points.x[i], points.y[i], points.z[i]);
+    const Eigen::Vector3d moved = point - corrected(span.at(points.time[i]), point, bias.all);
+    effect.x[i] = moved.x(), effect.y[i] = moved.y(), effect.z[i] = moved.z();
+  }
+}
+
 }  // namespace
 
 MountingBias::MountingBias(const SystemVector& biases)
-    : lever_arm(biases.head<3>()),
+    : all(biases),
+      lever_arm(biases.head<3>()),
       boresight(boresightRotation(biases)),
       range(biases[indexOf(SystemParameter::range_bias)]),
       scale(biases[indexOf(SystemParameter::scan_angle_scale)]) {}
@@ -145,6 +156,10 @@ MountingBias::MountingBias(const SystemVector& biases)
 void biasKernel(const FlightSpan& span, const MountingBias& bias, const PointColumns& points,
                 std::size_t count, const EffectColumns& effect) {
   const bool range = bias.range != 0.0, scale = bias.scale != 0.0;
+  if (scale && span.planes != nullptr) {
+    inSeveralPlanes(span, bias, points, count, effect);
+    return;
+  }
   const auto chosen = range ? (scale ? all : turnsAndRange) : (scale ? turnsAndScale : turns);
   chosen(span, bias, points, count, effect);
 }

@@ -14,6 +14,7 @@ namespace pcl_als::detail {
 struct MountingBias {
   explicit MountingBias(const SystemVector& biases);
 
+  SystemVector all;
   Eigen::Vector3d lever_arm;  ///< metres
   Eigen::Matrix3d boresight;  ///< B of corrected()
   double range = 0.0, scale = 0.0;

@@ -14,6 +14,16 @@ Eigen::Vector3d ScanGeometry::beam() const {
                       : Eigen::Vector3d(-rotation.col(2));
 }
 
+namespace {
+
+/// Angle of a direction in the plane with this normal, from the lowest direction of the plane.
+double angleInPlane(const Eigen::Vector3d& normal, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d lowest = (normal.z() * normal - Eigen::Vector3d::UnitZ()).normalized();
+  return std::atan2(direction.dot(normal.cross(lowest)), direction.dot(lowest));
+}
+
+}  // namespace
+
 ScanGeometry scanGeometry(const SensorPose& pose, const Eigen::Vector3d& ground_point) {
   const Eigen::Vector3d in_body = pose.rotation.transpose() * (ground_point - pose.position);
   ScanGeometry geometry;
@@ -21,14 +31,17 @@ ScanGeometry scanGeometry(const SensorPose& pose, const Eigen::Vector3d& ground_
   geometry.x = in_body.x();
   geometry.y = pose.has_attitude ? in_body.y() : 0.0;
   geometry.z = in_body.z();
-  if (geometry.x != 0.0 || geometry.z != 0.0) {
+  if (pose.planes != nullptr) {
+    geometry.normal = scanPlaneOf(*pose.planes, geometry.inBody());
+    geometry.beta = angleInPlane(geometry.normal, geometry.inBody());
+  } else if (geometry.x != 0.0 || geometry.z != 0.0) {
     geometry.beta = std::atan2(-geometry.x, -geometry.z);
   }
   return geometry;
 }
 
 DesignBlock designBlock(const ScanGeometry& geometry) {
-  const double x = geometry.x, y = geometry.y, z = geometry.z, b = geometry.beta;
+  const double x = geometry.x, y = geometry.y, z = geometry.z;
   const double range = geometry.range();
   DesignBlock in_body = DesignBlock::Zero();
   in_body.leftCols<3>().setIdentity();
@@ -37,7 +50,7 @@ DesignBlock designBlock(const ScanGeometry& geometry) {
   in_body.col(indexOf(SystemParameter::boresight_heading)) << -y, x, 0.0;
   in_body.col(indexOf(SystemParameter::range_bias)) =
       range > 0.0 ? Eigen::Vector3d(geometry.inBody() / range) : Eigen::Vector3d(0.0, 0.0, -1.0);
-  in_body.col(indexOf(SystemParameter::scan_angle_scale)) << z * b, 0.0, -x * b;
+  in_body.col(indexOf(SystemParameter::scan_angle_scale)) = geometry.beta * geometry.turned();
   return geometry.rotation * in_body;
 }
 
@@ -53,16 +66,15 @@ Eigen::Matrix3d boresightRotation(const SystemVector& biases) {
 
 Eigen::Vector3d corrected(const SensorPose& pose, const Eigen::Vector3d& ground_point,
                           const SystemVector& biases) {
-  const Eigen::Vector3d biased = scanGeometry(pose, ground_point).inBody();
+  const ScanGeometry geometry = scanGeometry(pose, ground_point);
+  const Eigen::Vector3d biased = geometry.inBody();
   const Eigen::Vector3d beam = boresightRotation(biases).transpose() * (biased - biases.head<3>());
   const double range = beam.norm();
   if (range == 0.0) return ground_point;
   const double scale = 1.0 + biases[indexOf(SystemParameter::scan_angle_scale)];
-  const double angle = std::atan2(-beam.x(), -beam.z()) / scale;
-  const double in_scan_plane = std::hypot(beam.x(), beam.z());
+  const double angle = angleInPlane(geometry.normal, beam);
   const double length = 1.0 - biases[indexOf(SystemParameter::range_bias)] / range;
-  const Eigen::Vector3d measured(-in_scan_plane * std::sin(angle), beam.y(),
-                                 -in_scan_plane * std::cos(angle));
+  const Eigen::Vector3d measured = Eigen::AngleAxisd(angle / scale - angle, geometry.normal) * beam;
   return ground_point - pose.rotation * (biased - length * measured);
 }
 

@@ -200,4 +200,44 @@ DetectedScanner ScannerDetection::assess() const {
   return found;
 }
 
+void ScannerDetection::put(ByteWriter& out) const {
+  out.putMap(channels_, [](ByteWriter& to, const Channel& channel) {
+    to.put(channel.pulses).put(channel.sum).put(channel.products);
+  });
+}
+
+void ScannerDetection::get(ByteReader& in) {
+  channels_.clear();
+  for (auto left = in.take<std::size_t>(); left > 0; --left) {
+    Channel& channel = channels_[in.take<std::uint8_t>()];
+    in.get(channel.pulses).get(channel.sum).get(channel.products);
+  }
+}
+
+ScanPlanes scanPlanes(const std::vector<const ScannerDetection*>& strips) {
+  constexpr double kFewestInPlane = 100.0, kOther = 0.1;  // pulses; share that is in no plane
+  std::vector<Eigen::Vector3d> sums;
+  double in_planes = 0.0, others = 0.0;
+  for (const ScannerDetection* strip : strips) {
+    for (const auto& [number, channel] : strip->channels()) {
+      if (channel.pulses < kFewestInPlane) continue;
+      const ConeFit fit = fitCone(channel);
+      const bool plane = fit.off < kOffCone && fit.distance < kThroughOrigin;
+      (plane ? in_planes : others) += channel.pulses;
+      if (!plane) continue;
+      const Eigen::Vector3d normal = fit.axis.y() < 0.0 ? Eigen::Vector3d(-fit.axis) : fit.axis;
+      const auto same = std::find_if(sums.begin(), sums.end(), [&](const Eigen::Vector3d& sum) {
+        return sum.normalized().cross(normal).norm() < kTurned;
+      });
+      if (same == sums.end())
+        sums.emplace_back(channel.pulses * normal);
+      else
+        *same += channel.pulses * normal;
+    }
+  }
+  if (sums.size() < 2 || others > kOther * in_planes) return {};
+  for (Eigen::Vector3d& sum : sums) sum.normalize();
+  return sums;
+}
+
 }  // namespace pcl_als

@@ -52,6 +52,12 @@ Flight flightFor(AttitudeSource source, Flight flight, const RecoveredAttitude& 
       flight->withAttitude([&](double time) { return recovered.at(time); }));
 }
 
+/// The flight with the scan planes that the calibration was estimated with.
+Flight withPlanes(Flight flight, const ScanPlanes& planes) {
+  if (planes.empty() || planes == flight->scanPlanes()) return flight;
+  return std::make_shared<const Trajectory>(flight->withScanPlanes(planes));
+}
+
 }  // namespace
 
 void SystemCorrection::requireUsable(const CalibrationResult& calibration) {
@@ -67,7 +73,8 @@ SystemCorrection::SystemCorrection(const CalibrationResult& calibration, Flight 
   if (!flight) throw UsageError("correction: no trajectory is set");
   if (!options.force) requireUsable(calibration);
   attitude_.addPasses(options.further_attitude);
-  flight_ = flightFor(calibration.attitude, std::move(flight), attitude_);
+  flight_ = withPlanes(flightFor(calibration.attitude, std::move(flight), attitude_),
+                       calibration.scan_planes);
   const auto errors = errorsOf(calibration, options.strip_corrections);
   const auto add = [&](const SystemVector& biases, const Eigen::Vector3d& offset) {
     evaluators_.push_back({std::make_shared<const BiasEvaluator>(flight_, biases, errors), offset});

@@ -102,7 +102,8 @@ Trajectory::Options trajectoryOptions(const CalibrationResult& calibration) {
 SensorPose FlightSpan::at(double time) const {
   const double elapsed = time - from;
   return {position + elapsed * velocity,
-          rotation + elapsed * rotation_rate + (elapsed * elapsed) * rotation_curve, has_attitude};
+          rotation + elapsed * rotation_rate + (elapsed * elapsed) * rotation_curve, has_attitude,
+          planes};
 }
 
 Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& options)
@@ -197,6 +198,12 @@ Trajectory Trajectory::withNominalAttitude() const {
   return level;
 }
 
+Trajectory Trajectory::withScanPlanes(ScanPlanes planes) const {
+  Trajectory flight = *this;
+  flight.planes_ = std::move(planes);
+  return flight;
+}
+
 void Trajectory::buildIndex() {
   const std::size_t count = nodes_.size();
   // A duration too short for its reciprocal gets one bucket.
@@ -268,6 +275,7 @@ bool Trajectory::spanAt(double time, FlightSpan& span, std::size_t& cursor) cons
   span.rotation_rate = span.rotation * rate;
   span.rotation_curve = 0.5 * span.rotation_rate * rate;
   span.has_attitude = has_attitude_;
+  span.planes = planes();
   return true;
 }
 
@@ -301,6 +309,7 @@ bool Trajectory::poseAt(double time, SensorPose& pose, std::size_t& cursor) cons
   pose.position = a.position + share * (b.position - a.position);
   pose.rotation = mean.normalized().toRotationMatrix();
   pose.has_attitude = has_attitude_;
+  pose.planes = planes();
   return true;
 }
 

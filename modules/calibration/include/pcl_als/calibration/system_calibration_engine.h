@@ -18,6 +18,7 @@
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
+#include <pcl_als/trajectory/scanner_detection.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
@@ -64,8 +65,8 @@ struct AdjustedSurvey {
  * survey() and load() may run on several threads for different strips. With attitude in the
  * trajectory (Trajectory::Options::use_attitude) the model is the rigorous one of Eq. (1); without,
  * the quasi-rigorous one, in which pitch and crab are recovered from the points and roll is zero.
- * Assumes a linear scanner. Memory: 48 bytes per 10 m cell a strip touches, about 200 per point in
- * an area, 400 per pair.
+ * The scan angle is that in the plane of the pulse (ScanPlanes). Memory: 48 bytes per 10 m cell a
+ * strip touches, about 200 per point in an area, 400 per pair.
  *
  * For point files there is calibrateSurvey() in module processing.
  */
@@ -151,6 +152,8 @@ class SystemCalibrationEngine {
   void checkControl();
   void checkTimes() const;
   void recoverAttitude();
+  /// Finds the planes of a scanner that has several.
+  void findScanPlanes();
   void describeAttitudes();
   void useNonLinearModel(const std::string& remark);
   void choosePairs();
@@ -204,6 +207,9 @@ class SystemCalibrationEngine {
   void choose(State& state) const;
   /// Chooses the parameters that all systems share, or those of the first one.
   void chooseParametersOf(State& state) const;
+  /// Values of the error sources whose effects are removed from the points: those that are
+  /// estimated, ranging on slopes excepted.
+  static ErrorSourceVector sourcesOf(const State& state);
   /// Reconstructs the points with the biases of their systems.
   void correctPoints(State& state);
   void adjust(State& state, bool estimate_components) const;
@@ -260,6 +266,7 @@ class SystemCalibrationEngine {
   SurveyMap map_;
   TrajectoryPlausibility plausibility_;
   std::deque<AttitudeRecovery> recoveries_;  ///< by strip; empty where none is needed
+  std::deque<ScannerDetection> scanners_;    ///< by strip; empty without attitude
   std::vector<std::string> ids_;
   std::vector<bool> used_;
   /// The fixed strips together, or a reference surface.

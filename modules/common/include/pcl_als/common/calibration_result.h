@@ -15,6 +15,7 @@
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/scan_planes.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/common/warning.h>
@@ -174,6 +175,7 @@ struct CalibrationResult {
   CalibrationVerdict verdict;  ///< whether to apply it
   AttitudeSource attitude = AttitudeSource::none;
   RecoveredAttitude recovered_attitude;  ///< of the strips; where attitude is that of points
+  ScanPlanes scan_planes;                ///< of a scanner with several planes
   std::array<ParameterEstimate, kSystemParameterCount> parameters;  ///< indexed by SystemParameter
   /// All systems, where there are several: parameters are those of the first one.
   std::vector<SystemEstimate> systems;

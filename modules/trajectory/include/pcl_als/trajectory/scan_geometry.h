@@ -14,14 +14,18 @@ namespace pcl_als {
  * Without attitude the system is assumed to be vertical, as in Habib et al. 2011: x is the signed
  * lateral distance from the local flight line in plan, z the elevation of the point minus that of
  * the firing point, y is neglected. With attitude all three are those of the body frame. In both
- * cases beta = -atan2(x, -z), so that x > 0 has beta < 0, as Eq. (2) requires.
+ * cases beta = -atan2(x, -z), so that x > 0 has beta < 0, as Eq. (2) requires. Where the trajectory
+ * has several scan planes, beta is the angle in the one that contains the pulse.
  */
 struct ScanGeometry {
-  double x = 0.0, y = 0.0, z = 0.0;                        ///< metres; right, forward, up
-  double beta = 0.0;                                       ///< radians
+  double x = 0.0, y = 0.0, z = 0.0;  ///< metres; right, forward, up
+  double beta = 0.0;                 ///< radians, in the scan plane from its lowest direction
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitY();       ///< of the scan plane, body frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< body to ground
 
   Eigen::Vector3d inBody() const { return {x, y, z}; }
+  /// Derivative of inBody() with respect to beta: (z, 0, -x) where the plane is across the body.
+  Eigen::Vector3d turned() const { return normal.cross(inBody()); }
   double range() const { return inBody().norm(); }
   /// Unit vector of the pulse, ground frame; straight down for a point at the sensor.
   Eigen::Vector3d beam() const;
@@ -35,7 +39,8 @@ ScanGeometry scanGeometry(const SensorPose& pose, const Eigen::Vector3d& ground_
  * coordinates.
  *
  * Rows: east, north, up (m). Columns: SystemParameter, internal units (m, rad, 1), at S = 1. With
- * attitude, its full rotation in place of Rz(kappa), and y where Eq. (8) has zero.
+ * attitude, its full rotation in place of Rz(kappa), and y where Eq. (8) has zero; the column of
+ * the scan angle scale is beta times ScanGeometry::turned().
  */
 DesignBlock designBlock(const ScanGeometry& geometry);
 

@@ -9,10 +9,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/scan_planes.h>
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -61,6 +64,9 @@ class ScannerDetection {
   /// Points of one strip in the order of the file.
   void add(const LidarReturn& point);
   DetectedScanner assess() const;
+  /// What scanPlanes() needs, for another process; get() replaces it.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
 
   /// The fits of one channel.
   struct Channel {
@@ -71,6 +77,9 @@ class ScannerDetection {
     double last_time = 0.0, last_across = 0.0;
   };
 
+  /// By number.
+  const std::map<std::uint8_t, Channel>& channels() const { return channels_; }
+
  private:
   ScannerPattern patternOfOne(const Channel& channel, double& angle) const;
 
@@ -80,5 +89,13 @@ class ScannerDetection {
   std::optional<AttitudeRecovery> recovery_;  ///< without attitude
   std::uint64_t added_ = 0;
 };
+
+/** \brief The scan planes of a scanner whose channels, or strips, have different ones; empty where
+ * they have one in common or other pulses than in planes.
+ *
+ * The planes of channels and strips that differ by less than two degrees are taken as one.
+ * \param strips with attitude; some hundred points of each channel suffice
+ */
+ScanPlanes scanPlanes(const std::vector<const ScannerDetection*>& strips);
 
 }  // namespace pcl_als

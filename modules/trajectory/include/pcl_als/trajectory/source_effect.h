@@ -28,9 +28,9 @@ struct SourceReading {
  *
  * With p = (x, y, z) in the body frame, R from body to ground, beam u and range r:
  * range_scale r u; time_offset d/dt (position + R p); mirror_torsion and the errors of the encoder
- * the derivative by the scan angle, R (z, 0, -x), times the sign of the scan or a polynomial;
- * intensity_ranging ln(I / I0) u, with I / I0 between 1/100 and 100. slope_ranging depends on the
- * surface: its column is zero.
+ * the derivative by the scan angle, R ScanGeometry::turned(), times the sign of the scan or a
+ * polynomial; intensity_ranging ln(I / I0) u, with I / I0 between 1/100 and 100. slope_ranging
+ * depends on the surface: its column is zero.
  */
 class SourceEffect {
  public:

@@ -14,6 +14,7 @@
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/scan_planes.h>
 #include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
@@ -25,6 +26,7 @@ struct SensorPose {
   /// the direction of the local flight line.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   bool has_attitude = false;
+  const ScanPlanes* planes = nullptr;  ///< the trajectory's; null: one, across the body
 };
 
 /// The trajectory around a time: the position is linear in time, and the rotation about a fixed
@@ -38,6 +40,7 @@ struct FlightSpan {
   /// Body to ground: rotation + elapsed * rate + elapsed^2 * curve.
   Eigen::Matrix3d rotation, rotation_rate, rotation_curve;
   bool has_attitude = false;
+  const ScanPlanes* planes = nullptr;
 
   SensorPose at(double time) const;
 };
@@ -112,6 +115,10 @@ class Trajectory {
   /// The same flight with nominal attitude.
   Trajectory withNominalAttitude() const;
 
+  /// The same flight of a scanner with several planes. Its poses refer to this object.
+  Trajectory withScanPlanes(ScanPlanes planes) const;
+  const ScanPlanes& scanPlanes() const { return planes_; }
+
   /// The same flight with a body rotated against the local flight line; roll stays zero.
   Trajectory withAttitude(const std::function<PitchAndCrab(double time)>& attitude) const;
 
@@ -151,6 +158,7 @@ class Trajectory {
   std::size_t locate(double time, std::size_t hint) const;
   /// The node that begins the span of a covered time.
   bool spanNode(double time, std::size_t& cursor, std::size_t& node) const;
+  const ScanPlanes* planes() const { return planes_.empty() ? nullptr : &planes_; }
   bool isGap(std::size_t node) const {
     return nodes_[node + 1].time - nodes_[node].time > gap_threshold_;
   }
@@ -161,6 +169,7 @@ class Trajectory {
   std::vector<std::uint32_t> buckets_;  ///< of equal duration: the first node at or after its start
   double buckets_per_second_ = 0.0;
   double gap_threshold_ = 0.0, half_width_ = 0.0;
+  ScanPlanes planes_;
   bool samples_have_attitude_ = false, has_attitude_ = false, nominal_ = false;
 };
 
