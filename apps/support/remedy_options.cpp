@@ -32,7 +32,7 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::control_sigma, "control_sigma",
      "see -control_sigma and the column sigma of the control file"},
     {Remedy::flight_sigmas, "position_sigma",
-     "see -position_sigma, -roll_pitch_sigma and -heading_sigma"},
+     "see -ins, -position_sigma, -roll_pitch_sigma and -heading_sigma"},
     {Remedy::strips, "without", "-strips and -without choose strips"},
 };
 

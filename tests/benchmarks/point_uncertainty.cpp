@@ -6,7 +6,9 @@
 // Simulates blocks with realistic noise for the seeds FROM to TO, calibrates them, corrects their
 // points through files in FOLDER, and prints, as Markdown, the true errors of the points over their
 // standard deviations (sigma_horizontal, sigma_vertical) by flying height and slope: without and
-// with strip corrections, and those of the corrected trajectory. See point_uncertainty.md.
+// with strip corrections, and those of the corrected trajectory. INS: grade of the simulated
+// trajectory errors, which is also given to the calibration (-: those of realistic noise). See
+// point_uncertainty.md.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -48,10 +50,14 @@ int main(int argc, char** argv) {
                                                          std::atof(argument(7, "1").c_str()),
                                                          std::atof(argument(5, "0.3").c_str()));
     options.noise = simulation::NoiseOptions::named("realistic");
-    if (argc > 6 && argument(6, "") != "-") options.noise.setTrajectoryGrade(argument(6, ""));
+    CalibrationSettings settings;
+    if (argc > 6 && argument(6, "") != "-") {
+      options.noise.setTrajectoryGrade(argument(6, ""));
+      settings.shared_errors = SharedErrorModel::ofGrade(argument(6, ""));
+    }
     options.noise.process = simulation::errorProcessNamed(argument(8, "gauss_markov"));
     options.seed = static_cast<std::uint64_t>(seed);
-    const test::UncertaintyBlock block(options, folder);
+    const test::UncertaintyBlock block(options, folder, settings);
     test::UncertaintyTable own_plain, own_strips;
     block.add(false, ".las", own_plain);
     block.add(true, ".las", own_strips);

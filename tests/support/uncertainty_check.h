@@ -64,12 +64,13 @@ inline std::shared_ptr<const Trajectory> withAttitude(std::vector<TrajectorySamp
 /// One simulated block, its rigorous calibration, and the corrected points of its strips.
 class UncertaintyBlock {
  public:
-  UncertaintyBlock(const simulation::SimulationOptions& options, std::filesystem::path folder)
+  UncertaintyBlock(const simulation::SimulationOptions& options, std::filesystem::path folder,
+                   const CalibrationSettings& settings = CalibrationSettings())
       : options_(options),
         simulator_(options),
         folder_(std::move(folder)),
         flight_(withAttitude(simulator_.trajectory())),
-        calibration(SimulatedSurvey(options).calibrate(CalibrationSettings(), true, true)) {}
+        calibration(SimulatedSurvey(options).calibrate(settings, true, true)) {}
 
   /// Corrects all strips through files, and adds the errors of their points.
   FileCorrectionResult add(bool strip_corrections, const std::string& extension,
