@@ -185,8 +185,8 @@ std::vector<Eigen::Vector3d> AreaMatcher::reconstructed(const StripPart& part,
   return points;
 }
 
-void AreaMatcher::removeSources(const StripPart& part, const Trajectory& trajectory,
-                                std::vector<Eigen::Vector3d>& points) const {
+void AreaMatcher::removeSourceEffects(const StripPart& part, const Trajectory& trajectory,
+                                      std::vector<Eigen::Vector3d>& points) const {
   if (corrected_sources_.isZero(0.0) || !source_scale_) return;
   SourceEffect effect(trajectory);
   SensorPose pose;
@@ -210,7 +210,7 @@ void AreaMatcher::correct(const std::vector<StripCorrection>& corrections,
     corrected_for_[strip] << corrections[strip].biases->biases(), corrections[strip].offset;
     if (part.biased.empty()) continue;
     std::vector<Eigen::Vector3d> points = reconstructed(part, corrections[strip]);
-    removeSources(part, trajectory, points);
+    removeSourceEffects(part, trajectory, points);
     part.surface.movePoints(std::move(points));
   }
 }

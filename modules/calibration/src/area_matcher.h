@@ -160,8 +160,8 @@ class AreaMatcher {
   /// The points of a strip, corrected.
   static std::vector<Eigen::Vector3d> reconstructed(const StripPart& part,
                                                     const StripCorrection& correction);
-  void removeSources(const StripPart& part, const Trajectory& trajectory,
-                     std::vector<Eigen::Vector3d>& points) const;
+  void removeSourceEffects(const StripPart& part, const Trajectory& trajectory,
+                           std::vector<Eigen::Vector3d>& points) const;
   void buildSurface(StripPart& part, double resolution) const;
   /// Divides the points of a strip by look where that separates times which its TIN mixes.
   bool divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory);

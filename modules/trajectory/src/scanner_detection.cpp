@@ -35,6 +35,9 @@ struct ConeFit {
   Eigen::Vector3d axis;
   double distance = 0.0, off = 0.0;
   double round = 0.0;  ///< narrower over wider extent in plan
+
+  /// The axis of a plane through the origin has no sign: that which is forward.
+  Eigen::Vector3d forward() const { return axis.y() < 0.0 ? Eigen::Vector3d(-axis) : axis; }
 };
 
 ConeFit fitCone(const ScannerDetection::Channel& channel) {
@@ -181,8 +184,7 @@ DetectedScanner ScannerDetection::assess() const {
   for (const Channel* channel : known) {
     const ConeFit fit = fitCone(*channel);
     on_cones = on_cones && fit.off < kOffCone;
-    // The axis of a plane through the origin has no sign: that which is forward.
-    const Eigen::Vector3d axis = fit.axis.y() < 0.0 ? Eigen::Vector3d(-fit.axis) : fit.axis;
+    const Eigen::Vector3d axis = fit.forward();
     ahead.push_back(std::asin(axis.z()));
     turned.push_back(std::atan2(axis.x(), axis.y()));
     cones.push_back(std::asin(fit.axis.y() < 0.0 ? -fit.distance : fit.distance));
@@ -225,7 +227,7 @@ ScanPlanes scanPlanes(const std::vector<const ScannerDetection*>& strips) {
       const bool plane = fit.off < kOffCone && fit.distance < kThroughOrigin;
       (plane ? in_planes : others) += channel.pulses;
       if (!plane) continue;
-      const Eigen::Vector3d normal = fit.axis.y() < 0.0 ? Eigen::Vector3d(-fit.axis) : fit.axis;
+      const Eigen::Vector3d normal = fit.forward();
       const auto same = std::find_if(sums.begin(), sums.end(), [&](const Eigen::Vector3d& sum) {
         return sum.normalized().cross(normal).norm() < kTurned;
       });

@@ -20,16 +20,17 @@ Eigen::Vector3d SourceEffect::velocity(double time, const SensorPose& pose,
                                        const ScanGeometry& geometry) {
   const Eigen::Vector3d body = geometry.inBody();
   SensorPose from = pose, to = pose;
-  const auto change = [&](double half, double& seconds) {
+  double seconds = 0.0;  // of the last change
+  const auto change = [&](double half) {
     const double first = trajectory_.poseAt(time - half, from, before_) ? time - half : time;
     const double last = trajectory_.poseAt(time + half, to, after_) ? time + half : time;
     seconds = last - first;
     return (to.position - from.position + to.rotation * body - from.rotation * body).eval();
   };
-  double near = 0.0, far = 0.0;  // seconds
-  const Eigen::Vector3d inner = change(kStep, near), outer = change(2.0 * kStep, far);
-  if (far > 3.9 * kStep) return (8.0 * inner - outer) / (12.0 * kStep);
-  if (far > 0.0) return outer / far;
+  const Eigen::Vector3d inner = change(kStep);
+  const Eigen::Vector3d outer = change(2.0 * kStep);
+  if (seconds > 3.9 * kStep) return (8.0 * inner - outer) / (12.0 * kStep);  // to the fourth order
+  if (seconds > 0.0) return outer / seconds;
   return Eigen::Vector3d::Zero();
 }
 
