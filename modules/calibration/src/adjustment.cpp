@@ -275,8 +275,8 @@ Eigen::MatrixXd columnsOf(const Matrix& all, const std::vector<ErrorSource>& sou
 
 }  // namespace
 
-Adjustment::Influence Adjustment::sourceInfluence(const SystemMatrix& model) const {
-  const std::vector<ErrorSource>& sources = errors_.consideredSources();
+Adjustment::Influence Adjustment::sourceInfluence(const SystemMatrix& model,
+                                                  const std::vector<ErrorSource>& sources) const {
   const Eigen::MatrixXd elimination =
       reduced_->elimination.middleRows<kErrorSourceCount>(errors_.instrumentBlock() * kKnot)
           .transpose();
@@ -285,6 +285,12 @@ Adjustment::Influence Adjustment::sourceInfluence(const SystemMatrix& model) con
   influence.shared =
       columnsOf(reduced_->with_sources, sources) - reduced_->elimination * influence.biases;
   return influence;
+}
+
+SystemVector Adjustment::derivativeBySource(ErrorSource source,
+                                            const std::vector<SystemParameter>& estimate) const {
+  const Influence influence = sourceInfluence(modelCovariance(estimate), {source});
+  return influence.biases.col(0) / influence.shared(errors_.sourceUnknown(source), 0);
 }
 
 std::vector<Eigen::VectorXd> Adjustment::areaScores(const Influence& influence,
@@ -334,7 +340,7 @@ Adjustment::SourceCertainty Adjustment::sourceCertainty(const Influence& influen
 SystemMatrix Adjustment::averageSources(const SystemMatrix& model,
                                         AdjustmentSolution& solution) const {
   const std::vector<ErrorSource>& sources = errors_.consideredSources();
-  const Influence influence = sourceInfluence(model);
+  const Influence influence = sourceInfluence(model, sources);
   std::vector<SpikeAndSlab::Prior> priors;
   Eigen::VectorXd mean(sources.size());
   Eigen::MatrixXd covariance(sources.size(), sources.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -121,7 +122,10 @@ void AreaMatcher::chooseCandidates(StripPart& part, std::size_t count) const {
   const auto rough = trianglesByOrientation(part.surface, 1, [&](std::int32_t point) {
     return part.single[point] && area_.contains(part.biased[point]);
   });
-  const SurfaceCriterion criterion = criterionOf(part);
+  // Nor are points selected by the edges of their triangles, in which nothing is interpolated here:
+  // at the edge of a rosette, points that lay closer to others for their noise were 1 mm too high.
+  SurfaceCriterion criterion = criterionOf(part);
+  criterion.edge_factor = std::numeric_limits<double>::infinity();
   std::vector<std::vector<std::int32_t>> classes(OrientationClasses::kCount);
   for (const std::int32_t triangle : chosenEvenly(rough, kExaminedPerCandidate * count)) {
     const PatchQuality quality = part.surface.quality(triangle);

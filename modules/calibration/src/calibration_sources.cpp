@@ -18,6 +18,21 @@
 namespace pcl_als {
 namespace {
 
+/// A parameter that the block does not determine, or that was not asked for, must not appear as an
+/// error with a similar effect: it has a wide prior.
+AdjustmentSolution solveForAllParameters(const Adjustment& adjustment,
+                                         const std::vector<SystemParameter>& estimated) {
+  std::vector<SystemParameter> parameters;
+  SystemVector information = SystemVector::Zero();
+  for (const SystemParameterInfo& info : systemParameters()) {
+    parameters.push_back(info.parameter);
+    if (std::find(estimated.begin(), estimated.end(), info.parameter) != estimated.end()) continue;
+    const double std = widePriorStd()[indexOf(info.parameter)];
+    information[indexOf(info.parameter)] = 1.0 / (std * std);
+  }
+  return adjustment.solve(parameters, SystemVector::Zero(), information);
+}
+
 std::vector<ErrorSource> allSources() {
   std::vector<ErrorSource> sources;
   for (const ErrorSourceInfo& info : errorSources()) sources.push_back(info.source);
@@ -55,18 +70,7 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   state.errors.considerSources(allSources());
   weigh(state);
   state.adjustment.accumulate(state.observations, state.weights.weights());
-  // A parameter that the block does not determine, or that was not asked for, must not appear as a
-  // source with a similar effect.
-  std::vector<SystemParameter> parameters;
-  SystemVector information = SystemVector::Zero();
-  const std::vector<SystemParameter>& estimated = state.choice.estimate;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    parameters.push_back(info.parameter);
-    if (std::find(estimated.begin(), estimated.end(), info.parameter) != estimated.end()) continue;
-    const double std = widePriorStd()[indexOf(info.parameter)];
-    information[indexOf(info.parameter)] = 1.0 / (std * std);
-  }
-  state.diagnosed = state.adjustment.solve(parameters, SystemVector::Zero(), information);
+  state.diagnosed = solveForAllParameters(state.adjustment, state.choice.estimate);
   std::vector<ErrorSource> supported{ErrorSource::slope_ranging};
   for (const ErrorSource source : allSources()) {
     if (isCorrected(source, state.diagnosed, settings_.shared_errors)) supported.push_back(source);
@@ -88,6 +92,24 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   return changed;
 }
 
+void SystemCalibrationEngine::allowForUndecidedSources(State& state) const {
+  if (!state.diagnosed.solved || !state.choice.solution.solved) return;
+  const std::vector<ErrorSource>& estimated = state.errors.consideredSources();
+  for (const ErrorSource source : allSources()) {
+    const int i = indexOf(source);
+    if (std::find(estimated.begin(), estimated.end(), source) != estimated.end() ||
+        state.held_sources[i] != 0.0 ||
+        !isPossible(source, state.diagnosed, settings_.shared_errors))
+      continue;
+    const double square = state.diagnosed.source_value[i] * state.diagnosed.source_value[i] +
+                          state.diagnosed.source_std[i] * state.diagnosed.source_std[i];
+    const SystemVector derivative =
+        state.adjustment.derivativeBySource(source, state.choice.estimate);
+    state.choice.solution.covariance +=
+        state.diagnosed.source_probability[i] * square * derivative * derivative.transpose();
+  }
+}
+
 ErrorSourceVector SystemCalibrationEngine::sourcesOf(const State& state) {
   ErrorSourceVector values = state.held_sources;
   if (!state.choice.solution.solved) return values;
@@ -107,7 +129,8 @@ void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
     const int strip = static_cast<int>(i);
     if (used_[i] && !isHeld(strip) && systems_.pass[i] == strip) strips.push_back({strip, ids_[i]});
   }
-  const JumpSearch jumps(errors, state.adjustment, state.choice.solution, strips);
+  const JumpSearch jumps(errors, state.adjustment,
+                         solveForAllParameters(state.adjustment, state.choice.estimate), strips);
   const ErrorFinding& jump = jumps.finding();
   result.diagnosis.push_back(jump);
   if (jump.determined && jump.probability > kSupported)

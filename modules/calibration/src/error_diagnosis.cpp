@@ -42,8 +42,11 @@ std::string evidenceOf(const ErrorFinding& finding) {
 
 namespace {
 
-bool isDetermined(double std, const SharedErrorModel::SourcePrior& prior) {
-  return std < SharedErrorModel::kDetermined * prior.std;
+bool isDetermined(ErrorSource source, const AdjustmentSolution& solution,
+                  const SharedErrorModel& model) {
+  const int i = indexOf(source);
+  return SharedErrorModel::isDetermined(solution.source_value[i], solution.source_std[i],
+                                        model.sources[static_cast<std::size_t>(i)].std);
 }
 
 /// Movement of a point at the edge of the swath by one internal unit of a source, metres.
@@ -88,7 +91,7 @@ ErrorFinding findingOf(SystemParameter p, const ParameterEstimate& estimate,
 }
 
 ErrorFinding findingOf(ErrorSource source, const AdjustmentSolution& solution,
-                       const SharedErrorModel::SourcePrior& prior, double unit_effect) {
+                       const SharedErrorModel& model, double unit_effect) {
   const ErrorSourceInfo& info = infoOf(source);
   const int i = indexOf(source);
   ErrorFinding finding;
@@ -99,7 +102,7 @@ ErrorFinding findingOf(ErrorSource source, const AdjustmentSolution& solution,
   finding.value = solution.source_value[i] / info.internal_per_unit;
   finding.std = solution.source_std[i] / info.internal_per_unit;
   finding.effect = std::abs(solution.source_value[i]) * unit_effect;
-  finding.determined = isDetermined(solution.source_std[i], prior);
+  finding.determined = isDetermined(source, solution, model);
   finding.remedy = info.remedy;
   finding.evidence = evidenceOf(finding);
   return finding;
@@ -123,7 +126,17 @@ bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
                  const SharedErrorModel& model) {
   const int i = indexOf(source);
   return source != ErrorSource::slope_ranging && diagnosed.source_probability[i] > kSupported &&
-         isDetermined(diagnosed.source_std[i], model.sources[static_cast<std::size_t>(i)]);
+         isDetermined(source, diagnosed, model);
+}
+
+bool isPossible(ErrorSource source, const AdjustmentSolution& diagnosed,
+                const SharedErrorModel& model) {
+  const int i = indexOf(source);
+  constexpr double kPositiveEvidence = 3.0;
+  const double absent = model.sources[static_cast<std::size_t>(i)].absent;
+  const double after = diagnosed.source_probability[i];
+  return after * absent > kPositiveEvidence * (1.0 - after) * (1.0 - absent) &&
+         isDetermined(source, diagnosed, model);
 }
 
 void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
@@ -136,8 +149,7 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
   for (const ErrorSourceInfo& info : errorSources()) {
     const int i = indexOf(info.source);
     ErrorFinding finding =
-        findingOf(info.source, diagnosed, errors.model().sources[static_cast<std::size_t>(i)],
-                  effectOf(info.source, edge, speed));
+        findingOf(info.source, diagnosed, errors.model(), effectOf(info.source, edge, speed));
     const std::vector<ErrorSource>& used = errors.consideredSources();
     finding.corrected = info.source != ErrorSource::slope_ranging &&
                         std::find(used.begin(), used.end(), info.source) != used.end();

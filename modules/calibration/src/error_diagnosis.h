@@ -28,13 +28,17 @@ std::string evidenceOf(const ErrorFinding& finding);
 bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
                  const SharedErrorModel& model);
 
+/// Whether there is positive evidence for a source that the data determine: a Bayes factor of more
+/// than 3 (Kass and Raftery 1995, JASA 90).
+bool isPossible(ErrorSource source, const AdjustmentSolution& diagnosed,
+                const SharedErrorModel& model);
+
 /** \brief Adds the diagnosis: for every estimated system parameter and every error source that was
  * considered, the probability that it is present (SpikeAndSlab), its value, its effect at the edge
  * of the swath, the evidence and the remedy.
  *
- * Sources with a probability above one half are corrected, slope_ranging excepted, which depends on
- * the surface. A source is determined where its standard deviation is less than a quarter of the
- * one before the observations.
+ * Sources that the data support are corrected, slope_ranging excepted, which depends on the
+ * surface. A source is determined as in SharedErrorModel::isDetermined().
  */
 /// \param diagnosed solution with all sources
 void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,

@@ -158,7 +158,7 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
       finding.effect = u.index < kSystemParameterCount
                            ? (designBlock(edge).col(u.index) * value).norm()
                            : std::abs(value);
-      finding.determined = solution.solved && std < SharedErrorModel::kDetermined * u.slab;
+      finding.determined = solution.solved && SharedErrorModel::isDetermined(value, std, u.slab);
       finding.remedy = remedyOf(u, session);
       finding.evidence = evidenceOf(finding);
       diagnosis.push_back(std::move(finding));

@@ -39,6 +39,36 @@ void SharedErrorModel::validate() const {
   }
 }
 
+namespace {
+
+/// Length of the union of some spans, seconds.
+double coveredTime(std::vector<TimeSpan> spans) {
+  std::sort(spans.begin(), spans.end());
+  double covered = 0.0, end = -HUGE_VAL;
+  for (const auto& [from, to] : spans) {
+    covered += std::max(0.0, to - std::max(from, end));
+    end = std::max(end, to);
+  }
+  return covered;
+}
+
+}  // namespace
+
+SharedErrorModel SharedErrorModel::withKnotsFor(
+    const std::vector<std::vector<TimeSpan>>& observed) const {
+  constexpr double kKnots = 150.0, kClosest = 0.4;
+  double time = 0.0;
+  for (const std::vector<TimeSpan>& of_strip : observed) time += coveredTime(of_strip);
+  SharedErrorModel model = *this;
+  model.knot_spacing = std::min(knot_spacing, std::max(kClosest, time / kKnots));
+  return model;
+}
+
+bool SharedErrorModel::isDetermined(double value, double std, double prior_std) {
+  constexpr double kNotZero = 4.0;  // standard deviations
+  return std < kDetermined * prior_std || std::abs(value) > kNotZero * std;
+}
+
 SharedErrorModel SharedErrorModel::ofGrade(const std::string& grade) {
   struct Grade {
     const char* name;

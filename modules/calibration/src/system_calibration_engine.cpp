@@ -336,7 +336,8 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
 CalibrationResult SystemCalibrationEngine::calibrate() {
   prepare();
   const std::vector<TimeSpan> spans = flownTimes();
-  SharedErrors errors(spans, settings_.shared_errors, measuredTimes(), systems_);
+  const std::vector<std::vector<TimeSpan>> observed = measuredTimes();
+  SharedErrors errors(spans, settings_.shared_errors.withKnotsFor(observed), observed, systems_);
   State state(errors, settings_.threads);
   state.excluded = settings_.undeterminable;
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
@@ -349,6 +350,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   addHeldFit(state.observations, SystemVector::Zero(), false, result);
   const MisfitComparison misfit(state.observations);
   iterateToConvergence(state, result);
+  allowForUndecidedSources(state);
   const bool open = !result.converged;
   result.sigma0 = state.weights.sigma0();
   result.redundancy = state.redundancy();

@@ -111,6 +111,11 @@ class Adjustment {
   SystemPosterior systemPosterior(int system, const std::vector<SystemParameter>& estimate,
                                   const AdjustmentSolution& solution) const;
 
+  /// Derivative of the estimated parameters with respect to the value at which an error source is
+  /// held that is not considered; internal units.
+  SystemVector derivativeBySource(ErrorSource source,
+                                  const std::vector<SystemParameter>& estimate) const;
+
   /// A solution without estimates: all parameters are held, and there are no shared errors.
   AdjustmentSolution unsolved(const SystemVector& held) const;
 
@@ -153,8 +158,8 @@ class Adjustment {
   struct Influence {
     Eigen::MatrixXd biases, shared;  ///< a column for each value
   };
-  /// On the considered error sources.
-  Influence sourceInfluence(const SystemMatrix& model) const;
+  Influence sourceInfluence(const SystemMatrix& model,
+                            const std::vector<ErrorSource>& sources) const;
   /// On the differences of a system to the first one. \a model: covariance of the parameters.
   Influence differenceInfluence(int system, const SystemMatrix& model) const;
   /// Covariance of the parameters in \a estimate by the model; zero where they are singular.

@@ -194,6 +194,10 @@ class SystemCalibrationEngine {
   /// Finds the error sources that the data support, by an adjustment with all of them, and
   /// estimates these. Returns whether they differ from those estimated before.
   bool selectSources(State& state);
+  /// Adds to the covariance of the parameters the effect of error sources for which there is
+  /// positive evidence, and that are not corrected because they are not supported: their mean
+  /// square if present times the probability that they are.
+  void allowForUndecidedSources(State& state) const;
   /// Lets the iteration continue after a change of the error sources that are estimated.
   static void continueWithSources(State& state, CalibrationResult& result);
   void formPairs(State& state);
