@@ -78,6 +78,58 @@ TEST(Adjustment, FindsTheErrorSourceThatIsPresent) {
   }
 }
 
+/// The derivative by a source that is held agrees with solutions for which it is held at two
+/// values.
+TEST(Adjustment, DerivativeBySourceIsThatOfTheSolution) {
+  const ErrorSource source = ErrorSource::time_offset;
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  auto areas = simulated(someBiases(), 0.02, 7);
+  std::mt19937_64 random(8);
+  std::normal_distribution<double> normal;
+  for (AreaObservations& area : areas)
+    for (PairObservation& o : area) o.sources[indexOf(source)] = 60.0 + 20.0 * normal(random);
+  const auto weights = unitWeights(areas);
+  const auto solvedAt = [&](double value, SystemVector* derivative = nullptr) {
+    auto held = areas;
+    for (AreaObservations& area : held)
+      for (PairObservation& o : area) o.misclosure -= value * o.sources[indexOf(source)];
+    Adjustment adjustment(errors);
+    adjustment.accumulate(held, weights);
+    if (derivative != nullptr) *derivative = adjustment.derivativeBySource(source, kSix);
+    return adjustment.solve(kSix, SystemVector::Zero()).biases;
+  };
+  SystemVector derivative;
+  const double step = 1e-4;
+  const SystemVector before = solvedAt(-step, &derivative), after = solvedAt(step);
+  const SystemVector difference = (after - before) / (2.0 * step);
+  ASSERT_GT(derivative.norm(), 0.0);
+  for (int i = 0; i < kSystemParameterCount; ++i)
+    EXPECT_NEAR(derivative[i], difference[i], 1e-3 * std::abs(difference[i]) + 1e-12) << i;
+}
+
+TEST(SharedErrorModel, SourcesAreDeterminedWhereSmallOrDifferentFromZero) {
+  EXPECT_TRUE(SharedErrorModel::isDetermined(0.0, 0.24, 1.0));
+  EXPECT_FALSE(SharedErrorModel::isDetermined(0.0, 0.26, 1.0));
+  EXPECT_FALSE(SharedErrorModel::isDetermined(-1.4, 0.4, 1.0));
+  EXPECT_TRUE(SharedErrorModel::isDetermined(-1.7, 0.4, 1.0));
+}
+
+TEST(SharedErrorModel, ShortBlocksHaveKnotsCloserTogether) {
+  using Spans = std::vector<std::vector<TimeSpan>>;
+  const SharedErrorModel errors;
+  const auto spacingFor = [&](const Spans& spans) {
+    return errors.withKnotsFor(spans).knot_spacing;
+  };
+  EXPECT_EQ(spacingFor({}), 0.4);
+  EXPECT_EQ(spacingFor({{{0.0, 30.0}}, {{100.0, 115.0}}}), 0.4);
+  // Overlapping spans of two areas count once: 60 + 30 s.
+  EXPECT_NEAR(spacingFor({{{20.0, 60.0}, {0.0, 50.0}}, {{100.0, 130.0}}}), 0.6, 1e-12);
+  EXPECT_EQ(spacingFor({{{0.0, 3600.0}}}), 1.0);
+  SharedErrorModel close = errors;
+  close.knot_spacing = 0.2;
+  EXPECT_EQ(close.withKnotsFor({{{0.0, 3600.0}}}).knot_spacing, 0.2);
+}
+
 TEST(SharedErrorModel, GradesOfInertialSystems) {
   // 0.025 and 0.08 degrees of the data sheet of a drone's system.
   const SharedErrorModel mems = SharedErrorModel::ofGrade("mems");

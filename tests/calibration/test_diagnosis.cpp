@@ -74,6 +74,35 @@ TEST(Diagnosis, FindsTwoErrorsAtOnce) {
   EXPECT_LT(result.misfit.rms_after, 0.04);
 }
 
+/// A scale that is larger than expected increases the variance components of the strips' heights,
+/// until it is corrected: it is no less determined for that, and the range bias is right.
+TEST(Diagnosis, CorrectsALargeScaleOfTheRanges) {
+  const CalibrationResult result = calibrated("range_scale=0.0003", 3);
+  EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+  const auto findings = findingsOf(result);
+  EXPECT_EQ(supportedIn(findings), 1);
+  const ErrorFinding& scale = findings.at("range_scale");
+  EXPECT_TRUE(scale.corrected);
+  EXPECT_NEAR(scale.value, 300.0, 3.0 * scale.std);
+  EXPECT_LT(scale.std, 30.0);
+  const ParameterEstimate& range = result[SystemParameter::range_bias];
+  EXPECT_NEAR(range.bias, 0.12, 4.0 * range.std);
+  EXPECT_LT(range.std, 0.05);
+}
+
+/// Evidence for a time offset that does not suffice to correct it: lever_arm_y has its effect,
+/// and its standard deviation says so.
+TEST(Diagnosis, UndecidedSourcesIncreaseStandardDeviations) {
+  const CalibrationResult result = calibrated("time_offset=3", 19);
+  const ErrorFinding offset = findingsOf(result).at("time_offset");
+  ASSERT_GT(offset.probability, 0.25);
+  ASSERT_FALSE(offset.corrected);
+  const ParameterEstimate& lever = result[SystemParameter::lever_arm_y];
+  EXPECT_GT(std::abs(lever.bias + 0.05), 0.1);
+  EXPECT_NEAR(lever.bias, -0.05, 3.0 * lever.std);
+  EXPECT_LT(lever.std, 0.25);
+}
+
 /// Without attitude in the trajectory, a time offset and a lever arm forward have the same effect.
 TEST(Diagnosis, NamesWhatTheBlockCannotDetermine) {
   auto options = simulation::SimulationOptions::preset("small");
