@@ -156,9 +156,22 @@ TEST(ScannerDetection, AnglesAreThoseOfTheScanner) {
   EXPECT_NEAR(detected(rosettePulse, 1, true).angle / kRadiansPerDegree, 16.7, 0.5);
 }
 
-TEST(ScannerDetection, ChannelsThatAreNotRecordedAreNoScannerOfOne) {
-  const Pulses merged = [](int i, int) { return dualPulse(i, i % 2); };
-  EXPECT_EQ(detected(merged, 1, true).pattern, ScannerPattern::irregular);
+TEST(ScannerDetection, FindsTwoChannelsThatAreNotRecorded) {
+  const Pulses looks = [](int i, int) { return dualPulse(i, i % 2); };
+  const Pulses lines = [](int i, int) { return crossPulse(i, i % 2); };
+  const Pulses beams = [](int i, int) { return multiPulse(i, i % 4); };
+  EXPECT_EQ(detected(looks, 1, true).text(), "dual look, planes 20.0 degrees apart");
+  EXPECT_EQ(detected(lines, 1, true).text(), "crossed, planes 28.0 degrees apart");
+  EXPECT_EQ(detected(beams, 1, true).pattern, ScannerPattern::irregular);
+  const ScannerDetection one = filled(lines, 1, true), two = filled(crossPulse, 2, true),
+                         cone = filled(conicalPulse, 1, true), four = filled(beams, 1, true),
+                         rosette = filled(rosettePulse, 1, true);
+  const ScanPlanes planes = scanPlanes({&one}), recorded = scanPlanes({&two});
+  ASSERT_EQ(planes.size(), 2U);
+  for (const Vector3d& normal : recorded)
+    EXPECT_LT(std::min((planes[0] - normal).norm(), (planes[1] - normal).norm()), 1e-4);
+  for (const ScannerDetection* other : {&cone, &four, &rosette})
+    EXPECT_TRUE(scanPlanes({other}).empty());
 }
 
 TEST(ScannerDetection, FewPulsesDetermineNothing) {

@@ -10,6 +10,8 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/scanner_detection.h>
 
+#include "plane_pair.h"
+
 namespace pcl_als {
 namespace {
 
@@ -30,6 +32,10 @@ constexpr double kBothWays = 0.25;
 constexpr double kRound = 0.6, kCentre = 0.15, kCentral = 0.04;
 constexpr double kHalfDegree = 0.5 * kRadiansPerDegree;
 
+Eigen::Vector3d forwardOf(const Eigen::Vector3d& normal) {
+  return normal.y() < 0.0 ? Eigen::Vector3d(-normal) : normal;
+}
+
 /// The plane m . e = d of unit vectors e, d >= 0.
 struct ConeFit {
   Eigen::Vector3d axis;
@@ -37,7 +43,7 @@ struct ConeFit {
   double round = 0.0;  ///< narrower over wider extent in plan
 
   /// The axis of a plane through the origin has no sign: that which is forward.
-  Eigen::Vector3d forward() const { return axis.y() < 0.0 ? Eigen::Vector3d(-axis) : axis; }
+  Eigen::Vector3d forward() const { return forwardOf(axis); }
 };
 
 ConeFit fitCone(const ScannerDetection::Channel& channel) {
@@ -79,10 +85,29 @@ ScannerPattern lineOf(const ScannerDetection::Channel& channel) {
                                                   : ScannerPattern::polygon;
 }
 
+/// Angles of the normal of a plane: ahead of the vertical plane across the flight, and turned about
+/// the vertical.
+struct PlaneAngles {
+  double ahead, turned;
+  explicit PlaneAngles(const Eigen::Vector3d& normal)
+      : ahead(std::asin(normal.z())), turned(std::atan2(normal.x(), normal.y())) {}
+};
+
 /// How far values spread, radians.
 double spread(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
+}
+
+/// The pattern of two planes, and half their angle; irregular: there are none.
+ScannerPattern patternOfTwo(const std::optional<std::array<Eigen::Vector3d, 2>>& planes,
+                            double& angle) {
+  if (!planes) return ScannerPattern::irregular;
+  const PlaneAngles first(forwardOf(planes->front())), second(forwardOf(planes->back()));
+  const double ahead = std::abs(first.ahead - second.ahead);
+  const double turned = std::abs(first.turned - second.turned);
+  angle = 0.5 * std::max(ahead, turned);
+  return ahead > turned ? ScannerPattern::dual_look : ScannerPattern::crossed;
 }
 
 }  // namespace
@@ -138,6 +163,10 @@ void ScannerDetection::add(const LidarReturn& point) {
   channel.pulses += 1.0;
   channel.sum += pulse;
   channel.products += pulse * pulse.transpose();
+  if (!recovery_) {
+    const Eigen::Matrix<double, 6, 1> monomials = quadraticMonomials(pulse);
+    channel.quadratics.noalias() += monomials * monomials.transpose();
+  }
   const double angle = std::atan2(std::hypot(pulse.x(), pulse.y()), -pulse.z());
   channel.from_axis[std::min(channel.from_axis.size() - 1,
                              static_cast<std::size_t>(angle / kHalfDegree))] += 1.0;
@@ -154,7 +183,7 @@ ScannerPattern ScannerDetection::patternOfOne(const Channel& channel, double& an
     angle = angleOf(channel, 0.999);
     return ScannerPattern::rosette;
   }
-  if (!recovery_) return ScannerPattern::irregular;
+  if (!recovery_) return patternOfTwo(planePairOf(channel, kTurned, kOffCone), angle);
   std::map<AttitudeRecovery::Verdict, double> points;
   double cone = 0.0;
   for (const AttitudeRecovery::Pass& pass : recovery_->assess().passes) {
@@ -184,9 +213,9 @@ DetectedScanner ScannerDetection::assess() const {
   for (const Channel* channel : known) {
     const ConeFit fit = fitCone(*channel);
     on_cones = on_cones && fit.off < kOffCone;
-    const Eigen::Vector3d axis = fit.forward();
-    ahead.push_back(std::asin(axis.z()));
-    turned.push_back(std::atan2(axis.x(), axis.y()));
+    const PlaneAngles angles(fit.forward());
+    ahead.push_back(angles.ahead);
+    turned.push_back(angles.turned);
     cones.push_back(std::asin(fit.axis.y() < 0.0 ? -fit.distance : fit.distance));
   }
   if (!on_cones) {
@@ -204,7 +233,7 @@ DetectedScanner ScannerDetection::assess() const {
 
 void ScannerDetection::put(ByteWriter& out) const {
   out.putMap(channels_, [](ByteWriter& to, const Channel& channel) {
-    to.put(channel.pulses).put(channel.sum).put(channel.products);
+    to.put(channel.pulses).put(channel.sum).put(channel.products).put(channel.quadratics);
   });
 }
 
@@ -212,9 +241,34 @@ void ScannerDetection::get(ByteReader& in) {
   channels_.clear();
   for (auto left = in.take<std::size_t>(); left > 0; --left) {
     Channel& channel = channels_[in.take<std::uint8_t>()];
-    in.get(channel.pulses).get(channel.sum).get(channel.products);
+    in.get(channel.pulses).get(channel.sum).get(channel.products).get(channel.quadratics);
   }
 }
+
+namespace {
+
+/// The normals of the planes that contain the pulses of a channel, pointing forward.
+std::vector<Eigen::Vector3d> planesOf(const ScannerDetection::Channel& channel) {
+  const ConeFit fit = fitCone(channel);
+  if (fit.off < kOffCone && fit.distance < kThroughOrigin) return {fit.forward()};
+  // The pulses of a cone satisfy a quadratic form as well, but no pair of planes.
+  if (const auto pair = planePairOf(channel, kTurned, kOffCone))
+    return {forwardOf(pair->front()), forwardOf(pair->back())};
+  return {};
+}
+
+/// Adds the normal of so many pulses to that of the same plane.
+void addPlane(const Eigen::Vector3d& normal, double pulses, std::vector<Eigen::Vector3d>& sums) {
+  const auto same = std::find_if(sums.begin(), sums.end(), [&](const Eigen::Vector3d& sum) {
+    return sum.normalized().cross(normal).norm() < kTurned;
+  });
+  if (same == sums.end())
+    sums.emplace_back(pulses * normal);
+  else
+    *same += pulses * normal;
+}
+
+}  // namespace
 
 ScanPlanes scanPlanes(const std::vector<const ScannerDetection*>& strips) {
   constexpr double kFewestInPlane = 100.0, kOther = 0.1;  // pulses; share that is in no plane
@@ -223,18 +277,9 @@ ScanPlanes scanPlanes(const std::vector<const ScannerDetection*>& strips) {
   for (const ScannerDetection* strip : strips) {
     for (const auto& [number, channel] : strip->channels()) {
       if (channel.pulses < kFewestInPlane) continue;
-      const ConeFit fit = fitCone(channel);
-      const bool plane = fit.off < kOffCone && fit.distance < kThroughOrigin;
-      (plane ? in_planes : others) += channel.pulses;
-      if (!plane) continue;
-      const Eigen::Vector3d normal = fit.forward();
-      const auto same = std::find_if(sums.begin(), sums.end(), [&](const Eigen::Vector3d& sum) {
-        return sum.normalized().cross(normal).norm() < kTurned;
-      });
-      if (same == sums.end())
-        sums.emplace_back(channel.pulses * normal);
-      else
-        *same += channel.pulses * normal;
+      const std::vector<Eigen::Vector3d> planes = planesOf(channel);
+      (planes.empty() ? others : in_planes) += channel.pulses;
+      for (const Eigen::Vector3d& normal : planes) addPlane(normal, channel.pulses, sums);
     }
   }
   if (sums.size() < 2 || others > kOther * in_planes) return {};

@@ -29,10 +29,11 @@ enum class ScannerPattern {
   linear,         ///< in a plane; the order of the pulses is not that of time
   conical,        ///< on a cone about the vertical (Palmer scanner)
   rosette,        ///< over a disc, most of them at its centre and edge (Risley prisms)
-  dual_look,      ///< two channels, in planes that look ahead and back
-  crossed,        ///< two channels, in planes that are turned about the vertical
+  dual_look,      ///< two channels, recorded or not, in planes that look ahead and back
+  crossed,        ///< the same, in planes that are turned about the vertical
   multi_channel,  ///< several channels, on cones about the flight direction
-  irregular,      ///< none of these: channels that are not recorded, or another flight's trajectory
+  irregular,      ///< none of these: more than two channels that are not recorded, or another
+                  ///< flight's trajectory
 };
 
 std::string_view nameOf(ScannerPattern pattern);
@@ -53,9 +54,10 @@ struct DetectedScanner {
  * With attitude, the directions of the pulses in the body frame are known. Those of one channel
  * of a mirror or of a spinning scanner lie on a circular cone about some axis, that is, their unit
  * vectors in a plane: through the origin for a mirror (a cone of 90 degrees), at a distance cos(g)
- * from it for a cone of half angle g. Without attitude, planes and cones are those of
- * AttitudeRecovery. A mirror that oscillates moves in both directions, a polygon in one. The pulses
- * of a rosette fill a disc. Memory: as AttitudeRecovery, and 2 kB for each channel.
+ * from it for a cone of half angle g. Those of two channels that are not recorded lie in two
+ * planes. Without attitude, planes and cones are those of AttitudeRecovery. A mirror that
+ * oscillates moves in both directions, a polygon in one. The pulses of a rosette fill a disc.
+ * Memory: as AttitudeRecovery, and 2 kB for each channel.
  */
 class ScannerDetection {
  public:
@@ -73,6 +75,8 @@ class ScannerDetection {
     double pulses = 0.0, steps = 0.0, steps_to_right = 0.0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    /// Sums of products of xx yy zz xy xz yz, with attitude.
+    Eigen::Matrix<double, 6, 6> quadratics = Eigen::Matrix<double, 6, 6>::Zero();
     std::array<double, 180> from_axis{};  ///< pulses by angle from the vertical, half degrees
     double last_time = 0.0, last_across = 0.0;
   };
@@ -90,8 +94,8 @@ class ScannerDetection {
   std::uint64_t added_ = 0;
 };
 
-/** \brief The scan planes of a scanner whose channels, or strips, have different ones; empty where
- * they have one in common or other pulses than in planes.
+/** \brief The scan planes of a scanner whose channels, recorded or not, or strips have different
+ * ones; empty where they have one in common or other pulses than in planes.
  *
  * The planes of channels and strips that differ by less than two degrees are taken as one.
  * \param strips with attitude; some hundred points of each channel suffice
