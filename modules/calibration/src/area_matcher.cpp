@@ -197,10 +197,8 @@ void AreaMatcher::removeSourceEffects(const StripPart& part, const Trajectory& t
   std::size_t cursor = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!trajectory.poseAt(part.times[i], pose, cursor)) continue;
-    SourceEffects effects = SourceEffects::Zero();
-    effect.add({part.times[i], part.intensity[i], part.turning[i]}, pose,
-               scanGeometry(pose, points[i]), *source_scale_, effects);
-    points[i] -= effects * corrected_sources_;
+    points[i] -= effect.displacement({part.times[i], part.intensity[i], part.turning[i]}, pose,
+                                     points[i], *source_scale_, corrected_sources_);
   }
 }
 

@@ -33,9 +33,8 @@ void SourceCorrection::add(const PointColumns& points, std::size_t count, bool i
     if (points.intensity != nullptr) reading.intensity = points.intensity[i];
     if (points.turning != nullptr) reading.turning = points.turning[i];
     if (!std::isfinite(reading.time) || !flight_->poseAt(reading.time, pose, cursor)) continue;
-    SourceEffects effects = SourceEffects::Zero();
-    effect.add(reading, pose, scanGeometry(pose, position), scale_, effects);
-    const Eigen::Vector3d moved = sign * (effects * values_);
+    const Eigen::Vector3d moved =
+        sign * effect.displacement(reading, pose, position, scale_, values_);
     change.x[i] += moved.x(), change.y[i] += moved.y(), change.z[i] += moved.z();
   }
 }

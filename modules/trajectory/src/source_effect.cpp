@@ -54,4 +54,13 @@ void SourceEffect::add(const SourceReading& reading, const SensorPose& pose,
   }
 }
 
+Eigen::Vector3d SourceEffect::displacement(const SourceReading& reading, const SensorPose& pose,
+                                           const Eigen::Vector3d& position,
+                                           const ErrorSourceScale& scale,
+                                           const ErrorSourceVector& values) {
+  SourceEffects effects = SourceEffects::Zero();
+  add(reading, pose, scanGeometry(pose, position), scale, effects);
+  return effects * values;
+}
+
 }  // namespace pcl_als

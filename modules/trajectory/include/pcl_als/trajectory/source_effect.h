@@ -41,6 +41,12 @@ class SourceEffect {
   void add(const SourceReading& reading, const SensorPose& pose, const ScanGeometry& geometry,
            const ErrorSourceScale& scale, SourceEffects& effects);
 
+  /// Displacement of a point by sources of these values (internal units), metres, slope_ranging
+  /// excepted.
+  Eigen::Vector3d displacement(const SourceReading& reading, const SensorPose& pose,
+                               const Eigen::Vector3d& position, const ErrorSourceScale& scale,
+                               const ErrorSourceVector& values);
+
  private:
   Eigen::Vector3d velocity(double time, const SensorPose& pose, const ScanGeometry& geometry);
 
