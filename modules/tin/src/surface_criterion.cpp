@@ -23,9 +23,7 @@ bool SurfaceCriterion::isSound(const PatchQuality& quality, double median_edge) 
 }
 
 bool SurfaceCriterion::isSatisfiedBy(const PatchQuality& quality, double median_edge) const {
-  // The slope of the triangle itself would select its vertices by their noise.
-  const bool steep = quality.plane_normal.z() < std::cos(slope);
-  return !steep && quality.roughness <= roughness && quality.bend <= bend &&
+  return quality.slope <= slope && quality.roughness <= roughness && quality.bend <= bend &&
          isSound(quality, median_edge);
 }
 

@@ -21,7 +21,7 @@ namespace pcl_als {
 struct SurfaceCriterion {
   /// Longest edge against typicalPlanEdge(), both in plan: longer ones span gaps.
   double edge_factor = 3.0;
-  double slope = 1.05;        ///< radians, of the neighbourhood's plane: steeper are walls
+  double slope = 1.05;        ///< radians: steeper are walls or triangles across an eave
   double roughness = 0.08;    ///< metres, RMS of the neighbourhood's vertices about their plane
   int minimum_vertices = 7;   ///< in the neighbourhood
   bool reject_border = true;  ///< triangles that touch the border of the TIN
