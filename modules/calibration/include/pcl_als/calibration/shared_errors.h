@@ -73,10 +73,9 @@ struct SharedErrorModel {
 
   BiasPrior biases;  ///< what is known of the system parameters
 
-  /// The same with knots closer together where few are needed: 150 for the times at which strips
-  /// are observed, but at least 0.4 s apart and at most as before. Errors between knots count as
-  /// noise of each point, although the points of a moment share them; with 1 s, time offsets of
-  /// short blocks were wrong by a tenth more than their standard deviations.
+  /// The same model with knots closer together where strips are observed for a short time: 150 of
+  /// them, but at least 0.4 s apart. Errors between knots count as noise of each point, although
+  /// the points of a moment share them, and standard deviations are then too small.
   SharedErrorModel withKnotsFor(const std::vector<std::vector<TimeSpan>>& observed) const;
 
   void validate() const;  ///< UsageError naming a value that is not positive and finite
