@@ -90,8 +90,8 @@ TEST(Diagnosis, CorrectsALargeScaleOfTheRanges) {
   EXPECT_LT(range.std, 0.05);
 }
 
-/// Evidence for a time offset that does not suffice to correct it: lever_arm_y has its effect,
-/// and its standard deviation says so.
+/// Evidence for a time offset that does not suffice to correct it: lever_arm_y takes in its effect,
+/// which its standard deviation includes.
 TEST(Diagnosis, UndecidedSourcesIncreaseStandardDeviations) {
   const CalibrationResult result = calibrated("time_offset=3", 19);
   const ErrorFinding offset = findingsOf(result).at("time_offset");

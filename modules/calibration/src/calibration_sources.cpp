@@ -94,11 +94,9 @@ bool SystemCalibrationEngine::selectSources(State& state) {
 
 void SystemCalibrationEngine::allowForUndecidedSources(State& state) const {
   if (!state.diagnosed.solved || !state.choice.solution.solved) return;
-  const std::vector<ErrorSource>& estimated = state.errors.consideredSources();
   for (const ErrorSource source : allSources()) {
     const int i = indexOf(source);
-    if (std::find(estimated.begin(), estimated.end(), source) != estimated.end() ||
-        state.held_sources[i] != 0.0 ||
+    if (state.errors.isConsidered(source) || state.held_sources[i] != 0.0 ||
         !isPossible(source, state.diagnosed, settings_.shared_errors))
       continue;
     const double square = state.diagnosed.source_value[i] * state.diagnosed.source_value[i] +

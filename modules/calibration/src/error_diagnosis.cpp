@@ -150,9 +150,8 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
     const int i = indexOf(info.source);
     ErrorFinding finding =
         findingOf(info.source, diagnosed, errors.model(), effectOf(info.source, edge, speed));
-    const std::vector<ErrorSource>& used = errors.consideredSources();
-    finding.corrected = info.source != ErrorSource::slope_ranging &&
-                        std::find(used.begin(), used.end(), info.source) != used.end();
+    finding.corrected =
+        info.source != ErrorSource::slope_ranging && errors.isConsidered(info.source);
     if (finding.corrected)
       result.sources[i] = choice.solution.shared[errors.sourceUnknown(info.source)];
     result.diagnosis.push_back(std::move(finding));

@@ -242,15 +242,18 @@ SharedErrors::PriorVariances SharedErrors::priorVariances(const SharedErrorLevel
   for (const ErrorSourceInfo& info : errorSources()) {
     const auto i = static_cast<std::size_t>(indexOf(info.source));
     const SharedErrorModel::SourcePrior& prior = model_.sources[i];
-    const bool considered =
-        std::find(considered_.begin(), considered_.end(), info.source) != considered_.end();
     // Observations may have been formed with the effects of sources that are no longer considered.
-    const double std = considered ? prior.std : std::max(prior.std_absent, kAbsent * prior.std);
+    const double std =
+        isConsidered(info.source) ? prior.std : std::max(prior.std_absent, kAbsent * prior.std);
     instrument[i] = std * std;
   }
   return {shareOf(1.0 - model_.smooth_share - model_.constant_share, levels.gauss_markov),
           shareOf(model_.smooth_share, levels.smooth),
           shareOf(model_.constant_share, levels.constant), instrument, systemVariances()};
+}
+
+bool SharedErrors::isConsidered(ErrorSource source) const {
+  return std::find(considered_.begin(), considered_.end(), source) != considered_.end();
 }
 
 int SharedErrors::observedInstrumentBlocks() const {

@@ -85,30 +85,31 @@ ScannerPattern lineOf(const ScannerDetection::Channel& channel) {
                                                   : ScannerPattern::polygon;
 }
 
-/// Angles of the normal of a plane: ahead of the vertical plane across the flight, and turned about
-/// the vertical.
-struct PlaneAngles {
-  double ahead, turned;
-  explicit PlaneAngles(const Eigen::Vector3d& normal)
-      : ahead(std::asin(normal.z())), turned(std::atan2(normal.x(), normal.y())) {}
-};
-
 /// How far values spread, radians.
 double spread(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;
 }
 
-/// The pattern of two planes, and half their angle; irregular: there are none.
-ScannerPattern patternOfTwo(const std::optional<std::array<Eigen::Vector3d, 2>>& planes,
-                            double& angle) {
-  if (!planes) return ScannerPattern::irregular;
-  const PlaneAngles first(forwardOf(planes->front())), second(forwardOf(planes->back()));
-  const double ahead = std::abs(first.ahead - second.ahead);
-  const double turned = std::abs(first.turned - second.turned);
-  angle = 0.5 * std::max(ahead, turned);
-  return ahead > turned ? ScannerPattern::dual_look : ScannerPattern::crossed;
-}
+/// How far the normals of planes spread: ahead of the vertical plane across the flight, and turned
+/// about the vertical; radians.
+struct PlaneSpread {
+  double ahead, turned;
+
+  explicit PlaneSpread(const std::vector<Eigen::Vector3d>& normals) {
+    std::vector<double> elevations, azimuths;
+    for (const Eigen::Vector3d& normal : normals) {
+      elevations.push_back(std::asin(normal.z()));
+      azimuths.push_back(std::atan2(normal.x(), normal.y()));
+    }
+    ahead = spread(elevations);
+    turned = spread(azimuths);
+  }
+  double largest() const { return std::max(ahead, turned); }
+  ScannerPattern pattern() const {
+    return ahead > turned ? ScannerPattern::dual_look : ScannerPattern::crossed;
+  }
+};
 
 }  // namespace
 
@@ -183,7 +184,13 @@ ScannerPattern ScannerDetection::patternOfOne(const Channel& channel, double& an
     angle = angleOf(channel, 0.999);
     return ScannerPattern::rosette;
   }
-  if (!recovery_) return patternOfTwo(planePairOf(channel, kTurned, kOffCone), angle);
+  if (!recovery_) {
+    const auto pair = planePairOf(channel, kTurned, kOffCone);
+    if (!pair) return ScannerPattern::irregular;
+    const PlaneSpread planes({forwardOf(pair->front()), forwardOf(pair->back())});
+    angle = 0.5 * planes.largest();
+    return planes.pattern();
+  }
   std::map<AttitudeRecovery::Verdict, double> points;
   double cone = 0.0;
   for (const AttitudeRecovery::Pass& pass : recovery_->assess().passes) {
@@ -208,25 +215,24 @@ DetectedScanner ScannerDetection::assess() const {
   found.channels = static_cast<int>(known.size());
   found.pattern = patternOfOne(*known[0], found.angle);
   if (known.size() == 1) return found;
-  std::vector<double> ahead, turned, cones;
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<double> cones;
   bool on_cones = true;
   for (const Channel* channel : known) {
     const ConeFit fit = fitCone(*channel);
     on_cones = on_cones && fit.off < kOffCone;
-    const PlaneAngles angles(fit.forward());
-    ahead.push_back(angles.ahead);
-    turned.push_back(angles.turned);
+    normals.push_back(fit.forward());
     cones.push_back(std::asin(fit.axis.y() < 0.0 ? -fit.distance : fit.distance));
   }
+  const PlaneSpread planes(normals);
   if (!on_cones) {
     found.pattern = known.size() > 2 ? ScannerPattern::multi_channel : ScannerPattern::irregular;
   } else if (spread(cones) > kTurned) {
     found.pattern = ScannerPattern::multi_channel;
     found.angle = spread(cones);
-  } else if (std::max(spread(ahead), spread(turned)) > kTurned) {
-    const bool looks = spread(ahead) > spread(turned);
-    found.pattern = looks ? ScannerPattern::dual_look : ScannerPattern::crossed;
-    found.angle = 0.5 * std::max(spread(ahead), spread(turned));
+  } else if (planes.largest() > kTurned) {
+    found.pattern = planes.pattern();
+    found.angle = 0.5 * planes.largest();
   }
   return found;
 }

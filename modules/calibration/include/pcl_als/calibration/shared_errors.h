@@ -192,6 +192,7 @@ class SharedErrors {
   /// Observations must have been formed with their effects.
   void considerSources(std::vector<ErrorSource> sources) { considered_ = std::move(sources); }
   const std::vector<ErrorSource>& consideredSources() const { return considered_; }
+  bool isConsidered(ErrorSource source) const;
   const SharedErrorModel& model() const { return model_; }
   /// Unknowns of knots, instrument and systems, on which observations depend.
   int observedUnknowns() const { return systemBlock(systems_.count) * kPerKnot; }
