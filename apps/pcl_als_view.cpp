@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <cstdlib>
+#include <memory>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/picture/survey_picture.h>
@@ -83,9 +83,8 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   return options;
 }
 
-void requireDisplay() {
-  if (PrivateDisplay::answers(std::getenv("DISPLAY") == nullptr ? "" : std::getenv("DISPLAY")))
-    return;
+std::shared_ptr<void> requiredDisplay() {
+  if (auto connection = PrivateDisplay::connectToCurrent()) return connection;
   throw InputError(
       "option -window: there is no display (DISPLAY is not set to one that answers); "
       "use -output");
@@ -100,7 +99,7 @@ int view(const CommandLine& line) {
   if (line.has("output")) app::pictureFile(line);
   const SurveyPicture picture(inputs, options, app::progressOf(line));
   if (line.has("window")) {
-    requireDisplay();
+    const auto connection = requiredDisplay();
     picture.show("pcl_als_view");
     return app::kDone;
   }

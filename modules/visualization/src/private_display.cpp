@@ -74,23 +74,27 @@ std::string readNumber(int descriptor) {
 
 }  // namespace
 
-bool PrivateDisplay::answers(const std::string& name) {
-  if (name.empty()) return false;
+std::shared_ptr<void> PrivateDisplay::connect(const std::string& name) {
+  if (name.empty()) return nullptr;
   // VTK brings libX11 but ends the process where a display does not answer: ask before it does.
   void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr) return false;
+  if (library == nullptr) return nullptr;
   using Open = void* (*)(const char*);
   using Close = int (*)(void*);
   const auto open_display = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
   const auto close_display = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
-  void* display = open_display != nullptr ? open_display(name.c_str()) : nullptr;
-  if (display != nullptr && close_display != nullptr) close_display(display);
-  return display != nullptr;
+  if (open_display == nullptr || close_display == nullptr) return nullptr;
+  void* display = open_display(name.c_str());
+  if (display == nullptr) return nullptr;
+  return {display, [close_display](void* connection) { close_display(connection); }};
 }
 
-PrivateDisplay::PrivateDisplay() : name_(displayVariable()) {
-  if (answers(name_)) return;
-  start();
+std::shared_ptr<void> PrivateDisplay::connectToCurrent() {
+  return connect(displayVariable());
+}
+
+PrivateDisplay::PrivateDisplay() : name_(displayVariable()), connection_(connect(name_)) {
+  if (connection_ == nullptr) start();
 }
 
 PrivateDisplay::~PrivateDisplay() {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include <sys/types.h>
@@ -27,8 +28,13 @@ class PrivateDisplay {
   bool isPrivate() const { return server_ > 0; }
   const std::string& name() const { return name_; }  ///< ":99"
 
-  /// Whether a display of that name can be opened; empty: none.
-  static bool answers(const std::string& name);
+  /** A connection to the display of that name, or nothing where it does not answer or the name is
+   * empty. Keep it while drawing: an X server without `-noreset` starts anew when its last
+   * connection is closed, and refuses others meanwhile. */
+  static std::shared_ptr<void> connect(const std::string& name);
+
+  /// connect() to the display that DISPLAY names.
+  static std::shared_ptr<void> connectToCurrent();
 
  private:
   void start();
@@ -36,6 +42,7 @@ class PrivateDisplay {
 
   pid_t server_ = 0;
   std::string name_;
+  std::shared_ptr<void> connection_;  ///< to a display that was there before
 };
 
 }  // namespace pcl_als
