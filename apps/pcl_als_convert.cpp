@@ -24,9 +24,11 @@ CommandLine commandLine() {
                    "pcl_als_convert tile.laz part.las -bounds 84900,447500,84950,447600");
   app::addWindowOptions(line);
   app::addStripOptions(line, false);
-  line.addFlag("split",
-               "write a file for each strip into the output folder; points are divided into flight "
-               "lines at gaps in time, changes of course and turns, points in turns are left out");
+  line.addFlag(
+      "split",
+      "write a file for each strip into the output folder; points are divided into flight "
+      "lines at gaps in time, changes of course, turns and hovering; points between lines are "
+      "left out");
   line.addOptional("format", "las, laz or pcd: files in an output folder (default: as the input)");
   return line;
 }

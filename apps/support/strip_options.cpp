@@ -19,12 +19,17 @@ std::vector<std::string> namesOf(const CommandLine& line, const char* option) {
 }  // namespace
 
 void addStripOptions(CommandLine& line, bool split) {
-  line.addOptional("strips", "use these strips only, e.g. 1,2 (names as pcl_als_info lists them)");
+  line.addOptional("strips",
+                   "use these strips only, e.g. 1,2 (names as pcl_als_info lists them, with -split "
+                   "and -trajectory as here)");
   line.addOptional("without", "leave these strips out, e.g. 3,4");
   if (!split) return;
-  line.addFlag("split",
-               "divide the points into flight lines at gaps in time, changes of course and turns: "
-               "for files without source ids (lines are named line1, line2, ... in order of time)");
+  line.addFlag(
+      "split",
+      "divide the points into flight lines at gaps in time, changes of course, turns (60 "
+      "degrees at 1.5 degrees per second) and hovering (below 15 % of the speed of the "
+      "lines): for files without source ids (lines are named line1, line2, ... in order of "
+      "time; the same with the same trajectory)");
 }
 
 void addChannelOption(CommandLine& line) {

@@ -20,6 +20,38 @@ SwathTrack trackOf(const PointChunk& chunk) {
   return track;
 }
 
+/// Metres per second, of a course in degrees.
+Eigen::Vector2d velocity(double speed, double course) {
+  const double angle = course * 3.14159265358979 / 180.0;
+  return speed * Eigen::Vector2d(std::sin(angle), std::cos(angle));
+}
+
+/// The path of a velocity, 90 to 400 s.
+Path byVelocity(const std::function<Eigen::Vector2d(double)>& velocity) {
+  constexpr double kBegins = 90.0, kStep = 0.01;
+  std::vector<Eigen::Vector2d> places{{0.0, 0.0}};
+  for (double time = kBegins; time < 400.0; time += kStep)
+    places.push_back(places.back() + kStep * velocity(time + 0.5 * kStep));
+  return [places](double time) {
+    const double at = (time - kBegins) / kStep;
+    const auto i = static_cast<std::size_t>(at);
+    return Eigen::Vector2d(places[i] + (at - static_cast<double>(i)) * (places[i + 1] - places[i]));
+  };
+}
+
+/// Line north, hovering of 20 s, passage across, hovering of 5 s, line south; a second of braking
+/// and starting each. Multiples of 6 m/s.
+Path lineHoverLine(double factor) {
+  return byVelocity([factor](double t) {
+    const auto ramp = [t](double from, double to) {
+      return std::clamp(std::min(t - from, to - t), 0.0, 1.0);
+    };
+    return Eigen::Vector2d(factor * (velocity(6.0 * ramp(90.0, 130.0), 0.0) +
+                                     velocity(3.0 * ramp(150.0, 160.0), 90.0) +
+                                     velocity(6.0 * ramp(165.0, 200.0), 180.0)));
+  });
+}
+
 /// Two lines of 20 s, opposite, with a half circle of 30 s (6 degrees per second) between.
 Path lineTurnLine() {
   return [](double t) {
@@ -35,7 +67,7 @@ Path lineTurnLine() {
 std::vector<TimeStretch> lines(const std::vector<TimeStretch>& stretches) {
   std::vector<TimeStretch> found;
   for (const TimeStretch& stretch : stretches)
-    if (!stretch.turn) found.push_back(stretch);
+    if (stretch.isLine()) found.push_back(stretch);
   return found;
 }
 
@@ -49,7 +81,7 @@ TEST(StripSplit, LongGapsPartLines) {
   EXPECT_DOUBLE_EQ(stretches[0].from, 100.0);
   EXPECT_NEAR(stretches[0].to, 108.0, 1e-3);  // a pulse before
   EXPECT_DOUBLE_EQ(stretches[1].from, 130.0);
-  EXPECT_FALSE(stretches[0].turn || stretches[1].turn);
+  EXPECT_TRUE(stretches[0].isLine() && stretches[1].isLine());
 }
 
 TEST(StripSplit, AStraightLineWithAHoleStaysOneLine) {
@@ -83,7 +115,7 @@ TEST(StripSplit, ATurnIsAStretchOfItsOwn) {
   for (const Trajectory* known : {static_cast<const Trajectory*>(nullptr), &flight}) {
     const auto stretches = splitTrack(trackOf(chunk), known);
     ASSERT_EQ(stretches.size(), 3U);
-    EXPECT_TRUE(stretches[1].turn);
+    EXPECT_EQ(stretches[1].left_out, LeftOutReason::in_turn);
     // Courses are means over 1 s (trajectory) or 4 s (swath), and are compared 4 s apart.
     EXPECT_NEAR(stretches[1].from, 120.0, 4.0);
     EXPECT_NEAR(stretches[1].to, 150.0, 4.0);
@@ -91,16 +123,58 @@ TEST(StripSplit, ATurnIsAStretchOfItsOwn) {
 }
 
 TEST(StripSplit, ABendOfTheTrajectoryIsNoTurn) {
-  const Path bend = [](double t) {  // 20 degrees in 10 s
-    const double s = std::clamp((t - 110.0) / 10.0, 0.0, 1.0);
-    const double angle = s * 20.0 * 3.14159265358979 / 180.0;
-    return Eigen::Vector2d(60.0 * (t - 100.0) * std::sin(angle),
-                           60.0 * (t - 100.0) * std::cos(angle));
-  };
+  const Path bend = byVelocity(  // 45 degrees in 10 s
+      [](double t) { return velocity(60.0, 4.5 * std::clamp(t - 110.0, 0.0, 10.0)); });
   PointChunk chunk;
-  test::scan(chunk, 0, test::straight({0.0, 0.0}, 10.0, 100.0), 100.0, 130.0);
+  test::scan(chunk, 0, bend, 100.0, 130.0);
   const Trajectory flight = test::flown(bend, 99.0, 131.0);
-  EXPECT_LE(lines(splitTrack(trackOf(chunk), &flight)).size(), 2U);
+  EXPECT_EQ(splitTrack(trackOf(chunk), &flight).size(), 1U);
+  EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
+}
+
+TEST(StripSplit, HoveringAndPassagesAreLeftOut) {
+  for (const double factor : {0.1, 1.0, 4.0}) {  // 0.6 m/s to 24 m/s
+    PointChunk chunk;
+    const Path path = lineHoverLine(factor);
+    test::scan(chunk, 0, path, 100.0, 195.0);
+    const Trajectory flight = test::flown(path, 99.0, 196.0);
+    for (const Trajectory* known : {static_cast<const Trajectory*>(nullptr), &flight}) {
+      if (known == nullptr && factor < 1.0) continue;  // the centre of the swath is too uncertain
+      const auto stretches = splitTrack(trackOf(chunk), known);
+      const auto found = lines(stretches);
+      ASSERT_EQ(found.size(), 2U);
+      const double certain = known == nullptr ? 4.0 : 1.0;
+      EXPECT_NEAR(found[0].to, 129.5, certain);
+      EXPECT_NEAR(found[1].from, 165.5, certain);
+      EXPECT_EQ(stretches[1].left_out, LeftOutReason::hovering);
+      EXPECT_EQ(stretches[2].left_out, LeftOutReason::in_turn) << "passage";
+    }
+  }
+}
+
+TEST(StripSplit, SlowAndUnevenFlightIsNoHovering) {
+  const Path constant = byVelocity([](double) { return velocity(0.4, 70.0); });
+  const Path uneven = byVelocity([](double t) {  // of a helicopter: 8 to 24 m/s
+    return velocity(16.0 + 8.0 * std::sin(0.2 * t), 30.0);
+  });
+  const Path slower = byVelocity([](double t) { return velocity(t < 200.0 ? 60.0 : 10.0, 30.0); });
+  for (const Path& path : {constant, uneven, slower}) {
+    PointChunk chunk;
+    test::scan(chunk, 0, path, 100.0, 300.0);
+    const Trajectory flight = test::flown(path, 99.0, 301.0);
+    EXPECT_EQ(splitTrack(trackOf(chunk), &flight).size(), 1U);
+    EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
+  }
+}
+
+TEST(StripSplit, AWindingCorridorStaysOneLine) {
+  // Bends of 50 degrees in 30 s to either side, at 20 m/s; up to 2.6 degrees per second.
+  const Path path =
+      byVelocity([](double t) { return velocity(20.0, 40.0 + 25.0 * std::sin(t / 9.55)); });
+  PointChunk chunk;
+  test::scan(chunk, 0, path, 100.0, 300.0);
+  const Trajectory flight = test::flown(path, 99.0, 301.0);
+  EXPECT_EQ(splitTrack(trackOf(chunk), &flight).size(), 1U);
   EXPECT_EQ(splitTrack(trackOf(chunk), nullptr).size(), 1U);
 }
 

@@ -24,6 +24,8 @@ const char* sentence(LeftOutReason reason) {
       return "the trajectory covers hardly anything of the strip";
     case LeftOutReason::in_turn:
       return "measured in a turn between strips";
+    case LeftOutReason::hovering:
+      return "measured while the sensor hovered between strips";
     case LeftOutReason::rounded_times:
       return "their GPS times are rounded";
     case LeftOutReason::too_few_points:
@@ -50,6 +52,8 @@ std::string_view toString(LeftOutReason reason) {
       return "strip_uncovered";
     case LeftOutReason::in_turn:
       return "in_turn";
+    case LeftOutReason::hovering:
+      return "hovering";
     case LeftOutReason::rounded_times:
       return "rounded_times";
     case LeftOutReason::too_few_points:

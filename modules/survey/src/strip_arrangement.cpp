@@ -60,7 +60,7 @@ struct StripArrangement::Piece {
   std::string name;
   std::vector<Key> keys;
   double from = -kInfinity, until = kInfinity;
-  bool turn = false;
+  std::optional<LeftOutReason> between;  ///< lines: why it is none
 };
 
 StripArrangement::StripArrangement(const std::vector<SurveyedFile>& files,
@@ -83,20 +83,20 @@ void StripArrangement::splitPool(std::uint16_t id, const std::vector<Key>& keys,
                                  std::vector<Piece>& found) const {
   const std::vector<TimeStretch> stretches = splitTrack(trackOf(keys), flown_.trajectory);
   const auto lines = std::count_if(stretches.begin(), stretches.end(),
-                                   [](const TimeStretch& stretch) { return !stretch.turn; });
+                                   [](const TimeStretch& stretch) { return stretch.isLine(); });
   const std::string number = std::to_string(id);
   int line = 0;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     Piece piece;
     piece.keys = keys;
-    piece.turn = stretches[i].turn;
-    if (!piece.turn) ++line;
-    if (id == 0)
-      piece.name = piece.turn ? "turns" : "line" + std::to_string(line);
-    else if (piece.turn)
-      piece.name = number + ".turns";
-    else
-      piece.name = lines == 1 ? number : number + "." + std::to_string(line);
+    piece.between = stretches[i].left_out;
+    if (piece.between) {
+      const bool hovering = piece.between == LeftOutReason::hovering;
+      piece.name = (id == 0 ? "" : number + ".") + (hovering ? "hovering" : "turns");
+    } else {
+      const std::string place = std::to_string(++line);
+      piece.name = id == 0 ? "line" + place : lines == 1 ? number : number + "." + place;
+    }
     if (i > 0) piece.from = stretches[i].from;
     if (i + 1 < stretches.size()) piece.until = stretches[i + 1].from;
     found.push_back(std::move(piece));
@@ -133,7 +133,7 @@ std::vector<StripArrangement::Piece> StripArrangement::pieces(const StripChoice&
 void StripArrangement::checkNames(const StripChoice& choice, const std::vector<Piece>& all) {
   std::vector<std::string> strips;
   for (const Piece& piece : all) {
-    if (!piece.turn) strips.push_back(piece.name);
+    if (!piece.between) strips.push_back(piece.name);
   }
   for (const std::string& name : choice.only) stripNamed(strips, name, "strips");
   for (const std::string& name : choice.without) stripNamed(strips, name, "without");
@@ -204,7 +204,7 @@ std::optional<LeftOutReason> StripArrangement::whyNone(const Piece& piece,
                                                        const StripChoice& choice,
                                                        std::uint64_t& covered) const {
   const double share = coveredShare(piece, covered);
-  if (piece.turn) return LeftOutReason::in_turn;
+  if (piece.between) return piece.between;
   const bool chosen = choice.only.empty() || contains(choice.only, piece.name);
   if (!chosen || contains(choice.without, piece.name)) return LeftOutReason::excluded;
   const bool timeless = std::all_of(piece.keys.begin(), piece.keys.end(), [&](const Key& key) {

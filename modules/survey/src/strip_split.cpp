@@ -8,163 +8,237 @@
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/survey/strip_split.h>
 
+#include "track_motion.h"
+
 namespace pcl_als {
 namespace {
 
-using Bins = std::vector<SwathTrack::Bin>;
 using Eigen::Vector2d;
+using Bins = TrackMotion::Bins;
+using Span = TrackMotion::Span;
+using Reason = std::optional<LeftOutReason>;
 
-constexpr double kGap = 1.0 + 1e-6;   // s: times may be whole seconds, which is no gap
-constexpr double kHalfWindow = 2.0;   // s on either side from which a course is determined
+constexpr double kAtRest = 0.05;      // m/s: no platform is slower; courses of less are noise
 constexpr double kLeastWindow = 1.0;  // s: shorter stretches have no course
-constexpr double kLeastSpeed = 1.0;   // m/s: slower means at rest
-constexpr double kLeastRate = 1.5 * kRadiansPerDegree;   // rad/s: half a standard-rate turn
-constexpr double kTurn = 30.0 * kRadiansPerDegree;       // of the trajectory: a line has bends
-constexpr double kSwathTurn = 60.0 * kRadiansPerDegree;  // of the swath's centre, less certain
-constexpr double kLeastCertain = 0.15;  // rad, standard deviation of the swath's course
-constexpr double kStep = 0.25;          // s between courses whose changes are added up over a gap
+constexpr double kApart = 2.0;        // s before and after, of a rate of turn
+constexpr double kLeastRate = 1.5 * kRadiansPerDegree;  // rad/s: half a standard-rate turn
+constexpr double kTurn = 60.0 * kRadiansPerDegree;      // in all: corridors have bends
+constexpr double kGapTurn = 30.0 * kRadiansPerDegree;   // across a gap, of a trajectory
+constexpr double kStep = 0.25;  // s between courses whose changes are added up over a gap
+// Speed of hovering over the typical one; in a moment by the centre of the swath, which moves with
+// roll and pitch, too.
+constexpr double kHover = 0.15, kSwathHover = 0.25;
+constexpr double kSlow = 0.5;      // speed over the typical one around it: braking and starting
+constexpr double kAround = 60.0;   // s of the speed to which braking and starting refer
+constexpr double kShortWay = 0.5;  // way of a passage over that of the lines that it joins
+constexpr double kOpposite = 135.0 * kRadiansPerDegree;  // between lines that a passage joins
+constexpr double kAcross = 45.0 * kRadiansPerDegree;     // between these and the passage
 
-/// Angle from one direction to another, (-pi, pi].
-double turned(const Vector2d& from, const Vector2d& to) {
-  return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-}
-
-/// Velocity of the swath's centre over bins [first, last); empty where it is uncertain.
-std::optional<Vector2d> swathVelocity(const Bins& bins, std::size_t first, std::size_t last) {
-  double n = 0.0, mean_time = 0.0;
-  Vector2d mean = Vector2d::Zero();
-  for (std::size_t i = first; i < last; ++i) {
-    if (bins[i].placed == 0) continue;
-    n += 1.0;
-    mean_time += bins[i].middle() - bins[first].first;
-    mean += bins[i].mean() - bins[first].mean();
-  }
-  if (n < 5.0 || bins[last - 1].last - bins[first].first < kLeastWindow) return std::nullopt;
-  mean_time /= n;
-  mean /= n;
-  double tt = 0.0, squares = 0.0;
-  Vector2d tx = Vector2d::Zero();
-  for (std::size_t i = first; i < last; ++i) {
-    if (bins[i].placed == 0) continue;
-    const double t = bins[i].middle() - bins[first].first - mean_time;
-    const Vector2d d = bins[i].mean() - bins[first].mean() - mean;
-    tt += t * t;
-    tx += t * d;
-    squares += d.squaredNorm();
-  }
-  const Vector2d velocity = tx / tt;
-  const double left = std::max(0.0, squares - velocity.squaredNorm() * tt) / (n - 2.0);
-  const bool certain = std::sqrt(left / tt) < kLeastCertain * velocity.norm();
-  if (!certain || velocity.norm() < kLeastSpeed) return std::nullopt;
-  return velocity;
-}
-
-/// Courses of a track, by its trajectory or by the swath.
-class Courses {
+/// Divides the bins of one track.
+class Division {
  public:
-  Courses(const Bins& bins, const Trajectory* flight) : bins_(bins), flight_(flight) {}
-
-  /// Velocity around a time within bins [first, last).
-  std::optional<Vector2d> velocity(double time, std::size_t first, std::size_t last) const {
-    return flight_ != nullptr ? flown(time) : swath(time, first, last);
-  }
-  double leastTurn() const { return flight_ != nullptr ? kTurn : kSwathTurn; }
-
-  /// Change of course over a time span of the trajectory, all turns added up; 0 without one.
-  double turnedBetween(double from, double to) const {
-    double sum = 0.0;
-    if (flight_ == nullptr) return sum;
-    std::optional<Vector2d> last;
-    for (double time = from; time <= to + 0.5 * kStep; time += kStep) {
-      const auto now = flown(std::min(time, to));
-      if (now && last) sum += turned(*last, *now);
-      if (now) last = now;
-      if (std::abs(sum) > kTurn) return std::abs(sum);
+  Division(const Bins& bins, const Trajectory* flight)
+      : bins_(bins), motion_(bins, flight), reasons_(bins.size()), least_(bins.size(), 0.0) {
+    for (const Span& session : motion_.sessions()) {
+      const double least = std::max(kAtRest, hover() * motion_.typicalSpeed(session));
+      for (std::size_t i = session.first; i < session.second; ++i) least_[i] = least;
     }
-    return std::abs(sum);
+    for (const Span& run : motion_.runs()) markTurns(run);
+    for (const Span& session : motion_.sessions()) markHovering(session);
   }
+  std::vector<TimeStretch> stretches() const;
 
  private:
-  std::optional<Vector2d> flown(double time) const {
-    constexpr double kHalf = 0.5;
-    SensorPose before, after;
-    std::size_t cursor = 0;
-    const double start = std::max(time - kHalf, flight_->startTime());
-    const double end = std::min(time + kHalf, flight_->endTime());
-    if (!(start < end) || !flight_->poseAt(start, before, cursor) ||
-        !flight_->poseAt(end, after, cursor)) {
-      return std::nullopt;
-    }
-    const Vector2d velocity = (after.position - before.position).head<2>() / (end - start);
-    if (velocity.norm() < kLeastSpeed) return std::nullopt;
-    return velocity;
-  }
+  struct Part {
+    Span bins;
+    Reason reason;
+  };
 
-  std::optional<Vector2d> swath(double time, std::size_t first, std::size_t last) const {
-    const auto begin = bins_.begin();
-    const auto earlier = [](const SwathTrack::Bin& bin, double t) { return bin.middle() < t; };
-    const auto low =
-        std::lower_bound(begin + static_cast<std::ptrdiff_t>(first),
-                         begin + static_cast<std::ptrdiff_t>(last), time - kHalfWindow, earlier);
-    const auto high = std::lower_bound(low, begin + static_cast<std::ptrdiff_t>(last),
-                                       time + kHalfWindow, earlier);
-    if (low == high) return std::nullopt;
-    return swathVelocity(bins_, static_cast<std::size_t>(low - begin),
-                         static_cast<std::size_t>(high - begin));
+  double hover() const { return motion_.isFlown() ? kHover : kSwathHover; }
+  void mark(const Span& span, LeftOutReason reason);
+  std::vector<double> ratesOfTurn(const Span& run) const;
+  void markTurns(const Span& run);
+  void markHovering(const Span& session);
+  std::size_t startOfBraking(const Span& session, std::size_t rest) const;
+  std::size_t endOfStarting(const Span& session, std::size_t rest) const;
+  double turnedBetween(double from, double to, double least) const;
+  bool cutsAt(std::size_t start, std::size_t at) const;
+  std::vector<Part> parts() const;
+  double duration(const Span& span) const {
+    return bins_[span.second - 1].last - bins_[span.first].first;
   }
+  bool isPassage(const Part& before, const Part& part, const Part& after) const;
+  void leaveOutRemnants(std::vector<Part>& parts) const;
 
   const Bins& bins_;
-  const Trajectory* flight_;
+  TrackMotion motion_;
+  std::vector<Reason> reasons_;
+  std::vector<double> least_;  // m/s by bin: slower is hovering
 };
 
-/// Whether the points after the gap before bin \a at belong to another line.
-bool cutsAt(const Bins& bins, std::size_t start, std::size_t at, const Courses& courses) {
-  const double gap = bins[at].first - bins[at - 1].last;
-  if (gap <= kGap) return false;
-  if (gap > StripNaming::kLargestGap) return true;
-  const double from = bins[at - 1].last, to = bins[at].first;
-  if (courses.turnedBetween(from - kStep, to + kStep) > courses.leastTurn()) return true;
-  std::size_t end = at + 1;
-  while (end < bins.size() && bins[end].first - bins[end - 1].last <= kGap) ++end;
-  const auto before = courses.velocity(from, start, at);
-  const auto after = courses.velocity(to, at, end);
-  if (before && after && std::abs(turned(*before, *after)) > courses.leastTurn()) return true;
-  const Vector2d moved = bins[at].mean() - bins[at - 1].mean();
-  return before && after && bins[at].placed > 0 && bins[at - 1].placed > 0 &&
-         moved.norm() > before->norm() * gap && std::abs(turned(*before, moved)) > kSwathTurn;
+void Division::mark(const Span& span, LeftOutReason reason) {
+  for (std::size_t i = span.first; i < span.second; ++i) reasons_[i] = reason;
 }
 
-/// Marks the bins of [first, last), which no gap parts, that were measured in a turn.
-void markTurns(const Bins& bins, std::size_t first, std::size_t last, const Courses& courses,
-               std::vector<bool>& turning) {
-  std::vector<double> rate(last - first, 0.0);
+/// Radians per second by bin; 0 where courses are not known.
+std::vector<double> Division::ratesOfTurn(const Span& run) const {
+  const auto [first, last] = run;
+  std::vector<double> rates(last - first, 0.0);
   for (std::size_t i = first; i < last; ++i) {
-    const double early = std::max(bins[i].middle() - kHalfWindow, bins[first].first);
-    const double late = std::min(bins[i].middle() + kHalfWindow, bins[last - 1].last);
+    const double early = std::max(bins_[i].middle() - kApart, bins_[first].first);
+    const double late = std::min(bins_[i].middle() + kApart, bins_[last - 1].last);
     if (!(late - early >= kLeastWindow)) continue;
-    const auto before = courses.velocity(early, first, last);
-    const auto after = courses.velocity(late, first, last);
-    if (before && after) rate[i - first] = turned(*before, *after) / (late - early);
+    const auto before = motion_.velocity(early, run, least_[i]);
+    const auto after = motion_.velocity(late, run, least_[i]);
+    if (before && after) rates[i - first] = turned(*before, *after) / (late - early);
   }
-  for (std::size_t i = first; i < last;) {
-    const double sign = rate[i - first];
+  return rates;
+}
+
+void Division::markTurns(const Span& run) {
+  const std::vector<double> rates = ratesOfTurn(run);
+  for (std::size_t i = 0; i < rates.size();) {
+    const double sign = rates[i];
     std::size_t end = i + 1;
     if (std::abs(sign) < kLeastRate) {
       i = end;
       continue;
     }
-    while (end < last && rate[end - first] * sign > 0.0 &&
-           std::abs(rate[end - first]) >= kLeastRate) {
+    while (end < rates.size() && rates[end] * sign > 0.0 && std::abs(rates[end]) >= kLeastRate)
       ++end;
-    }
     double change = 0.0;
-    for (std::size_t k = i + 1; k < end; ++k)
-      change += rate[k - first] * (bins[k].middle() - bins[k - 1].middle());
-    if (std::abs(change) > courses.leastTurn())
-      std::fill(turning.begin() + static_cast<std::ptrdiff_t>(i),
-                turning.begin() + static_cast<std::ptrdiff_t>(end), true);
+    for (std::size_t k = i + 1; k < end; ++k) {
+      const std::size_t bin = run.first + k;
+      change += rates[k] * (bins_[bin].middle() - bins_[bin - 1].middle());
+    }
+    if (std::abs(change) > kTurn) mark({run.first + i, run.first + end}, LeftOutReason::in_turn);
     i = end;
   }
+}
+
+/// The speed to which braking refers is that before it: a file may have lines of other speeds.
+std::size_t Division::startOfBraking(const Span& session, std::size_t rest) const {
+  std::size_t from = rest;
+  while (from > session.first && bins_[from - 1].middle() > bins_[rest].middle() - kAround) --from;
+  const double slow = std::max(kSlow * motion_.typicalSpeed({from, rest}), least_[rest]);
+  while (rest > session.first && motion_.speed(rest - 1) < slow) --rest;
+  return rest;
+}
+
+std::size_t Division::endOfStarting(const Span& session, std::size_t rest) const {
+  std::size_t to = rest;
+  while (to < session.second && bins_[to].middle() < bins_[rest - 1].middle() + kAround) ++to;
+  const double slow = std::max(kSlow * motion_.typicalSpeed({rest, to}), least_[rest - 1]);
+  while (rest < session.second && motion_.speed(rest) < slow) ++rest;
+  return rest;
+}
+
+void Division::markHovering(const Span& session) {
+  // A sensor that is at rest all the time is a station, which is no matter of flight lines.
+  const double typical = motion_.typicalSpeed(session);
+  if (typical <= kAtRest) return;
+  for (std::size_t i = session.first; i < session.second;) {
+    std::size_t end = i;
+    while (end < session.second && motion_.speed(end) < least_[end]) ++end;
+    if (end == i || duration({i, end}) < motion_.halfWindow() ||
+        motion_.moved({i, end}).norm() > kHover * typical * duration({i, end})) {
+      i = std::max(end, i + 1);
+      continue;
+    }
+    const Span hovering{startOfBraking(session, i), endOfStarting(session, end)};
+    mark(hovering, LeftOutReason::hovering);
+    i = hovering.second;
+  }
+}
+
+/// Change of course over a time span of the trajectory, all turns added up; 0 without one.
+double Division::turnedBetween(double from, double to, double least) const {
+  double sum = 0.0;
+  if (!motion_.isFlown()) return sum;
+  std::optional<Vector2d> last;
+  for (double time = from; time <= to + 0.5 * kStep; time += kStep) {
+    const auto now = motion_.flown(std::min(time, to), least);
+    if (now && last) sum += turned(*last, *now);
+    if (now) last = now;
+    if (std::abs(sum) > kGapTurn) return std::abs(sum);
+  }
+  return std::abs(sum);
+}
+
+/// Whether the points after the gap before bin \a at belong to another line.
+bool Division::cutsAt(std::size_t start, std::size_t at) const {
+  const double gap = bins_[at].first - bins_[at - 1].last;
+  if (gap <= TrackMotion::kGap) return false;
+  if (gap > StripNaming::kLargestGap) return true;
+  const double from = bins_[at - 1].last, to = bins_[at].first, least = least_[at];
+  if (turnedBetween(from - kStep, to + kStep, least) > kGapTurn) return true;
+  std::size_t end = at + 1;
+  while (end < bins_.size() && bins_[end].first - bins_[end - 1].last <= TrackMotion::kGap) ++end;
+  const auto before = motion_.velocity(from, {start, at}, least);
+  const auto after = motion_.velocity(to, {at, end}, least);
+  if (!before || !after) return false;
+  if (std::abs(turned(*before, *after)) > (motion_.isFlown() ? kGapTurn : kTurn)) return true;
+  const Vector2d moved = bins_[at].mean() - bins_[at - 1].mean();
+  return bins_[at].placed > 0 && bins_[at - 1].placed > 0 && moved.norm() > before->norm() * gap &&
+         std::abs(turned(*before, moved)) > kTurn;
+}
+
+std::vector<Division::Part> Division::parts() const {
+  std::vector<Part> parts;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    if (i == 0 || reasons_[i] != reasons_[i - 1] || cutsAt(start, i)) {
+      parts.push_back({{i, i}, reasons_[i]});
+      start = i;
+    }
+    parts.back().bins.second = i + 1;
+  }
+  return parts;
+}
+
+/// A turn in several steps: a short way across from a line to the next one, back beside it.
+bool Division::isPassage(const Part& before, const Part& part, const Part& after) const {
+  const Vector2d last = motion_.moved(before.bins), across = motion_.moved(part.bins),
+                 next = motion_.moved(after.bins);
+  return across.norm() < kShortWay * std::min(last.norm(), next.norm()) &&
+         std::abs(turned(last, next)) > kOpposite && std::abs(turned(last, across)) > kAcross &&
+         std::abs(turned(next, -across)) > kAcross;
+}
+
+/// Lines between turns or hovering that are none: passages, and those too short to have a course.
+void Division::leaveOutRemnants(std::vector<Part>& parts) const {
+  std::vector<std::size_t> lines, remnants;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!parts[i].reason) lines.push_back(i);
+  // Whether line k and the one before are parted by points that are left out, and by no long gap.
+  const auto joined = [&](std::size_t k) {
+    bool near = lines[k] > lines[k - 1] + 1;
+    for (std::size_t i = lines[k - 1] + 1; i <= lines[k]; ++i)
+      near = near && bins_[parts[i].bins.first].first - bins_[parts[i].bins.first - 1].last <=
+                         StripNaming::kLargestGap;
+    return near;
+  };
+  for (std::size_t k = 1; k + 1 < lines.size(); ++k) {
+    if (!joined(k) || !joined(k + 1)) continue;
+    const Part& part = parts[lines[k]];
+    if (duration(part.bins) < 2.0 * std::max(kApart, motion_.halfWindow()) ||
+        isPassage(parts[lines[k - 1]], part, parts[lines[k + 1]]))
+      remnants.push_back(lines[k]);
+  }
+  for (const std::size_t i : remnants) parts[i].reason = LeftOutReason::in_turn;
+}
+
+std::vector<TimeStretch> Division::stretches() const {
+  std::vector<Part> all = parts();
+  leaveOutRemnants(all);
+  std::vector<TimeStretch> found;
+  for (const Part& part : all) {
+    TimeStretch stretch{bins_[part.bins.first].first, bins_[part.bins.first].last, part.reason};
+    for (std::size_t i = part.bins.first; i < part.bins.second; ++i)
+      stretch.to = std::max(stretch.to, bins_[i].last);
+    found.push_back(stretch);
+  }
+  return found;
 }
 
 }  // namespace
@@ -173,23 +247,7 @@ std::vector<TimeStretch> splitTrack(const SwathTrack& track, const Trajectory* f
   Bins bins;
   bins.reserve(track.bins().size());
   for (const auto& entry : track.bins()) bins.push_back(entry.second);
-  const Courses courses(bins, flight);
-  std::vector<bool> turning(bins.size(), false);
-  for (std::size_t first = 0, last = 0; first < bins.size(); first = last) {
-    last = first + 1;
-    while (last < bins.size() && bins[last].first - bins[last - 1].last <= kGap) ++last;
-    markTurns(bins, first, last, courses, turning);
-  }
-  std::vector<TimeStretch> stretches;
-  std::size_t start = 0;
-  for (std::size_t i = 0; i < bins.size(); ++i) {
-    if (i == 0 || turning[i] != turning[i - 1] || cutsAt(bins, start, i, courses)) {
-      stretches.push_back({bins[i].first, bins[i].last, turning[i]});
-      start = i;
-    }
-    stretches.back().to = std::max(stretches.back().to, bins[i].last);
-  }
-  return stretches;
+  return Division(bins, flight).stretches();
 }
 
 }  // namespace pcl_als

@@ -18,6 +18,7 @@ enum class LeftOutReason {
   in_trajectory_gap,  ///< measured in a gap of the trajectory
   strip_uncovered,    ///< covered, but the trajectory covers hardly anything of the strip
   in_turn,            ///< measured in a turn between strips
+  hovering,           ///< measured while the sensor hovered between strips
   rounded_times,      ///< GPS times of the strip have too coarse steps for its trajectory
   too_few_points,     ///< the strip has too few points
 };

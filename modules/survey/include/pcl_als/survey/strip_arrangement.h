@@ -52,9 +52,9 @@ struct FlownTimes {
  * those of id 0 are named line1, line2, … in order of time, those of another id by the number where
  * there is one stretch, else 7.1, 7.2, …; files whose points have no times are not divided.
  *
- * Left out are strips that were not chosen, points in turns (with split), points of GPS time 0 in a
- * file that has times, and, where a trajectory is needed, points that it does not cover; a strip of
- * which it covers less than kLeastCovered is left out as a whole.
+ * Left out are strips that were not chosen, points between lines (with split), points of GPS time 0
+ * in a file that has times, and, where a trajectory is needed, points that it does not cover; a
+ * strip of which it covers less than kLeastCovered is left out as a whole.
  */
 class StripArrangement {
  private:
@@ -74,6 +74,7 @@ class StripArrangement {
   StripArrangement(const std::vector<SurveyedFile>& files, const StripChoice& choice,
                    const FlownTimes& flown);
 
+  std::size_t fileCount() const { return files_.size(); }
   /// The strips in use, in order of first appearance (with split: of id and time).
   const std::vector<std::string>& names() const { return names_; }
   /// Approximate number of points of each strip in use (bins on the border of the trajectory count
