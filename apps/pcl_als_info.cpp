@@ -5,11 +5,10 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
-#include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/processing/scanner_survey.h>
+#include <pcl_als/processing/strip_census.h>
 #include <pcl_als/report/census_report.h>
-#include <pcl_als/survey/arranged_files.h>
 
 #include "command_line.h"
 #include "flight_options.h"
@@ -39,9 +38,20 @@ CommandLine commandLine() {
   line.addOptional("json", "also write the facts as JSON");
   addWindowOptions(line);
   addStripOptions(line);
-  addTrajectoryOptions(line, "listed, and used to detect the scanner");
+  addTrajectoryOptions(line, "listed, and used to detect the scanner and by -split");
   addAccuracyOption(line, "listed");
   return line;
+}
+
+CensusRequest requestOf(const CommandLine& line, const std::vector<std::string>& inputs,
+                        const PointWindow& window, double cell) {
+  CensusRequest request{{inputs.begin(), inputs.end()}, cell, stripChoice(line), window, {}, {}, 0};
+  request.strips.keep_timeless = true;  // nothing here needs times
+  request.threads = line.threads();
+  if (!line.has("trajectory") || !request.strips.split) return request;
+  request.trajectory = trajectoryFiles(line);
+  request.reading = trajectoryReading(line, {});
+  return request;
 }
 
 int info(const CommandLine& line) {
@@ -56,22 +66,22 @@ int info(const CommandLine& line) {
     return kDone;
   }
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
-  const std::vector<std::filesystem::path> paths(inputs.begin(), inputs.end());
-  std::vector<LeftOutPoints> left_out;
-  StripChoice choice = stripChoice(line);
-  choice.keep_timeless = true;  // nothing here needs times
   const auto progress = [&](double fraction) { step.progress(fraction); };
-  const SurveyCensus survey = choosesStrips(line)
-                                  ? takeCensus(paths, cell, progress, choice, window, left_out)
-                                  : takeCensus(paths, cell, progress, {}, window);
+  StripCensusResult listed;
+  if (choosesStrips(line))
+    listed = takeCensus(requestOf(line, inputs, window, cell), progress);
+  else
+    listed.census = takeCensus({inputs.begin(), inputs.end()}, cell, progress, {}, window);
+  const SurveyCensus& survey = listed.census;
   std::uint64_t points = 0;
   for (const FileCensus& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
-  if (!line.quiet()) std::cout << '\n' << censusText(survey, left_out);
+  remarks(line, listed.notes);
+  if (!line.quiet()) std::cout << '\n' << censusText(survey, listed.left_out);
   if (line.has("trajectory"))
     remarks(line, detectScanners(inputs, window, stripChoice(line), trajectoryFiles(line),
                                  trajectoryReading(line, {}), line.threads(), flight.scanners));
-  if (line.has("json")) writeFile(line.text("json"), censusJson(survey, left_out, flight));
+  if (line.has("json")) writeFile(line.text("json"), censusJson(survey, listed.left_out, flight));
   return kDone;
 }
 

@@ -116,6 +116,14 @@ left_out calibration.json 1 zero_time
 # Four flights in one file without source ids.
 "$damage" id0_1.las one.las append id0_2.las append id0_3.las append id0_4.las || failed damage
 expect 0 "line4" info one.las -split -json info.json
+columns 'NR > 1 { $1 += 90000 } 1' >elsewhere.csv
+# Where a trajectory is given, every tool divides by it: here, the sensor hovers for 1.8 s.
+columns '$1 > 401003.3 && $1 < 401005.1 { $2 = x; $3 = y } { x = $2; y = $3 } 1' >hover.csv
+expect 0 "line5" info one.las -split -trajectory hover.csv -json info.json
+left_out info.json hovering hovering
+expect 0 "" check one.las -split -trajectory hover.csv -output q.json
+left_out q.json hovering hovering
+expect 0 "divided without the trajectory" info one.las -split -trajectory elsewhere.csv
 expect 0 "" icpatch one.las -split -pair line1:line2 -output one.json
 check "the file's lines are aligned as the strips they were cut from" cmp \
   <(sed -n '/"centroid"/,$p' one.json) <(sed -n '/"centroid"/,$p' pair.json)

@@ -179,7 +179,7 @@ class Conversion {
 
   /// Points of the strips [first, last), each to an output of its own.
   Distribution stripPoints(std::size_t first, std::size_t last) {
-    const CensusStrips strips = arranged_->censusStrips(label_counts_);
+    const CensusStrips strips = censusStrips(arranged_->arrangement(), label_counts_);
     const auto low = static_cast<int>(first), high = static_cast<int>(last);
     return [strips, low, high](std::size_t file, const PointChunk& chunk, std::size_t from) {
       const auto [to, strip] = strips.run(file, chunk, from);

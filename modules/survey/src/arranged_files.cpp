@@ -21,6 +21,22 @@ std::vector<SurveyedFile> surveyAll(const std::vector<std::filesystem::path>& pa
 
 }  // namespace
 
+CensusStrips censusStrips(const StripArrangement& arrangement, std::vector<std::uint64_t>& counts) {
+  std::vector<StripArrangement::Sorter> sorters;
+  for (std::size_t file = 0; file < arrangement.fileCount(); ++file)
+    sorters.emplace_back(arrangement, file);
+  counts.assign(arrangement.labels().size(), 0);
+  CensusStrips strips;
+  strips.names = arrangement.names();
+  strips.run = [&arrangement, &counts, sorters](std::size_t file, const PointChunk& chunk,
+                                                std::size_t from) mutable {
+    const auto [to, label] = sorters[file].run(chunk, from);
+    counts[label] += to - from;
+    return std::pair(to, arrangement.labels()[label].index);
+  };
+  return strips;
+}
+
 ArrangedFiles::ArrangedFiles(const std::vector<std::filesystem::path>& paths,
                              const StripChoice& choice, const PointWindow& window)
     : window_(window),
@@ -32,21 +48,6 @@ ArrangedFiles::ArrangedFiles(const std::vector<std::filesystem::path>& paths,
   if (!any && !window.everything()) refuseEmptyWindow(paths, window);
   if (arrangement_.names().empty())
     throw InputError("no strip is left: all are excluded or have no times");
-}
-
-CensusStrips ArrangedFiles::censusStrips(std::vector<std::uint64_t>& counts) const {
-  std::vector<StripArrangement::Sorter> sorters;
-  for (std::size_t file = 0; file < files_.size(); ++file) sorters.emplace_back(arrangement_, file);
-  counts.assign(arrangement_.labels().size(), 0);
-  CensusStrips strips;
-  strips.names = arrangement_.names();
-  strips.run = [this, &counts, sorters](std::size_t file, const PointChunk& chunk,
-                                        std::size_t from) mutable {
-    const auto [to, label] = sorters[file].run(chunk, from);
-    counts[label] += to - from;
-    return std::pair(to, arrangement_.labels()[label].index);
-  };
-  return strips;
 }
 
 std::uint64_t ArrangedFiles::Use::pointCount() const {
@@ -64,7 +65,7 @@ ArrangedFiles::Use ArrangedFiles::use() const {
   use.points.resize(arrangement_.names().size());
   use.boxes.resize(arrangement_.names().size());
   std::vector<std::uint64_t> counts;
-  const CensusStrips strips = censusStrips(counts);
+  const CensusStrips strips = censusStrips(arrangement_, counts);
   PointChunk chunk;
   for (std::size_t file = 0; file < files_.size(); ++file) {
     const auto reader = PointReader::open(files_[file].sources.info.path, window_);
@@ -90,7 +91,8 @@ SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double 
                         const PointWindow& window, std::vector<LeftOutPoints>& left_out) {
   const ArrangedFiles arranged(files, choice, window);
   std::vector<std::uint64_t> counts;
-  SurveyCensus census = takeCensus(files, cell, progress, arranged.censusStrips(counts), window);
+  SurveyCensus census =
+      takeCensus(files, cell, progress, censusStrips(arranged.arrangement(), counts), window);
   left_out = arranged.arrangement().leftOut(counts);
   return census;
 }

@@ -16,6 +16,10 @@
 
 namespace pcl_als {
 
+/// The strips of an arrangement for takeCensus() of the same files in the same order; adds the
+/// points of each label to \a counts. Both must exist as long as the result.
+CensusStrips censusStrips(const StripArrangement& arrangement, std::vector<std::uint64_t>& counts);
+
 /** \brief Point files, read once, and the arrangement of their points into strips, for jobs that
  * use points by strip without a trajectory.
  *
@@ -33,9 +37,6 @@ class ArrangedFiles {
   const std::vector<SurveyedFile>& files() const { return files_; }
   const StripArrangement& arrangement() const { return arrangement_; }
 
-  /// The strips for takeCensus() of the same files in the same order; adds the points of each label
-  /// to \a counts. Both \a counts and this object must exist as long as the result.
-  CensusStrips censusStrips(std::vector<std::uint64_t>& counts) const;
   /// Used points of all files, and points that are left out.
   struct Use {
     std::vector<std::uint64_t> points;       ///< by strip
