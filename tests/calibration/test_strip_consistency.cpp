@@ -71,10 +71,17 @@ TEST(StripConsistency, AStripThatDoesNotFitIsNamed) {
   const Block block({0.003, -0.004, 0.002, 0.063, -0.001, 0.004});
   const StripConsistency found = block.consistency();
   ASSERT_EQ(found.warnings().size(), 1U);
-  EXPECT_NE(found.warnings()[0].text.find("strip 4 lies +0.06"), std::string::npos)
+  EXPECT_NE(found.warnings()[0].text.find("strip 4 lies 0.06"), std::string::npos)
       << found.warnings()[0].text;
   EXPECT_FALSE(found.offsets()[3].consistent);
   EXPECT_TRUE(found.offsets()[2].consistent);
+}
+
+TEST(StripConsistency, ALowStripLiesBelowTheOthers) {
+  const StripConsistency found = Block({0.003, -0.004, -0.063, 0.002, -0.001, 0.004}).consistency();
+  ASSERT_EQ(found.warnings().size(), 1U);
+  EXPECT_NE(found.warnings()[0].text.find("strip 3 lies 0.06"), std::string::npos);
+  EXPECT_NE(found.warnings()[0].text.find(" m below the others"), std::string::npos);
 }
 
 TEST(StripConsistency, ASessionOfAnotherDayIsNamedWithItsHeight) {
@@ -87,7 +94,7 @@ TEST(StripConsistency, ASessionOfAnotherDayIsNamedWithItsHeight) {
       found.warnings()[0].text.find("strips 4, 5, 6 were measured 24.1 hours after the others"),
       std::string::npos)
       << found.warnings()[0].text;
-  EXPECT_NE(found.warnings()[0].text.find("+0.050 m"), std::string::npos)
+  EXPECT_NE(found.warnings()[0].text.find("0.050 m above them"), std::string::npos)
       << found.warnings()[0].text;
   // Without a difference in height the session is still named.
   for (std::size_t i = 3; i < 6; ++i) block.heights[i] -= 0.05;

@@ -167,12 +167,47 @@ TEST(Observability, NamesDirectionsInMetresOnTheGround) {
   const auto directions = observability.directions();
   ASSERT_EQ(directions.size(), 2U);
   EXPECT_TRUE(std::isinf(directions[0].std));
-  EXPECT_NE(directions[0].text.find("-1.00: not observed"), std::string::npos)
+  EXPECT_NE(directions[0].text.find("together, not observed apart from each other"),
+            std::string::npos)
       << directions[0].text;
   EXPECT_NEAR(directions[1].std, 0.005 / std::sqrt(2.0), 1e-9);
+  EXPECT_NE(directions[1].text.find(" m and "), std::string::npos) << directions[1].text;
+  EXPECT_NE(directions[1].text.find("each up to 2.5 mm on the ground"), std::string::npos);
   SystemVector twice = SystemVector::Constant(2.0);
   observability.weaken(twice);
   EXPECT_NEAR(observability.directions()[1].std, 0.01 / std::sqrt(2.0), 1e-9);
+}
+
+/// At most two directions, none below what the errors of the trajectory cause anyway.
+TEST(Observability, TextHoldsTheWeakestDirections) {
+  ObservabilityReport report;
+  report.other_errors = 0.03;
+  for (const double std : {0.2, 0.1, 0.05, 0.02}) {
+    report.directions.emplace_back();
+    report.directions.back().std = std;
+    report.directions.back().text = std::to_string(std);
+  }
+  const auto told = [&report] {
+    const std::vector<std::string> lines = report.text();
+    return std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+      return line.find("weakly determined: ") == 0;
+    });
+  };
+  EXPECT_EQ(told(), 2);
+  report.other_errors = 0.15;
+  EXPECT_EQ(told(), 1);
+}
+
+TEST(FlightPlan, AThirdHeightIsNoSecondOne) {
+  std::vector<StripGeometry> lines = oneHeight();
+  lines.push_back(line("3", {0, 0}, {0, 1500}, 2000.0));
+  const FlightPlanResult result = FlightPlan(lines, settings(5.0, 0.1, 9)).evaluate();
+  bool another = false;
+  for (const Advice& advice : result.observability.advice) {
+    EXPECT_EQ(advice.what.find("second height"), std::string::npos) << advice.what;
+    another = another || advice.what.find("at another height, ") != std::string::npos;
+  }
+  EXPECT_TRUE(another);
 }
 
 TEST(ObservedBlock, ThinnedHoldsTheSameInformation) {

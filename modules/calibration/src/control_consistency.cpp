@@ -159,8 +159,10 @@ void warnOfRejected(CalibrationResult& result) {
     list.push_back(point.id + direction + " (" + inMetres(point.after) + ")");
   }
   if (!rejected.empty()) {
-    result.warnings.push_back("control points rejected as outliers, strips above them by: " +
-                              listedNames(rejected));
+    result.warnings.push_back(
+        "control points rejected as outliers, with the height of the strips above (+) or below (-) "
+        "them: " +
+        listedNames(rejected));
   }
   if (!displaced.empty()) {
     result.warnings.push_back("targets rejected in plan as outliers, displaced in the strips by: " +

@@ -33,6 +33,11 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
+/// "0.068 m above" or "0.068 m below".
+std::string heightAgainst(double difference) {
+  return text("%.3f m", std::abs(difference)) + (difference < 0.0 ? " below" : " above");
+}
+
 std::string duration(double seconds) {
   const double hours = seconds / 3600.0;
   return hours < 48.0 ? text("%.1f hours", hours) : text("%.1f days", hours / 24.0);
@@ -135,9 +140,8 @@ void StripConsistency::compareSessions(double alpha) {
     const bool differs = found.probability < alpha && std::abs(found.difference) > kLeast;
     std::string warning = "strips " + names(later) + " were measured " + duration(gap) +
                           " after the others, in another session";
-    warning += differs ? ", and lie " + text("%+.3f m", found.difference) +
-                             " above them after the calibration: calibrate the sessions "
-                             "separately"
+    warning += differs ? ", and lie " + heightAgainst(found.difference) +
+                             " them after the calibration: calibrate the sessions separately"
                        : "; their heights agree with the others to " +
                              text("%.3f m", std::abs(found.difference)) +
                              ", but the mounting may have changed";
@@ -158,8 +162,8 @@ void StripConsistency::compareHeights(double alpha) {
     if (found.probability >= alpha || std::abs(found.difference) <= kLeast) continue;
     warnings_.push_back(
         {"strips " + names(higher) + ", flown at " + text("%.0f m", heights[k]) +
-             " and more, lie " + text("%+.3f m", found.difference) +
-             " above the others, flown at " + text("%.0f m", heights[k - 1]) +
+             " and more, lie " + heightAgainst(found.difference) + " the others, flown at " +
+             text("%.0f m", heights[k - 1]) +
              " and less, after the calibration: a range bias or scale, or another session; control "
              "at "
              "both heights or a separate calibration of these strips separates these causes",
@@ -174,12 +178,11 @@ void StripConsistency::compareStrips(double alpha) {
     const Comparison found = compare(alone);
     if (found.probability >= alpha || std::abs(found.difference) <= kLeast) continue;
     offsets_[i].consistent = false;
-    warnings_.push_back(
-        {"strip " + offsets_[i].strip + " lies " + text("%+.3f m", found.difference) +
-             " above the others after the calibration, more than the scatter of the "
-             "strips explains" +
-             kAdvice,
-         Remedy::strips});
+    warnings_.push_back({"strip " + offsets_[i].strip + " lies " + heightAgainst(found.difference) +
+                             " the others after the calibration, more than the scatter of the "
+                             "strips explains" +
+                             kAdvice,
+                         Remedy::strips});
   }
 }
 

@@ -23,7 +23,8 @@ using P = SystemParameter;
 constexpr double kLeastBenefit = 0.1;     // least benefit of advice
 constexpr double kReportedRatio = 0.85;   // after / before above which a change is not reported
 constexpr std::size_t kAdviceInText = 6;  // entries in the text; the report contains all
-constexpr double kAccurate = 0.01;        // metres on the ground: needs no improvement
+constexpr std::size_t kDirectionsInText = 2;
+constexpr double kAccurate = 0.01;  // metres on the ground: needs no improvement
 
 std::string valueOf(P p, double value) {
   const std::string text = inUnit(p, value);
@@ -90,6 +91,24 @@ SystemVector groundEffect(const ObservedBlock& block, const BlockFacts& facts) {
 
 }  // namespace
 
+namespace {
+
+/// Standard deviation of a point below the sensor by the errors of the trajectory, metres.
+double trajectoryEffect(const SharedErrorModel& model, const SharedErrorLevels& levels,
+                        const BlockFacts& facts) {
+  const auto scale = [&](double SharedErrorLevels::Trajectory::*level) {
+    return model.constant_share * levels.constant.*level +
+           model.smooth_share * levels.smooth.*level +
+           (1.0 - model.constant_share - model.smooth_share) * levels.gauss_markov.*level;
+  };
+  const double height = facts.heights.empty() ? 0.0 : facts.heights.back();
+  return std::sqrt(
+      model.position * model.position * scale(&SharedErrorLevels::Trajectory::position) +
+      std::pow(height * model.roll_pitch, 2) * scale(&SharedErrorLevels::Trajectory::roll_pitch));
+}
+
+}  // namespace
+
 AdjustedBlock::AdjustedBlock(const ObservedBlock& block, const ObservabilitySettings& settings)
     : errors_(block.spans, settings.shared_errors,
               observedTimes(block.observations, block.spans.size())),
@@ -144,8 +163,10 @@ const Advice* ObservabilityReport::cheapestLine() const {
 std::vector<std::string> ObservabilityReport::text() const {
   std::vector<std::string> lines{"the block: " + facts};
   for (const WeakCombination& one : weak) lines.push_back("weak: " + one.text);
+  std::size_t told = 0;
   for (const ParameterDirection& one : directions) {
-    if (one.std > kAccurate) lines.push_back("direction: " + one.text);
+    if (one.std > std::max(kAccurate, other_errors) && told++ < kDirectionsInText)
+      lines.push_back("weakly determined: " + one.text);
   }
   for (std::size_t i = 0; i < std::min(kAdviceInText, advice.size()); ++i) {
     lines.push_back("advice: " + advice[i].text);
@@ -194,6 +215,7 @@ ObservabilityReport describeObservability(const ObservedBlock& block,
   observability.weaken(factor);
   ObservabilityReport report;
   report.facts = facts.text();
+  report.other_errors = trajectoryEffect(settings.shared_errors, settings.levels, facts);
   report.directions = observability.directions();
   report.weak = observability.combinations(facts, settings.limits);
   if (settings.advise) report.advice = adviceFor(block, now, factor, settings);

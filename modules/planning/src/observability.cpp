@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -44,7 +45,15 @@ P twinOf(P p) {
   }
 }
 
-std::string describe(const SystemVector& components, double std) {
+std::string listed(const std::vector<std::string>& texts) {
+  std::string list;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < texts.size() ? ", " : " and ") + texts[i];
+  return list;
+}
+
+/// A sentence for a surveyor, with the parameters in their units.
+std::string describe(const SystemVector& components, double std, const SystemVector& effect) {
   std::vector<int> order;
   for (int i = 0; i < kSystemParameterCount; ++i) {
     if (std::abs(components[i]) >= kNamed) order.push_back(i);
@@ -53,18 +62,22 @@ std::string describe(const SystemVector& components, double std) {
     return std::pair(-std::abs(components[a]), a) < std::pair(-std::abs(components[b]), b);
   });
   if (order.empty()) return "not observed";
-  const double largest = components[order.front()];
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    text << (i == 0   ? ""
-             : i == 1 ? " with "
-                      : ", ")
-         << systemParameters()[order[i]].name << ' ' << components[order[i]] / largest;
+  const bool several = order.size() > 1;
+  std::vector<std::string> names, sizes;
+  for (const int i : order) {
+    const SystemParameterInfo& info = systemParameters()[static_cast<std::size_t>(i)];
+    names.emplace_back(info.name);
+    if (std::isfinite(std))
+      sizes.push_back(inUnit(info.parameter, components[i] * std / effect[i]));
   }
-  if (std::isinf(std)) return text.str() + ": not observed";
-  text << ": " << std::setprecision(1) << 1000.0 * std << " mm on the ground";
-  return text.str();
+  const std::string subject = listed(names) + (several ? " together" : "");
+  if (std::isinf(std))
+    return subject + (several ? ", not observed apart from each other" : ", not observed");
+  char moved[80];
+  std::snprintf(moved, sizeof moved, "%.1f mm on the ground",
+                1000.0 * std * std::abs(components[order.front()]));
+  return subject + (several ? "; they" : "; it") + " may be wrong by " + listed(sizes) +
+         " (one standard deviation), " + (several ? "each up to " : "") + moved;
 }
 
 }  // namespace
@@ -113,7 +126,7 @@ std::vector<ParameterDirection> Observability::directions() const {
     const bool observed =
         value > 1.0 / (kNotObserved * kNotObserved) && value > 1e-14 * eigen.values.maxCoeff();
     direction.std = observed ? 1.0 / std::sqrt(value) : std::numeric_limits<double>::infinity();
-    direction.text = describe(direction.components, direction.std);
+    direction.text = describe(direction.components, direction.std, effect_);
     directions.push_back(std::move(direction));
   }
   return directions;

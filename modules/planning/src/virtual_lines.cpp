@@ -43,7 +43,8 @@ std::string heightText(double height) {
 
 class Additions {
  public:
-  explicit Additions(const Strips& strips) : strips_(strips) {}
+  Additions(const Strips& strips, bool several_heights)
+      : strips_(strips), height_(several_heights ? "another height, " : "a second height, ") {}
 
   void addFor(const StripGeometry& base) {
     const double aside = base.halfSwath();
@@ -55,8 +56,8 @@ class Additions {
       other.height = factor * base.height;
       other.density = base.density / factor;  // the same pulse rate
       if (other.height < kLowest) continue;
-      add(other, "an opposite line at a second height, " + heightText(other.height) +
-                     ", over line " + base.id);
+      add(other,
+          "an opposite line at " + height_ + heightText(other.height) + ", over line " + base.id);
     }
     StripGeometry cross = base;
     const Eigen::Vector2d middle = 0.5 * (base.start + base.end);
@@ -89,6 +90,7 @@ class Additions {
   }
 
   const Strips& strips_;
+  std::string height_;
   std::vector<Advice> additions_;
 };
 
@@ -96,7 +98,7 @@ class Additions {
 
 std::vector<Advice> virtualAdditions(const ObservedBlock& block) {
   const Strips bases = basesOf(block.strips);
-  Additions lines(block.strips);
+  Additions lines(block.strips, bases.size() > 1);
   for (const StripGeometry& base : bases) lines.addFor(base);
   std::vector<Advice> additions = lines.take();
   if (bases.empty()) return additions;

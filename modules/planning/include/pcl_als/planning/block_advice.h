@@ -48,14 +48,15 @@ struct Advice {
 /// What a block determines, the causes of weak determination, and advice.
 struct ObservabilityReport {
   std::string facts;
+  double other_errors = 0.0;  ///< metres: std of a point on the ground, by the trajectory
   std::vector<ParameterDirection> directions;  ///< weakest first
   std::vector<WeakCombination> weak;           ///< weakest first
   std::vector<Advice> advice;                  ///< best first; beneficial advice only
 
   /// The line with the largest benefit relative to its flying time; null without beneficial lines.
   const Advice* cheapestLine() const;
-  /// The report line by line: directions with a standard deviation above a centimetre, and the best
-  /// six pieces of advice.
+  /// The report line by line: the two weakest directions with a standard deviation above a
+  /// centimetre and above other_errors, and the best six pieces of advice.
   std::vector<std::string> text() const;
 };
 

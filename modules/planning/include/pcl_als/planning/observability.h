@@ -16,7 +16,9 @@ struct ParameterDirection {
   /// components have equal effects.
   SystemVector components = SystemVector::Zero();
   double std = 0.0;  ///< along the direction, metres on the ground; infinite without information
-  std::string text;  ///< "boresight_pitch 1.00 with lever_arm_y -0.97: 35.2 mm on the ground"
+  /// "lever_arm_y and boresight_pitch together; they may be wrong by -0.013 m and 35 arcsec (one
+  /// standard deviation), each up to 13.1 mm on the ground"
+  std::string text;
 };
 
 /// Parameters that the observations cannot separate, or one that they hardly determine.
