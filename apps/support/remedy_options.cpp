@@ -34,6 +34,7 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::flight_sigmas, "position_sigma",
      "see -ins, -position_sigma, -roll_pitch_sigma and -heading_sigma"},
     {Remedy::strips, "without", "-strips and -without choose strips"},
+    {Remedy::channels, "channels", "-channels scanner_channel divides them"},
 };
 
 const RemedyOption* optionFor(Remedy remedy) {

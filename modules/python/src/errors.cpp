@@ -36,6 +36,7 @@ constexpr PythonRemedy kRemedies[] = {
     {Remedy::ground, "ground", "choose other points as ground"},
     {Remedy::control, "control", "give control="},
     {Remedy::control_sigma, "control_sigma", "state it with control_sigma="},
+    {Remedy::channels, "strips", "set their by_channel"},
     {Remedy::flight_sigmas, "shared_errors", "state them in the settings"},
     {Remedy::strips, "strips", "choose strips with strips="},
 };

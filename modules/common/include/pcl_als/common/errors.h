@@ -28,6 +28,7 @@ enum class Remedy {
   control_sigma,     ///< to state the standard deviation of control points
   flight_sigmas,     ///< to state the standard deviations of the trajectory
   strips,            ///< to leave strips out, or to use some only
+  channels,          ///< to divide strips by the channel of the scanner
 };
 
 /// Base of every exception of this library. what() is one line that names the file, record or
