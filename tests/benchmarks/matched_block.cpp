@@ -44,9 +44,14 @@ void MatchedBlock::load(const test::SimulatedSurvey& survey, const std::vector<S
 }
 
 void MatchedBlock::prepare(const CalibrationSettings& settings) {
-  std::size_t strips_in_areas = 1;
-  for (std::size_t i = 0; i < pair_areas_; ++i) strips_in_areas += matchers_[i].stripCount();
-  const std::size_t candidates = candidatesPerStrip(settings.candidates, strips_in_areas);
+  std::size_t strips_in_areas = 1, pairs_in_areas = 0;
+  for (std::size_t i = 0; i < pair_areas_; ++i) {
+    const std::size_t strips = matchers_[i].stripCount();
+    strips_in_areas += strips;
+    if (strips > 0) pairs_in_areas += strips * (strips - 1);
+  }
+  const std::size_t candidates =
+      candidatesPerStrip(settings.candidates, strips_in_areas, pairs_in_areas);
   parallelFor(matchers_.size(), 0, [&](std::size_t i) {
     matchers_[i].prepare(limits_, i < pair_areas_ ? candidates : 0, settings.resolution, *flight_);
   });

@@ -177,7 +177,13 @@ struct DenseSystem {
           row.segment<6>(8 + 6 * where.next_knot) += sign * where.next * effect;
         };
         place(o.a, o.time_a, o.row_a, 1.0);
-        place(o.b, o.time_b, o.row_b, -1.0);
+        if (!o.mixed_times) place(o.b, o.time_b, o.row_b, -1.0);
+        for (const PairObservation::Vertex& vertex : o.vertices) {
+          if (!o.mixed_times) break;
+          SystemRow turn = SystemRow::Zero();
+          turn.segment<3>(3) = vertex.turn.cast<double>();
+          place(o.b, o.time_b + vertex.after, turn, -double{vertex.weight});
+        }
         row[instrument] = ranging ? o.sources[indexOf(ErrorSource::slope_ranging)] : 0.0;
         normal += row * row.transpose() / o.variance;
         right += row * o.misclosure / o.variance;
@@ -211,6 +217,40 @@ TEST(Adjustment, EqualsTheDenseSolution) {
     EXPECT_NEAR(solution.biases[i], dense.solution[i], 1e-6 * std);  // rounding of two routes
     EXPECT_GE(std::sqrt(solution.covariance(i, i)), std * (1.0 - 1e-6));
     EXPECT_LT(std::sqrt(solution.formal(i, i)), std);
+  }
+  const Eigen::VectorXd shared = dense.solution.tail(errors.unknowns());
+  EXPECT_LT((solution.shared - shared).norm(), 1e-6 * shared.norm());
+}
+
+/// Patches of vertices that were measured up to 20 s apart, among others that were not.
+TEST(Adjustment, EqualsTheDenseSolutionForPatchesOfMixedTimes) {
+  const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
+  auto areas = simulated(someBiases(), 0.02, 5);
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> uniform;
+  for (AreaObservations& area : areas) {
+    for (std::size_t i = 0; i < area.size(); i += 3) {
+      PairObservation& o = area[i];
+      o.mixed_times = true;
+      const float first = static_cast<float>(uniform(random)),
+                  second = static_cast<float>(uniform(random)) * (1.0F - first);
+      const float weights[3] = {first, second, 1.0F - first - second};
+      for (int k = 0; k < 3; ++k) {
+        o.vertices[k].after = static_cast<float>(20.0 * (uniform(random) - 0.5));
+        o.vertices[k].weight = weights[k];
+        for (int axis = 0; axis < 3; ++axis)
+          o.vertices[k].turn[axis] = static_cast<float>(300.0 * (uniform(random) - 0.5));
+      }
+    }
+  }
+  const DenseSystem dense(errors, areas, true);
+  Adjustment adjustment(errors);
+  adjustment.accumulate(areas, unitWeights(areas));
+  const AdjustmentSolution solution = adjustment.solve(kSix, SystemVector::Zero());
+  for (const P p : kSix) {
+    const int i = indexOf(p);
+    EXPECT_NEAR(solution.biases[i], dense.solution[i],
+                1e-6 * std::sqrt(dense.covariance(i, i)));  // rounding of two routes
   }
   const Eigen::VectorXd shared = dense.solution.tail(errors.unknowns());
   EXPECT_LT((solution.shared - shared).norm(), 1e-6 * shared.norm());

@@ -52,6 +52,33 @@ TEST_P(ConicalBlock, IsCalibratedWithItsLooksApart) {
   EXPECT_LT(own->rms_after, 0.7 * own->rms_before);
 }
 
+/// The angle between all pulses and the axis is too large: a scale of angles across the body cannot
+/// describe that, and range_bias was 27 standard deviations wrong for a rosette scanner.
+TEST(ScannerAboutAnAxis, HasAScaleOfItsDeflection) {
+  for (const char* const scanner : {"conical", "rosette"}) {
+    simulation::SimulationOptions options =
+        simulation::SimulationOptions::preset("small", 1.0, 0.5);
+    options.setScanner(scanner);
+    options.noise = simulation::NoiseOptions::named("range");
+    options.errors.add("deflection_scale=0.0004");
+    const SimulatedSurvey survey(options);
+    SimulatedSurvey::Request request;
+    request.rigorous = true;
+    request.control = survey.control;
+    request.settings.candidates = 30'000;
+    const CalibrationResult result = survey.loaded(request)->calibrate();
+    EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
+    test::expectTruth(result, survey.bias);
+    const auto scale = std::find_if(
+        result.diagnosis.begin(), result.diagnosis.end(),
+        [](const ErrorFinding& finding) { return finding.source == "deflection_scale"; });
+    ASSERT_NE(scale, result.diagnosis.end()) << scanner;
+    EXPECT_TRUE(scale->corrected) << scanner;
+    EXPECT_NEAR(scale->value, 400.0, 3.5 * scale->std) << scanner;
+    EXPECT_LT(scale->std, 60.0) << scanner;
+  }
+}
+
 /// With all angles in one plane across the body, the scale of the preset mountain (crossing) was
 /// 3.6e-5 wrong (19 standard deviations), and the range bias 44 mm (13).
 TEST(SeveralScanPlanes, HaveTheScaleOfTheirOwnAngle) {

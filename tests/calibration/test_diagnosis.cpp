@@ -36,8 +36,9 @@ std::map<std::string, ErrorFinding> findingsOf(const CalibrationResult& result) 
 int supportedIn(const std::map<std::string, ErrorFinding>& findings) {
   int count = 0;
   for (const ErrorSourceInfo& info : errorSources()) {
-    const ErrorFinding& finding = findings.at(std::string(info.name));
-    count += finding.determined && finding.probability > 0.5 ? 1 : 0;
+    const auto finding = findings.find(std::string(info.name));  // of this kind of scanner
+    if (finding == findings.end()) continue;
+    count += finding->second.determined && finding->second.probability > 0.5 ? 1 : 0;
   }
   return count;
 }

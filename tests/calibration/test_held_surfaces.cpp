@@ -82,8 +82,8 @@ TEST(FixedStrips, DetermineTheRangeBias) {
     expectTruth(result, survey.bias);
     const ParameterEstimate& range = result[P::range_bias];
     ASSERT_EQ(range.status, ParameterStatus::estimated) << range.reason;
-    EXPECT_LT(range.std, 0.03);  // the truth is larger
-    EXPECT_GT(std::abs(survey.bias[indexOf(P::range_bias)]), 0.03);
+    EXPECT_LT(range.std, 0.035);  // the truth is larger
+    EXPECT_GT(std::abs(survey.bias[indexOf(P::range_bias)]), 0.035);
     ASSERT_EQ(result.held.size(), 1U);
     EXPECT_EQ(result.held[0].strips, std::vector<std::string>{"3"});
     EXPECT_GT(result.held[0].correspondences, 1000U);

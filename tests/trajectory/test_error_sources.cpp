@@ -75,6 +75,25 @@ TEST(SourceEffect, HasTheSignsOfHandComputedExamples) {
   EXPECT_TRUE(near(column(back, ErrorSource::mirror_torsion), -turned));
 }
 
+/// Level flight to the north; a point 300 m to the left of the sensor, 400 m ahead and 1000 m below
+/// it: 500 m from the axis.
+TEST(SourceEffect, OfTheDeflectionIsRadial) {
+  const auto flight = rollingFlight(0.0);
+  const Eigen::Vector3d sensor = poseAt(*flight, 10.0).position;
+  const Eigen::Vector3d point = sensor + Eigen::Vector3d(-300.0, 400.0, -1000.0);
+  ErrorSourceScale scale{0.5, 100.0};
+  scale.about_axis = true;
+  const SourceEffects effects = effectsAt(*flight, {10.0, 100.0F, 1}, point, scale);
+  const double angle = std::atan2(500.0, 1000.0);
+  const Eigen::Vector3d wanted = angle * Eigen::Vector3d(-600.0, 800.0, 500.0);
+  EXPECT_LT((column(effects, ErrorSource::deflection_scale) - wanted).norm(), 1e-6);
+  for (const ErrorSource of_mirror :
+       {ErrorSource::mirror_torsion, ErrorSource::encoder_cubic, ErrorSource::encoder_quadratic})
+    EXPECT_TRUE(column(effects, of_mirror).isZero(0.0));
+  const SourceEffects linear = effectsAt(*flight, {10.0, 100.0F, 1}, point, {0.5, 100.0});
+  EXPECT_TRUE(column(linear, ErrorSource::deflection_scale).isZero(0.0));
+}
+
 /// The columns of Eq. (8) and those of the sources describe the same geometry.
 TEST(SourceEffect, AgreesWithTheDesignBlock) {
   const auto flight = rollingFlight(kRadiansPerDegree);

@@ -74,6 +74,7 @@ void AreaMatcher::matchHeight(const ControlPoint& point, const StripPart& part, 
       !foot.atFoot(part, *match, quality, vertex))
     return;
   found.push_back(controlObservation(point, part, measuringDirection(quality), foot));
+  keepVertices(foot, found.back());
 }
 
 void AreaMatcher::matchPatch(const ControlPoint& point, const StripPart& part, double threshold,

@@ -10,20 +10,17 @@
 namespace pcl_als {
 namespace {
 
-/// Seconds between the vertices of a triangle that is called mixed. Successive lines of a scanner
-/// are at most a few tenths of a second apart; trajectory errors change within seconds.
-constexpr double kApart = 0.5;
 constexpr double kMixedShare = 0.05;  // of the triangles: a strip with fewer is not divided
 /// The share in a look over that of the whole from which the division does not separate the times.
 constexpr double kStillMixed = 0.6;
 
-double mixedShare(const Tin& tin, const std::vector<double>& times) {
+double mixedShare(const Tin& tin, const std::vector<double>& times, double apart) {
   std::size_t mixed = 0;
   for (const Tin::Triangle& triangle : tin.triangles()) {
     const auto [first, last] = std::minmax({times[static_cast<std::size_t>(triangle.vertex[0])],
                                             times[static_cast<std::size_t>(triangle.vertex[1])],
                                             times[static_cast<std::size_t>(triangle.vertex[2])]});
-    if (last - first > kApart) ++mixed;
+    if (last - first > apart) ++mixed;
   }
   return static_cast<double>(mixed) /
          static_cast<double>(std::max<std::size_t>(1, tin.triangles().size()));
@@ -34,7 +31,7 @@ double mixedShare(const Tin& tin, const std::vector<double>& times) {
 bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory) {
   const StripPart& whole = surfaces_[strip];
   if (!whole.flown) return false;
-  const double mixed = mixedShare(whole.surface.tin(), whole.times);
+  const double mixed = mixedShare(whole.surface.tin(), whole.times, kMixedTimes);
   if (!(mixed > kMixedShare)) return false;
   StripPart looks[2];
   std::size_t cursor = 0;
@@ -54,7 +51,7 @@ bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Traje
     look.strip = whole.strip;
     look.held_std = whole.held_std;
     buildSurface(look, resolution);
-    if (mixedShare(look.surface.tin(), look.times) > kStillMixed * mixed) return false;
+    if (mixedShare(look.surface.tin(), look.times, kMixedTimes) > kStillMixed * mixed) return false;
   }
   looks[0].look = Look::ahead;
   looks[1].look = Look::back;

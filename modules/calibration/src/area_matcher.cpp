@@ -72,7 +72,7 @@ std::vector<TimeSpan> AreaMatcher::timesOf(int strip) const {
 
 void AreaMatcher::buildSurface(StripPart& part, double resolution) const {
   part.surface = PatchSurface(Tin(part.biased, resolution));
-  part.median_edge = typicalPlanEdge(part.surface.tin());
+  part.median_edge = typicalPlanEdge(part.surface.tin(), kEnoughForEdge);
 }
 
 void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candidates,
@@ -199,8 +199,9 @@ void AreaMatcher::removeSourceEffects(const StripPart& part, const Trajectory& t
   std::size_t cursor = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!trajectory.poseAt(part.times[i], pose, cursor)) continue;
-    points[i] -= effect.displacement({part.times[i], part.intensity[i], part.turning[i]}, pose,
-                                     points[i], *source_scale_, corrected_sources_);
+    points[i] -=
+        effect.displacement({part.times[i], part.intensity[i], static_cast<float>(part.turning[i])},
+                            pose, points[i], *source_scale_, corrected_sources_);
   }
 }
 
@@ -219,6 +220,17 @@ void AreaMatcher::correct(const std::vector<StripCorrection>& corrections,
   }
 }
 
+void AreaMatcher::keepVertices(const PointGeometry& foot, PairObservation& observation) {
+  observation.mixed_times = foot.mixed;
+  if (!observation.mixed_times) return;
+  for (std::size_t i = 0; i < foot.vertices.size(); ++i) {
+    const PointGeometry::AtVertex& vertex = foot.vertices[i];
+    observation.vertices[i] = {static_cast<float>(vertex.time - foot.time),
+                               static_cast<float>(vertex.weight),
+                               (observation.normal.transpose() * vertex.turn).cast<float>()};
+  }
+}
+
 void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
                           const PatchQuality& quality, PairObservation& observation) const {
   observation.time_a = point.time;
@@ -234,6 +246,7 @@ void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
   observation.row_b = normal.transpose() * foot.design;
   observation.turn_a = (normal.transpose() * point.turn).cast<float>();
   observation.turn_b = (normal.transpose() * foot.turn).cast<float>();
+  keepVertices(foot, observation);
   observation.misclosure =
       normal.dot(point.position - foot.position) +
       observation.effectAtPoint(corrected_for_[static_cast<std::size_t>(observation.a)]) -

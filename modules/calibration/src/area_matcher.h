@@ -136,6 +136,10 @@ class AreaMatcher {
  private:
   /// Fewer points of a strip or a look in the area and its margin form no surface.
   static constexpr std::size_t kTooFew = 30;
+  /// Seconds between the vertices of a triangle that is called mixed. Successive lines of a scanner
+  /// are at most a few tenths of a second apart; trajectory errors change within seconds.
+  static constexpr double kMixedTimes = 0.5;
+  static constexpr std::size_t kEnoughForEdge = 5000;  ///< triangles, for the typical edge
 
   /// The points of a strip, or those of one look, and their TIN.
   struct StripPart {
@@ -189,6 +193,8 @@ class AreaMatcher {
   /// Fills the equation of the pair of a point and its foot in a patch.
   void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
                PairObservation& observation) const;
+  /// Keeps the vertices of the foot where their times are mixed.
+  static void keepVertices(const PointGeometry& foot, PairObservation& observation);
   // The pairs of a control point with one strip.
   void matchHeight(const ControlPoint& point, const StripPart& part, double threshold,
                    PointGeometry& foot, PointGeometry& vertex, AreaObservations& found) const;

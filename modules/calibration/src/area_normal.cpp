@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 #include <utility>
 
 #include <pcl_als/common/linear_solvers.h>
@@ -15,34 +15,53 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   knots.fill(-1);
   row.head<kSystemParameterCount>() = o.row();
   if (o.a != PairObservation::kControl)
-    place({0, o.a, o.surfaceA(), o.time_a, 1.0, o.row_a, o.turn_a}, o.normal, errors);
-  place({1, o.b, o.surfaceB(), o.time_b, -1.0, o.row_b, o.turn_b}, o.normal, errors);
+    place({0, o.a, o.surfaceA(), o.time_a, 1.0, o.row_a, o.turn_a}, o, errors);
+  place({1, o.b, o.surfaceB(), o.time_b, -1.0, o.row_b, o.turn_b}, o, errors);
   for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
     knots[kKnots + i] = errors.instrumentBlock() + i;
   row.segment<kErrorSourceCount>(kInstrument) = o.sources;
 }
 
-void TouchedRow::place(const Side& side, const Eigen::Vector3d& normal,
-                       const SharedErrors& errors) {
-  if (errors.systems().isFlown(side.strip)) placeKnots(side, normal, errors);
+void TouchedRow::place(const Side& side, const PairObservation& o, const SharedErrors& errors) {
+  if (errors.systems().isFlown(side.strip)) placeTrajectory(side, o, errors);
   surfaces[static_cast<std::size_t>(side.index)] = side.surface;
   row.segment<kShift>(shift(side.index)) =
-      side.sign * errors.shiftScale(side.strip) * normal.transpose();
-  placeSystem(side, normal, errors);
+      side.sign * errors.shiftScale(side.strip) * o.normal.transpose();
+  placeSystem(side, o.normal, errors);
 }
 
-void TouchedRow::placeKnots(const Side& side, const Eigen::Vector3d& normal,
-                            const SharedErrors& errors) {
-  const SharedErrors::Place where = errors.placeOf(side.strip, side.time);
-  Eigen::Matrix<double, 1, kKnot> effect;
-  effect << normal.transpose(),
-      side.design.segment<3>(indexOf(SystemParameter::boresight_pitch)) + side.turn.cast<double>();
-  const int first = 2 * side.index;
-  knots[first] = where.knot;
-  row.segment<kKnot>(slot(first)) = side.sign * (1.0 - where.next) * effect;
-  if (where.next_knot == where.knot) return;
-  knots[first + 1] = where.next_knot;
-  row.segment<kKnot>(slot(first + 1)) = side.sign * where.next * effect;
+void TouchedRow::placeTrajectory(const Side& side, const PairObservation& o,
+                                 const SharedErrors& errors) {
+  Effect effect;
+  if (side.index == 0 || !o.mixed_times) {
+    effect << o.normal.transpose(),
+        side.design.segment<3>(indexOf(SystemParameter::boresight_pitch)) +
+            side.turn.cast<double>();
+    addEffect(side, side.time, side.sign * effect, errors);
+    return;
+  }
+  for (const PairObservation::Vertex& vertex : o.vertices) {
+    effect << o.normal.transpose(), vertex.turn.cast<double>();
+    addEffect(side, side.time + vertex.after, side.sign * vertex.weight * effect, errors);
+  }
+}
+
+void TouchedRow::addEffect(const Side& side, double time, const Effect& effect,
+                           const SharedErrors& errors) {
+  const SharedErrors::Place where = errors.placeOf(side.strip, time);
+  row.segment<kKnot>(slot(slotOf(side.index, where.knot))) += (1.0 - where.next) * effect;
+  if (where.next_knot != where.knot)
+    row.segment<kKnot>(slot(slotOf(side.index, where.next_knot))) += where.next * effect;
+}
+
+int TouchedRow::slotOf(int side, int knot) {
+  int free = 2 * side;
+  for (int used = 0; used < kSlots - kFurther + 2; ++used) {
+    if (knots[free] < 0 || knots[free] == knot) break;
+    free = used == 0 ? 2 * side + 1 : kFurther + used - 1;
+  }
+  knots[free] = knot;
+  return free;
 }
 
 void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
@@ -58,29 +77,59 @@ void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
 
 namespace {
 
-/// Sums over observations of the same knots and surfaces; successive observations mostly share
-/// them. Their rows are collected, so that the products are those of matrices and not of vectors.
+/// An observation with a weight, and the unknowns that it depends on.
+struct Entry {
+  std::array<int, TouchedRow::kSlots> knots;
+  std::array<int, 2> surfaces;
+  std::size_t index;
+
+  bool hasSameUnknowns(const Entry& other) const {
+    return knots == other.knots && surfaces == other.surfaces;
+  }
+  bool operator<(const Entry& other) const {
+    return std::tie(knots, surfaces, index) < std::tie(other.knots, other.surfaces, other.index);
+  }
+};
+
+/// The observations with a weight; those of the same unknowns follow each other.
+std::vector<Entry> entriesOf(const AreaObservations& observations,
+                             const std::vector<double>& weights, const SharedErrors& errors) {
+  std::vector<Entry> entries;
+  entries.reserve(observations.size());
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (weights[i] == 0.0) continue;
+    const TouchedRow touched(observations[i], errors);
+    entries.push_back({touched.knots, touched.surfaces, i});
+  }
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+/// Lower triangle of the normal equations of observations of the same unknowns. Their rows are
+/// collected, so that the products are those of matrices and not of vectors.
 class Partial {
  public:
+  /// \param columns that may differ from zero
+  void begin(int columns) {
+    columns_ = columns;
+    matrix.setZero(columns, columns);
+    right.setZero(columns);
+  }
   void add(const TouchedRow& touched, double misclosure, double weight) {
     const double root = std::sqrt(weight);
-    if (columns_ == 0) {
-      columns_ = touched.used();
-      matrix.setZero(columns_, columns_);
-      right.setZero(columns_);
-    }
-    rows_.row(count_) = root * touched.row;
+    rows_.row(count_).head(columns_) = root * touched.row.head(columns_);
     misclosures_[count_] = root * misclosure;
     if (++count_ == kRows) flush();
   }
   void flush() {
+    if (count_ == 0) return;
     const auto rows = rows_.topLeftCorner(count_, columns_);
-    matrix.noalias() += rows.transpose() * rows;
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
     right.noalias() += rows.transpose() * misclosures_.head(count_);
     count_ = 0;
   }
 
-  Eigen::MatrixXd matrix;  ///< columns that may differ from zero
+  Eigen::MatrixXd matrix;  ///< after flush()
   Eigen::VectorXd right;
 
  private:
@@ -89,21 +138,6 @@ class Partial {
   Eigen::Matrix<double, kRows, 1> misclosures_;
   int count_ = 0, columns_ = 0;
 };
-using PartialKey = std::pair<std::array<int, TouchedRow::kSlots>, std::array<int, 2>>;
-
-std::map<PartialKey, Partial> partialSums(const AreaObservations& observations,
-                                          const std::vector<double>& weights,
-                                          const SharedErrors& errors) {
-  std::map<PartialKey, Partial> partial;
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (weights[i] == 0.0) continue;
-    const TouchedRow touched(observations[i], errors);
-    partial[{touched.knots, touched.surfaces}].add(touched, observations[i].misclosure,
-                                                   weights[i] / observations[i].variance);
-  }
-  for (auto& [key, sums] : partial) sums.flush();
-  return partial;
-}
 
 void insertSorted(std::vector<int>& values, int value) {
   const auto place = std::lower_bound(values.begin(), values.end(), value);
@@ -118,30 +152,86 @@ int positionOf(const std::vector<int>& values, int value) {
 
 AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
                        const SharedErrors& errors) {
-  const std::map<PartialKey, Partial> partial = partialSums(observations, weights, errors);
-  for (const auto& [key, sums] : partial) {
-    for (const int knot : key.first) insertSorted(knots_, knot);
-    for (const int surface : key.second) insertSorted(surfaces_, surface);
+  const std::vector<Entry> entries = entriesOf(observations, weights, errors);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i == 0 || !entries[i].hasSameUnknowns(entries[i - 1]))
+      collect(entries[i].knots, entries[i].surfaces);
   }
-  const auto shifts = kSystemParameterCount + static_cast<int>(knots_.size()) * TouchedRow::kKnot;
-  const auto size = shifts + static_cast<int>(surfaces_.size()) * TouchedRow::kShift;
+  const auto size = shiftsBegin() + static_cast<int>(surfaces_.size()) * TouchedRow::kShift;
   matrix_.setZero(size, size);
   right_.setZero(size);
-  for (const auto& [key, sums] : partial) {
-    std::vector<std::array<int, 3>> parts{{0, 0, kSystemParameterCount}};  // local, area, length
-    for (int i = 0; i < TouchedRow::kSlots; ++i) {
-      const int at = kSystemParameterCount + positionOf(knots_, key.first[i]) * TouchedRow::kKnot;
-      if (key.first[i] >= 0) parts.push_back({TouchedRow::slot(i), at, TouchedRow::kKnot});
+  Partial sums;
+  std::vector<Columns> columns;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const PairObservation& o = observations[entries[i].index];
+    const TouchedRow touched(o, errors);
+    if (i == 0 || !entries[i].hasSameUnknowns(entries[i - 1])) {
+      columns = columnsOf(entries[i].knots, entries[i].surfaces);
+      sums.begin(touched.used());
     }
-    for (int i = 0; i < 2; ++i) {
-      const int at = shifts + positionOf(surfaces_, key.second[i]) * TouchedRow::kShift;
-      if (key.second[i] >= 0) parts.push_back({TouchedRow::shift(i), at, TouchedRow::kShift});
+    const double weight = weights[entries[i].index] / o.variance;
+    // Few observations have the further knots of a patch of mixed times in common.
+    if (touched.hasFurtherKnots()) {
+      add(columns, touched, o.misclosure, weight);
+      continue;
     }
-    for (const auto& r : parts) {
-      right_.segment(r[1], r[2]) += sums.right.segment(r[0], r[2]);
-      for (const auto& c : parts) {
-        matrix_.block(r[1], c[1], r[2], c[2]) += sums.matrix.block(r[0], c[0], r[2], c[2]);
+    sums.add(touched, o.misclosure, weight);
+    if (i + 1 < entries.size() && entries[i].hasSameUnknowns(entries[i + 1])) continue;
+    sums.flush();
+    add(columns, sums.matrix, sums.right);
+  }
+  matrix_.triangularView<Eigen::StrictlyUpper>() = matrix_.transpose();
+}
+
+void AreaNormal::collect(const Knots& knots, const Surfaces& surfaces) {
+  for (const int knot : knots) insertSorted(knots_, knot);
+  for (const int surface : surfaces) insertSorted(surfaces_, surface);
+}
+
+std::vector<AreaNormal::Columns> AreaNormal::columnsOf(const Knots& knots,
+                                                       const Surfaces& surfaces) const {
+  std::vector<Columns> columns{{0, 0, kSystemParameterCount}};
+  for (int i = 0; i < TouchedRow::kSlots; ++i) {
+    const int knot = knots[static_cast<std::size_t>(i)];
+    const int at = kSystemParameterCount + positionOf(knots_, knot) * TouchedRow::kKnot;
+    if (knot >= 0) columns.push_back({TouchedRow::slot(i), at, TouchedRow::kKnot});
+  }
+  for (int i = 0; i < 2; ++i) {
+    const int surface = surfaces[static_cast<std::size_t>(i)];
+    const int at = shiftsBegin() + positionOf(surfaces_, surface) * TouchedRow::kShift;
+    if (surface >= 0) columns.push_back({TouchedRow::shift(i), at, TouchedRow::kShift});
+  }
+  return columns;
+}
+
+void AreaNormal::add(const std::vector<Columns>& columns, const Eigen::MatrixXd& lower,
+                     const Eigen::VectorXd& right) {
+  for (const Columns& c : columns) {
+    right_.segment(c.matrix, c.count) += right.segment(c.row, c.count);
+    for (const Columns& r : columns) {
+      if (r.matrix < c.matrix) continue;
+      auto block = matrix_.block(r.matrix, c.matrix, r.count, c.count);
+      if (r.row > c.row) {
+        block += lower.block(r.row, c.row, r.count, c.count);
+      } else if (r.row < c.row) {
+        block += lower.block(c.row, r.row, c.count, r.count).transpose();
+      } else {
+        block.template triangularView<Eigen::Lower>() +=
+            lower.block(r.row, c.row, r.count, c.count);
       }
+    }
+  }
+}
+
+void AreaNormal::add(const std::vector<Columns>& columns, const TouchedRow& touched,
+                     double misclosure, double weight) {
+  for (const Columns& c : columns) {
+    const Eigen::RowVectorXd weighted = weight * touched.row.segment(c.row, c.count);
+    right_.segment(c.matrix, c.count) += misclosure * weighted.transpose();
+    for (const Columns& r : columns) {
+      if (r.matrix < c.matrix) continue;
+      matrix_.block(r.matrix, c.matrix, r.count, c.count).noalias() +=
+          touched.row.segment(r.row, r.count).transpose() * weighted;
     }
   }
 }

@@ -14,12 +14,14 @@ namespace pcl_als {
 
 /// Row of one observation: the eight parameters; four knots, six each; the shifts of its two
 /// surfaces, three each; the blocks of the instrument, six each; those of the systems of its two
-/// strips. All but the first block of the instrument are mostly unused.
+/// strips; further knots of a patch whose vertices were measured at different times. All but the
+/// first block of the instrument are mostly unused.
 struct TouchedRow {
   static constexpr int kKnot = SharedErrors::kPerKnot;
   static constexpr int kKnots = 4;
   static constexpr int kSystems = kKnots + SharedErrors::kInstrumentBlocks;
-  static constexpr int kSlots = kSystems + 2 * SharedErrors::kSystemBlocks;
+  static constexpr int kFurther = kSystems + 2 * SharedErrors::kSystemBlocks;
+  static constexpr int kSlots = kFurther + 4;
   static constexpr int kShift = 3;
   static constexpr int kShifts = kSystemParameterCount + kKnots * kKnot;
   static constexpr int kInstrument = kShifts + 2 * kShift;
@@ -43,6 +45,8 @@ struct TouchedRow {
   std::array<int, kSlots> knots;        ///< -1: not used
   std::array<int, 2> surfaces{-1, -1};  ///< PairObservation::surfaceIndex()
 
+  bool hasFurtherKnots() const { return knots[kFurther] >= 0; }
+
  private:
   /// The point (side 0) or the patch (side 1) of a strip.
   struct Side {
@@ -51,8 +55,15 @@ struct TouchedRow {
     const SystemRow& design;
     const PairTurn& turn;
   };
-  void place(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
-  void placeKnots(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
+  /// Effect of the six trajectory errors at a time.
+  using Effect = Eigen::Matrix<double, 1, kKnot>;
+  void place(const Side& side, const PairObservation& observation, const SharedErrors& errors);
+  void placeTrajectory(const Side& side, const PairObservation& observation,
+                       const SharedErrors& errors);
+  /// Adds the effect of the errors of a strip at a time.
+  void addEffect(const Side& side, double time, const Effect& effect, const SharedErrors& errors);
+  /// The slot of a knot of the point or of the patch, a new one where it has none.
+  int slotOf(int side, int knot);
   void placeSystem(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
 };
 
@@ -88,6 +99,23 @@ class AreaNormal {
   }
 
  private:
+  using Knots = std::array<int, TouchedRow::kSlots>;
+  using Surfaces = std::array<int, 2>;
+  /// Some columns of a TouchedRow, and their place in the matrix.
+  struct Columns {
+    int row, matrix, count;
+  };
+  std::vector<Columns> columnsOf(const Knots& knots, const Surfaces& surfaces) const;
+  void collect(const Knots& knots, const Surfaces& surfaces);
+  int shiftsBegin() const {
+    return kSystemParameterCount + static_cast<int>(knots_.size()) * TouchedRow::kKnot;
+  }
+  /// Adds the equations of some observations, or of one, to the lower triangle.
+  void add(const std::vector<Columns>& columns, const Eigen::MatrixXd& lower,
+           const Eigen::VectorXd& right);
+  void add(const std::vector<Columns>& columns, const TouchedRow& touched, double misclosure,
+           double weight);
+
   std::vector<int> knots_, surfaces_;
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // What the processes of a SystemCalibrationEngine tell each other.
+#include <pcl_als/calibration/pairing_rules.h>
 #include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/shared_vectors.h>
@@ -69,14 +70,20 @@ void SystemCalibrationEngine::shareAreas() {
   }
 }
 
-std::size_t SystemCalibrationEngine::stripsInAreas() const {
+std::size_t SystemCalibrationEngine::candidatesPerStrip() const {
   std::vector<std::vector<std::size_t>> counts(matchers_.size());
   for (const std::size_t area : area_shares_.ownItems())
     counts[area].push_back(matchers_[area].stripCount());
   shareVectors(processes_, area_shares_, counts);
-  std::size_t sum = 0;
-  for (std::size_t area = 0; area < pair_areas_; ++area) sum += counts[area].front();
-  return sum;
+  // Looks that are divided form pairs with both looks of the others.
+  const std::size_t looks = conical_ || !trajectory_->scanPlanes().empty() ? 2 : 1;
+  std::size_t strips = 1, pairs = 0;
+  for (std::size_t area = 0; area < pair_areas_; ++area) {
+    const std::size_t count = counts[area].front();
+    strips += count;
+    if (count > 0) pairs += count * (looks * count - 1);
+  }
+  return pcl_als::candidatesPerStrip(settings_.candidates, strips, pairs);
 }
 
 void SystemCalibrationEngine::forOwnAreas(const std::function<void(std::size_t area)>& work) const {

@@ -4,6 +4,7 @@
 // The two passes of SystemCalibrationEngine over the points.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
@@ -132,6 +133,11 @@ void SystemCalibrationEngine::findScanPlanes() {
     if (used_[strip] && !isReference(static_cast<int>(strip))) strips.push_back(&scanners_[strip]);
   }
   const ScanPlanes planes = scanPlanes(strips);
+  std::map<ScannerPattern, std::size_t> patterns;
+  for (const ScannerDetection* strip : strips) ++patterns[strip->assess().pattern];
+  const std::size_t cones = patterns[ScannerPattern::conical];
+  conical_ = 2 * cones > strips.size();
+  about_axis_ = 2 * (cones + patterns[ScannerPattern::rosette]) > strips.size();
   scanners_.clear();
   if (planes.empty()) return;
   attitude_remarks_.push_back("the scanner has " + std::to_string(planes.size()) +

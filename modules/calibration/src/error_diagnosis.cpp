@@ -61,6 +61,8 @@ double effectOf(ErrorSource source, const ScanGeometry& edge, double speed) {
       return speed;
     case ErrorSource::intensity_ranging:
       return kIntensities;
+    case ErrorSource::deflection_scale:
+      return range * std::abs(edge.beta);
     default:
       return range;
   }
@@ -147,6 +149,7 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
   for (const SystemParameter p : choice.estimate)
     result.diagnosis.push_back(findingOf(p, result[p], edge));
   for (const ErrorSourceInfo& info : errorSources()) {
+    if (!scale.concerns(info.source)) continue;
     const int i = indexOf(info.source);
     ErrorFinding finding =
         findingOf(info.source, diagnosed, errors.model(), effectOf(info.source, edge, speed));

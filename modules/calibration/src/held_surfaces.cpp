@@ -229,6 +229,7 @@ void SystemCalibrationEngine::replaceHeld(std::vector<AreaObservations>& observa
         o.time_b = o.time_a;
         o.row_b = o.row_a;
         o.turn_b = o.turn_a;
+        o.mixed_times = false;
         o.design = -o.design;
         o.sources = -o.sources;
         o.misclosure = -o.misclosure;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <pcl_als/calibration/pairing_rules.h>
@@ -21,54 +22,42 @@ class AreaMatcher::PointGeometry {
       : trajectory_(trajectory), noise_(noise), effects_(trajectory), scale_(scale) {}
 
   bool atPoint(const StripPart& part, std::int32_t index, const PatchQuality& surface) {
-    time = part.times[index];
-    position = part.surface.tin().points()[index];
-    held = part.held();
-    turn.setZero();
-    if (held) return atHeldPoint(part, surface);
-    if (!trajectory_.poseAt(time, pose_, cursor_)) return false;
-    const ScanGeometry geometry = scanGeometry(pose_, alongBeam(position, surface));
-    design = designBlock(geometry);
-    covariance = noise_.pointCovariance(geometry);
-    pointing = noise_.pointingCovariance(geometry);
-    beam = geometry.beam();
-    range = geometry.range();
-    lateral = std::abs(geometry.x);
-    height = std::abs(geometry.z);
-    sources.setZero();
-    sources.col(indexOf(ErrorSource::range_scale)) = range * beam;
-    if (scale_ != nullptr)
-      effects_.add({time, part.intensity[index], part.turning[index]}, pose_, geometry, *scale_,
-                   sources);
-    return true;
+    const auto i = static_cast<std::size_t>(index);
+    return at(part, {part.times[i], part.intensity[i], static_cast<float>(part.turning[i])},
+              part.surface.tin().points()[i], surface);
   }
 
+  /// The foot of a point in a patch. \param vertex is set to a point of the strip at the foot, or,
+  /// where the vertices were measured at different times, to the last of them.
   bool atFoot(const StripPart& part, const PatchMatch& match, const PatchQuality& surface,
               PointGeometry& vertex) {
-    time = 0.0;
-    position.setZero();
-    design.setZero();
-    turn.setZero();
-    sources.setZero();
-    covariance.setZero();
-    pointing.setZero();
+    const auto& triangle = part.surface.tin().triangles()[match.triangle].vertex;
+    mixed = part.flown && timeBetween(part.times, triangle) > kMixedTimes;
+    if (mixed) return atVertices(part, match, surface, vertex);
+    // All quantities are linear in position and time within a patch.
+    SourceReading mean{0.0, 0.0F, 0.0F};
+    Eigen::Vector3d foot = Eigen::Vector3d::Zero();
+    double log_intensity = 0.0;  // to which the effect of the intensity is proportional
     for (int i = 0; i < 3; ++i) {
-      if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i], surface))
-        return false;
+      const auto v = static_cast<std::size_t>(triangle[i]);
       const double weight = match.weights[i];
-      time += weight * vertex.time;
-      position += weight * vertex.position;
-      design += weight * vertex.design;
-      turn += weight * vertex.turn;
-      sources += weight * vertex.sources;
-      covariance += weight * weight * vertex.covariance;
-      pointing += weight * weight * vertex.pointing;
+      mean.time += weight * part.times[v];
+      mean.turning += static_cast<float>(weight) * static_cast<float>(part.turning[v]);
+      if (scale_ != nullptr)
+        log_intensity += weight * SourceEffect::logIntensity(part.intensity[v], *scale_);
+      foot += weight * part.surface.tin().points()[v];
     }
-    held = vertex.held;
-    beam = vertex.beam;
-    range = vertex.range;
-    lateral = vertex.lateral;
-    height = vertex.height;
+    if (scale_ != nullptr)
+      mean.intensity = static_cast<float>(scale_->median_intensity * std::exp(log_intensity));
+    if (!vertex.at(part, mean, foot, surface)) return false;
+    take(vertex);
+    time = vertex.time;
+    position = vertex.position;
+    design = vertex.design;
+    turn = vertex.turn;
+    sources = vertex.sources;
+    covariance = match.weights.squaredNorm() * vertex.covariance;
+    pointing = match.weights.squaredNorm() * vertex.pointing;
     return true;
   }
 
@@ -82,6 +71,19 @@ class AreaMatcher::PointGeometry {
   Eigen::Vector3d beam;                             ///< unit, downward
   double range = 0.0, lateral = 0.0, height = 0.0;  ///< metres
 
+  /// A vertex of the patch of a foot.
+  struct AtVertex {
+    double time = 0.0, weight = 0.0;
+    Eigen::Matrix3d turn;  ///< turnOfAttitude()
+  };
+  bool mixed = false;                ///< whether a foot's vertices are of different times
+  std::array<AtVertex, 3> vertices;  ///< where they are
+
+  /// Effect of errors of pitch, roll and heading.
+  Eigen::Matrix3d turnOfAttitude() const {
+    return design.middleCols<3>(indexOf(SystemParameter::boresight_pitch)) + turn;
+  }
+
   /// Effects of the error sources along the normal of a surface, metres.
   ErrorSourceRow sourcesAlong(const Eigen::Vector3d& normal) const {
     ErrorSourceRow row = normal.transpose() * sources;
@@ -91,6 +93,72 @@ class AreaMatcher::PointGeometry {
   }
 
  private:
+  static double timeBetween(const std::vector<double>& times,
+                            const std::array<std::int32_t, 3>& triangle) {
+    const auto [first, last] = std::minmax({times[static_cast<std::size_t>(triangle[0])],
+                                            times[static_cast<std::size_t>(triangle[1])],
+                                            times[static_cast<std::size_t>(triangle[2])]});
+    return last - first;
+  }
+
+  bool at(const StripPart& part, const SourceReading& reading, const Eigen::Vector3d& place,
+          const PatchQuality& surface) {
+    time = reading.time;
+    position = place;
+    held = part.held();
+    mixed = false;
+    turn.setZero();
+    if (held) return atHeldPoint(part, surface);
+    if (!trajectory_.poseAt(time, pose_, cursor_)) return false;
+    const ScanGeometry geometry = scanGeometry(pose_, alongBeam(position, surface));
+    design = designBlock(geometry);
+    covariance = noise_.pointCovariance(geometry);
+    pointing = noise_.pointingCovariance(geometry);
+    beam = geometry.beam();
+    range = geometry.range();
+    lateral = std::abs(geometry.x);
+    height = std::abs(geometry.z);
+    sources.setZero();
+    sources.col(indexOf(ErrorSource::range_scale)) = range * beam;
+    if (scale_ != nullptr) effects_.add(reading, pose_, geometry, *scale_, sources);
+    return true;
+  }
+
+  bool atVertices(const StripPart& part, const PatchMatch& match, const PatchQuality& surface,
+                  PointGeometry& vertex) {
+    time = 0.0;
+    position.setZero();
+    design.setZero();
+    turn.setZero();
+    sources.setZero();
+    covariance.setZero();
+    pointing.setZero();
+    for (int i = 0; i < 3; ++i) {
+      if (!vertex.atPoint(part, part.surface.tin().triangles()[match.triangle].vertex[i], surface))
+        return false;
+      const double weight = match.weights[i];
+      vertices[static_cast<std::size_t>(i)] = {vertex.time, weight, vertex.turnOfAttitude()};
+      time += weight * vertex.time;
+      position += weight * vertex.position;
+      design += weight * vertex.design;
+      turn += weight * vertex.turn;
+      sources += weight * vertex.sources;
+      covariance += weight * weight * vertex.covariance;
+      pointing += weight * weight * vertex.pointing;
+    }
+    take(vertex);
+    return true;
+  }
+
+  /// What does not differ within a patch.
+  void take(const PointGeometry& vertex) {
+    held = vertex.held;
+    beam = vertex.beam;
+    range = vertex.range;
+    lateral = vertex.lateral;
+    height = vertex.height;
+  }
+
   bool atHeldPoint(const StripPart& part, const PatchQuality& surface) {
     design.setZero();
     sources.setZero();

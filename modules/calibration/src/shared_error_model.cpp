@@ -111,11 +111,15 @@ std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservati
   for (const AreaObservations& area : areas) {
     std::map<int, TimeSpan> here;
     for (const PairObservation& o : area) {
-      for (const auto& [strip, time] : {std::pair(o.a, o.time_a), std::pair(o.b, o.time_b)}) {
-        if (strip == PairObservation::kControl) continue;
+      const auto add = [&here](int strip, double time) {
+        if (strip == PairObservation::kControl) return;
         TimeSpan& span = here.try_emplace(strip, time, time).first->second;
         span = {std::min(span.first, time), std::max(span.second, time)};
-      }
+      };
+      add(o.a, o.time_a);
+      add(o.b, o.time_b);
+      if (!o.mixed_times) continue;
+      for (const PairObservation::Vertex& vertex : o.vertices) add(o.b, o.time_b + vertex.after);
     }
     for (const auto& [strip, span] : here) times[static_cast<std::size_t>(strip)].push_back(span);
   }

@@ -60,7 +60,7 @@ std::size_t SystemCalibrationEngine::loadedPoints() const {
 void SystemCalibrationEngine::prepare() {
   if (area_shares_.count() != matchers_.size())
     area_shares_ = SharedItems(nullptr, std::vector<double>(matchers_.size(), 1.0));
-  const std::size_t candidates = candidatesPerStrip(settings_.candidates, 1 + stripsInAreas());
+  const std::size_t candidates = candidatesPerStrip();
   std::vector<std::vector<double>> roughness(matchers_.size());
   forOwnAreas([&](std::size_t i) {
     const bool control = i >= pair_areas_;
@@ -186,7 +186,7 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
   if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
     state.components.unchanged =
-        mostLikelyLevels(state.adjustment, state.choice.estimate).near(levels);
+        estimateLevels(state.adjustment, state.choice.estimate).near(levels);
     choose(state);
   }
   weigh(state);

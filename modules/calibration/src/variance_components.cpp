@@ -93,10 +93,27 @@ double predictedChange(const Objective& at, const Vector& step) {
   return at.gradient.dot(step) + 0.5 * along.cwiseAbs2().dot(at.curvature.values);
 }
 
+/// The expectations of the components, whose logarithms have a normal distribution about the
+/// minimum: a factor of exp(s^2 / 2). The most likely variance of an error that few strips show is
+/// smaller than the expected one, and so would the standard deviations of parameters be that rest
+/// on it.
+SharedErrorLevels expectedLevels(const Vector& minimum, const Objective& at) {
+  constexpr double kMost = 0.5;  // s^2 of a component that only the prior determines
+  Vector logarithms = minimum;
+  for (int k = 0; k < kComponents; ++k) {
+    // The objective is -2 ln of the density.
+    const double variance =
+        2.0 *
+        (at.curvature.vectors.row(k).cwiseAbs2() * at.curvature.values.cwiseInverse()).value();
+    logarithms[k] += 0.5 * std::min(kMost, variance);
+  }
+  return levelsOf(logarithms);
+}
+
 }  // namespace
 
-SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
-                                   const std::vector<SystemParameter>& estimate) {
+SharedErrorLevels estimateLevels(Adjustment& adjustment,
+                                 const std::vector<SystemParameter>& estimate) {
   constexpr double kNegligible = 0.01;  // of -2 ln likelihood; a standard deviation changes it by 1
   constexpr double kLargestRadius = 4.0;
   constexpr int kMostEvaluations = 40;
@@ -116,7 +133,7 @@ SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
     best = next;
     at = there;
   }
-  adjustment.setLevels(levelsOf(best));
+  adjustment.setLevels(expectedLevels(best, at));
   return adjustment.levels();
 }
 

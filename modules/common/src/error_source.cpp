@@ -32,6 +32,10 @@ const std::array<ErrorSourceInfo, kErrorSourceCount>& errorSources() {
       {ErrorSource::encoder_quadratic, "encoder_quadratic", "quadratic error of the angle encoder",
        "arcsec", kRadiansPerArcsec,
        "have the angle encoder, or an eccentricity of its disk, calibrated by the manufacturer"},
+      {ErrorSource::deflection_scale, "deflection_scale", "scale of the deflection from the axis",
+       "ppm", 1e-6,
+       "have the deflection angle of the prisms or of the tilted mirror calibrated by the "
+       "manufacturer"},
   }};
   return kSources;
 }

@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kLargestAngle = "largest_scan_angle_deg";
 constexpr const char* kMedianIntensity = "median_intensity";
+constexpr const char* kAboutAxis = "deflected_about_axis";
 
 /// Values beyond these are refused, internal units: an error of the file.
 double largestOf(ErrorSource source) {
@@ -28,6 +29,7 @@ double largestOf(ErrorSource source) {
     case ErrorSource::time_offset:
       return 10.0;
     case ErrorSource::range_scale:
+    case ErrorSource::deflection_scale:
       return 0.01;
     default:
       return kRadiansPerDegree;
@@ -47,6 +49,7 @@ void writeDiagnosis(const CalibrationResult& result, Json& root) {
   }
   values[kLargestAngle] = number(result.source_scale.largest_angle / kRadiansPerDegree);
   values[kMedianIntensity] = number(result.source_scale.median_intensity);
+  if (result.source_scale.about_axis) values[kAboutAxis] = true;
   root["error_sources"] = std::move(values);
   Json findings = Json::array();
   for (const ErrorFinding& f : result.diagnosis) {
@@ -81,6 +84,7 @@ void readDiagnosis(const JsonNode& root, CalibrationResult& result) {
     result.source_scale.largest_angle =
         values[kLargestAngle].within(90.0, "degrees") * kRadiansPerDegree;
     result.source_scale.median_intensity = values[kMedianIntensity].number();
+    result.source_scale.about_axis = values.has(kAboutAxis) && values[kAboutAxis].truth();
   }
   if (!root.has("diagnosis")) return;
   for (const JsonNode& node : root["diagnosis"].items()) {

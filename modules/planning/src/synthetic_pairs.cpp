@@ -205,14 +205,16 @@ void SyntheticPairs::addArea(const Eigen::Vector2d& corner, int first, double ca
 
 void SyntheticPairs::addPairs(int first, ObservedBlock& block) const {
   const Places corners = chooseAreas(first, block);
-  double strips_in_areas = 1.0;
+  double strips_in_areas = 1.0, pairs_in_areas = 0.0;
   for (const Eigen::Vector2d& corner : corners) {
-    for (const StripGeometry& strip : block.strips) {
-      strips_in_areas += strip.covers(middleOf(corner)) ? 1.0 : 0.0;
-    }
+    const auto count = static_cast<double>(
+        std::count_if(block.strips.begin(), block.strips.end(),
+                      [&](const StripGeometry& strip) { return strip.covers(middleOf(corner)); }));
+    strips_in_areas += count;
+    pairs_in_areas += count * std::max(0.0, count - 1.0);
   }
-  const double candidates =
-      candidatesPerStrip(static_cast<double>(settings_.candidates), strips_in_areas);
+  const double candidates = candidatesPerStrip(static_cast<double>(settings_.candidates),
+                                               strips_in_areas, pairs_in_areas);
   for (const Eigen::Vector2d& corner : corners) addArea(corner, first, candidates, block);
 }
 

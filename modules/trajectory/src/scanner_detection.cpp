@@ -240,6 +240,7 @@ DetectedScanner ScannerDetection::assess() const {
 void ScannerDetection::put(ByteWriter& out) const {
   out.putMap(channels_, [](ByteWriter& to, const Channel& channel) {
     to.put(channel.pulses).put(channel.sum).put(channel.products).put(channel.quadratics);
+    to.put(channel.from_axis);
   });
 }
 
@@ -248,6 +249,7 @@ void ScannerDetection::get(ByteReader& in) {
   for (auto left = in.take<std::size_t>(); left > 0; --left) {
     Channel& channel = channels_[in.take<std::uint8_t>()];
     in.get(channel.pulses).get(channel.sum).get(channel.products).get(channel.quadratics);
+    in.get(channel.from_axis);
   }
 }
 

@@ -31,7 +31,7 @@ void SourceCorrection::add(const PointColumns& points, std::size_t count, bool i
     SourceReading reading;
     reading.time = points.time[i];
     if (points.intensity != nullptr) reading.intensity = points.intensity[i];
-    if (points.turning != nullptr) reading.turning = points.turning[i];
+    if (points.turning != nullptr) reading.turning = static_cast<float>(points.turning[i]);
     if (!std::isfinite(reading.time) || !flight_->poseAt(reading.time, pose, cursor)) continue;
     const Eigen::Vector3d moved =
         sign * effect.displacement(reading, pose, position, scale_, values_);

@@ -34,23 +34,49 @@ Eigen::Vector3d SourceEffect::velocity(double time, const SensorPose& pose,
   return Eigen::Vector3d::Zero();
 }
 
+namespace {
+
+/// Derivative of a point by the logarithm of the angle between its pulse and the axis, body frame.
+Eigen::Vector3d deflected(const ScanGeometry& geometry) {
+  const Eigen::Vector2d across(geometry.x, geometry.y);
+  const double off = across.norm();
+  if (off == 0.0) return Eigen::Vector3d::Zero();
+  const Eigen::Vector2d outward = -geometry.z / off * across;
+  return std::atan2(off, -geometry.z) * Eigen::Vector3d(outward.x(), outward.y(), off);
+}
+
+/// Sets the columns of the errors of a mirror's angle.
+void addMirror(double turning, const ScanGeometry& geometry, double largest_angle,
+               SourceEffects& effects) {
+  const Eigen::Vector3d turned = geometry.rotation * geometry.turned();
+  effects.col(indexOf(ErrorSource::mirror_torsion)) = turning * turned;
+  if (!(largest_angle > 0.0)) return;
+  const double u = geometry.beta / largest_angle;
+  effects.col(indexOf(ErrorSource::encoder_cubic)) = 0.5 * (5.0 * u * u - 3.0) * u * turned;
+  effects.col(indexOf(ErrorSource::encoder_quadratic)) = 0.5 * (3.0 * u * u - 1.0) * turned;
+}
+
+}  // namespace
+
+double SourceEffect::logIntensity(double intensity, const ErrorSourceScale& scale) {
+  constexpr double kMost = 100.0;  // ratio of intensities
+  if (!(scale.median_intensity > 0.0)) return 0.0;
+  return std::log(std::clamp(intensity / scale.median_intensity, 1.0 / kMost, kMost));
+}
+
 void SourceEffect::add(const SourceReading& reading, const SensorPose& pose,
                        const ScanGeometry& geometry, const ErrorSourceScale& scale,
                        SourceEffects& effects) {
-  constexpr double kMost = 100.0;  // ratio of intensities
   const Eigen::Vector3d beam = geometry.beam();
   effects.col(indexOf(ErrorSource::range_scale)) = geometry.range() * beam;
   effects.col(indexOf(ErrorSource::time_offset)) = velocity(reading.time, pose, geometry);
-  const Eigen::Vector3d turned = geometry.rotation * geometry.turned();
-  effects.col(indexOf(ErrorSource::mirror_torsion)) = reading.turning * turned;
-  if (scale.largest_angle > 0.0) {
-    const double u = geometry.beta / scale.largest_angle;
-    effects.col(indexOf(ErrorSource::encoder_cubic)) = 0.5 * (5.0 * u * u - 3.0) * u * turned;
-    effects.col(indexOf(ErrorSource::encoder_quadratic)) = 0.5 * (3.0 * u * u - 1.0) * turned;
-  }
+  if (scale.about_axis)
+    effects.col(indexOf(ErrorSource::deflection_scale)) = geometry.rotation * deflected(geometry);
+  else
+    addMirror(reading.turning, geometry, scale.largest_angle, effects);
   if (scale.median_intensity > 0.0) {
-    const double ratio = std::clamp(reading.intensity / scale.median_intensity, 1.0 / kMost, kMost);
-    effects.col(indexOf(ErrorSource::intensity_ranging)) = std::log(ratio) * beam;
+    effects.col(indexOf(ErrorSource::intensity_ranging)) =
+        logIntensity(reading.intensity, scale) * beam;
   }
 }
 

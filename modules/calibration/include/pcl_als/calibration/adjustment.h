@@ -198,9 +198,10 @@ class Adjustment {
  * the logarithm of the factor (scale: a factor of e): a component that the observations do not
  * determine keeps the model's variance, and one that they do determine is hardly affected by the
  * prior. The minimum is found by Newton's method within a trust region, with the average
- * information as the curvature, in the logarithms of the factors.
+ * information as the curvature, in the logarithms of the factors. The result is the expectation of
+ * each variance for a normal distribution of its logarithm about the minimum.
  */
-SharedErrorLevels mostLikelyLevels(Adjustment& adjustment,
-                                   const std::vector<SystemParameter>& estimate);
+SharedErrorLevels estimateLevels(Adjustment& adjustment,
+                                 const std::vector<SystemParameter>& estimate);
 
 }  // namespace pcl_als

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -53,6 +54,16 @@ struct PairObservation {
   /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are held
   /// fixed, whose rows are zero.
   PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
+  /// A vertex of the patch; single precision, to limit memory.
+  struct Vertex {
+    float after = 0.0F;                ///< its time of emission less time_b, seconds
+    float weight = 0.0F;               ///< of the interpolation at the point's foot
+    PairTurn turn = PairTurn::Zero();  ///< n' A of the three boresight angles, or that of turn_b
+  };
+  /// Whether the vertices were measured so far apart in time (rosette scanners) that each has a
+  /// trajectory error of its own; that of the patch is their weighted mean.
+  bool mixed_times = false;
+  std::array<Vertex, 3> vertices;          ///< with mixed_times
   Eigen::Vector3d normal;                  ///< unit, upward or horizontal, ground frame
   PairDesign design = PairDesign::Zero();  ///< A: row() = n' A
   /// Variance of the direction of the normal, rad^2; zero where the distance is vertical.

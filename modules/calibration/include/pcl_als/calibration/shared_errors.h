@@ -69,6 +69,7 @@ struct SharedErrorModel {
       {30.0 * kRadiansPerArcsec, 0.9},  // encoder_cubic
       {0.01, 0.9},                      // intensity_ranging
       {30.0 * kRadiansPerArcsec, 0.9},  // encoder_quadratic
+      {5e-4, 0.9},                      // deflection_scale
   }};
 
   BiasPrior biases;  ///< what is known of the system parameters

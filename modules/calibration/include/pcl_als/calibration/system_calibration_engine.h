@@ -139,8 +139,8 @@ class SystemCalibrationEngine {
 
   void shareSurvey();
   bool isMine(std::size_t area) const { return area_shares_.mine(area); }
-  /// Collective: strips with points in the pair areas, summed over these.
-  std::size_t stripsInAreas() const;
+  /// Collective: points of a strip in an area for which patches are searched.
+  std::size_t candidatesPerStrip() const;
   void forOwnAreas(const std::function<void(std::size_t area)>& work) const;
   void leaveOutUnpaired();
   void leaveOutSmallStrips();
@@ -152,7 +152,7 @@ class SystemCalibrationEngine {
   void checkControl();
   void checkTimes() const;
   void recoverAttitude();
-  /// Finds the planes of a scanner that has several.
+  /// Finds the planes of a scanner that has several, and whether it deflects about an axis.
   void findScanPlanes();
   void describeAttitudes();
   void useNonLinearModel(const std::string& remark);
@@ -298,6 +298,8 @@ class SystemCalibrationEngine {
   std::vector<std::string> attitude_remarks_;
   std::vector<LeftOutPoints> left_out_;
   HeightError height_error_;  ///< of the trajectory, from recorded scan angles
+  bool conical_ = false;      ///< whether the scanner is conical
+  bool about_axis_ = false;   ///< whether it is that or a rosette scanner
   ErrorSourceScale source_scale_;
   Communicator* processes_ = nullptr;
   SharedItems strip_shares_, area_shares_;  ///< which processes read and form pairs

@@ -14,20 +14,19 @@ namespace pcl_als {
  *
  * Each has one value (assumed - true) that moves a point by the value times an effect:
  *
- * | source               | value                                             | effect on a point |
- * |----------------------|---------------------------------------------------|---------------------|
- * | slope_ranging        | share of the stretch of a pulse on a slope        | along the pulse | |
- * range_scale          | scale of ranges - 1                               | range, along pulse  |
- * | time_offset          | time of the points - time of the trajectory, s    | velocity dX/dt | |
- * mirror_torsion       | scan angle error while the mirror turns to the    | dX/d(scan angle),   |
- * |                      | left; to the right it has the other sign, rad     | sign of the scan |
- * | encoder_cubic        | scan angle error at the edge of the swath, rad    | dX/d(scan angle) |
- * |                      |                                                   | P3(angle / largest)
- * | | intensity_ranging    | range error of e times the intensity, metres      | ln(I / I0) along |
- * |                      |                                                   | the pulse | |
- * encoder_quadratic    | scan angle error at the edge of the swath, rad    | dX/d(scan angle)    |
- * |                      |                                                   | P2(angle / largest)
- * |
+ * - slope_ranging: share of the stretch of a pulse on a slope; along the pulse.
+ * - range_scale: scale of ranges - 1; the range along the pulse.
+ * - time_offset: time of the points - time of the trajectory, seconds; the velocity dX/dt.
+ * - mirror_torsion: scan angle error while the mirror turns to the left, radians; to the right it
+ *   has the other sign; dX/d(scan angle) times the sign of the scan.
+ * - encoder_cubic: scan angle error at the edge of the swath, radians; dX/d(scan angle) P3(angle /
+ *   largest).
+ * - intensity_ranging: range error of e times the intensity, metres; ln(I / I0) along the pulse.
+ * - encoder_quadratic: scan angle error at the edge of the swath, radians; dX/d(scan angle)
+ * P2(angle / largest).
+ * - deflection_scale: scale of the angle between pulse and axis - 1, of conical and rosette
+ *   scanners; that angle times the derivative of X with respect to it. These scanners have no
+ *   mirror angle, and no error of its encoder.
  *
  * P2 and P3 are the Legendre polynomials (3 u^2 - 1) / 2 and (5 u^3 - 3 u) / 2, orthogonal to a
  * boresight roll and to a scan angle scale. The scan angle is positive to the left, as in Habib et
@@ -41,9 +40,10 @@ enum class ErrorSource {
   encoder_cubic,
   intensity_ranging,
   encoder_quadratic,
+  deflection_scale,
 };
 
-inline constexpr int kErrorSourceCount = 7;
+inline constexpr int kErrorSourceCount = 8;
 using ErrorSourceRow = Eigen::Matrix<double, 1, kErrorSourceCount>;
 using ErrorSourceVector = Eigen::Matrix<double, kErrorSourceCount, 1>;
 using ErrorSourceMatrix = Eigen::Matrix<double, kErrorSourceCount, kErrorSourceCount>;
@@ -73,6 +73,17 @@ inline const ErrorSourceInfo& infoOf(ErrorSource source) {
 struct ErrorSourceScale {
   double largest_angle = 0.0;     ///< radians, the largest scan angle; 0: unknown
   double median_intensity = 0.0;  ///< digital number I0; 0: unknown
+  /// Whether the pulses are deflected about an axis (conical and rosette scanners) and not by the
+  /// angle of a mirror.
+  bool about_axis = false;
+
+  /// Whether a scanner of this kind can have the error.
+  bool concerns(ErrorSource source) const {
+    const bool of_mirror = source == ErrorSource::mirror_torsion ||
+                           source == ErrorSource::encoder_cubic ||
+                           source == ErrorSource::encoder_quadratic;
+    return about_axis ? !of_mirror : source != ErrorSource::deflection_scale;
+  }
 };
 
 /// One entry of the diagnosis of a calibration: a possible cause of a misfit.

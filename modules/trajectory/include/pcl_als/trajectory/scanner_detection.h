@@ -66,7 +66,8 @@ class ScannerDetection {
   /// Points of one strip in the order of the file.
   void add(const LidarReturn& point);
   DetectedScanner assess() const;
-  /// What scanPlanes() needs, for another process; get() replaces it.
+  /// What scanPlanes() and the recognition of cones and rosettes need, for another process; get()
+  /// replaces it.
   void put(ByteWriter& out) const;
   void get(ByteReader& in);
 

@@ -19,9 +19,10 @@ using SourceEffects = Eigen::Matrix<double, 3, kErrorSourceCount>;
 
 /// What the effects of the error sources depend on besides the geometry.
 struct SourceReading {
-  double time = 0.0;        ///< seconds, on the trajectory's clock
-  float intensity = 0.0F;   ///< digital number
-  std::int8_t turning = 0;  ///< of the mirror: 1 to the left, -1 to the right, 0 unknown
+  double time = 0.0;       ///< seconds, on the trajectory's clock
+  float intensity = 0.0F;  ///< digital number
+  float turning =
+      0.0F;  ///< of the mirror: 1 to the left, -1 to the right, 0 unknown; mean of points
 };
 
 /** \brief Effects of the error sources (ErrorSource) on points, to first order.
@@ -29,12 +30,17 @@ struct SourceReading {
  * With p = (x, y, z) in the body frame, R from body to ground, beam u and range r:
  * range_scale r u; time_offset d/dt (position + R p); mirror_torsion and the errors of the encoder
  * the derivative by the scan angle, R ScanGeometry::turned(), times the sign of the scan or a
- * polynomial; intensity_ranging ln(I / I0) u, with I / I0 between 1/100 and 100. slope_ranging
- * depends on the surface: its column is zero.
+ * polynomial; intensity_ranging ln(I / I0) u, with I / I0 between 1/100 and 100; deflection_scale
+ * R a (-z e, |(x, y)|) with a = atan2(|(x, y)|, -z) and the direction e of (x, y). slope_ranging
+ * depends on the surface: its column is zero, and so are those that do not concern the scanner
+ * (ErrorSourceScale::concerns()).
  */
 class SourceEffect {
  public:
   explicit SourceEffect(const Trajectory& trajectory) : trajectory_(trajectory) {}
+
+  /// ln(I / I0), with I / I0 between 1/100 and 100; 0 where I0 is unknown.
+  static double logIntensity(double intensity, const ErrorSourceScale& scale);
 
   /// Sets the columns of all sources but slope_ranging. An effect that is not defined (unknown
   /// scale, turning or velocity) is zero. Faster for times that are nearly in order.
