@@ -204,7 +204,11 @@ void judgeChannels(const SurveyReader& survey, CalibrationResult& result,
   const std::string cause =
       text + " and may be the cause: divide strips by channel to find and to calibrate them";
   result.warnings.insert(result.warnings.begin(), {cause, Remedy::channels});
-  if (affected) result.verdict.reason = cause + "; " + result.verdict.reason;
+  // Corrections of the trajectory that are larger than its errors take in what the channels differ
+  // by, and the parameters need not change with them.
+  if (!affected && !result.verdict.usable()) return;
+  result.verdict.status = CalibrationStatus::parameters_affected;
+  result.verdict.reason = cause + "; " + result.verdict.reason;
 }
 
 /// A reconstructed path is that of the origin of the pulses as it was assumed, and nothing is known
