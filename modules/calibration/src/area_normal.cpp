@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -55,13 +56,16 @@ void TouchedRow::addEffect(const Side& side, double time, const Effect& effect,
 }
 
 int TouchedRow::slotOf(int side, int knot) {
-  int free = 2 * side;
-  for (int used = 0; used < kSlots - kFurther + 2; ++used) {
-    if (knots[free] < 0 || knots[free] == knot) break;
-    free = used == 0 ? 2 * side + 1 : kFurther + used - 1;
+  // Three vertices of a patch have at most six knots; a point has two.
+  constexpr std::array<int, 6> kPlaces{0, 1, kFurther, kFurther + 1, kFurther + 2, kFurther + 3};
+  for (const int place : kPlaces) {
+    const int index = place < 2 ? 2 * side + place : place;
+    int& present = knots[static_cast<std::size_t>(index)];
+    if (present >= 0 && present != knot) continue;
+    present = knot;
+    return index;
   }
-  knots[free] = knot;
-  return free;
+  throw std::logic_error("TouchedRow: a patch has more than six knots");
 }
 
 void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
