@@ -138,8 +138,9 @@ class Partial {
 
  private:
   static constexpr int kRows = 32;
-  Eigen::Matrix<double, kRows, TouchedRow::kSize> rows_;
-  Eigen::Matrix<double, kRows, 1> misclosures_;
+  Eigen::Matrix<double, kRows, TouchedRow::kSize> rows_ =
+      Eigen::Matrix<double, kRows, TouchedRow::kSize>::Zero();
+  Eigen::Matrix<double, kRows, 1> misclosures_ = Eigen::Matrix<double, kRows, 1>::Zero();
   int count_ = 0, columns_ = 0;
 };
 
