@@ -14,24 +14,32 @@ constexpr double kMixedShare = 0.05;  // of the triangles: a strip with fewer is
 /// The share in a look over that of the whole from which the division does not separate the times.
 constexpr double kStillMixed = 0.6;
 
-double mixedShare(const Tin& tin, const std::vector<double>& times, double apart) {
-  std::size_t mixed = 0;
-  for (const Tin::Triangle& triangle : tin.triangles()) {
-    const auto [first, last] = std::minmax({times[static_cast<std::size_t>(triangle.vertex[0])],
-                                            times[static_cast<std::size_t>(triangle.vertex[1])],
-                                            times[static_cast<std::size_t>(triangle.vertex[2])]});
-    if (last - first > apart) ++mixed;
-  }
-  return static_cast<double>(mixed) /
-         static_cast<double>(std::max<std::size_t>(1, tin.triangles().size()));
+}  // namespace
+
+bool AreaMatcher::isMixed(const std::vector<double>& times,
+                          const std::array<std::int32_t, 3>& triangle) {
+  // Successive lines of a scanner are at most a few tenths of a second apart; trajectory errors
+  // change within seconds.
+  constexpr double kMixedTimes = 0.5;
+  const auto [first, last] = std::minmax({times[static_cast<std::size_t>(triangle[0])],
+                                          times[static_cast<std::size_t>(triangle[1])],
+                                          times[static_cast<std::size_t>(triangle[2])]});
+  return last - first > kMixedTimes;
 }
 
-}  // namespace
+double AreaMatcher::mixedShare(const StripPart& part) {
+  const auto& triangles = part.surface.tin().triangles();
+  const auto mixed = std::count_if(triangles.begin(), triangles.end(), [&](const auto& triangle) {
+    return isMixed(part.times, triangle.vertex);
+  });
+  return static_cast<double>(mixed) /
+         static_cast<double>(std::max<std::size_t>(1, triangles.size()));
+}
 
 bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory) {
   const StripPart& whole = surfaces_[strip];
   if (!whole.flown) return false;
-  const double mixed = mixedShare(whole.surface.tin(), whole.times, kMixedTimes);
+  const double mixed = mixedShare(whole);
   if (!(mixed > kMixedShare)) return false;
   StripPart looks[2];
   std::size_t cursor = 0;
@@ -51,7 +59,7 @@ bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Traje
     look.strip = whole.strip;
     look.held_std = whole.held_std;
     buildSurface(look, resolution);
-    if (mixedShare(look.surface.tin(), look.times, kMixedTimes) > kStillMixed * mixed) return false;
+    if (mixedShare(look) > kStillMixed * mixed) return false;
   }
   looks[0].look = Look::ahead;
   looks[1].look = Look::back;

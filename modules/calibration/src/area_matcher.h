@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -136,9 +137,6 @@ class AreaMatcher {
  private:
   /// Fewer points of a strip or a look in the area and its margin form no surface.
   static constexpr std::size_t kTooFew = 30;
-  /// Seconds between the vertices of a triangle that is called mixed. Successive lines of a scanner
-  /// are at most a few tenths of a second apart; trajectory errors change within seconds.
-  static constexpr double kMixedTimes = 0.5;
   static constexpr std::size_t kEnoughForEdge = 5000;  ///< triangles, for the typical edge
 
   /// The points of a strip, or those of one look, and their TIN.
@@ -161,6 +159,12 @@ class AreaMatcher {
   };
   class PointGeometry;
 
+  /// Whether the vertices of a triangle were measured so far apart in time that their trajectory
+  /// errors differ.
+  static bool isMixed(const std::vector<double>& times,
+                      const std::array<std::int32_t, 3>& triangle);
+  /// The share of such triangles.
+  static double mixedShare(const StripPart& part);
   /// The points of a strip, corrected.
   static std::vector<Eigen::Vector3d> reconstructed(const StripPart& part,
                                                     const StripCorrection& correction);

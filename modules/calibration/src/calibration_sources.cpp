@@ -58,7 +58,6 @@ void SystemCalibrationEngine::considerSources() {
     intensities.insert(intensities.end(), found[i].begin() + 1, found[i].end());
   }
   if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
-  source_scale_.about_axis = about_axis_;
   for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
 }
 

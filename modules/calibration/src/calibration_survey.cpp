@@ -137,7 +137,7 @@ void SystemCalibrationEngine::findScanPlanes() {
   for (const ScannerDetection* strip : strips) ++patterns[strip->assess().pattern];
   const std::size_t cones = patterns[ScannerPattern::conical];
   conical_ = 2 * cones > strips.size();
-  about_axis_ = 2 * (cones + patterns[ScannerPattern::rosette]) > strips.size();
+  source_scale_.about_axis = 2 * (cones + patterns[ScannerPattern::rosette]) > strips.size();
   scanners_.clear();
   if (planes.empty()) return;
   attitude_remarks_.push_back("the scanner has " + std::to_string(planes.size()) +

@@ -27,13 +27,13 @@ class AreaMatcher::PointGeometry {
               part.surface.tin().points()[i], surface);
   }
 
-  /// The foot of a point in a patch. \param vertex is set to a point of the strip at the foot, or,
-  /// where the vertices were measured at different times, to the last of them.
+  /// The foot of a point in a patch. \param vertex gets the covariances of one point of the strip
+  /// there.
   bool atFoot(const StripPart& part, const PatchMatch& match, const PatchQuality& surface,
               PointGeometry& vertex) {
     const auto& triangle = part.surface.tin().triangles()[match.triangle].vertex;
-    mixed = part.flown && timeBetween(part.times, triangle) > kMixedTimes;
-    if (mixed) return atVertices(part, match, surface, vertex);
+    if (part.flown && isMixed(part.times, triangle))
+      return atVertices(part, match, surface, vertex);
     // All quantities are linear in position and time within a patch.
     SourceReading mean{0.0, 0.0F, 0.0F};
     Eigen::Vector3d foot = Eigen::Vector3d::Zero();
@@ -49,15 +49,11 @@ class AreaMatcher::PointGeometry {
     }
     if (scale_ != nullptr)
       mean.intensity = static_cast<float>(scale_->median_intensity * std::exp(log_intensity));
-    if (!vertex.at(part, mean, foot, surface)) return false;
-    take(vertex);
-    time = vertex.time;
-    position = vertex.position;
-    design = vertex.design;
-    turn = vertex.turn;
-    sources = vertex.sources;
-    covariance = match.weights.squaredNorm() * vertex.covariance;
-    pointing = match.weights.squaredNorm() * vertex.pointing;
+    if (!at(part, mean, foot, surface)) return false;
+    vertex.covariance = covariance;
+    vertex.pointing = pointing;
+    covariance *= match.weights.squaredNorm();
+    pointing *= match.weights.squaredNorm();
     return true;
   }
 
@@ -93,14 +89,6 @@ class AreaMatcher::PointGeometry {
   }
 
  private:
-  static double timeBetween(const std::vector<double>& times,
-                            const std::array<std::int32_t, 3>& triangle) {
-    const auto [first, last] = std::minmax({times[static_cast<std::size_t>(triangle[0])],
-                                            times[static_cast<std::size_t>(triangle[1])],
-                                            times[static_cast<std::size_t>(triangle[2])]});
-    return last - first;
-  }
-
   bool at(const StripPart& part, const SourceReading& reading, const Eigen::Vector3d& place,
           const PatchQuality& surface) {
     time = reading.time;
@@ -146,17 +134,13 @@ class AreaMatcher::PointGeometry {
       covariance += weight * weight * vertex.covariance;
       pointing += weight * weight * vertex.pointing;
     }
-    take(vertex);
-    return true;
-  }
-
-  /// What does not differ within a patch.
-  void take(const PointGeometry& vertex) {
+    mixed = true;
     held = vertex.held;
     beam = vertex.beam;
     range = vertex.range;
     lateral = vertex.lateral;
     height = vertex.height;
+    return true;
   }
 
   bool atHeldPoint(const StripPart& part, const PatchQuality& surface) {

@@ -134,7 +134,7 @@ std::size_t Division::endOfStarting(const Span& session, std::size_t rest) const
 }
 
 void Division::markHovering(const Span& session) {
-  // A sensor that is at rest all the time is a station, which is no matter of flight lines.
+  // A sensor that never moves is a terrestrial station and has no flight lines.
   const double typical = motion_.typicalSpeed(session);
   if (typical <= kAtRest) return;
   for (std::size_t i = session.first; i < session.second;) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <pcl_als/common/statistics.h>
 #include <pcl_als/io/strip_naming.h>
 
 namespace pcl_als {
@@ -20,12 +21,6 @@ constexpr double kHalfWindows[] = {2.0, 4.0, 8.0};
 constexpr double kLeastWindow = 1.0;    // s: shorter stretches have no course
 constexpr double kLeastCertain = 0.15;  // std of a velocity of the swath over its size (rad)
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -79,7 +74,7 @@ double TrackMotion::measureWindow(double half_window) {
       if (fit) deviations.push_back(fit->std);
     }
   }
-  return deviations.empty() ? 0.0 : medianOf(std::move(deviations));
+  return deviations.empty() ? 0.0 : medianInPlace(deviations);
 }
 
 double TrackMotion::typicalSpeed(const Span& span) const {

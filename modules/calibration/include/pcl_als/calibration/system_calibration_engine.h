@@ -299,7 +299,6 @@ class SystemCalibrationEngine {
   std::vector<LeftOutPoints> left_out_;
   HeightError height_error_;  ///< of the trajectory, from recorded scan angles
   bool conical_ = false;      ///< whether the scanner is conical
-  bool about_axis_ = false;   ///< whether it is that or a rosette scanner
   ErrorSourceScale source_scale_;
   Communicator* processes_ = nullptr;
   SharedItems strip_shares_, area_shares_;  ///< which processes read and form pairs
