@@ -179,9 +179,9 @@ INSTANTIATE_TEST_SUITE_P(Factors, Likelihood, testing::Values(1.0, 0.199));
 TEST(VarianceComponents, AreNearTheMostLikely) {
   // With the prior of the components. A standard deviation s of a component changes -2 ln of the
   // likelihood by one. The expectation is s^2 / 2 above the most likely logarithm, which changes it
-  // by s^2 / 4, at most by 0.125; the search leaves steps of 0.01 each.
+  // by s^2 / 4, at most by 0.125; the search leaves a step of 0.05.
   AllComponents block(1.0);
-  const SharedErrorLevels best = estimateLevels(block.adjustment, kSix);
+  const SharedErrorLevels best = estimateLevels(block.adjustment, kSix).expected;
   const auto cost = [&](const std::array<double, SharedErrorLevels::kCount>& values) {
     const SharedErrorLevels levels = SharedErrorLevels::of(values);
     double sum = block.adjustment.restrictedLikelihood(levels, kSix).deviance;
@@ -203,7 +203,7 @@ TEST(VarianceComponents, UndeterminedOnesAreTheExpectationOfTheirPrior) {
   AllComponents block(1.0);
   AreaObservations none;
   block.adjustment.accumulate({none}, {{}});
-  const auto values = estimateLevels(block.adjustment, {}).values();
+  const auto values = estimateLevels(block.adjustment, {}).expected.values();
   for (const double value : values) EXPECT_NEAR(value, std::exp(0.25), 0.01);
 }
 

@@ -81,32 +81,38 @@ void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
 
 namespace {
 
-/// An observation with a weight, and the unknowns that it depends on.
+/// The equation of an observation with a weight.
 struct Entry {
-  std::array<int, TouchedRow::kSlots> knots;
-  std::array<int, 2> surfaces;
   std::size_t index;
+  TouchedRow touched;
 
   bool hasSameUnknowns(const Entry& other) const {
-    return knots == other.knots && surfaces == other.surfaces;
+    return touched.knots == other.touched.knots && touched.surfaces == other.touched.surfaces;
   }
   bool operator<(const Entry& other) const {
-    return std::tie(knots, surfaces, index) < std::tie(other.knots, other.surfaces, other.index);
+    return std::tie(touched.knots, touched.surfaces, index) <
+           std::tie(other.touched.knots, other.touched.surfaces, other.index);
   }
 };
 
-/// The observations with a weight; those of the same unknowns follow each other.
+/// The observations with a weight.
 std::vector<Entry> entriesOf(const AreaObservations& observations,
                              const std::vector<double>& weights, const SharedErrors& errors) {
   std::vector<Entry> entries;
   entries.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (weights[i] == 0.0) continue;
-    const TouchedRow touched(observations[i], errors);
-    entries.push_back({touched.knots, touched.surfaces, i});
+    if (weights[i] != 0.0) entries.push_back({i, TouchedRow(observations[i], errors)});
   }
-  std::sort(entries.begin(), entries.end());
   return entries;
+}
+
+/// In an order in which those of the same unknowns follow each other.
+std::vector<const Entry*> sorted(const std::vector<Entry>& entries) {
+  std::vector<const Entry*> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries) order.push_back(&entry);
+  std::sort(order.begin(), order.end(), [](const Entry* a, const Entry* b) { return *a < *b; });
+  return order;
 }
 
 /// Lower triangle of the normal equations of observations of the same unknowns. Their rows are
@@ -158,30 +164,32 @@ int positionOf(const std::vector<int>& values, int value) {
 AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
                        const SharedErrors& errors) {
   const std::vector<Entry> entries = entriesOf(observations, weights, errors);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i == 0 || !entries[i].hasSameUnknowns(entries[i - 1]))
-      collect(entries[i].knots, entries[i].surfaces);
-  }
+  const std::vector<const Entry*> order = sorted(entries);
+  const auto isFirst = [&](std::size_t i) {
+    return i == 0 || !order[i]->hasSameUnknowns(*order[i - 1]);
+  };
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (isFirst(i)) collect(order[i]->touched.knots, order[i]->touched.surfaces);
   const auto size = shiftsBegin() + static_cast<int>(surfaces_.size()) * TouchedRow::kShift;
   matrix_.setZero(size, size);
   right_.setZero(size);
   Partial sums;
   std::vector<Columns> columns;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const PairObservation& o = observations[entries[i].index];
-    const TouchedRow touched(o, errors);
-    if (i == 0 || !entries[i].hasSameUnknowns(entries[i - 1])) {
-      columns = columnsOf(entries[i].knots, entries[i].surfaces);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const TouchedRow& touched = order[i]->touched;
+    const PairObservation& o = observations[order[i]->index];
+    if (isFirst(i)) {
+      columns = columnsOf(touched.knots, touched.surfaces);
       sums.begin(touched.used());
     }
-    const double weight = weights[entries[i].index] / o.variance;
+    const double weight = weights[order[i]->index] / o.variance;
     // Few observations have the further knots of a patch of mixed times in common.
     if (touched.hasFurtherKnots()) {
       add(columns, touched, o.misclosure, weight);
       continue;
     }
     sums.add(touched, o.misclosure, weight);
-    if (i + 1 < entries.size() && entries[i].hasSameUnknowns(entries[i + 1])) continue;
+    if (i + 1 < order.size() && !isFirst(i + 1)) continue;
     sums.flush();
     add(columns, sums.matrix, sums.right);
   }

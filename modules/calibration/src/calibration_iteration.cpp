@@ -14,11 +14,10 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kNegligible = 0.05;      // standard deviations: a smaller update is negligible
-constexpr double kSmall = 0.1;            // standard deviations: a smaller update ends a phase
-constexpr double kSmallMovement = 0.005;  // metres, of points by an update
-constexpr int kMostReductions = 3;   // parameters left out because the iteration does not converge
-constexpr int kAfterReduction = 10;  // iterations
+constexpr double kNegligible = 0.05;  // standard deviations: a smaller update is negligible
+constexpr double kSmall = 0.1;        // standard deviations: a smaller update ends a phase
+constexpr int kMostReductions = 3;    // parameters left out because the iteration does not converge
+constexpr int kAfterReduction = 10;   // iterations
 
 /// Upper bound of the movement of a ground point by a change of the biases, metres: the sum of the
 /// effects of all parameters.
@@ -179,11 +178,11 @@ void SystemCalibrationEngine::samplePairs(State& state) {
   constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
   if (settings_.pair_budget > 0) return;   // a selection represents all pairs
   state.sampling = std::max<std::size_t>(1, state.observationCount() / kEnough);
-  if (state.sampling > 1) formPairs(state);
+  if (state.isSampled()) formPairs(state);
 }
 
 void SystemCalibrationEngine::pairAllCandidates(State& state) {
-  if (state.all() && state.sampling == 1) return;
+  if (state.all() && !state.isSampled()) return;
   state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
@@ -192,6 +191,16 @@ void SystemCalibrationEngine::pairAllCandidates(State& state) {
 void SystemCalibrationEngine::leaveCoarse(State& state) {
   state.phase = State::Phase::refinement;
   if (settings_.diagnose) considerSources();
+  state.chosen_points = AreaMatcher::Points::candidates;
+  formPairs(state);
+}
+
+void SystemCalibrationEngine::leaveSample(State& state) {
+  // Where the geometry of the sample has converged, the variance components of all pairs are
+  // estimated at once.
+  if (state.components.estimates > 0) state.update = {0.0, true};
+  state.components.estimates = 0;
+  state.components.unchanged = false;
   pairAllCandidates(state);
 }
 
@@ -199,7 +208,7 @@ void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t d
   // A selection represents all pairs at the biases for which it was made. Pairs are therefore
   // selected when the geometry has converged for the first time, and again at the end. Variance
   // components are estimated with all pairs only.
-  if (state.components.estimates == 0) pairAllCandidates(state);
+  if (!state.all() && state.components.estimates == 0) pairAllCandidates(state);
   if (!state.all()) return;
   if (state.phase == State::Phase::refinement) state.phase = State::Phase::variance_components;
   ++state.components.estimates;
@@ -211,7 +220,7 @@ void SystemCalibrationEngine::openIteration(State& state, std::size_t done) {
   // Combinations that the data hardly determine change with every new set of pairs, without effect
   // on the points or by a small part of their standard deviations. Neither delays the next phase.
   const bool small = done > 0 && (state.phase == State::Phase::selection ||
-                                  state.update.movement < kSmallMovement ||
+                                  state.update.movement < State::kSmallMovement ||
                                   (state.update.small && done >= kFewest));
   if (state.isCoarse() && (small || done >= kCoarseAtMost)) leaveCoarse(state);
   if (state.phase == State::Phase::variance_components) state.phase = State::Phase::refinement;
@@ -257,7 +266,7 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   if (progress_) progress_(result.iterations.back());
   if (done > 2 && !components_open && state.components.estimates > 0 &&
       (effect < settings_.convergence ||
-       (of_systems < kSmallMovement && isUpdateWithin(state, before, kNegligible)))) {
+       (of_systems < State::kSmallMovement && isUpdateWithin(state, before, kNegligible)))) {
     closeConverged(state);
   }
   result.converged = state.phase == State::Phase::converged;

@@ -142,7 +142,9 @@ void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
 
 void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {
   state.phase = State::Phase::refinement;
+  const SharedErrorLevels most_likely = state.components.most_likely;
   state.components = {};
+  state.components.most_likely = most_likely;
   state.coarse_iterations = static_cast<int>(result.iterations.size());
   result.converged = false;
 }

@@ -75,8 +75,9 @@ struct SystemCalibrationEngine::State {
   /// The variance components estimated so far.
   struct VarianceComponents {
     int estimates = 0;
-    std::size_t last = 0;    ///< iteration of the last estimate, from 1; 0: none
-    bool unchanged = false;  ///< whether the last estimation did not change them
+    std::size_t last = 0;           ///< iteration of the last estimate, from 1; 0: none
+    bool unchanged = false;         ///< whether the last estimation did not change them
+    SharedErrorLevels most_likely;  ///< of the last estimation
 
     bool complete() const {
       constexpr int kMostEstimates = 8;
@@ -105,9 +106,11 @@ struct SystemCalibrationEngine::State {
   /// Parameters left out because the iteration does not converge with them, with the reason.
   std::map<SystemParameter, std::string> excluded;
   AreaMatcher::Points chosen_points = AreaMatcher::Points::candidates;
-  /// One of so many candidates is paired. The coarse phase needs a sample only: its errors are
-  /// those of the biases it began with, not those of the points.
+  /// One of so many candidates is paired. The coarse phase and the first estimation of variance
+  /// components need a sample only: their errors are those of the values that they began with, not
+  /// those of the points.
   std::size_t sampling = 1;
+  bool isSampled() const { return sampling > 1; }
   /// Biases and differences between systems of the last correction of the points.
   SystemVector corrected = SystemVector::Zero();
   std::vector<SystemUnknowns> corrected_differences;
@@ -117,12 +120,11 @@ struct SystemCalibrationEngine::State {
   double moved = 0.0;
   bool weighed = false;  ///< whether the weights are those of these pairs and this solution
 
+  static constexpr double kSmallMovement = 0.005;  ///< metres, of points by an update
+
   /// Whether pairs are to be formed again. The linear equations of the pairs hold for any biases; a
   /// movement by a small part of the noise exchanges triangles of nearly the same plane.
-  bool arePairsOutdated() const {
-    constexpr double kNegligibleMovement = 0.001;  // metres
-    return moved > kNegligibleMovement;
-  }
+  bool arePairsOutdated() const { return moved > kSmallMovement; }
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   PairWeights weights;

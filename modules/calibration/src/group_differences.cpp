@@ -138,7 +138,7 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
     const int system = static_cast<int>(k);
     for (const Unknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
     adjustment.setLevels(levels);
-    estimateLevels(adjustment, choice.estimate);
+    estimateLevels(adjustment, choice.estimate, levels);
     const AdjustmentSolution solution = adjustment.solve(choice.estimate, choice.solution.biases);
     const SpikeAndSlab mixture =
         mixtureOf(unknowns, adjustment.systemPosterior(system, choice.estimate, solution), freedom);

@@ -14,6 +14,18 @@ namespace pcl_als {
 
 struct PairWeights::Values {
   std::vector<double> residual, variance, pointing;
+
+  void add(double of_residual, double of_variance, double of_pointing) {
+    residual.push_back(of_residual);
+    variance.push_back(of_variance);
+    pointing.push_back(of_pointing);
+  }
+  Values thinned(std::size_t every) const {
+    Values kept;
+    for (std::size_t i = 0; i < residual.size(); i += every)
+      kept.add(residual[i], variance[i], pointing[i]);
+    return kept;
+  }
 };
 
 namespace {
@@ -70,6 +82,23 @@ PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
   return {std::min(o.a, o.b), std::max(o.a, o.b)};
 }
 
+double PairWeights::mostLikelyPointing(const std::map<Group, Values>& groups, int threads) {
+  constexpr std::array<double, 7> kFactors{1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0};
+  constexpr std::size_t kEnough = 3000;  // residuals of a group, to choose between the factors
+  std::vector<std::pair<Values, double>> samples;  // with the residuals that one represents
+  for (const auto& [group, values] : groups) {
+    const std::size_t every = std::max<std::size_t>(1, values.residual.size() / kEnough);
+    samples.emplace_back(values.thinned(every), static_cast<double>(every));
+  }
+  std::array<double, kFactors.size()> costs{};
+  parallelFor(kFactors.size(), threads, [&](std::size_t i) {
+    for (const auto& [values, represented] : samples)
+      costs[i] += represented * unlikeliness(values, kFactors[i]);
+  });
+  return kFactors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
+                                           costs.begin())];
+}
+
 void PairWeights::findScales(const std::vector<AreaObservations>& observations,
                              const std::vector<std::vector<double>>& residuals, int threads) {
   std::map<Group, Values> groups;
@@ -80,50 +109,56 @@ void PairWeights::findScales(const std::vector<AreaObservations>& observations,
       const Group group = groupOf(o);
       if (current == groups.end() || current->first != group)
         current = groups.try_emplace(group).first;
-      Values& values = current->second;
-      values.residual.push_back(residuals[area][i]);
-      values.variance.push_back(o.variance);
-      values.pointing.push_back(o.pointing);
+      current->second.add(residuals[area][i], o.variance, o.pointing);
     }
   }
-  constexpr std::array<double, 7> kFactors{1.0, 0.5, 0.25, 0.1, 0.02, 2.0, 4.0};
-  std::array<double, kFactors.size()> costs{};
-  parallelFor(kFactors.size(), threads, [&](std::size_t i) {
-    for (const auto& [group, values] : groups) costs[i] += unlikeliness(values, kFactors[i]);
-  });
-  pointing_ = kFactors[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) -
-                                                costs.begin())];
-  for (const auto& [group, values] : groups) {
-    // Places of targets are few, and unknowns of the strips fit them: their residuals are no
-    // evidence of a smaller variance.
-    const double least = isOfPlan(group) ? 1.0 : kLeastScale;
-    scales_[group] = std::max(scatterOf(values, pointing_), least);
+  pointing_ = mostLikelyPointing(groups, threads);
+  std::vector<std::pair<const Values*, double*>> scales;
+  for (const auto& [group, values] : groups) scales.emplace_back(&values, &scales_[group]);
+  parallelFor(scales.size(), threads,
+              [&](std::size_t i) { *scales[i].second = scatterOf(*scales[i].first, pointing_); });
+  // Places of targets are few, and unknowns of the strips fit them: their residuals are no evidence
+  // of a smaller variance.
+  for (const auto& [group, values] : groups)
+    if (isOfPlan(group)) scales_[group] = std::max(scales_[group], 1.0);
+}
+
+PairWeights::Kept PairWeights::weigh(const AreaObservations& observations,
+                                     const std::vector<double>& residuals, bool reject,
+                                     std::vector<double>& weights) const {
+  Kept kept;
+  weights.reserve(observations.size());
+  auto found = scales_.end();
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const PairObservation& o = observations[i];
+    const Group group = groupOf(o);
+    if (found == scales_.end() || found->first != group) found = scales_.find(group);
+    const double scale = found == scales_.end() ? 1.0 : found->second;
+    const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
+    const double robust = robustWeight(residuals[i] / std::sqrt(variance), reject);
+    weights.push_back(robust * o.variance / (variance * o.sharing));
+    if (robust == 0.0) continue;
+    kept.squares += residuals[i] * residuals[i] / o.variance;
+    ++kept.pairs;
   }
+  return kept;
 }
 
 void PairWeights::update(const std::vector<AreaObservations>& observations,
-                         const std::vector<std::vector<double>>& residuals, bool reject) {
-  double squares = 0.0;
-  kept_ = 0;
+                         const std::vector<std::vector<double>>& residuals, bool reject,
+                         int threads) {
   weights_.assign(observations.size(), {});
-  for (std::size_t area = 0; area < observations.size(); ++area) {
-    weights_[area].reserve(observations[area].size());
-    auto found = scales_.end();
-    for (std::size_t i = 0; i < observations[area].size(); ++i) {
-      const PairObservation& o = observations[area][i];
-      const Group group = groupOf(o);
-      if (found == scales_.end() || found->first != group) found = scales_.find(group);
-      const double scale = found == scales_.end() ? 1.0 : found->second;
-      const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
-      const double residual = residuals[area][i];
-      const double robust = robustWeight(residual / std::sqrt(variance), reject);
-      weights_[area].push_back(robust * o.variance / (variance * o.sharing));
-      if (robust == 0.0) continue;
-      squares += residual * residual / o.variance;
-      ++kept_;
-    }
+  std::vector<Kept> kept(observations.size());
+  parallelFor(observations.size(), threads, [&](std::size_t area) {
+    kept[area] = weigh(observations[area], residuals[area], reject, weights_[area]);
+  });
+  Kept sum;
+  for (const Kept& of_area : kept) {
+    sum.squares += of_area.squares;
+    sum.pairs += of_area.pairs;
   }
-  sigma0_ = kept_ > 0 ? std::sqrt(squares / static_cast<double>(kept_)) : 0.0;
+  kept_ = sum.pairs;
+  sigma0_ = kept_ > 0 ? std::sqrt(sum.squares / static_cast<double>(kept_)) : 0.0;
 }
 
 double PairWeights::meanScale() const {

@@ -34,7 +34,7 @@ class PairWeights {
   /// \param reject whether outliers are rejected: not while residuals contain the effect of the
   /// biases
   void update(const std::vector<AreaObservations>& observations,
-              const std::vector<std::vector<double>>& residuals, bool reject);
+              const std::vector<std::vector<double>>& residuals, bool reject, int threads = 0);
 
   /// Robust weight times the variance of the model over the estimated one, over the noise that the
   /// pair shares with others, for Adjustment::accumulate.
@@ -48,6 +48,15 @@ class PairWeights {
 
  private:
   struct Values;  // residual, variance and pointing's part, by group
+  /// Of the pairs with a weight.
+  struct Kept {
+    double squares = 0.0;  ///< of residuals over the standard deviation of the noise model
+    std::size_t pairs = 0;
+  };
+
+  static double mostLikelyPointing(const std::map<Group, Values>& groups, int threads);
+  Kept weigh(const AreaObservations& observations, const std::vector<double>& residuals,
+             bool reject, std::vector<double>& weights) const;
 
   std::map<Group, double> scales_;
   std::vector<std::vector<double>> weights_;

@@ -132,7 +132,7 @@ void SystemCalibrationEngine::weigh(State& state) const {
   if (state.all()) {
     state.weights.findScales(state.observations, residuals, settings_.threads);
   }
-  state.weights.update(state.observations, residuals, state.solved());
+  state.weights.update(state.observations, residuals, state.solved(), settings_.threads);
   state.weighed = true;
 }
 
@@ -185,8 +185,10 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
   }
   if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
-    state.components.unchanged =
-        estimateLevels(state.adjustment, state.choice.estimate).near(levels);
+    const EstimatedLevels estimated =
+        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely);
+    state.components.unchanged = estimated.expected.near(levels);
+    state.components.most_likely = estimated.most_likely;
     choose(state);
   }
   weigh(state);
@@ -291,7 +293,11 @@ void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResu
   for (int selections = 0; selections == 0 || !result.converged; ++selections) {
     while (mayContinue(state, result)) {
       iterate(state, result);
-      if (!result.converged && state.arePairsOutdated()) formPairs(state);
+      if (result.converged) continue;
+      if (state.isSampled() && !state.isCoarse())
+        leaveSample(state);
+      else if (state.arePairsOutdated())
+        formPairs(state);
     }
     if (!result.converged || !selectSources(state) || selections == kMostSelections) break;
     continueWithSources(state, result);

@@ -112,12 +112,12 @@ SharedErrorLevels expectedLevels(const Vector& minimum, const Objective& at) {
 
 }  // namespace
 
-SharedErrorLevels estimateLevels(Adjustment& adjustment,
-                                 const std::vector<SystemParameter>& estimate) {
-  constexpr double kNegligible = 0.01;  // of -2 ln likelihood; a standard deviation changes it by 1
+EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
+                               const SharedErrorLevels& start) {
+  constexpr double kNegligible = 0.05;  // of -2 ln likelihood; a standard deviation changes it by 1
   constexpr double kLargestRadius = 4.0;
   constexpr int kMostEvaluations = 40;
-  Vector best = logarithmsOf(adjustment.levels());
+  Vector best = logarithmsOf(start);
   Objective at = objectiveAt(best, adjustment, estimate);
   double radius = kLargestRadius;
   for (int i = 1; i < kMostEvaluations && std::isfinite(at.value); ++i) {
@@ -133,8 +133,9 @@ SharedErrorLevels estimateLevels(Adjustment& adjustment,
     best = next;
     at = there;
   }
-  adjustment.setLevels(expectedLevels(best, at));
-  return adjustment.levels();
+  const EstimatedLevels estimated{levelsOf(best), expectedLevels(best, at)};
+  adjustment.setLevels(estimated.expected);
+  return estimated;
 }
 
 }  // namespace pcl_als

@@ -191,17 +191,27 @@ class Adjustment {
   std::unique_ptr<Reduced> reduced_;
 };
 
+/// Variance components estimated from the observations.
+struct EstimatedLevels {
+  SharedErrorLevels most_likely;  ///< where a further estimation begins
+  /// The expectation of each variance for a normal distribution of its logarithm about the most
+  /// likely one. Those of the adjustment.
+  SharedErrorLevels expected;
+};
+
 /** \brief Estimates the variance components of the shared errors by restricted maximum likelihood
- * (REML), sets the adjustment to them, and returns them.
+ * (REML), and sets the adjustment to their expectations.
  *
  * Each is the variance of the model times a factor between 1/4096 and 16, with a Cauchy prior on
  * the logarithm of the factor (scale: a factor of e): a component that the observations do not
  * determine keeps the model's variance, and one that they do determine is hardly affected by the
  * prior. The minimum is found by Newton's method within a trust region, with the average
- * information as the curvature, in the logarithms of the factors. The result is the expectation of
- * each variance for a normal distribution of its logarithm about the minimum.
+ * information as the curvature, in the logarithms of the factors; it is found where a further step
+ * would change -2 ln of the likelihood by less than 0.05, which is a fifth of a standard deviation.
+ *
+ * \param start the most likely components of similar observations, if there are any
  */
-SharedErrorLevels estimateLevels(Adjustment& adjustment,
-                                 const std::vector<SystemParameter>& estimate);
+EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
+                               const SharedErrorLevels& start = {});
 
 }  // namespace pcl_als
