@@ -127,7 +127,7 @@ std::unique_ptr<const StripCovariance> Adjustment::stripCovariance(
     const AdjustmentSolution& solution) const {
   if (normal_ == nullptr) return nullptr;
   const BlockCholesky factor(normal_->tt, errors_.priorInformation(levels_));
-  return std::make_unique<const StripCovariance>(errors_, levels_, factor.inverse(),
+  return std::make_unique<const StripCovariance>(errors_, levels_, factor.inverse(threads_),
                                                  reduced_->elimination, solution.covariance);
 }
 

@@ -8,6 +8,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>
 
+#include <pcl_als/common/parallel.h>
+
 namespace pcl_als {
 namespace {
 
@@ -279,23 +281,66 @@ double BlockCholesky::logDeterminant() const {
   return sum;
 }
 
-InverseEntries BlockCholesky::inverse() const {
+namespace {
+
+/// Calls \a body with the first column and the number of columns of every part of a matrix. The
+/// parts do not depend on the number of threads, as the rounding of products may depend on sizes.
+template <class Body>
+void forColumns(Eigen::Index columns, int threads, const Body& body) {
+  constexpr Eigen::Index kPart = 64;
+  const auto parts = static_cast<std::size_t>((columns + kPart - 1) / kPart);
+  const auto call = [&](std::size_t part) {
+    const Eigen::Index first = static_cast<Eigen::Index>(part) * kPart;
+    body(first, std::min(kPart, columns - first));
+  };
+  if (parts == 1)
+    call(0);
+  else
+    parallelFor(parts, threads, call);
+}
+
+/// The inverse of a lower triangular matrix.
+Eigen::MatrixXd lowerInverse(const Eigen::Ref<const Eigen::MatrixXd>& lower, int threads) {
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(lower.rows(), lower.cols());
+  forColumns(lower.cols(), threads, [&](Eigen::Index first, Eigen::Index count) {
+    const Eigen::Index rest = lower.rows() - first;
+    auto part = inverse.block(first, first, rest, count);
+    lower.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>().solveInPlace(part);
+  });
+  return inverse;
+}
+
+}  // namespace
+
+InverseEntries BlockCholesky::inverse(int threads) const {
   // With the part W of the inverse that belongs to the rows below a supernode, and its columns
   // (D, B) of the factor, Y = B D^-1, the inverse's columns are ((D D')^-1 + Y' W Y, -W Y).
   BlockColumns inverse = columns_;
   for (auto node = inverse.supernodes.rbegin(); node != inverse.supernodes.rend(); ++node) {
-    Eigen::MatrixXd known(node->height(), node->height());
+    const Eigen::Index width = node->width(), height = node->height();
+    Eigen::MatrixXd known(height, height);
     inverse.visitPairs(*node, [&](Eigen::Index row, Eigen::Index column, auto block) {
       known.block<kBlock, kBlock>(row, column) = block;
       if (row > column) known.block<kBlock, kBlock>(column, row) = block.transpose();
     });
-    const Eigen::Index width = node->width();
-    const Eigen::MatrixXd own = node->panel.topRows(width).triangularView<Eigen::Lower>().solve(
-        Eigen::MatrixXd::Identity(width, width));
-    const Eigen::MatrixXd ratio = node->panel.bottomRows(node->height()) * own;
-    const Eigen::MatrixXd product = known * ratio;
-    node->panel.topRows(width) = own.transpose() * own + ratio.transpose() * product;
-    node->panel.bottomRows(node->height()) = -product;
+    const Eigen::MatrixXd own = lowerInverse(node->panel.topRows(width), threads);
+    Eigen::MatrixXd ratio(height, width), product(height, width);
+    forColumns(width, threads, [&](Eigen::Index first, Eigen::Index count) {
+      const Eigen::Index rest = width - first;  // the inverse of D is a lower triangular matrix
+      ratio.middleCols(first, count).noalias() =
+          node->panel.bottomRightCorner(height, rest) * own.block(first, first, rest, count);
+      product.middleCols(first, count).noalias() = known * ratio.middleCols(first, count);
+    });
+    forColumns(width, threads, [&](Eigen::Index first, Eigen::Index count) {
+      const Eigen::Index rest = width - first;
+      auto part = node->panel.block(first, first, rest, count);
+      part.noalias() =
+          own.bottomRightCorner(rest, rest).transpose() * own.block(first, first, rest, count);
+      part.noalias() += ratio.rightCols(rest).transpose() * product.middleCols(first, count);
+    });
+    auto top = node->panel.topRows(width);
+    top.triangularView<Eigen::StrictlyUpper>() = top.transpose();
+    node->panel.bottomRows(height) = -product;
   }
   return InverseEntries(std::move(inverse));
 }

@@ -80,7 +80,8 @@ class BlockCholesky {
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
   double logDeterminant() const;
-  InverseEntries inverse() const;
+  /// The result does not depend on \a threads; 0: all cores.
+  InverseEntries inverse(int threads = 0) const;
 
  private:
   void assemble(const KnotBlocks& blocks, const Eigen::SparseMatrix<double>& prior);

@@ -2,11 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // Adjustment::restrictedLikelihood(): the deviance of variance components and its derivatives.
-#include <optional>
+#include <memory>
 
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/ordered_results.h>
-#include <pcl_als/common/parallel.h>
 
 #include "block_cholesky.h"
 #include "chosen_parameters.h"
@@ -169,20 +168,11 @@ void LikelihoodEquations::addInformation(const ErrorNormal& shifts,
 
 void LikelihoodEquations::differentiate(const std::vector<AreaNormal>& areas, int threads,
                                         RestrictedLikelihood& result) const {
-  std::optional<InverseEntries> inverse;
-  std::optional<ErrorNormal> shifts;
-  // The gradient and the information are independent of each other.
-  parallelFor(2, threads, [&](std::size_t part) {
-    if (part == 0) {
-      inverse = factor_.inverse();
-      addTrajectory(*inverse, result);
-    } else {
-      shifts = shiftTerms(areas, threads, result);
-      addInformation(*shifts, result);
-    }
-  });
-  result.gradient[kLocal] =
-      -shifts->log_determinant - traceWith(*shifts, *inverse) - shifts->explained;
+  const InverseEntries inverse = factor_.inverse(threads);
+  addTrajectory(inverse, result);
+  const ErrorNormal shifts = shiftTerms(areas, threads, result);
+  addInformation(shifts, result);
+  result.gradient[kLocal] = -shifts.log_determinant - traceWith(shifts, inverse) - shifts.explained;
 }
 
 }  // namespace

@@ -185,8 +185,10 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
   }
   if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
+    constexpr double kFine = 0.05, kOfSample = 1.0;  // where all pairs begin
     const EstimatedLevels estimated =
-        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely);
+        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely,
+                       state.isSampled() ? kOfSample : kFine);
     state.components.unchanged = estimated.expected.near(levels);
     state.components.most_likely = estimated.most_likely;
     choose(state);
