@@ -286,9 +286,9 @@ std::vector<std::pair<std::size_t, std::size_t>> AreaMatcher::surfacePairs(
 
 struct AreaMatcher::Matching {
   using Geometry = std::tuple<const Trajectory&, const NoiseModel&, const ErrorSourceScale*>;
-  Matching(double limit, Points which, std::size_t step, const std::vector<std::size_t>& points,
-           const Geometry& geometry)
-      : threshold(limit),
+  Matching(const DistanceLimits& distances, Points which, std::size_t step,
+           const std::vector<std::size_t>& points, const Geometry& geometry)
+      : limits(distances),
         chosen(which),
         every(step),
         shares(points),
@@ -296,7 +296,7 @@ struct AreaMatcher::Matching {
         foot(std::make_from_tuple<PointGeometry>(geometry)),
         vertex(std::make_from_tuple<PointGeometry>(geometry)) {}
 
-  double threshold;
+  DistanceLimits limits;
   Points chosen;
   std::size_t every;
   NoiseShares shares;
@@ -304,7 +304,7 @@ struct AreaMatcher::Matching {
 };
 
 void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b,
-                                AreaObservations& found) const {
+                                PairsByDistance& found) const {
   const StripPart &from = surfaces_[a], &to = surfaces_[b];
   PairObservation observation;
   observation.a = from.strip, observation.look_a = from.look;
@@ -316,7 +316,7 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
   const std::size_t count = all ? from.candidates.size() : kept->second.size();
   for (std::size_t c = 0; c < count; c += all ? matching.every : 1) {
     const std::int32_t i = all ? from.candidates[c] : kept->second[c].point;
-    const auto match = to.surface.closest(from.surface.tin().points()[i], matching.threshold);
+    const auto match = to.surface.closest(from.surface.tin().points()[i], matching.limits.far);
     if (!match) continue;
     const PatchQuality quality = to.surface.quality(match->triangle);
     if (!criterion.isSatisfiedBy(quality, to.median_edge) ||
@@ -325,6 +325,10 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
       continue;
     observation.point = i;
     measure(matching.point, matching.foot, quality, observation);
+    if (std::abs(match->signed_normal_distance) > matching.limits.near) {
+      found.far.push_back(observation);
+      continue;
+    }
     matching.shares.add(a, i, b, to.surface.tin().triangles()[match->triangle], match->weights,
                         normalVariance(matching.point.covariance, observation.normal),
                         normalVariance(matching.vertex.covariance, observation.normal));
@@ -333,21 +337,24 @@ void AreaMatcher::matchSurfaces(Matching& matching, std::size_t a, std::size_t b
       observation.offset = kept->second[c].offset;
       observation.misclosure += observation.offset;
     }
-    found.push_back(observation);
+    found.near.push_back(observation);
   }
 }
 
-AreaObservations AreaMatcher::match(const std::vector<StripPair>& pairs, double threshold,
-                                    const Trajectory& trajectory, const NoiseModel& noise,
-                                    Points chosen, std::size_t every) const {
-  AreaObservations found;
+AreaMatcher::PairsByDistance AreaMatcher::matchByDistance(const std::vector<StripPair>& pairs,
+                                                          const DistanceLimits& limits,
+                                                          const Trajectory& trajectory,
+                                                          const NoiseModel& noise, Points chosen,
+                                                          std::size_t every) const {
+  PairsByDistance found;
   std::vector<std::size_t> points;
   for (const StripPart& part : surfaces_) points.push_back(part.biased.size());
-  Matching matching(threshold, chosen, every, points,
+  Matching matching(limits, chosen, every, points,
                     {trajectory, noise, source_scale_ ? &*source_scale_ : nullptr});
   for (const auto& [a, b] : surfacePairs(pairs)) matchSurfaces(matching, a, b, found);
-  if (chosen == Points::candidates) matching.shares.setSharing(found);
-  found.shrink_to_fit();
+  if (chosen == Points::candidates) matching.shares.setSharing(found.near);
+  found.near.shrink_to_fit();
+  found.far.shrink_to_fit();
   return found;
 }
 

@@ -124,7 +124,20 @@ class AreaMatcher {
   /// threshold; only one of \a every candidates is paired.
   AreaObservations match(const std::vector<StripPair>& pairs, double threshold,
                          const Trajectory& trajectory, const NoiseModel& noise,
-                         Points chosen = Points::candidates, std::size_t every = 1) const;
+                         Points chosen = Points::candidates, std::size_t every = 1) const {
+    return matchByDistance(pairs, {threshold, threshold}, trajectory, noise, chosen, every).near;
+  }
+  struct DistanceLimits {
+    double near, far;  ///< metres
+  };
+  struct PairsByDistance {
+    AreaObservations near;
+    AreaObservations far;  ///< the others up to the second limit; they share no noise with any
+  };
+  /// The same, and the pairs whose distance exceeds the threshold.
+  PairsByDistance matchByDistance(const std::vector<StripPair>& pairs, const DistanceLimits& limits,
+                                  const Trajectory& trajectory, const NoiseModel& noise,
+                                  Points chosen = Points::candidates, std::size_t every = 1) const;
   /// The pairs of control points inside the area with the patches above or below them, and the
   /// places of targets, which are searched for within \a threshold in each coordinate.
   AreaObservations matchControl(const std::vector<ControlPoint>& control, double threshold,
@@ -193,7 +206,7 @@ class AreaMatcher {
   /// The pairs of the points of one surface with the patches of another.
   struct Matching;
   void matchSurfaces(Matching& matching, std::size_t a, std::size_t b,
-                     AreaObservations& found) const;
+                     PairsByDistance& found) const;
   /// Fills the equation of the pair of a point and its foot in a patch.
   void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
                PairObservation& observation) const;

@@ -219,10 +219,12 @@ void SystemCalibrationEngine::checkHeldHeights(State& state, SharedErrors& error
   state.adjustment.setLevels(levels);
 }
 
-void SystemCalibrationEngine::replaceHeld(std::vector<AreaObservations>& observations) const {
+bool SystemCalibrationEngine::replaceHeld(std::vector<AreaObservations>& observations) const {
+  bool any = false;
   for (AreaObservations& area : observations) {
     for (PairObservation& o : area) {
       if (!isHeld(o)) continue;
+      any = true;
       if (isHeld(o.b)) {  // control is compared with the strip's patch
         o.b = o.a;
         o.look_b = o.look_a;
@@ -241,6 +243,7 @@ void SystemCalibrationEngine::replaceHeld(std::vector<AreaObservations>& observa
       o.time_a = o.time_b;
     }
   }
+  return any;
 }
 
 }  // namespace pcl_als

@@ -13,9 +13,9 @@ namespace pcl_als {
 /** \brief Compares the distances of the same points from the other strip's surface before and after
  * a calibration (MisfitChange).
  *
- * Both sets of pairs are formed anew, each in its own geometry, from all candidates and with the
- * same threshold: a point counts where it has an acceptable patch of the same strip in both. Pairs
- * that exist in one geometry only would favour that geometry.
+ * Each set of pairs is formed in its own geometry (to a centimetre), from all candidates and with
+ * the same threshold: a point counts where it has an acceptable patch of the same strip in both.
+ * Pairs that exist in one geometry only would favour that geometry.
  *
  * With t = min(d, limit)^2 of every point, areas g as clusters and N points, the mean change of t
  * is c = sum_g D_g / N with D_g the sum of changes in an area, and its variance is G / (G - 1)

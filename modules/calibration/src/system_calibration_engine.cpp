@@ -82,23 +82,50 @@ void SystemCalibrationEngine::formPairs(State& state) {
   state.moved = 0.0;
   state.weighed = false;
   state.observations.assign(matchers_.size(), {});
+  state.far.assign(matchers_.size(), {});
+  const AreaMatcher::DistanceLimits limits{state.threshold, settings_.max_normal_distance};
   forOwnAreas([&](std::size_t i) {
-    const AreaMatcher& matcher = matchers_[i];
-    state.observations[i] =
-        i < pair_areas_
-            ? matcher.match(pairs_, state.threshold, *trajectory_, settings_.noise,
-                            state.chosen_points, state.sampling)
-            : matcher.matchControl({control_[i - pair_areas_]}, controlThreshold(state, i),
-                                   *trajectory_, settings_.noise, settings_.control_sigma);
+    if (i < pair_areas_) {
+      AreaMatcher::PairsByDistance found = matchers_[i].matchByDistance(
+          pairs_, limits, *trajectory_, settings_.noise, state.chosen_points, state.sampling);
+      state.observations[i] = std::move(found.near);
+      state.far[i] = std::move(found.far);
+    } else {
+      state.observations[i] = matchControl(i, state.threshold);
+    }
     removeSources(state.held_sources, state.observations[i]);
+    removeSources(state.held_sources, state.far[i]);
   });
   shareVectors(processes_, area_shares_, state.observations);
 }
 
-double SystemCalibrationEngine::controlThreshold(const State& state, std::size_t area) const {
+void SystemCalibrationEngine::addFarPairs(State& state) {
+  state.threshold = settings_.max_normal_distance;
+  if (!state.all() || state.isSampled() || state.arePairsOutdated()) {
+    state.chosen_points = AreaMatcher::Points::candidates;
+    state.sampling = 1;
+    formPairs(state);
+    return;
+  }
+  forOwnAreas([&](std::size_t i) {
+    if (i < pair_areas_) return;
+    state.far[i] = matchControl(i, state.threshold);
+    removeSources(state.held_sources, state.far[i]);
+  });
+  shareVectors(processes_, area_shares_, state.far);
+  for (std::size_t i = 0; i < matchers_.size(); ++i) {
+    AreaObservations& all = state.observations[i];
+    if (i >= pair_areas_) all.clear();
+    all.insert(all.end(), state.far[i].begin(), state.far[i].end());
+  }
+}
+
+AreaObservations SystemCalibrationEngine::matchControl(std::size_t area, double threshold) const {
+  const ControlPoint& point = control_[area - pair_areas_];
   // Strips that agree with each other may all be displaced in plan.
-  const bool target = control_[area - pair_areas_].kind == ControlPoint::Kind::target;
-  return target ? settings_.max_normal_distance : state.threshold;
+  const bool target = point.kind == ControlPoint::Kind::target;
+  return matchers_[area].matchControl({point}, target ? settings_.max_normal_distance : threshold,
+                                      *trajectory_, settings_.noise, settings_.control_sigma);
 }
 
 void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
@@ -200,7 +227,7 @@ void SystemCalibrationEngine::shrinkThreshold(State& state) const {
   constexpr double kSmallest = 0.25;  // metres
   constexpr double kFactor = 6.0;
   double widest = 0.0;
-  addSystemEffects(state.errors, state.differences, state.observations);  // formed anew afterwards
+  setSystemEffects(state.errors, state.differences, state.observations);
   std::map<PairWeights::Group, std::vector<double>> distances;
   for (const AreaObservations& area : state.observations) {
     for (const PairObservation& o : area) {
@@ -241,7 +268,7 @@ void SystemCalibrationEngine::keepAdjusted(State& state, const std::vector<TimeS
     adjusted_.strips.push_back(
         {ids_[i], isHeld(strip) ? TimeSpan(0.0, 0.0) : spans[i], map_.pointCount(strip)});
   }
-  replaceHeld(state.observations);
+  if (replaceHeld(state.observations)) state.moved = HUGE_VAL;  // not to be used for fits
   measureStrips(state.observations, adjusted_.strips);
   adjusted_.sample = thinned(state.observations, state.weights.weights(), kRepresentative);
   adjusted_.levels = state.adjustment.levels();
@@ -327,12 +354,10 @@ ErrorLevels SystemCalibrationEngine::errorLevels(const State& state) const {
 void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& report,
                                       CalibrationResult& result) {
   const std::vector<AreaUse> used = state.usedAreas();
-  state.threshold = settings_.max_normal_distance;
-  state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);
+  addFarPairs(state);
+  setSystemEffects(state.errors, state.differences, state.observations);
   for (AreaObservations& area : state.observations)
     addSourceEffects(result.sources - state.held_sources, area);
-  addSystemEffects(state.errors, state.differences, state.observations);
   report.addControlPoints(control_, state.observations, used,
                           std::sqrt(state.errors.variances(state.adjustment.levels())[0]), result);
   report.addStripFit(state.observations, state.adjustment, state.choice.solution, result);

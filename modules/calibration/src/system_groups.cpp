@@ -78,7 +78,7 @@ std::vector<SystemUnknowns> systemDifferences(const SharedErrors& errors,
   return differences;
 }
 
-void addSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
+void setSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
                       std::vector<AreaObservations>& observations) {
   if (differences.size() < 2) return;
   const auto of = [&](int strip) -> const SystemUnknowns& {
@@ -86,8 +86,8 @@ void addSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknow
   };
   for (AreaObservations& area : observations) {
     for (PairObservation& o : area) {
+      o.further = -o.effectAtPatch(of(o.b));
       if (o.a != PairObservation::kControl) o.further += o.effectAtPoint(of(o.a));
-      o.further -= o.effectAtPatch(of(o.b));
     }
   }
 }

@@ -22,8 +22,8 @@ StripSystems stripSystems(const std::vector<StripGroup>& groups, const OwnUnknow
 std::vector<SystemUnknowns> systemDifferences(const SharedErrors& errors,
                                               const Eigen::VectorXd& shared);
 
-/// Adds the effect of the differences between systems to PairObservation::further.
-void addSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
+/// Sets PairObservation::further to the effect of the differences between systems.
+void setSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
                       std::vector<AreaObservations>& observations);
 
 /// Lets systems share unknowns whose differences to the first system are less well determined than

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -18,10 +21,40 @@ SymmetricEigen<2> symmetricEigen2(const Eigen::Matrix2d& matrix) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-SymmetricEigen<3> symmetricEigen3(const Eigen::Matrix3d& matrix) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(matrix);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+namespace {
+
+/// A unit vector that a singular symmetric matrix maps to zero.
+Eigen::Vector3d nullVector(const Eigen::Matrix3d& matrix) {
+  constexpr double kRankOne = 1e-24;  // of the fourth power of the longest column
+  Eigen::Vector3d longest = matrix.col(0), best = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d normal = matrix.col(i).cross(matrix.col((i + 1) % 3));
+    if (normal.squaredNorm() > best.squaredNorm()) best = normal;
+    if (matrix.col(i).squaredNorm() > longest.squaredNorm()) longest = matrix.col(i);
+  }
+  const double square = longest.squaredNorm();
+  if (best.squaredNorm() > kRankOne * square * square) return best.normalized();
+  return square > 0.0 ? longest.unitOrthogonal() : Eigen::Vector3d::UnitZ();
+}
+
+}  // namespace
+
+LeastEigen3 leastEigen3(const Eigen::Matrix3d& matrix) {
+  const double mean = matrix.trace() / 3.0;
+  Eigen::Matrix3d centred = matrix;
+  centred.diagonal().array() -= mean;
+  const double radius = std::sqrt(centred.squaredNorm() / 6.0);
+  LeastEigen3 least{mean, mean, Eigen::Vector3d::UnitZ()};
+  if (!(radius > 0.0)) return least;
+  const double cosine = 0.5 * (centred / radius).determinant();  // of three times the angle
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) / 3.0;
+  const double along = std::cos(angle), across = std::sqrt(3.0) * std::sin(angle);
+  least.value = mean - radius * (along + across);
+  least.middle_value = mean - radius * (along - across);
+  Eigen::Matrix3d singular = matrix;
+  singular.diagonal().array() -= least.value;
+  least.vector = nullVector(singular);
+  return least;
 }
 
 Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix) {

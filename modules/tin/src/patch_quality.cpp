@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/common/linear_solvers.h>
@@ -33,6 +35,37 @@ bool collectRing(const Tin& tin, std::int32_t triangle, int corner,
   return true;
 }
 
+/// The different vertices that are joined to a triangle's corners, without these.
+std::vector<std::int32_t> around(const std::array<std::int32_t, 3>& own,
+                                 std::vector<std::int32_t> ring) {
+  constexpr std::size_t kFew = 48;  // a linear search is faster
+  if (ring.size() > kFew) {
+    std::sort(ring.begin(), ring.end());
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  }
+  std::size_t kept = 0;
+  for (const std::int32_t v : ring) {
+    const auto end = ring.begin() + static_cast<std::ptrdiff_t>(kept);
+    const bool repeated = ring.size() <= kFew && std::find(ring.begin(), end, v) != end;
+    if (v != own[0] && v != own[1] && v != own[2] && !repeated) ring[kept++] = v;
+  }
+  ring.resize(kept);
+  return ring;
+}
+
+/// Sums over points, relative to one of them.
+struct Moments {
+  double count = 0.0;
+  Vector3d sum = Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(const Vector3d& point) {
+    count += 1.0;
+    sum += point;
+    squares.noalias() += point * point.transpose();
+  }
+};
+
 /// The plane of least squared orthogonal distances.
 struct Plane {
   Vector3d normal, centre;
@@ -40,25 +73,11 @@ struct Plane {
   double spread = 0.0;  ///< root of the in-plane scatter along the narrower direction
 };
 
-Plane fitPlane(const Tin& tin, const std::vector<std::int32_t>& vertices) {
-  const Vector3d& origin = tin.points()[vertices.front()];
-  Vector3d mean = Vector3d::Zero();
-  for (const std::int32_t v : vertices) mean += tin.points()[v] - origin;
-  mean /= static_cast<double>(vertices.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const std::int32_t v : vertices) {
-    const Vector3d d = tin.points()[v] - origin - mean;
-    scatter.noalias() += d * d.transpose();
-  }
-  const SymmetricEigen<3> eigen = symmetricEigen3(scatter);
-  Plane plane{eigen.vectors.col(0), origin + mean, 0.0, std::sqrt(std::max(0.0, eigen.values[1]))};
-  double sum = 0.0;
-  for (const std::int32_t v : vertices) {
-    const double distance = plane.normal.dot(tin.points()[v] - origin - mean);
-    sum += distance * distance;
-  }
-  plane.rms = std::sqrt(sum / static_cast<double>(vertices.size()));
-  return plane;
+Plane fitPlane(const Moments& moments) {
+  const Vector3d mean = moments.sum / moments.count;
+  const LeastEigen3 least = leastEigen3(moments.squares - mean * moments.sum.transpose());
+  return {least.vector, mean, std::sqrt(std::max(0.0, least.value) / moments.count),
+          std::sqrt(std::max(0.0, least.middle_value))};
 }
 
 double longestEdge(const Tin& tin, const Tin::Triangle& t) {
@@ -83,26 +102,28 @@ PatchQuality PatchSurface::quality(std::int32_t triangle) const {
   ring.reserve(64);
   for (int corner = 0; corner < 3; ++corner)
     quality.on_hull = collectRing(tin_, triangle, corner, ring) || quality.on_hull;
-  std::sort(ring.begin(), ring.end());
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
-  quality.vertices = static_cast<std::uint16_t>(std::min(ring.size(), kMost));
+  const auto& own = tin_.triangles()[triangle].vertex;
+  const Vector3d& origin = tin_.points()[own[0]];
+  Moments others;
+  for (const std::int32_t v : around(own, std::move(ring))) others.add(tin_.points()[v] - origin);
+  Moments all = others;
+  for (const std::int32_t v : own) all.add(tin_.points()[v] - origin);
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  quality.vertices = static_cast<std::uint16_t>(std::min(all.count, kMost));
 
   const Vector3d normal = tin::unitNormal(tin_, triangle);
-  const Plane plane = fitPlane(tin_, ring);
+  const Plane plane = fitPlane(all);
   quality.longest_edge = static_cast<float>(longestEdge(tin_, tin_.triangles()[triangle]));
   quality.slope = static_cast<float>(std::atan2(normal.head<2>().norm(), normal.z()));
   quality.roughness = static_cast<float>(plane.rms);
   quality.bend = static_cast<float>(angleBetween(normal, plane.normal));
 
-  const auto& own = tin_.triangles()[triangle].vertex;
-  const auto isOwn = [&own](std::int32_t v) { return v == own[0] || v == own[1] || v == own[2]; };
-  ring.erase(std::remove_if(ring.begin(), ring.end(), isOwn), ring.end());
-  constexpr std::size_t kEnough = 4;
-  const Plane around = ring.size() >= kEnough ? fitPlane(tin_, ring) : plane;
-  quality.spread = static_cast<float>(around.spread);
-  quality.plane_normal = around.normal.z() < 0.0 ? Vector3d(-around.normal) : around.normal;
-  quality.plane_centre = around.centre;
+  constexpr double kEnough = 4.0;
+  const Plane without_own = others.count >= kEnough ? fitPlane(others) : plane;
+  quality.spread = static_cast<float>(without_own.spread);
+  quality.plane_normal =
+      without_own.normal.z() < 0.0 ? Vector3d(-without_own.normal) : without_own.normal;
+  quality.plane_centre = origin + without_own.centre;
   return quality;
 }
 

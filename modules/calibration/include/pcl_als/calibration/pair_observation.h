@@ -84,7 +84,7 @@ struct PairObservation {
   /// considered are zero, except for that of the range scale.
   ErrorSourceRow sources = ErrorSourceRow::Zero();
   /// Of the distance, metres: effect of what is corrected besides the biases of the first system
-  /// (error sources, differences between systems). Set after the adjustment only.
+  /// (error sources, differences between systems). Ignored by the adjustment.
   double further = 0.0;
   double lateral = 0.0,
          height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres

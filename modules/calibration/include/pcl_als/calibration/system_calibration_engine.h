@@ -181,8 +181,9 @@ class SystemCalibrationEngine {
   /// or channels, and jumps of the trajectory. The adjustment is restored.
   void diagnoseParts(State& state, SharedErrors& errors, const ScanGeometry& edge,
                      CalibrationResult& result) const;
-  /// Observations as those of a block without held surfaces: these become control.
-  void replaceHeld(std::vector<AreaObservations>& observations) const;
+  /// Observations as those of a block without held surfaces: these become control. Returns whether
+  /// there are any.
+  bool replaceHeld(std::vector<AreaObservations>& observations) const;
   /// Limits of determination for the flying height.
   void adaptLimits();
   int stripNamed(const std::string& id) const;
@@ -253,12 +254,15 @@ class SystemCalibrationEngine {
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);
   /// The noise of points and the sizes of the trajectory errors, as estimated.
   ErrorLevels errorLevels(const State& state) const;
-  /// Adds the fits of all pairs, formed anew with the result.
+  /// Adds the fits of all pairs.
   void addFits(State& state, const CalibrationReport& report, CalibrationResult& result);
   /// Names the strips that cover a target that was not located there.
   void warnOfTargets(CalibrationResult& result) const;
-  /// The threshold of a control point; of a target, the size of the window that is searched.
-  double controlThreshold(const State& state, std::size_t area) const;
+  /// The pairs of a control area; a target is searched for within the largest distance.
+  AreaObservations matchControl(std::size_t area, double threshold) const;
+  /// Adds the pairs beyond the threshold to the observations, or forms all anew where those are
+  /// outdated.
+  void addFarPairs(State& state);
   /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
   /// Adds the parameters that differ between halves of the block.

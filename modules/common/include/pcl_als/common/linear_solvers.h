@@ -21,9 +21,15 @@ struct SymmetricEigen {
 /// By tridiagonalisation and QR iterations; only the lower triangle is read.
 SymmetricEigen<Eigen::Dynamic> symmetricEigen(const Eigen::MatrixXd& matrix);
 SymmetricEigen<2> symmetricEigen2(const Eigen::Matrix2d& matrix);
-/// In closed form: a fifth of the time of the iterations, with half as many valid digits where two
-/// eigenvalues are nearly equal.
-SymmetricEigen<3> symmetricEigen3(const Eigen::Matrix3d& matrix);
+
+/// The least eigenvalue of a symmetric matrix with its unit eigenvector, and the next eigenvalue.
+struct LeastEigen3 {
+  double value = 0.0, middle_value = 0.0;
+  Eigen::Vector3d vector = Eigen::Vector3d::UnitZ();
+};
+/// By the trigonometric solution of the characteristic equation: a tenth of the time of iterations,
+/// with half as many valid digits of the eigenvector where the two values are nearly equal.
+LeastEigen3 leastEigen3(const Eigen::Matrix3d& matrix);
 
 /// The eigenvalues alone, in increasing order.
 Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix);
