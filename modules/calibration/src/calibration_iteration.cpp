@@ -184,8 +184,9 @@ void SystemCalibrationEngine::samplePairs(State& state) {
 void SystemCalibrationEngine::pairAllCandidates(State& state) {
   if (state.all() && !state.isSampled()) return;
   state.sampling = 1;
+  state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);
+  formPairs(state);  // with the effects of the sources
 }
 
 void SystemCalibrationEngine::leaveCoarse(State& state) {
@@ -193,15 +194,6 @@ void SystemCalibrationEngine::leaveCoarse(State& state) {
   if (settings_.diagnose) considerSources();
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
-}
-
-void SystemCalibrationEngine::leaveSample(State& state) {
-  // Where the geometry of the sample has converged, the variance components of all pairs are
-  // estimated at once.
-  if (state.components.estimates > 0) state.update = {0.0, true};
-  state.components.estimates = 0;
-  state.components.unchanged = false;
-  pairAllCandidates(state);
 }
 
 void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) {

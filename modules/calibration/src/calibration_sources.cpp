@@ -68,7 +68,7 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   pairAllCandidates(state);  // with the effects of all sources, since the coarse phase
   const std::vector<ErrorSource> before = state.errors.consideredSources();
   state.errors.considerSources(allSources());
-  weigh(state);
+  if (!state.weighed) weigh(state);
   state.adjustment.accumulate(state.observations, state.weights.weights());
   state.diagnosed = solveForAllParameters(state.adjustment, state.choice.estimate);
   std::vector<ErrorSource> supported{ErrorSource::slope_ranging};
@@ -86,7 +86,6 @@ bool SystemCalibrationEngine::selectSources(State& state) {
   state.errors.considerSources(supported);
   state.adjustment.setLevels(state.adjustment.levels());
   choose(state);
-  weigh(state);
   const bool changed = supported != before || !state.held_sources.isZero(0.0);
   if (changed) state.moved = HUGE_VAL;  // they are removed from the points
   return changed;

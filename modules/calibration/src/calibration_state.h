@@ -106,9 +106,8 @@ struct SystemCalibrationEngine::State {
   /// Parameters left out because the iteration does not converge with them, with the reason.
   std::map<SystemParameter, std::string> excluded;
   AreaMatcher::Points chosen_points = AreaMatcher::Points::candidates;
-  /// One of so many candidates is paired. The coarse phase and the first estimation of variance
-  /// components need a sample only: their errors are those of the values that they began with, not
-  /// those of the points.
+  /// One of so many candidates is paired. The coarse phase needs a sample only: its errors are
+  /// those of the biases it began with, not those of the points.
   std::size_t sampling = 1;
   bool isSampled() const { return sampling > 1; }
   /// Biases and differences between systems of the last correction of the points.
@@ -126,7 +125,10 @@ struct SystemCalibrationEngine::State {
   /// what a movement changes are triangles that are exchanged for neighbours of nearly the same
   /// plane. With edges of 0.5 m and bends of 0.1 rad a movement of a centimetre exchanges two of a
   /// hundred, and changes their distances by at most a millimetre, of either sign.
-  bool arePairsOutdated() const { return moved > kSmallMovement; }
+  bool arePairsOutdated() const {
+    constexpr double kNegligibleMovement = 0.01;  // metres
+    return moved > kNegligibleMovement;
+  }
   double threshold = 0.0;
   std::vector<AreaObservations> observations;
   /// Own pairs beyond the threshold, which are no observations, as formed last.

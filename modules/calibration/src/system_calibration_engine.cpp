@@ -212,10 +212,8 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
   }
   if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
-    constexpr double kFine = 0.05, kOfSample = 1.0;  // where all pairs begin
     const EstimatedLevels estimated =
-        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely,
-                       state.isSampled() ? kOfSample : kFine);
+        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely);
     state.components.unchanged = estimated.expected.near(levels);
     state.components.most_likely = estimated.most_likely;
     choose(state);
@@ -322,11 +320,7 @@ void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResu
   for (int selections = 0; selections == 0 || !result.converged; ++selections) {
     while (mayContinue(state, result)) {
       iterate(state, result);
-      if (result.converged) continue;
-      if (state.isSampled() && !state.isCoarse())
-        leaveSample(state);
-      else if (state.arePairsOutdated())
-        formPairs(state);
+      if (!result.converged && state.arePairsOutdated()) formPairs(state);
     }
     if (!result.converged || !selectSources(state) || selections == kMostSelections) break;
     continueWithSources(state, result);

@@ -235,7 +235,6 @@ class SystemCalibrationEngine {
   // Transitions between the phases of the iteration, see State::Phase.
   void openIteration(State& state, std::size_t done);
   void leaveCoarse(State& state);
-  void leaveSample(State& state);
   void samplePairs(State& state);
   void pairAllCandidates(State& state);
   void openVarianceComponents(State& state, std::size_t done);
