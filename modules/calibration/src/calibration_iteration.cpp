@@ -184,16 +184,16 @@ void SystemCalibrationEngine::samplePairs(State& state) {
 void SystemCalibrationEngine::pairAllCandidates(State& state) {
   if (state.all() && !state.isSampled()) return;
   state.sampling = 1;
-  state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);  // with the effects of the sources
+  formPairs(state);
 }
 
 void SystemCalibrationEngine::leaveCoarse(State& state) {
   state.phase = State::Phase::refinement;
   if (settings_.diagnose) considerSources();
+  state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);
+  formPairs(state);  // with the effects of the sources
 }
 
 void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) {
