@@ -31,6 +31,18 @@ if(PCL_ALS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} ${PCL_ALS_CCACHE})
 endif()
 
+# The loader of glibc takes a library from the folder glibc-hwcaps/x86-64-v3 where the processor has
+# AVX2 and FMA.
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-march=x86-64-v3 PCL_ALS_HAS_X86_64_V3)
+set(hwcaps OFF)
+if(PCL_ALS_HAS_X86_64_V3 AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND BUILD_SHARED_LIBS
+    AND NOT PCL_ALS_SANITIZE)
+  set(hwcaps ON)
+endif()
+option(PCL_ALS_WITH_X86_64_V3
+  "Build the kernels of linear algebra a second time, for processors with AVX2 and FMA" ${hwcaps})
+
 add_compile_options(-Wall -Wextra)
 if(UNIX AND NOT APPLE)
   add_link_options(LINKER:--as-needed)  # a tool loads at its start only what it uses

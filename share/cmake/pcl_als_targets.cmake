@@ -14,9 +14,11 @@ endfunction()
 #   PUBLIC   third-party targets seen in headers; PRIVATE: used in sources only
 #   SEPARATE  of the sources those that are compiled on their own, because they have names of others
 #   PRECOMPILED  kind of precompiled headers, see als_precompile (default: library)
+#   LINEAR_ALGEBRA  it is built a second time for processors with AVX2, see PCL_ALS_WITH_X86_64_V3; no
+#   object of Eigen is allocated on one side of its functions and freed on the other
 function(als_add_module)
-  cmake_parse_arguments(ARG "" "NAME;PRECOMPILED" "SOURCES;SEPARATE;MODULES;PUBLIC;PRIVATE;DEFINITIONS"
-    ${ARGN})
+  cmake_parse_arguments(ARG "LINEAR_ALGEBRA" "NAME;PRECOMPILED"
+    "SOURCES;SEPARATE;MODULES;PUBLIC;PRIVATE;DEFINITIONS" ${ARGN})
   _pcl_als_check_arguments(als_add_module "${ARG_UNPARSED_ARGUMENTS}")
   set(target pcl_als_${ARG_NAME})
   add_library(${target} ${ARG_SOURCES})
@@ -45,6 +47,26 @@ function(als_add_module)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT headers
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT headers)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT headers)
+  if(ARG_LINEAR_ALGEBRA AND PCL_ALS_WITH_X86_64_V3)
+    _pcl_als_add_x86_64_v3(${target} "${ARG_SOURCES}" "${ARG_MODULES};${ARG_PUBLIC};${ARG_PRIVATE}")
+  endif()
+endfunction()
+
+# The same library for processors with AVX2 and FMA, in the folder where the loader prefers it.
+function(_pcl_als_add_x86_64_v3 target sources libraries)
+  set(fast ${target}_x86_64_v3)
+  set(folder glibc-hwcaps/x86-64-v3)
+  add_library(${fast} SHARED ${sources})
+  target_include_directories(${fast} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  target_link_libraries(${fast} PRIVATE ${libraries})
+  target_compile_options(${fast} PRIVATE -march=x86-64-v3
+    -fvisibility-inlines-hidden)  # functions of headers are not exchanged with other libraries
+  set_target_properties(${fast} PROPERTIES OUTPUT_NAME ${target} INSTALL_RPATH "$ORIGIN/../.."
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${folder}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  add_dependencies(${target} ${fast})
+  install(TARGETS ${fast} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/${folder}
+    COMPONENT libraries NAMELINK_SKIP)
 endfunction()
 
 # The manual page of a tool, from what it prints with -h, with the page of the manual about its use.

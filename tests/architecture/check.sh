@@ -35,12 +35,12 @@ declared() {
   awk '{ sub(/#.*/, ""); gsub(/[()]/, " & ");
          for (i = 1; i <= NF; ++i) {
            if ($i ~ /^[A-Z]+$/ || $i == ")") on = ($i == "MODULES");
-           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage|simulation|bundle)}/CMakeLists.txt"
+           else if (on) print $i } }' "modules/${1%_@(raster|picture|page|coverage|simulation|bundle|dense)}/CMakeLists.txt"
 }
 declare -A reach
 closure() {  # X and all that it declares, directly or through others
   [[ -n ${reach[$1]:-} ]] && return
-  local all=" $1 ${1%_@(raster|picture|page|coverage|simulation|bundle)} " next
+  local all=" $1 ${1%_@(raster|picture|page|coverage|simulation|bundle|dense)} " next
   reach[$1]=$all  # a cycle of declarations ends here and is reported as a breach
   for next in $(declared "$1"); do
     closure "$next"
@@ -57,7 +57,7 @@ for folder in modules/*/; do
   module=$(basename -- "$folder")
   [[ -v "may[$module]" ]] || { breach "modules/$module" "unknown module: add it to $0"; continue; }
   for other in $(declared "$module"); do
-    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage|simulation|bundle)} "* ]] ||
+    [[ " $module ${may[$module]} " == *" ${other%_@(raster|picture|page|coverage|simulation|bundle|dense)} "* ]] ||
       breach "modules/$module/CMakeLists.txt" "must not use module $other"
   done
   grep -qE 'pcl_als::|pcl_als_app|pcl_visualization|VTK::' "modules/$module/CMakeLists.txt" &&

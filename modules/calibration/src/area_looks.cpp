@@ -28,12 +28,13 @@ bool AreaMatcher::isMixed(const std::vector<double>& times,
 }
 
 double AreaMatcher::mixedShare(const StripPart& part) {
+  constexpr std::size_t kEnough = 5000;  // triangles: 0.3 % for a share of 5 %
   const auto& triangles = part.surface.tin().triangles();
-  const auto mixed = std::count_if(triangles.begin(), triangles.end(), [&](const auto& triangle) {
-    return isMixed(part.times, triangle.vertex);
-  });
-  return static_cast<double>(mixed) /
-         static_cast<double>(std::max<std::size_t>(1, triangles.size()));
+  const std::size_t every = std::max<std::size_t>(1, triangles.size() / kEnough);
+  std::size_t examined = 0, mixed = 0;
+  for (std::size_t i = 0; i < triangles.size(); i += every, ++examined)
+    if (isMixed(part.times, triangles[i].vertex)) ++mixed;
+  return static_cast<double>(mixed) / static_cast<double>(std::max<std::size_t>(1, examined));
 }
 
 bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory) {

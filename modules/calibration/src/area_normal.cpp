@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include <pcl_als/adjustment/dense_products.h>
 #include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
@@ -134,7 +135,7 @@ class Partial {
   void flush() {
     if (count_ == 0) return;
     const auto rows = rows_.topLeftCorner(count_, columns_);
-    matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+    dense::addNormal(rows, matrix);
     right.noalias() += rows.transpose() * misclosures_.head(count_);
     count_ = 0;
   }

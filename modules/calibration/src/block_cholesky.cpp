@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>
 
+#include <pcl_als/adjustment/dense_products.h>
 #include <pcl_als/common/parallel.h>
 
 namespace pcl_als {
@@ -231,13 +231,13 @@ void BlockCholesky::assemble(const KnotBlocks& blocks, const Sparse& prior) {
 
 void BlockCholesky::factorise() {
   for (BlockColumns::Supernode& node : columns_.supernodes) {
-    Eigen::Ref<Eigen::MatrixXd> own = node.panel.topRows(node.width());
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(own);
+    const auto own = node.panel.topRows(node.width());
+    dense::factorise(own);
     if (node.rows.empty()) continue;
-    Eigen::Ref<Eigen::MatrixXd> below = node.panel.bottomRows(node.height());
-    own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+    const auto below = node.panel.bottomRows(node.height());
+    dense::solveLowerFromRight(own, below);
     Eigen::MatrixXd update = Eigen::MatrixXd::Zero(node.height(), node.height());
-    update.selfadjointView<Eigen::Lower>().rankUpdate(below);
+    dense::addSquare(below, update);
     columns_.visitPairs(node, [&](Eigen::Index row, Eigen::Index column, auto block) {
       block -= update.block<kBlock, kBlock>(row, column);
     });
@@ -304,8 +304,8 @@ Eigen::MatrixXd lowerInverse(const Eigen::Ref<const Eigen::MatrixXd>& lower, int
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(lower.rows(), lower.cols());
   forColumns(lower.cols(), threads, [&](Eigen::Index first, Eigen::Index count) {
     const Eigen::Index rest = lower.rows() - first;
-    auto part = inverse.block(first, first, rest, count);
-    lower.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>().solveInPlace(part);
+    dense::solveLower(lower.bottomRightCorner(rest, rest),
+                      inverse.block(first, first, rest, count));
   });
   return inverse;
 }
@@ -327,9 +327,9 @@ InverseEntries BlockCholesky::inverse(int threads) const {
     Eigen::MatrixXd ratio(height, width), product(height, width);
     forColumns(width, threads, [&](Eigen::Index first, Eigen::Index count) {
       const Eigen::Index rest = width - first;  // the inverse of D is a lower triangular matrix
-      ratio.middleCols(first, count).noalias() =
-          node->panel.bottomRightCorner(height, rest) * own.block(first, first, rest, count);
-      product.middleCols(first, count).noalias() = known * ratio.middleCols(first, count);
+      dense::multiply(node->panel.bottomRightCorner(height, rest),
+                      own.block(first, first, rest, count), ratio.middleCols(first, count));
+      dense::multiply(known, ratio.middleCols(first, count), product.middleCols(first, count));
     });
     forColumns(width, threads, [&](Eigen::Index first, Eigen::Index count) {
       const Eigen::Index rest = width - first;

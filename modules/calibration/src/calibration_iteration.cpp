@@ -256,7 +256,8 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   state.moved += state.update.movement;
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
-  if (done > 2 && !components_open && state.components.estimates > 0 &&
+  const bool components_changed = components_open && !state.components.unchanged;
+  if (done > 2 && !components_changed && state.components.estimates > 0 &&
       (effect < settings_.convergence ||
        (of_systems < State::kSmallMovement && isUpdateWithin(state, before, kNegligible)))) {
     closeConverged(state);

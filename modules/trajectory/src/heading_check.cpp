@@ -14,7 +14,8 @@ constexpr double kSlowest = 1.0;  // m/s: below it the course is that of the noi
 
 /// Absolute angle between two directions, degrees.
 double degreesBetween(double a, double b) {
-  return std::abs(std::remainder(a - b, 2.0 * kPi)) / kRadiansPerDegree;
+  const double turns = (a - b) / (2.0 * kPi);
+  return 360.0 * std::abs(turns - std::rint(turns));
 }
 
 }  // namespace
