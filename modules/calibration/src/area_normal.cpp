@@ -3,10 +3,12 @@
 #include "area_normal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 #include <pcl_als/adjustment/dense_products.h>
 #include <pcl_als/common/linear_solvers.h>
@@ -86,15 +88,10 @@ namespace {
 struct Entry {
   std::size_t index;
   TouchedRow touched;
-
-  bool hasSameUnknowns(const Entry& other) const {
-    return touched.knots == other.touched.knots && touched.surfaces == other.touched.surfaces;
-  }
-  bool operator<(const Entry& other) const {
-    return std::tie(touched.knots, touched.surfaces, index) <
-           std::tie(other.touched.knots, other.touched.surfaces, other.index);
-  }
 };
+
+using Unknowns = std::pair<std::array<int, TouchedRow::kSlots>, std::array<int, 2>>;
+using EntriesByUnknowns = std::map<Unknowns, std::vector<const Entry*>>;
 
 /// The observations with a weight.
 std::vector<Entry> entriesOf(const AreaObservations& observations,
@@ -107,13 +104,17 @@ std::vector<Entry> entriesOf(const AreaObservations& observations,
   return entries;
 }
 
-/// In an order in which those of the same unknowns follow each other.
-std::vector<const Entry*> sorted(const std::vector<Entry>& entries) {
-  std::vector<const Entry*> order;
-  order.reserve(entries.size());
-  for (const Entry& entry : entries) order.push_back(&entry);
-  std::sort(order.begin(), order.end(), [](const Entry* a, const Entry* b) { return *a < *b; });
-  return order;
+EntriesByUnknowns byUnknowns(const std::vector<Entry>& entries) {
+  EntriesByUnknowns groups;
+  auto current = groups.end();
+  for (const Entry& entry : entries) {
+    const TouchedRow& row = entry.touched;
+    const bool same = current != groups.end() && current->first.first == row.knots &&
+                      current->first.second == row.surfaces;
+    if (!same) current = groups.try_emplace({row.knots, row.surfaces}).first;
+    current->second.push_back(&entry);
+  }
+  return groups;
 }
 
 /// Lower triangle of the normal equations of observations of the same unknowns. Their rows are
@@ -165,32 +166,25 @@ int positionOf(const std::vector<int>& values, int value) {
 AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<double>& weights,
                        const SharedErrors& errors) {
   const std::vector<Entry> entries = entriesOf(observations, weights, errors);
-  const std::vector<const Entry*> order = sorted(entries);
-  const auto isFirst = [&](std::size_t i) {
-    return i == 0 || !order[i]->hasSameUnknowns(*order[i - 1]);
-  };
-  for (std::size_t i = 0; i < order.size(); ++i)
-    if (isFirst(i)) collect(order[i]->touched.knots, order[i]->touched.surfaces);
+  const EntriesByUnknowns groups = byUnknowns(entries);
+  for (const auto& [unknowns, group] : groups) collect(unknowns.first, unknowns.second);
   const auto size = shiftsBegin() + static_cast<int>(surfaces_.size()) * TouchedRow::kShift;
   matrix_.setZero(size, size);
   right_.setZero(size);
   Partial sums;
-  std::vector<Columns> columns;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const TouchedRow& touched = order[i]->touched;
-    const PairObservation& o = observations[order[i]->index];
-    if (isFirst(i)) {
-      columns = columnsOf(touched.knots, touched.surfaces);
-      sums.begin(touched.used());
+  for (const auto& [unknowns, group] : groups) {
+    const std::vector<Columns> columns = columnsOf(unknowns.first, unknowns.second);
+    sums.begin(group.front()->touched.used());
+    for (const Entry* entry : group) {
+      const PairObservation& o = observations[entry->index];
+      const double weight = weights[entry->index] / o.variance;
+      // Few observations have the further knots of a patch of mixed times in common.
+      if (entry->touched.hasFurtherKnots())
+        add(columns, entry->touched, o.misclosure, weight);
+      else
+        sums.add(entry->touched, o.misclosure, weight);
     }
-    const double weight = weights[order[i]->index] / o.variance;
-    // Few observations have the further knots of a patch of mixed times in common.
-    if (touched.hasFurtherKnots()) {
-      add(columns, touched, o.misclosure, weight);
-      continue;
-    }
-    sums.add(touched, o.misclosure, weight);
-    if (i + 1 < order.size() && !isFirst(i + 1)) continue;
+    if (group.front()->touched.hasFurtherKnots()) continue;
     sums.flush();
     add(columns, sums.matrix, sums.right);
   }
@@ -266,7 +260,9 @@ AreaNormal::Reduced AreaNormal::reduced(double shift_variance) const {
   const Eigen::VectorXd right = right_.tail(shifts);
   const Eigen::MatrixXd half = cholesky.solveLower(coupling);
   const Eigen::VectorXd half_right = cholesky.solveLower(right);
-  reduced.matrix.noalias() -= half.transpose() * half;
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(kept, kept);
+  dense::addTransposedProduct(half, half, square);
+  reduced.matrix -= square;
   reduced.right.noalias() -= half.transpose() * half_right;
   reduced.log_determinant =
       cholesky.logDeterminant() + static_cast<double>(shifts) * std::log(shift_variance);
@@ -292,7 +288,8 @@ AreaNormal::ShiftTerms AreaNormal::shiftTerms(double shift_variance,
   // With the posterior covariance C of the values, the shifts have C_u = full^-1 + effect C
   // effect'.
   const Eigen::MatrixXd inverse = cholesky.solve(Eigen::MatrixXd::Identity(shifts, shifts));
-  terms.change.matrix = effect.transpose() * effect / shift_variance;
+  dense::addTransposedProduct(effect, effect, terms.change.matrix);
+  terms.change.matrix /= shift_variance;
   terms.change.right = effect.transpose() * shift / shift_variance;
   terms.change.log_determinant = inverse.trace() / shift_variance - static_cast<double>(shifts);
   terms.change.explained = shift.squaredNorm() / shift_variance;

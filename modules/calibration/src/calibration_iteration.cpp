@@ -174,11 +174,10 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
   return true;
 }
 
-void SystemCalibrationEngine::samplePairs(State& state) {
-  constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
-  if (settings_.pair_budget > 0) return;   // a selection represents all pairs
-  state.sampling = std::max<std::size_t>(1, state.observationCount() / kEnough);
-  if (state.isSampled()) formPairs(state);
+void SystemCalibrationEngine::samplePairs(State& state, std::size_t pairs) {
+  const std::size_t before = state.sampling;
+  state.sampling = std::max<std::size_t>(1, before * state.observationCount() / pairs);
+  if (state.sampling != before) formPairs(state);
 }
 
 void SystemCalibrationEngine::pairAllCandidates(State& state) {

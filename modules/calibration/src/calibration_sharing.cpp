@@ -70,7 +70,7 @@ void SystemCalibrationEngine::shareAreas() {
   }
 }
 
-std::size_t SystemCalibrationEngine::candidatesPerStrip() const {
+SystemCalibrationEngine::Candidates SystemCalibrationEngine::candidatesOfStrips() const {
   std::vector<std::vector<std::size_t>> counts(matchers_.size());
   for (const std::size_t area : area_shares_.ownItems())
     counts[area].push_back(matchers_[area].stripCount());
@@ -83,7 +83,8 @@ std::size_t SystemCalibrationEngine::candidatesPerStrip() const {
     strips += count;
     if (count > 0) pairs += count * (looks * count - 1);
   }
-  return pcl_als::candidatesPerStrip(settings_.candidates, strips, pairs);
+  const std::size_t per_strip = candidatesPerStrip(settings_.candidates, strips, pairs);
+  return {per_strip, per_strip * pairs};
 }
 
 void SystemCalibrationEngine::forOwnAreas(const std::function<void(std::size_t area)>& work) const {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <pcl_als/calibration/pairing_rules.h>
@@ -57,24 +58,25 @@ std::size_t SystemCalibrationEngine::loadedPoints() const {
   return count;
 }
 
-void SystemCalibrationEngine::prepare() {
+std::size_t SystemCalibrationEngine::prepare() {
   if (area_shares_.count() != matchers_.size())
     area_shares_ = SharedItems(nullptr, std::vector<double>(matchers_.size(), 1.0));
-  const std::size_t candidates = candidatesPerStrip();
+  const Candidates candidates = candidatesOfStrips();
   std::vector<std::vector<double>> roughness(matchers_.size());
   forOwnAreas([&](std::size_t i) {
     const bool control = i >= pair_areas_;
-    matchers_[i].prepare(settings_.patches, control ? 0 : candidates, settings_.resolution,
-                         *trajectory_);
+    matchers_[i].prepare(settings_.patches, control ? 0 : candidates.per_strip,
+                         settings_.resolution, *trajectory_);
     matchers_[i].collectRoughness(roughness[i]);
   });
   shareVectors(processes_, area_shares_, roughness);
   std::vector<double> all;
   for (const auto& values : roughness) all.insert(all.end(), values.begin(), values.end());
-  if (all.empty()) return;
+  if (all.empty()) return candidates.pairs;
   const double plain = medianInPlace(all);
   const double most = std::min(settings_.patches.roughness, kRoughnessFactor * plain);
   for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
+  return candidates.pairs;
 }
 
 void SystemCalibrationEngine::formPairs(State& state) {
@@ -224,6 +226,7 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
 void SystemCalibrationEngine::shrinkThreshold(State& state) const {
   constexpr double kSmallest = 0.25;  // metres
   constexpr double kFactor = 6.0;
+  if (state.threshold <= kSmallest) return;
   double widest = 0.0;
   setSystemEffects(state.errors, state.differences, state.observations);
   std::map<PairWeights::Group, std::vector<double>> distances;
@@ -316,7 +319,9 @@ std::vector<TimeSpan> SystemCalibrationEngine::flownTimes() const {
 
 void SystemCalibrationEngine::iterateToConvergence(State& state, CalibrationResult& result) {
   constexpr int kMostSelections = 3;
-  samplePairs(state);
+  constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
+  // A selection of pairs represents all of them.
+  samplePairs(state, settings_.pair_budget > 0 ? std::numeric_limits<std::size_t>::max() : kEnough);
   for (int selections = 0; selections == 0 || !result.converged; ++selections) {
     while (mayContinue(state, result)) {
       iterate(state, result);
@@ -361,7 +366,8 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
 }
 
 CalibrationResult SystemCalibrationEngine::calibrate() {
-  prepare();
+  constexpr std::size_t kEnoughForMisfit = 100'000;  // pairs of the points as delivered
+  const std::size_t pairs = prepare();
   const std::vector<TimeSpan> spans = flownTimes();
   const std::vector<std::vector<TimeSpan>> observed = measuredTimes();
   SharedErrors errors(spans, settings_.shared_errors.withKnotsFor(observed), observed, systems_);
@@ -370,6 +376,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
   CalibrationResult result;
+  state.sampling = std::max<std::size_t>(1, pairs / kEnoughForMisfit);
   formPairs(state);
   warnOfUncoveredControl(state);
   const CalibrationReport report(ids_, !control_covered_);

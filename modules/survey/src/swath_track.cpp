@@ -35,24 +35,26 @@ std::int64_t SwathTrack::indexOf(double time) const {
 }
 
 void SwathTrack::add(const PointChunk& chunk, std::size_t from, std::size_t to) {
-  Bin* bin = nullptr;
-  std::int64_t bin_index = 0;
+  Bin run;  // points of one bin that follow each other
+  std::int64_t run_index = 0;
   for (std::size_t i = from; i < to; ++i) {
     const double time = chunk.gps_time[i];
     if (!(std::abs(time) < kLatest) || time == 0.0) continue;
     const std::int64_t index = indexOf(time);
-    if (bin == nullptr || index != bin_index) {
-      bin = &bins_[index];
-      bin_index = index;
+    if (run.points == 0 || index != run_index) {
+      if (run.points > 0) bins_[run_index].merge(run);
+      run = {time, time, 0, 0, 0, 0};
+      run_index = index;
     }
-    Bin one{time, time, 1, 0, 0, 0};
-    if (std::abs(chunk.x[i]) < kFarthest && std::abs(chunk.y[i]) < kFarthest) {
-      one.placed = 1;
-      one.x_sum = std::llround(kCentimetres * chunk.x[i]);
-      one.y_sum = std::llround(kCentimetres * chunk.y[i]);
-    }
-    bin->merge(one);
+    run.first = std::min(run.first, time);
+    run.last = std::max(run.last, time);
+    ++run.points;
+    if (!(std::abs(chunk.x[i]) < kFarthest && std::abs(chunk.y[i]) < kFarthest)) continue;
+    ++run.placed;
+    run.x_sum += std::llround(kCentimetres * chunk.x[i]);
+    run.y_sum += std::llround(kCentimetres * chunk.y[i]);
   }
+  if (run.points > 0) bins_[run_index].merge(run);
   limitMemory();
 }
 

@@ -139,8 +139,12 @@ class SystemCalibrationEngine {
 
   void shareSurvey();
   bool isMine(std::size_t area) const { return area_shares_.mine(area); }
-  /// Collective: points of a strip in an area for which patches are searched.
-  std::size_t candidatesPerStrip() const;
+  /// Points for which patches are searched.
+  struct Candidates {
+    std::size_t per_strip = 0;  ///< in an area
+    std::size_t pairs = 0;      ///< that all of them may form
+  };
+  Candidates candidatesOfStrips() const;  ///< collective
   void forOwnAreas(const std::function<void(std::size_t area)>& work) const;
   void leaveOutUnpaired();
   void leaveOutSmallStrips();
@@ -187,7 +191,8 @@ class SystemCalibrationEngine {
   /// Limits of determination for the flying height.
   void adaptLimits();
   int stripNamed(const std::string& id) const;
-  void prepare();
+  /// Returns the number of pairs that may be formed.
+  std::size_t prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas
   std::vector<TimeSpan> flownTimes() const;                  ///< by strip
   /// Forms pairs with the effects of all error sources.
@@ -235,7 +240,7 @@ class SystemCalibrationEngine {
   // Transitions between the phases of the iteration, see State::Phase.
   void openIteration(State& state, std::size_t done);
   void leaveCoarse(State& state);
-  void samplePairs(State& state);
+  void samplePairs(State& state, std::size_t pairs);
   void pairAllCandidates(State& state);
   void openVarianceComponents(State& state, std::size_t done);
   void closeSelection(State& state) const;
