@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// The division of a strip's points by look, by AreaMatcher.
+// The points of a strip that form surfaces in AreaMatcher: those of an even density, and those of
+// each look.
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "area_matcher.h"
 
@@ -14,7 +19,47 @@ constexpr double kMixedShare = 0.05;  // of the triangles: a strip with fewer is
 /// The share in a look over that of the whole from which the division does not separate the times.
 constexpr double kStillMixed = 0.6;
 
+using Cell = std::pair<std::int64_t, std::int64_t>;
+
+Cell cellOf(const Eigen::Vector3d& point, double size) {
+  return {static_cast<std::int64_t>(std::floor(point.x() / size)),
+          static_cast<std::int64_t>(std::floor(point.y() / size))};
+}
+
+/// Side of the square that has one point on average, where there are points.
+double meanSpacing(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kPerCell = 16.0;  // points of the cells that show where there are points
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& point : points) box.extend(point.head<2>());
+  const double count = static_cast<double>(points.size());
+  const double size = std::sqrt(kPerCell * std::max(1e-6, box.volume()) / count);
+  std::set<Cell> occupied;
+  for (const Eigen::Vector3d& point : points) occupied.insert(cellOf(point, size));
+  return size * std::sqrt(static_cast<double>(occupied.size()) / count);
+}
+
 }  // namespace
+
+void AreaMatcher::StripPart::add(const StripPart& other, std::size_t i) {
+  biased.push_back(other.biased[i]);
+  times.push_back(other.times[i]);
+  single.push_back(other.single[i]);
+  intensity.push_back(other.intensity[i]);
+  turning.push_back(other.turning[i]);
+}
+
+void AreaMatcher::evenOut() {
+  for (StripPart& part : surfaces_) {
+    if (part.held() || part.biased.size() < kTooFew) continue;
+    const double size = meanSpacing(part.biased);
+    std::set<Cell> taken;
+    StripPart even;
+    for (std::size_t i = 0; i < part.biased.size(); ++i)
+      if (taken.insert(cellOf(part.biased[i], size)).second) even.add(part, i);
+    even.strip = part.strip;
+    part = std::move(even);
+  }
+}
 
 bool AreaMatcher::isMixed(const std::vector<double>& times,
                           const std::array<std::int32_t, 3>& triangle) {
@@ -48,12 +93,7 @@ bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Traje
   for (std::size_t i = 0; i < whole.biased.size(); ++i) {
     const bool ahead = !trajectory.poseAt(whole.times[i], pose, cursor) ||
                        (pose.rotation.transpose() * (whole.biased[i] - pose.position)).y() > 0.0;
-    StripPart& look = looks[ahead ? 0 : 1];
-    look.biased.push_back(whole.biased[i]);
-    look.times.push_back(whole.times[i]);
-    look.single.push_back(whole.single[i]);
-    look.intensity.push_back(whole.intensity[i]);
-    look.turning.push_back(whole.turning[i]);
+    looks[ahead ? 0 : 1].add(whole, i);
   }
   for (StripPart& look : looks) {
     if (look.biased.size() < kTooFew) return false;

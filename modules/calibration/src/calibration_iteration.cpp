@@ -88,41 +88,6 @@ double largestEffect(const std::vector<AreaObservations>& observations,
 
 }  // namespace
 
-void SystemCalibrationEngine::correctPoints(State& state) {
-  const ErrorSourceVector sources = sourcesOf(state);
-  const bool unchanged = state.corrected == state.choice.solution.biases &&
-                         state.corrected_differences == state.differences &&
-                         state.corrected_sources == sources;
-  if (!state.solved() || unchanged) return;
-  state.corrected = state.choice.solution.biases;
-  state.corrected_differences = state.differences;
-  state.corrected_sources = sources;
-  std::vector<BiasEvaluator> evaluators;
-  for (const SystemUnknowns& difference : state.differences) {
-    const SystemVector biases =
-        state.choice.solution.biases + difference.head<kSystemParameterCount>();
-    evaluators.emplace_back(trajectory_, biases);
-  }
-  std::vector<AreaMatcher::StripCorrection> corrections;
-  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    const auto system = static_cast<std::size_t>(systems_.of(static_cast<int>(strip)));
-    corrections.push_back({&evaluators[system], state.differences[system].tail<3>()});
-  }
-  forOwnAreas([&](std::size_t i) { matchers_[i].correct(corrections, sources, *trajectory_); });
-}
-
-void SystemCalibrationEngine::selectPairs(State& state) {
-  PairSelectionSettings settings;
-  settings.budget = settings_.pair_budget;
-  const PairSelection selection(state.observations, state.weights.weights(), state.adjustment,
-                                state.choice.solution, settings);
-  forOwnAreas([&](std::size_t i) {
-    if (i < pair_areas_) matchers_[i].keep(state.observations[i], selection.chosen()[i]);
-  });
-  state.chosen_points = AreaMatcher::Points::kept;
-  state.moved = HUGE_VAL;
-}
-
 bool SystemCalibrationEngine::isUpdateWithin(const State& state, const SystemVector& before,
                                              double deviations) {
   const AdjustmentSolution& solution = state.choice.solution;
@@ -172,19 +137,6 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
                       std::to_string(result.iterations.size()) + " iterations";
   state.recent_updates.setZero();
   return true;
-}
-
-void SystemCalibrationEngine::samplePairs(State& state, std::size_t pairs) {
-  const std::size_t before = state.sampling;
-  state.sampling = std::max<std::size_t>(1, before * state.observationCount() / pairs);
-  if (state.sampling != before) formPairs(state);
-}
-
-void SystemCalibrationEngine::pairAllCandidates(State& state) {
-  if (state.all() && !state.isSampled()) return;
-  state.sampling = 1;
-  state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);
 }
 
 void SystemCalibrationEngine::leaveCoarse(State& state) {
@@ -256,7 +208,8 @@ void SystemCalibrationEngine::iterate(State& state, CalibrationResult& result) {
   result.iterations.push_back({state.observationCount(), state.weights.sigma0(), effect});
   if (progress_) progress_(result.iterations.back());
   const bool components_changed = components_open && !state.components.unchanged;
-  if (done > 2 && !components_changed && state.components.estimates > 0 &&
+  if (done > 2 && !components_changed && !state.arePairsOutdated() &&
+      state.components.estimates > 0 &&
       (effect < settings_.convergence ||
        (of_systems < State::kSmallMovement && isUpdateWithin(state, before, kNegligible)))) {
     closeConverged(state);

@@ -137,7 +137,9 @@ void SystemCalibrationEngine::findScanPlanes() {
   for (const ScannerDetection* strip : strips) ++patterns[strip->assess().pattern];
   const std::size_t cones = patterns[ScannerPattern::conical];
   conical_ = 2 * cones > strips.size();
-  source_scale_.about_axis = 2 * (cones + patterns[ScannerPattern::rosette]) > strips.size();
+  const std::size_t rosettes = patterns[ScannerPattern::rosette];
+  rosette_ = 2 * rosettes > strips.size();
+  source_scale_.about_axis = 2 * (cones + rosettes) > strips.size();
   scanners_.clear();
   if (planes.empty()) return;
   attitude_remarks_.push_back("the scanner has " + std::to_string(planes.size()) +

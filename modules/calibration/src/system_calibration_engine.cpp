@@ -65,6 +65,7 @@ std::size_t SystemCalibrationEngine::prepare() {
   std::vector<std::vector<double>> roughness(matchers_.size());
   forOwnAreas([&](std::size_t i) {
     const bool control = i >= pair_areas_;
+    if (rosette_ && !control) matchers_[i].evenOut();
     matchers_[i].prepare(settings_.patches, control ? 0 : candidates.per_strip,
                          settings_.resolution, *trajectory_);
     matchers_[i].collectRoughness(roughness[i]);
@@ -77,76 +78,6 @@ std::size_t SystemCalibrationEngine::prepare() {
   const double most = std::min(settings_.patches.roughness, kRoughnessFactor * plain);
   for (AreaMatcher& matcher : matchers_) matcher.limitRoughness(most, plain);
   return candidates.pairs;
-}
-
-void SystemCalibrationEngine::formPairs(State& state) {
-  correctPoints(state);
-  state.moved = 0.0;
-  state.weighed = false;
-  state.observations.assign(matchers_.size(), {});
-  state.far.assign(matchers_.size(), {});
-  const AreaMatcher::DistanceLimits limits{state.threshold, settings_.max_normal_distance};
-  forOwnAreas([&](std::size_t i) {
-    if (i < pair_areas_) {
-      AreaMatcher::PairsByDistance found = matchers_[i].matchByDistance(
-          pairs_, limits, *trajectory_, settings_.noise, state.chosen_points, state.sampling);
-      state.observations[i] = std::move(found.near);
-      state.far[i] = std::move(found.far);
-    } else {
-      state.observations[i] = matchControl(i, state.threshold);
-    }
-    removeSources(state.held_sources, state.observations[i]);
-    removeSources(state.held_sources, state.far[i]);
-  });
-  shareVectors(processes_, area_shares_, state.observations);
-}
-
-void SystemCalibrationEngine::addFarPairs(State& state) {
-  state.threshold = settings_.max_normal_distance;
-  if (!state.all() || state.isSampled() || state.arePairsOutdated()) {
-    state.chosen_points = AreaMatcher::Points::candidates;
-    state.sampling = 1;
-    formPairs(state);
-    return;
-  }
-  forOwnAreas([&](std::size_t i) {
-    if (i < pair_areas_) return;
-    state.far[i] = matchControl(i, state.threshold);
-    removeSources(state.held_sources, state.far[i]);
-  });
-  shareVectors(processes_, area_shares_, state.far);
-  for (std::size_t i = 0; i < matchers_.size(); ++i) {
-    AreaObservations& all = state.observations[i];
-    if (i >= pair_areas_) all.clear();
-    all.insert(all.end(), state.far[i].begin(), state.far[i].end());
-  }
-}
-
-AreaObservations SystemCalibrationEngine::matchControl(std::size_t area, double threshold) const {
-  const ControlPoint& point = control_[area - pair_areas_];
-  // Strips that agree with each other may all be displaced in plan.
-  const bool target = point.kind == ControlPoint::Kind::target;
-  return matchers_[area].matchControl({point}, target ? settings_.max_normal_distance : threshold,
-                                      *trajectory_, settings_.noise, settings_.control_sigma);
-}
-
-void SystemCalibrationEngine::warnOfUncoveredControl(const State& state) {
-  const auto seen = [](const AreaObservations& area) {
-    return std::any_of(area.begin(), area.end(),
-                       [](const PairObservation& o) { return !o.isInPlan(); });
-  };
-  const auto held = [this](const AreaObservations& area) {
-    return std::any_of(area.begin(), area.end(),
-                       [this](const PairObservation& o) { return isHeld(o); });
-  };
-  const auto first = state.observations.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
-  const bool points = std::any_of(first, state.observations.end(), seen);
-  control_covered_ = points || std::any_of(state.observations.begin(), first, held);
-  if (control_.empty() || points) return;
-  warnings_.push_back("none of the " + std::to_string(control_.size()) +
-                      " control points lies on a smooth surface of a strip: calibrated without "
-                      "them" +
-                      (control_remark_.empty() ? "" : "; " + control_remark_));
 }
 
 void SystemCalibrationEngine::weigh(State& state) const {

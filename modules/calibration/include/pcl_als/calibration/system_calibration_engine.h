@@ -308,6 +308,7 @@ class SystemCalibrationEngine {
   std::vector<LeftOutPoints> left_out_;
   HeightError height_error_;  ///< of the trajectory, from recorded scan angles
   bool conical_ = false;      ///< whether the scanner is conical
+  bool rosette_ = false;      ///< whether it describes rosettes
   ErrorSourceScale source_scale_;
   Communicator* processes_ = nullptr;
   SharedItems strip_shares_, area_shares_;  ///< which processes read and form pairs
