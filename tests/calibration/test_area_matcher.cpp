@@ -91,6 +91,50 @@ TEST(AreaMatcher, MeasuresAVerticalShiftInBothDirections) {
   EXPECT_LT(forward, static_cast<int>(found.size()) - 200);
 }
 
+TEST(AreaMatcher, DividesPairsByDistance) {
+  const Trajectory trajectory = flight();
+  const auto a = sampled(1, -8.0, 58.0, {0, 0, 0});
+  auto b = sampled(2, -8.0, 58.0, {0, 0, -0.05});
+  for (LidarReturn& p : b)
+    if (p.position.x() > 25.0) p.position.z() -= 0.1;
+  const AreaMatcher matcher = matcherOf(a, b);
+  const auto found = matcher.matchByDistance({{0, 1}}, {0.1, 0.5}, trajectory, NoiseModel());
+  const AreaObservations near = matcher.match({{0, 1}}, 0.1, trajectory, NoiseModel());
+  const AreaObservations all = matcher.match({{0, 1}}, 0.5, trajectory, NoiseModel());
+  ASSERT_EQ(found.near.size(), near.size());
+  EXPECT_EQ(found.near.size() + found.far.size(), all.size());
+  EXPECT_GT(found.near.size(), 100U);
+  EXPECT_GT(found.far.size(), 100U);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    EXPECT_EQ(found.near[i].point, near[i].point);
+    EXPECT_EQ(found.near[i].sharing, near[i].sharing);
+  }
+  // Chords: distances along the normal of the neighbourhood differ from those of the triangle.
+  for (const PairObservation& o : found.far)
+    EXPECT_GT(std::abs(o.distance(SystemVector::Zero())), 0.09);
+}
+
+/// One point in four has three others within centimetres, as along the lines of a rosette.
+TEST(AreaMatcher, EvensOutDensePoints) {
+  AreaMatcher matcher(kArea, 1);
+  const std::vector<LidarReturn> single = sampled(8, -8.0, 58.0, {0, 0, 0});
+  for (std::size_t i = 0; i < single.size(); ++i) {
+    for (int k = 0; k < (i % 4 == 0 ? 4 : 1); ++k) {
+      LidarReturn p = single[i];
+      p.position.x() += 0.02 * k;
+      matcher.add(0, p);
+    }
+  }
+  const std::size_t before = matcher.pointCount();
+  matcher.evenOut();
+  // A cell of the mean spacing holds a point with a probability of 1 - 1/e at an even density.
+  const double kept = static_cast<double>(matcher.pointCount()) / static_cast<double>(before);
+  EXPECT_GT(kept, 0.40);
+  EXPECT_LT(kept, 0.60);
+  matcher.prepare(SurfaceCriterion(), 500, 0.001, flight());
+  EXPECT_GT(matcher.surfaceOf(0).tin().triangles().size(), matcher.pointCount());
+}
+
 TEST(AreaMatcher, KeepsAwayFromEavesAndRidges) {
   const Trajectory trajectory = flight();
   const auto a = sampled(3, -8.0, 58.0, {0, 0, 0}), b = sampled(4, -8.0, 58.0, {0.3, 0, 0});
