@@ -48,8 +48,19 @@ def _stage(build, stage):
         _run("cmake", "--install", build, "--prefix", stage, "--component", component)
     extension, = stage.glob("lib/python3*/dist-packages/pcl_als/_pcl_als*.so")
     for library in _libraries_of(extension, stage):
-        shutil.copy(library, extension.parent / library.name)
+        _copy(library, extension.parent)
     return extension.parent
+
+
+def _copy(library, folder):
+    """A library that is also built for newer processors: both, the other in the loader's folder."""
+    parts = library.parts
+    if "glibc-hwcaps" in parts:
+        newer = folder.joinpath(*parts[parts.index("glibc-hwcaps"):])
+        newer.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(library, newer)
+        library = library.parents[2] / library.name
+    shutil.copy(library, folder / library.name)
 
 
 def _metadata(tag):

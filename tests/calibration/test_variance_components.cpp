@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Factors, Likelihood, testing::Values(1.0, 0.199));
 TEST(VarianceComponents, AreNearTheMostLikely) {
   // With the prior of the components. A standard deviation s of a component changes -2 ln of the
   // likelihood by one. The expectation is s^2 / 2 above the most likely logarithm, which changes it
-  // by s^2 / 4, at most by 0.125; the search leaves a step of 0.05.
+  // by s^2 / 4, at most by 0.125; the search leaves steps of 0.01 each.
   AllComponents block(1.0);
   const SharedErrorLevels best = estimateLevels(block.adjustment, kSix).expected;
   const auto cost = [&](const std::array<double, SharedErrorLevels::kCount>& values) {

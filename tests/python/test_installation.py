@@ -21,7 +21,7 @@ pcl_als.calibrate(sys.argv[2:], sys.argv[1], settings=settings)
 with open("/proc/self/maps") as maps:
     loaded = {line.split(maxsplit=5)[5].strip() for line in maps if "libpcl_als" in line}
 print(os.path.dirname(pcl_als.__file__))
-print(*sorted({os.path.dirname(path) for path in loaded}), sep="\\n")
+print(*sorted({os.path.dirname(path).split("/glibc-hwcaps/")[0] for path in loaded}), sep="\\n")
 """
 
 

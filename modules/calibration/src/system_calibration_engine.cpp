@@ -145,8 +145,10 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
   }
   if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
+    constexpr double kFirst = 0.05, kLater = 0.01;  // tolerances: another estimation follows
     const EstimatedLevels estimated =
-        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely);
+        estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely,
+                       state.components.estimates > 1 ? kLater : kFirst);
     state.components.unchanged = estimated.expected.near(levels);
     state.components.most_likely = estimated.most_likely;
     choose(state);

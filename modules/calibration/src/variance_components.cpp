@@ -113,8 +113,7 @@ SharedErrorLevels expectedLevels(const Vector& minimum, const Objective& at) {
 }  // namespace
 
 EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
-                               const SharedErrorLevels& start) {
-  constexpr double kNegligible = 0.05;  // of -2 ln likelihood; a standard deviation changes it by 1
+                               const SharedErrorLevels& start, double tolerance) {
   constexpr double kLargestRadius = 4.0;
   constexpr int kMostEvaluations = 40;
   Vector best = logarithmsOf(start);
@@ -124,7 +123,7 @@ EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemP
     const Vector next = (best + stepOf(at, radius)).cwiseMax(kLowest).cwiseMin(kHighest);
     const Vector step = next - best;
     const double predicted = predictedChange(at, step);
-    if (predicted > -kNegligible) break;
+    if (predicted > -tolerance) break;
     const Objective there = objectiveAt(next, adjustment, estimate);
     const double ratio = (there.value - at.value) / predicted;
     if (!(ratio > 0.25)) radius = 0.5 * step.norm();

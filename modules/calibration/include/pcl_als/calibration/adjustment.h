@@ -206,12 +206,13 @@ struct EstimatedLevels {
  * the logarithm of the factor (scale: a factor of e): a component that the observations do not
  * determine keeps the model's variance, and one that they do determine is hardly affected by the
  * prior. The minimum is found by Newton's method within a trust region, with the average
- * information as the curvature, in the logarithms of the factors; it is found where a further step
- * would change -2 ln of the likelihood by less than 0.05 (a standard deviation changes it by one).
+ * information as the curvature, in the logarithms of the factors.
  *
  * \param start the most likely components of similar observations, if there are any
+ * \param tolerance the search ends where a further step would change -2 ln of the likelihood by
+ * less (a standard deviation changes it by one)
  */
 EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemParameter>& estimate,
-                               const SharedErrorLevels& start = {});
+                               const SharedErrorLevels& start = {}, double tolerance = 0.01);
 
 }  // namespace pcl_als
