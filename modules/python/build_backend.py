@@ -93,8 +93,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         _build(build, given)
         package = _stage(build, folder / "stage")
         with WheelFile(os.path.join(wheel_directory, name), "w") as wheel:
-            for path in sorted(package.iterdir()):
-                wheel.write(str(path), f"pcl_als/{path.name}")
+            for path in sorted(path for path in package.rglob("*") if path.is_file()):
+                wheel.write(str(path), f"pcl_als/{path.relative_to(package)}")
             for file, text in _metadata(_tag()).items():
                 wheel.writestr(f"pcl_als-{_version()}.dist-info/{file}", text)
     return name

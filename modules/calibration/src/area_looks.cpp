@@ -49,9 +49,10 @@ void AreaMatcher::StripPart::add(const StripPart& other, std::size_t i) {
 }
 
 void AreaMatcher::evenOut() {
+  constexpr double kCell = 0.7;  // of the mean spacing: wider cells round off roofs
   for (StripPart& part : surfaces_) {
     if (part.held() || part.biased.size() < kTooFew) continue;
-    const double size = meanSpacing(part.biased);
+    const double size = kCell * meanSpacing(part.biased);
     std::set<Cell> taken;
     StripPart even;
     for (std::size_t i = 0; i < part.biased.size(); ++i)

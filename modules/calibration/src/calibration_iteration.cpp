@@ -19,17 +19,28 @@ constexpr double kSmall = 0.1;        // standard deviations: a smaller update e
 constexpr int kMostReductions = 3;    // parameters left out because the iteration does not converge
 constexpr int kAfterReduction = 10;   // iterations
 
+/// Calls \a visit with observations of the whole block, of which these are enough for its extent.
+template <class Visit>
+void visitSome(const std::vector<AreaObservations>& observations, const Visit& visit) {
+  constexpr std::size_t kEnough = 20'000;
+  std::size_t count = 0, first = 0;
+  for (const AreaObservations& area : observations) count += area.size();
+  const std::size_t every = std::max<std::size_t>(1, count / kEnough);
+  for (const AreaObservations& area : observations) {
+    for (; first < area.size(); first += every) visit(area[first]);
+    first -= area.size();
+  }
+}
+
 /// Upper bound of the movement of a ground point by a change of the biases, metres: the sum of the
 /// effects of all parameters.
 double largestEffect(const std::vector<AreaObservations>& observations,
                      const SystemVector& change) {
   double x = 0.0, z = 0.0;
-  for (const AreaObservations& area : observations) {
-    for (const PairObservation& o : area) {
-      x = std::max(x, o.lateral);
-      z = std::max(z, o.height);
-    }
-  }
+  visitSome(observations, [&](const PairObservation& o) {
+    x = std::max(x, o.lateral);
+    z = std::max(z, o.height);
+  });
   ScanGeometry geometry;
   geometry.x = x;
   geometry.z = -z;
@@ -42,23 +53,16 @@ double largestEffect(const std::vector<AreaObservations>& observations,
 /// point.
 double largestMovement(const std::vector<AreaObservations>& observations,
                        const SystemVector& change) {
-  constexpr std::size_t kEnough = 20'000;
-  std::size_t count = 0, index = 0;
-  for (const AreaObservations& area : observations) count += area.size();
-  const std::size_t every = std::max<std::size_t>(1, count / kEnough);
   double largest = 0.0;
-  for (const AreaObservations& area : observations) {
-    for (const PairObservation& o : area) {
-      if (index++ % every != 0) continue;
-      for (const double x : {o.lateral, -o.lateral}) {
-        ScanGeometry geometry;
-        geometry.x = x;
-        geometry.z = -o.height;
-        geometry.beta = -std::atan2(x, o.height);
-        largest = std::max(largest, (designBlock(geometry) * change).norm());
-      }
+  visitSome(observations, [&](const PairObservation& o) {
+    for (const double x : {o.lateral, -o.lateral}) {
+      ScanGeometry geometry;
+      geometry.x = x;
+      geometry.z = -o.height;
+      geometry.beta = -std::atan2(x, o.height);
+      largest = std::max(largest, (designBlock(geometry) * change).norm());
     }
-  }
+  });
   return largest;
 }
 

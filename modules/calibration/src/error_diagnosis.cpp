@@ -173,6 +173,7 @@ void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result) 
 }
 
 void addSourceEffects(const ErrorSourceVector& values, AreaObservations& observations) {
+  if (values.isZero(0.0)) return;
   for (PairObservation& o : observations) o.further += o.sources * values;
 }
 
