@@ -174,17 +174,18 @@ AreaNormal::AreaNormal(const AreaObservations& observations, const std::vector<d
   Partial sums;
   for (const auto& [unknowns, group] : groups) {
     const std::vector<Columns> columns = columnsOf(unknowns.first, unknowns.second);
-    sums.begin(group.front()->touched.used());
+    // Few observations have the further knots of a patch of mixed times in common.
+    const bool single = group.front()->touched.hasFurtherKnots();
+    if (!single) sums.begin(group.front()->touched.used());
     for (const Entry* entry : group) {
       const PairObservation& o = observations[entry->index];
       const double weight = weights[entry->index] / o.variance;
-      // Few observations have the further knots of a patch of mixed times in common.
-      if (entry->touched.hasFurtherKnots())
+      if (single)
         add(columns, entry->touched, o.misclosure, weight);
       else
         sums.add(entry->touched, o.misclosure, weight);
     }
-    if (group.front()->touched.hasFurtherKnots()) continue;
+    if (single) continue;
     sums.flush();
     add(columns, sums.matrix, sums.right);
   }

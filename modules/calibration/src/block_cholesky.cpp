@@ -334,9 +334,10 @@ InverseEntries BlockCholesky::inverse(int threads) const {
     forColumns(width, threads, [&](Eigen::Index first, Eigen::Index count) {
       const Eigen::Index rest = width - first;
       auto part = node->panel.block(first, first, rest, count);
-      part.noalias() =
-          own.bottomRightCorner(rest, rest).transpose() * own.block(first, first, rest, count);
-      part.noalias() += ratio.rightCols(rest).transpose() * product.middleCols(first, count);
+      part.setZero();
+      dense::addTransposedProduct(own.bottomRightCorner(rest, rest),
+                                  own.block(first, first, rest, count), part);
+      dense::addTransposedProduct(ratio.rightCols(rest), product.middleCols(first, count), part);
     });
     auto top = node->panel.topRows(width);
     top.triangularView<Eigen::StrictlyUpper>() = top.transpose();

@@ -146,16 +146,14 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
 void SystemCalibrationEngine::leaveCoarse(State& state) {
   state.phase = State::Phase::refinement;
   if (settings_.diagnose) considerSources();
-  state.sampling = 1;
-  state.chosen_points = AreaMatcher::Points::candidates;
-  formPairs(state);  // with the effects of the sources
+  formAllPairs(state);  // with the effects of the sources
 }
 
 void SystemCalibrationEngine::openVarianceComponents(State& state, std::size_t done) {
   // A selection represents all pairs at the biases for which it was made. Pairs are therefore
   // selected when the geometry has converged for the first time, and again at the end. Variance
   // components are estimated with all pairs only.
-  if (!state.all() && state.components.estimates == 0) pairAllCandidates(state);
+  if (state.components.estimates == 0) pairAllCandidates(state);
   if (!state.all()) return;
   if (state.phase == State::Phase::refinement) state.phase = State::Phase::variance_components;
   ++state.components.estimates;

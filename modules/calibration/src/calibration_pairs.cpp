@@ -75,9 +75,7 @@ void SystemCalibrationEngine::formPairs(State& state) {
 void SystemCalibrationEngine::addFarPairs(State& state) {
   state.threshold = settings_.max_normal_distance;
   if (!state.all() || state.isSampled() || state.arePairsOutdated()) {
-    state.chosen_points = AreaMatcher::Points::candidates;
-    state.sampling = 1;
-    formPairs(state);
+    formAllPairs(state);
     return;
   }
   forOwnAreas([&](std::size_t i) {
@@ -126,11 +124,14 @@ void SystemCalibrationEngine::samplePairs(State& state, std::size_t pairs) {
   if (state.sampling != before) formPairs(state);
 }
 
-void SystemCalibrationEngine::pairAllCandidates(State& state) {
-  if (state.all() && !state.isSampled()) return;
+void SystemCalibrationEngine::formAllPairs(State& state) {
   state.sampling = 1;
   state.chosen_points = AreaMatcher::Points::candidates;
   formPairs(state);
+}
+
+void SystemCalibrationEngine::pairAllCandidates(State& state) {
+  if (!state.all() || state.isSampled()) formAllPairs(state);
 }
 
 }  // namespace pcl_als

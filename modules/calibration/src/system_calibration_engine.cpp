@@ -19,7 +19,6 @@
 #include "control_consistency.h"
 #include "error_diagnosis.h"
 #include "misfit_comparison.h"
-#include "pair_selection.h"
 #include "pair_weights.h"
 #include "strip_error_check.h"
 #include "system_groups.h"

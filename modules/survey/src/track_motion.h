@@ -44,8 +44,7 @@ class TrackMotion {
 
   /// Metres per second at a bin; NaN where it is not known.
   double speed(std::size_t bin) const { return speeds_[bin]; }
-  /// Median of the speeds weighted by the distance flown, so that time at rest has no influence; 0
-  /// where nothing moves.
+  /// Distance-weighted median of the speed, metres per second; 0 where nothing moves.
   double typicalSpeed(const Span& span) const;
   /// Velocity around a time within a span; empty where its course is uncertain, or where the speed
   /// is not above \a least.

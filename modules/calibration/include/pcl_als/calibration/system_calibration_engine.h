@@ -241,7 +241,8 @@ class SystemCalibrationEngine {
   void openIteration(State& state, std::size_t done);
   void leaveCoarse(State& state);
   void samplePairs(State& state, std::size_t pairs);
-  void pairAllCandidates(State& state);
+  void formAllPairs(State& state);
+  void pairAllCandidates(State& state);  ///< unless they are
   void openVarianceComponents(State& state, std::size_t done);
   void closeSelection(State& state) const;
   void closeConverged(State& state) const;
