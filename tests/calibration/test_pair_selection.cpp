@@ -221,18 +221,18 @@ TEST(PairWeights, FindsHowWellASystemPoints) {
   std::mt19937_64 random(2);
   std::normal_distribution<double> normal;
   std::vector<AreaObservations> areas(1);
-  std::vector<std::vector<double>> residuals(1);
+  PairWeights::Residuals residuals(1);
   for (int i = 0; i < 4000; ++i) {
     PairObservation o = pairAt(100.0, Eigen::Vector3d::UnitZ());
     const bool slope = i % 2 == 0;
     o.pointing = slope ? 4e-4 : 0.0;
     o.variance = 4e-4 + o.pointing;
     areas[0].push_back(o);
-    residuals[0].push_back(0.02 * normal(random));
+    residuals[0].emplace_back(o, 0.02 * normal(random));
   }
   PairWeights weights;
-  weights.findScales(areas, residuals);
-  weights.update(areas, residuals, true);
+  weights.findScales(residuals);
+  weights.update(residuals, true);
   EXPECT_LE(weights.pointingFactor(), 0.1);
   // Weight over the model's variance: slopes count as much as flat ground.
   EXPECT_NEAR(weights.weights()[0][0] / areas[0][0].variance,
@@ -244,17 +244,17 @@ TEST(PairWeights, RejectsOutliersOnlyWhenAsked) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   std::vector<AreaObservations> areas(1);
-  std::vector<std::vector<double>> residuals(1);
+  PairWeights::Residuals residuals(1);
   for (int i = 0; i < 1000; ++i) {
     areas[0].push_back(pairAt(100.0, Eigen::Vector3d::UnitZ()));
-    residuals[0].push_back(i % 10 == 0 ? 0.5 : 0.02 * normal(random));
+    residuals[0].emplace_back(areas[0].back(), i % 10 == 0 ? 0.5 : 0.02 * normal(random));
   }
   PairWeights weights;
-  weights.findScales(areas, residuals);
-  weights.update(areas, residuals, true);
+  weights.findScales(residuals);
+  weights.update(residuals, true);
   EXPECT_EQ(weights.weights()[0][0], 0.0);
   EXPECT_NEAR(static_cast<double>(weights.kept()), 900.0, 1.0);
-  weights.update(areas, residuals, false);
+  weights.update(residuals, false);
   EXPECT_EQ(weights.kept(), 1000U);
   EXPECT_LT(weights.weights()[0][0], 0.1);  // Huber: 1.5 of some 25 standard deviations
 }

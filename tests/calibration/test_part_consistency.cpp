@@ -19,10 +19,13 @@ std::vector<PartDifference> differences(double extra, unsigned seed) {
       o.misclosure += o.row()[indexOf(P::scan_angle_scale)] * extra;
   }
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
-  const auto weights = unitWeights(areas);
-  AreaAdjustment adjustment{errors, Adjustment(errors).levels(), areas, weights, {}, kSix, 1};
-  for (std::size_t i = 0; i < areas.size(); ++i)
+  Adjustment whole(errors, 1);
+  whole.accumulate(areas, unitWeights(areas));
+  AreaAdjustment adjustment{whole, {}, {}, kSix};
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    adjustment.pairs.push_back(areas[i].size());
     adjustment.places.emplace_back(50.0 * static_cast<double>(i), 7.0 * static_cast<double>(i % 2));
+  }
   return partDifferences(adjustment);
 }
 

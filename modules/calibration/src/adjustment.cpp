@@ -133,14 +133,8 @@ std::unique_ptr<const StripCovariance> Adjustment::stripCovariance(
 
 double Adjustment::residual(const PairObservation& observation,
                             const AdjustmentSolution& solution) const {
-  const TouchedRow touched(observation, errors_);
-  double left = observation.misclosure - touched.row.head<kGlobal>() * solution.biases;
-  for (int slot = 0; slot < TouchedRow::kSlots; ++slot) {
-    if (touched.knots[slot] < 0) continue;
-    left -= touched.row.segment<kKnot>(TouchedRow::slot(slot)) *
-            solution.shared.segment<kKnot>(touched.knots[slot] * kKnot);
-  }
-  return left;
+  return observation.misclosure - observation.row() * solution.biases -
+         sharedEffect(observation, errors_, solution.shared);
 }
 
 Adjustment::Share Adjustment::shareOf(std::size_t area, const AdjustmentSolution& solution) const {

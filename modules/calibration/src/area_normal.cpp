@@ -15,47 +15,72 @@
 
 namespace pcl_als {
 
-TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
-  knots.fill(-1);
-  row.head<kSystemParameterCount>() = o.row();
+namespace {
+
+/// The point (side 0) or the patch (side 1) of a strip.
+struct Side {
+  int index, strip, surface;
+  double time, sign;
+  const SystemRow& design;
+  const PairTurn& turn;
+};
+
+template <class Use>
+void forSides(const PairObservation& o, const Use& use) {
   if (o.a != PairObservation::kControl)
-    place({0, o.a, o.surfaceA(), o.time_a, 1.0, o.row_a, o.turn_a}, o, errors);
-  place({1, o.b, o.surfaceB(), o.time_b, -1.0, o.row_b, o.turn_b}, o, errors);
-  for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
-    knots[kKnots + i] = errors.instrumentBlock() + i;
-  row.segment<kErrorSourceCount>(kInstrument) = o.sources;
+    use(Side{0, o.a, o.surfaceA(), o.time_a, 1.0, o.row_a, o.turn_a});
+  use(Side{1, o.b, o.surfaceB(), o.time_b, -1.0, o.row_b, o.turn_b});
 }
 
-void TouchedRow::place(const Side& side, const PairObservation& o, const SharedErrors& errors) {
-  if (errors.systems().isFlown(side.strip)) placeTrajectory(side, o, errors);
-  surfaces[static_cast<std::size_t>(side.index)] = side.surface;
-  row.segment<kShift>(shift(side.index)) =
-      side.sign * errors.shiftScale(side.strip) * o.normal.transpose();
-  placeSystem(side, o.normal, errors);
+/// Effect of the six trajectory errors at a time.
+using Effect = Eigen::Matrix<double, 1, TouchedRow::kKnot>;
+
+/// Calls \a add(knot, effect) with the effects of the knots before and after a time.
+template <class Add>
+void interpolate(const Side& side, double time, const Effect& effect, const SharedErrors& errors,
+                 const Add& add) {
+  const SharedErrors::Place where = errors.placeOf(side.strip, time);
+  add(where.knot, (1.0 - where.next) * effect);
+  if (where.next_knot != where.knot) add(where.next_knot, where.next * effect);
 }
 
-void TouchedRow::placeTrajectory(const Side& side, const PairObservation& o,
-                                 const SharedErrors& errors) {
+/// The same of all trajectory errors of a side.
+template <class Add>
+void forKnots(const Side& side, const PairObservation& o, const SharedErrors& errors,
+              const Add& add) {
+  if (!errors.systems().isFlown(side.strip)) return;
   Effect effect;
   if (side.index == 0 || !o.mixed_times) {
     effect << o.normal.transpose(),
         side.design.segment<3>(indexOf(SystemParameter::boresight_pitch)) +
             side.turn.cast<double>();
-    addEffect(side, side.time, side.sign * effect, errors);
+    interpolate(side, side.time, side.sign * effect, errors, add);
     return;
   }
   for (const PairObservation::Vertex& vertex : o.vertices) {
     effect << o.normal.transpose(), vertex.turn.cast<double>();
-    addEffect(side, side.time + vertex.after, side.sign * vertex.weight * effect, errors);
+    interpolate(side, side.time + vertex.after, side.sign * vertex.weight * effect, errors, add);
   }
 }
 
-void TouchedRow::addEffect(const Side& side, double time, const Effect& effect,
-                           const SharedErrors& errors) {
-  const SharedErrors::Place where = errors.placeOf(side.strip, time);
-  row.segment<kKnot>(slot(slotOf(side.index, where.knot))) += (1.0 - where.next) * effect;
-  if (where.next_knot != where.knot)
-    row.segment<kKnot>(slot(slotOf(side.index, where.next_knot))) += where.next * effect;
+}  // namespace
+
+TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
+  knots.fill(-1);
+  row.head<kSystemParameterCount>() = o.row();
+  forSides(o, [&](const Side& side) {
+    forKnots(side, o, errors, [&](int knot, const Effect& effect) {
+      row.segment<kKnot>(slot(slotOf(side.index, knot))) += effect;
+    });
+    surfaces[static_cast<std::size_t>(side.index)] = side.surface;
+    row.segment<kShift>(shift(side.index)) =
+        side.sign * errors.shiftScale(side.strip) * o.normal.transpose();
+    placeSystem(side.index, errors.systems().of(side.strip), side.sign * side.design,
+                side.sign * o.normal, errors);
+  });
+  for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
+    knots[kKnots + i] = errors.instrumentBlock() + i;
+  row.segment<kErrorSourceCount>(kInstrument) = o.sources;
 }
 
 int TouchedRow::slotOf(int side, int knot) {
@@ -71,15 +96,31 @@ int TouchedRow::slotOf(int side, int knot) {
   throw std::logic_error("TouchedRow: a patch has more than six knots");
 }
 
-void TouchedRow::placeSystem(const Side& side, const Eigen::Vector3d& normal,
-                             const SharedErrors& errors) {
-  const int system = errors.systems().of(side.strip);
+void TouchedRow::placeSystem(int side, int system, const SystemRow& design,
+                             const Eigen::Vector3d& offset, const SharedErrors& errors) {
   if (system == 0) return;
   constexpr int kBlocks = SharedErrors::kSystemBlocks;
-  const int first = kSystems + side.index * kBlocks;
+  const int first = kSystems + side * kBlocks;
   for (int i = 0; i < kBlocks; ++i) knots[first + i] = errors.systemBlock(system) + i;
-  row.segment<kSystemParameterCount>(slot(first)) = side.sign * side.design;
-  row.segment<3>(slot(first) + kSystemParameterCount) = side.sign * normal.transpose();
+  row.segment<kSystemParameterCount>(slot(first)) = design;
+  row.segment<3>(slot(first) + kSystemParameterCount) = offset.transpose();
+}
+
+double sharedEffect(const PairObservation& o, const SharedErrors& errors,
+                    const Eigen::VectorXd& shared) {
+  constexpr int kKnot = TouchedRow::kKnot;
+  double sum = o.sources * shared.segment<kErrorSourceCount>(errors.instrumentBlock() * kKnot);
+  forSides(o, [&](const Side& side) {
+    forKnots(side, o, errors, [&](int knot, const Effect& effect) {
+      sum += effect.dot(shared.segment<kKnot>(knot * kKnot));
+    });
+    const int system = errors.systems().of(side.strip);
+    if (system == 0) return;
+    const int at = errors.systemBlock(system) * kKnot;
+    sum += side.sign * (side.design.dot(shared.segment<kSystemParameterCount>(at)) +
+                        o.normal.dot(shared.segment<3>(at + kSystemParameterCount)));
+  });
+  return sum;
 }
 
 namespace {
@@ -129,15 +170,15 @@ class Partial {
   }
   void add(const TouchedRow& touched, double misclosure, double weight) {
     const double root = std::sqrt(weight);
-    rows_.row(count_).head(columns_) = root * touched.row.head(columns_);
+    rows_.col(count_).head(columns_) = root * touched.row.head(columns_).transpose();
     misclosures_[count_] = root * misclosure;
     if (++count_ == kRows) flush();
   }
   void flush() {
     if (count_ == 0) return;
-    const auto rows = rows_.topLeftCorner(count_, columns_);
-    dense::addNormal(rows, matrix);
-    right.noalias() += rows.transpose() * misclosures_.head(count_);
+    const auto rows = rows_.topLeftCorner(columns_, count_);
+    dense::addSquare(rows, matrix);
+    right.noalias() += rows * misclosures_.head(count_);
     count_ = 0;
   }
 
@@ -146,8 +187,8 @@ class Partial {
 
  private:
   static constexpr int kRows = 32;
-  Eigen::Matrix<double, kRows, TouchedRow::kSize> rows_ =
-      Eigen::Matrix<double, kRows, TouchedRow::kSize>::Zero();
+  Eigen::Matrix<double, TouchedRow::kSize, kRows> rows_ =  // one in each column
+      Eigen::Matrix<double, TouchedRow::kSize, kRows>::Zero();
   Eigen::Matrix<double, kRows, 1> misclosures_ = Eigen::Matrix<double, kRows, 1>::Zero();
   int count_ = 0, columns_ = 0;
 };

@@ -48,24 +48,16 @@ struct TouchedRow {
   bool hasFurtherKnots() const { return knots[kFurther] >= 0; }
 
  private:
-  /// The point (side 0) or the patch (side 1) of a strip.
-  struct Side {
-    int index, strip, surface;
-    double time, sign;
-    const SystemRow& design;
-    const PairTurn& turn;
-  };
-  /// Effect of the six trajectory errors at a time.
-  using Effect = Eigen::Matrix<double, 1, kKnot>;
-  void place(const Side& side, const PairObservation& observation, const SharedErrors& errors);
-  void placeTrajectory(const Side& side, const PairObservation& observation,
-                       const SharedErrors& errors);
-  /// Adds the effect of the errors of a strip at a time.
-  void addEffect(const Side& side, double time, const Effect& effect, const SharedErrors& errors);
   /// The slot of a knot of the point or of the patch, a new one where it has none.
   int slotOf(int side, int knot);
-  void placeSystem(const Side& side, const Eigen::Vector3d& normal, const SharedErrors& errors);
+  void placeSystem(int side, int system, const SystemRow& design, const Eigen::Vector3d& offset,
+                   const SharedErrors& errors);
 };
+
+/// Effect of shared errors, shifts excepted, on the distance of a pair, metres: the product of a
+/// TouchedRow and the solution, without forming the row. \param shared in the order of SharedErrors
+double sharedEffect(const PairObservation& observation, const SharedErrors& errors,
+                    const Eigen::VectorXd& shared);
 
 /// Normal equations of one area: parameters, the knots of its observations, the shifts of its
 /// surfaces.

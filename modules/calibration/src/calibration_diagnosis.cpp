@@ -88,13 +88,10 @@ void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& er
   judgeControl(control, spread, result);
 }
 
-void SystemCalibrationEngine::assessParts(State& state, const SharedErrors& errors,
-                                          CalibrationResult& result) const {
+void SystemCalibrationEngine::assessParts(const State& state, CalibrationResult& result) const {
   if (state.choice.estimate.empty()) return;
-  weigh(state);  // the last pairs have no weights yet
-  AreaAdjustment adjustment{
-      errors, state.adjustment.levels(), state.observations, state.weights.weights(),
-      {},     state.choice.estimate,     settings_.threads};
+  AreaAdjustment adjustment{state.adjustment, {}, {}, state.choice.estimate};
+  for (const AreaObservations& area : state.observations) adjustment.pairs.push_back(area.size());
   for (const SurveyArea& area : areas_) {
     adjustment.places.emplace_back(area.minimum + Eigen::Vector2d::Constant(0.5 * area.size));
   }

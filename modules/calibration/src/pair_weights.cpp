@@ -77,7 +77,7 @@ double unlikeliness(const Values& values, double pointing_factor) {
 
 }  // namespace
 
-PairWeights::Group PairWeights::groupOf(const PairObservation& o) {
+PairResidual::Group PairResidual::groupOf(const PairObservation& o) {
   if (o.a == PairObservation::kControl) return {o.a, o.a - static_cast<int>(o.control_error)};
   return {std::min(o.a, o.b), std::max(o.a, o.b)};
 }
@@ -99,17 +99,14 @@ double PairWeights::mostLikelyPointing(const std::map<Group, Values>& groups, in
                                            costs.begin())];
 }
 
-void PairWeights::findScales(const std::vector<AreaObservations>& observations,
-                             const std::vector<std::vector<double>>& residuals, int threads) {
+void PairWeights::findScales(const Residuals& residuals, int threads) {
   std::map<Group, Values> groups;
-  for (std::size_t area = 0; area < observations.size(); ++area) {
+  for (const std::vector<PairResidual>& area : residuals) {
     auto current = groups.end();  // pairs of a group follow each other
-    for (std::size_t i = 0; i < observations[area].size(); ++i) {
-      const PairObservation& o = observations[area][i];
-      const Group group = groupOf(o);
-      if (current == groups.end() || current->first != group)
-        current = groups.try_emplace(group).first;
-      current->second.add(residuals[area][i], o.variance, o.pointing);
+    for (const PairResidual& pair : area) {
+      if (current == groups.end() || current->first != pair.group)
+        current = groups.try_emplace(pair.group).first;
+      current->second.add(pair.residual, pair.variance, pair.pointing);
     }
   }
   pointing_ = mostLikelyPointing(groups, threads);
@@ -123,34 +120,29 @@ void PairWeights::findScales(const std::vector<AreaObservations>& observations,
     if (isOfPlan(group)) scales_[group] = std::max(scales_[group], 1.0);
 }
 
-PairWeights::Kept PairWeights::weigh(const AreaObservations& observations,
-                                     const std::vector<double>& residuals, bool reject,
+PairWeights::Kept PairWeights::weigh(const std::vector<PairResidual>& residuals, bool reject,
                                      std::vector<double>& weights) const {
   Kept kept;
-  weights.reserve(observations.size());
+  weights.reserve(residuals.size());
   auto found = scales_.end();
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    const PairObservation& o = observations[i];
-    const Group group = groupOf(o);
-    if (found == scales_.end() || found->first != group) found = scales_.find(group);
+  for (const PairResidual& pair : residuals) {
+    if (found == scales_.end() || found->first != pair.group) found = scales_.find(pair.group);
     const double scale = found == scales_.end() ? 1.0 : found->second;
-    const double variance = scale * scale * varianceWith(pointing_, o.variance, o.pointing);
-    const double robust = robustWeight(residuals[i] / std::sqrt(variance), reject);
-    weights.push_back(robust * o.variance / (variance * o.sharing));
+    const double variance = scale * scale * varianceWith(pointing_, pair.variance, pair.pointing);
+    const double robust = robustWeight(pair.residual / std::sqrt(variance), reject);
+    weights.push_back(robust * pair.variance / (variance * pair.sharing));
     if (robust == 0.0) continue;
-    kept.squares += residuals[i] * residuals[i] / o.variance;
+    kept.squares += pair.residual * pair.residual / pair.variance;
     ++kept.pairs;
   }
   return kept;
 }
 
-void PairWeights::update(const std::vector<AreaObservations>& observations,
-                         const std::vector<std::vector<double>>& residuals, bool reject,
-                         int threads) {
-  weights_.assign(observations.size(), {});
-  std::vector<Kept> kept(observations.size());
-  parallelFor(observations.size(), threads, [&](std::size_t area) {
-    kept[area] = weigh(observations[area], residuals[area], reject, weights_[area]);
+void PairWeights::update(const Residuals& residuals, bool reject, int threads) {
+  weights_.assign(residuals.size(), {});
+  std::vector<Kept> kept(residuals.size());
+  parallelFor(residuals.size(), threads, [&](std::size_t area) {
+    kept[area] = weigh(residuals[area], reject, weights_[area]);
   });
   Kept sum;
   for (const Kept& of_area : kept) {

@@ -11,6 +11,25 @@
 
 namespace pcl_als {
 
+/// What the weight of a pair depends on: a copy, because observations are ten times as large.
+struct PairResidual {
+  /// Strips of an observation, smaller first; all control of one kind together, because a single
+  /// strip covers few control points.
+  using Group = std::pair<int, int>;
+  static Group groupOf(const PairObservation& observation);
+
+  PairResidual(const PairObservation& observation, double of_solution)
+      : group(groupOf(observation)),
+        residual(of_solution),
+        variance(observation.variance),
+        pointing(observation.pointing),
+        sharing(observation.sharing) {}
+
+  Group group;
+  double residual;                     ///< metres
+  double variance, pointing, sharing;  ///< as of PairObservation
+};
+
 /** \brief Weights of pairs from the residuals of a solution.
  *
  * The noise model gives the ratios of the variances of pairs; their scale is estimated from the
@@ -21,20 +40,16 @@ namespace pcl_als {
  */
 class PairWeights {
  public:
-  /// Strips of an observation, smaller first; all control of one kind together, because a single
-  /// strip covers few control points.
-  using Group = std::pair<int, int>;
-  static Group groupOf(const PairObservation& observation);
+  using Group = PairResidual::Group;
+  using Residuals = std::vector<std::vector<PairResidual>>;  ///< by area and observation
 
-  /// Estimates the scales. \param residuals by area and observation, metres
-  void findScales(const std::vector<AreaObservations>& observations,
-                  const std::vector<std::vector<double>>& residuals, int threads = 0);
+  /// Estimates the scales.
+  void findScales(const Residuals& residuals, int threads = 0);
 
   /// Computes weights with the scales estimated last.
   /// \param reject whether outliers are rejected: not while residuals contain the effect of the
   /// biases
-  void update(const std::vector<AreaObservations>& observations,
-              const std::vector<std::vector<double>>& residuals, bool reject, int threads = 0);
+  void update(const Residuals& residuals, bool reject, int threads = 0);
 
   /// Robust weight times the variance of the model over the estimated one, over the noise that the
   /// pair shares with others, for Adjustment::accumulate.
@@ -55,8 +70,8 @@ class PairWeights {
   };
 
   static double mostLikelyPointing(const std::map<Group, Values>& groups, int threads);
-  Kept weigh(const AreaObservations& observations, const std::vector<double>& residuals,
-             bool reject, std::vector<double>& weights) const;
+  Kept weigh(const std::vector<PairResidual>& residuals, bool reject,
+             std::vector<double>& weights) const;
 
   std::map<Group, double> scales_;
   std::vector<std::vector<double>> weights_;

@@ -19,29 +19,28 @@ constexpr std::size_t kFewest = 4;  // areas of a half
 std::vector<bool> secondHalf(const AreaAdjustment& adjustment, int axis) {
   std::vector<std::size_t> order;
   std::size_t pairs = 0;
-  for (std::size_t i = 0; i < adjustment.observations.size(); ++i) {
-    if (adjustment.observations[i].empty()) continue;
+  for (std::size_t i = 0; i < adjustment.pairs.size(); ++i) {
+    if (adjustment.pairs[i] == 0) continue;
     order.push_back(i);
-    pairs += adjustment.observations[i].size();
+    pairs += adjustment.pairs[i];
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return adjustment.places[a][axis] < adjustment.places[b][axis];
   });
-  std::vector<bool> second(adjustment.observations.size(), false);
+  std::vector<bool> second(adjustment.pairs.size(), false);
   std::size_t before = 0, areas = 0;
   for (const std::size_t i : order) {
     second[i] = 2 * before >= pairs;
-    before += adjustment.observations[i].size();
+    before += adjustment.pairs[i];
     areas += second[i] ? 1 : 0;
   }
   if (areas < kFewest || order.size() < areas + kFewest) second.clear();
   return second;
 }
 
-AdjustmentSolution halfOf(const Adjustment& whole, const AreaAdjustment& adjustment,
-                          std::vector<bool> second, bool which) {
+AdjustmentSolution halfOf(const AreaAdjustment& adjustment, std::vector<bool> second, bool which) {
   if (!which) second.flip();
-  const Adjustment half(whole, second);
+  const Adjustment half(adjustment.whole, second);
   return half.solve(adjustment.estimate, SystemVector::Zero());
 }
 
@@ -49,17 +48,14 @@ AdjustmentSolution halfOf(const Adjustment& whole, const AreaAdjustment& adjustm
 
 std::vector<PartDifference> partDifferences(const AreaAdjustment& adjustment) {
   std::vector<PartDifference> found;
-  Adjustment whole(adjustment.errors, adjustment.threads);
-  whole.setLevels(adjustment.levels);
-  whole.accumulate(adjustment.observations, adjustment.weights);
-  const AdjustmentSolution all = whole.solve(adjustment.estimate, SystemVector::Zero());
+  const AdjustmentSolution all = adjustment.whole.solve(adjustment.estimate, SystemVector::Zero());
   const char* const names[] = {"the western and the eastern half",
                                "the southern and the northern half"};
   for (int axis = 0; all.solved && axis < 2; ++axis) {
     const std::vector<bool> second = secondHalf(adjustment, axis);
     if (second.empty()) continue;
-    const AdjustmentSolution low = halfOf(whole, adjustment, second, false);
-    const AdjustmentSolution high = halfOf(whole, adjustment, second, true);
+    const AdjustmentSolution low = halfOf(adjustment, second, false);
+    const AdjustmentSolution high = halfOf(adjustment, second, true);
     if (!low.solved || !high.solved) continue;
     for (const SystemParameter parameter : adjustment.estimate) {
       const int i = indexOf(parameter);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,12 @@
 
 namespace pcl_als {
 
-/// An adjustment by areas, at its last observations and weights.
+/// An adjustment by areas, with its last normal equations.
 struct AreaAdjustment {
-  const SharedErrors& errors;
-  SharedErrorLevels levels;
-  const std::vector<AreaObservations>& observations;
-  const std::vector<std::vector<double>>& weights;
+  const Adjustment& whole;
+  std::vector<std::size_t> pairs;       ///< by area
   std::vector<Eigen::Vector2d> places;  ///< centres of the areas, metres
   std::vector<SystemParameter> estimate;
-  int threads = 0;
 };
 
 /// A parameter that differs between two halves of a block.
@@ -33,7 +31,7 @@ struct PartDifference {
  * explain.
  *
  * The block is halved at the median of its pairs, from west to east and from south to north, and
- * each half is adjusted alone with the observations, weights and variance components of the block.
+ * each half is adjusted alone with the normal equations and variance components of the block.
  * A bias of the system is the same everywhere; deformations of the strips and errors of the scanner
  * that the model does not contain are not. The standard deviation of the difference takes the
  * halves as independent; trajectory errors that they share make the comparison conservative. A

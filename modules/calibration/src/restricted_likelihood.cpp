@@ -178,7 +178,8 @@ void LikelihoodEquations::differentiate(const std::vector<AreaNormal>& areas, in
 }  // namespace
 
 RestrictedLikelihood Adjustment::restrictedLikelihood(
-    const SharedErrorLevels& levels, const std::vector<SystemParameter>& estimate) const {
+    const SharedErrorLevels& levels, const std::vector<SystemParameter>& estimate,
+    double differentiated_below) const {
   const bool same_local = levels.local == levels_.local;
   const std::unique_ptr<const ErrorNormal> other =
       same_local ? nullptr : assemble(errors_.localVariance(levels));
@@ -186,7 +187,8 @@ RestrictedLikelihood Adjustment::restrictedLikelihood(
   RestrictedLikelihood result;
   if (!equations.solved()) return result;
   result.deviance = equations.deviance();
-  equations.differentiate(area_normals_, threads_, result);
+  if (result.deviance < differentiated_below)
+    equations.differentiate(area_normals_, threads_, result);
   return result;
 }
 

@@ -80,18 +80,16 @@ std::size_t SystemCalibrationEngine::prepare() {
 }
 
 void SystemCalibrationEngine::weigh(State& state) const {
-  std::vector<std::vector<double>> residuals(state.observations.size());
+  PairWeights::Residuals residuals(state.observations.size());
   parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
     residuals[area].reserve(state.observations[area].size());
-    for (const PairObservation& o : state.observations[area]) {
-      residuals[area].push_back(state.adjustment.residual(o, state.choice.solution) - o.offset);
-    }
+    for (const PairObservation& o : state.observations[area])
+      residuals[area].emplace_back(
+          o, state.adjustment.residual(o, state.choice.solution) - o.offset);
   });
   // A selection is not representative: it consists mostly of slopes far from the flight line.
-  if (state.all()) {
-    state.weights.findScales(state.observations, residuals, settings_.threads);
-  }
-  state.weights.update(state.observations, residuals, state.solved(), settings_.threads);
+  if (state.all()) state.weights.findScales(residuals, settings_.threads);
+  state.weights.update(residuals, state.solved(), settings_.threads);
   state.weighed = true;
 }
 
@@ -144,7 +142,7 @@ void SystemCalibrationEngine::adjust(State& state, bool estimate_components) con
   }
   if (estimate_components && !state.choice.estimate.empty()) {
     const SharedErrorLevels levels = state.adjustment.levels();
-    constexpr double kFirst = 0.05, kLater = 0.01;  // tolerances: another estimation follows
+    constexpr double kFirst = 0.05, kLater = 0.02;  // tolerances: another estimation follows
     const EstimatedLevels estimated =
         estimateLevels(state.adjustment, state.choice.estimate, state.components.most_likely,
                        state.components.estimates > 1 ? kLater : kFirst);
@@ -164,7 +162,7 @@ void SystemCalibrationEngine::shrinkThreshold(State& state) const {
   std::map<PairWeights::Group, std::vector<double>> distances;
   for (const AreaObservations& area : state.observations) {
     for (const PairObservation& o : area) {
-      distances[PairWeights::groupOf(o)].push_back(o.distance(state.choice.solution.biases));
+      distances[PairResidual::groupOf(o)].push_back(o.distance(state.choice.solution.biases));
     }
   }
   for (const auto& [group, values] : distances) {
@@ -349,7 +347,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   assessStripErrors(settings_.shared_errors, effects, result);
   assessHeight(height_error_, result);
   judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
-  assessParts(state, errors, result);  // larger standard deviations must not make a result usable
+  assessParts(state, result);  // larger standard deviations must not make a result usable
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/linear_solvers.h>
@@ -35,22 +36,29 @@ Vector logarithmsOf(const SharedErrorLevels& levels) {
 /// Restricted likelihood with the prior of the components, as a quadratic function about a point.
 struct Objective {
   double value = 0.0;
-  Vector gradient;
+  Vector gradient = Vector::Zero();
   SymmetricEigen<Eigen::Dynamic> curvature;
 };
 
 /// -2 ln of the prior is 2 ln(1 + x^2) for a logarithm x: Cauchy of scale 1, so that components may
 /// vanish for systems that are far more accurate than their data sheet.
+double priorDeviance(const Vector& logarithms) {
+  return 2.0 * logarithms.unaryExpr([](double x) { return std::log1p(x * x); }).sum();
+}
+
+/// \param known a value that is already known: a larger one has no derivatives
 Objective objectiveAt(const Vector& logarithms, const Adjustment& adjustment,
-                      const std::vector<SystemParameter>& estimate) {
+                      const std::vector<SystemParameter>& estimate,
+                      double known = std::numeric_limits<double>::infinity()) {
   constexpr double kLeastCurvature = 0.01;
+  const double of_prior = priorDeviance(logarithms);
   const RestrictedLikelihood likelihood =
-      adjustment.restrictedLikelihood(levelsOf(logarithms), estimate);
-  Objective objective{likelihood.deviance, likelihood.gradient, {}};
+      adjustment.restrictedLikelihood(levelsOf(logarithms), estimate, known - of_prior);
+  Objective objective{likelihood.deviance + of_prior, likelihood.gradient, {}};
+  if (std::isfinite(known) && !(objective.value < known)) return objective;
   Matrix curvature = likelihood.information;
   for (int k = 0; k < kComponents; ++k) {
     const double x = logarithms[k], weight = 4.0 / (1.0 + x * x);
-    objective.value += 2.0 * std::log1p(x * x);
     objective.gradient[k] += weight * x;
     // Second derivatives with respect to the logarithm contain the gradient as well. Without its
     // positive values, a component that is far too large decreases in one step. The prior's
@@ -124,7 +132,7 @@ EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemP
     const Vector step = next - best;
     const double predicted = predictedChange(at, step);
     if (predicted > -tolerance) break;
-    const Objective there = objectiveAt(next, adjustment, estimate);
+    const Objective there = objectiveAt(next, adjustment, estimate, at.value);
     const double ratio = (there.value - at.value) / predicted;
     if (!(ratio > 0.25)) radius = 0.5 * step.norm();
     if (ratio > 0.75) radius = std::min(kLargestRadius, 2.0 * radius);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/planning/block_advice.h>
@@ -181,17 +182,21 @@ namespace {
 std::vector<Advice> adviceFor(const ObservedBlock& block, const AdjustedBlock& now,
                               const SystemVector& factor, const ObservabilitySettings& settings) {
   const SyntheticPairs pairs(settings.pairs);
-  std::vector<Advice> helpful;
-  for (Advice& advice : virtualAdditions(block)) {
-    const ObservedBlock larger = with(advice, block, pairs);
-    const AdjustedBlock then(larger, settings);
+  std::vector<Advice> additions = virtualAdditions(block);
+  std::vector<char> helps(additions.size());
+  parallelFor(additions.size(), settings.threads, [&](std::size_t i) {
+    Advice& advice = additions[i];
+    const AdjustedBlock then(with(advice, block, pairs), settings);
     advice.before = now.expected().cwiseProduct(factor);
     advice.after = then.expected().cwiseProduct(factor);
     advice.benefit = benefitOf(now.deviations(), then.deviations());
     const std::string effect = effectOf(advice.before, advice.after, now, then);
     advice.text = advice.what + " would " + effect;
-    if (advice.benefit > kLeastBenefit && !effect.empty()) helpful.push_back(std::move(advice));
-  }
+    helps[i] = advice.benefit > kLeastBenefit && !effect.empty() ? 1 : 0;
+  });
+  std::vector<Advice> helpful;
+  for (std::size_t i = 0; i < additions.size(); ++i)
+    if (helps[i] != 0) helpful.push_back(std::move(additions[i]));
   std::stable_sort(helpful.begin(), helpful.end(),
                    [](const Advice& a, const Advice& b) { return a.benefit > b.benefit; });
   return helpful;

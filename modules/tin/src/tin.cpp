@@ -95,21 +95,25 @@ void Tin::movePoints(std::vector<Eigen::Vector3d> points) {
   // Few inverted triangles do no harm: walks and searches get past them. Many mean that measured
   // points have passed each other, as those of the forward and backward arcs of a conical scanner
   // do.
-  constexpr std::size_t kTrianglesPerInverted = 1000;
-  if (invertedTriangles() * kTrianglesPerInverted > triangles_.size())
-    *this = Tin(std::move(points_), resolution_);
+  constexpr double kMostInverted = 0.001;
+  if (shareOfInverted() > kMostInverted) *this = Tin(std::move(points_), resolution_);
 }
 
-/// Triangles inside the hull that are no longer counter-clockwise. Those along the hull are thin,
-/// turn over for any movement, and are not used to measure on.
-std::size_t Tin::invertedTriangles() const {
-  return static_cast<std::size_t>(
-      std::count_if(triangles_.begin(), triangles_.end(), [this](const Triangle& t) {
-        if (std::count(t.neighbour.begin(), t.neighbour.end(), kNone) > 0) return false;
-        const Eigen::Vector3d &a = points_[t.vertex[0]], &b = points_[t.vertex[1]],
-                              &c = points_[t.vertex[2]];
-        return tin::orientation(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) <= 0.0;
-      }));
+/// Share of the triangles that are inside the hull and no longer counter-clockwise, of a sample of
+/// them. Triangles along the hull are thin, turn over for any movement, and are not used to measure
+/// on.
+double Tin::shareOfInverted() const {
+  constexpr std::size_t kEnough = 8192;
+  const std::size_t every = std::max<std::size_t>(1, triangles_.size() / kEnough);
+  std::size_t inverted = 0, examined = 0;
+  for (std::size_t i = 0; i < triangles_.size(); i += every, ++examined) {
+    const Triangle& t = triangles_[i];
+    if (std::count(t.neighbour.begin(), t.neighbour.end(), kNone) > 0) continue;
+    const Eigen::Vector3d &a = points_[t.vertex[0]], &b = points_[t.vertex[1]],
+                          &c = points_[t.vertex[2]];
+    if (tin::orientation(a.x(), a.y(), b.x(), b.y(), c.x(), c.y()) <= 0.0) ++inverted;
+  }
+  return examined > 0 ? static_cast<double>(inverted) / static_cast<double>(examined) : 0.0;
 }
 
 bool Tin::certain(std::int32_t triangle, const Eigen::AlignedBox2d& covered) const {

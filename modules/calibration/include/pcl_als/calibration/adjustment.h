@@ -80,8 +80,10 @@ class Adjustment {
   /// Likelihood of variance components after accumulate(); the parameters in \a estimate are
   /// integrated out. Computes a factor of the normal matrix and the entries of its inverse where
   /// the prior or an area couple unknowns: the cost of about three solutions.
-  RestrictedLikelihood restrictedLikelihood(const SharedErrorLevels& levels,
-                                            const std::vector<SystemParameter>& estimate) const;
+  /// \param differentiated_below derivatives are computed of a smaller deviance only
+  RestrictedLikelihood restrictedLikelihood(
+      const SharedErrorLevels& levels, const std::vector<SystemParameter>& estimate,
+      double differentiated_below = std::numeric_limits<double>::infinity()) const;
 
   /// Solves for the parameters in \a estimate; the others are held at their values in \a held.
   /// \a prior_information: inverse variances of priors of mean zero, zero for none.

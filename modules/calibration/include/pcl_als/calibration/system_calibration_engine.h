@@ -271,7 +271,7 @@ class SystemCalibrationEngine {
   /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
   /// Adds the parameters that differ between halves of the block.
-  void assessParts(State& state, const SharedErrors& errors, CalibrationResult& result) const;
+  void assessParts(const State& state, CalibrationResult& result) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   CalibrationSettings settings_;

@@ -103,7 +103,7 @@ class Tin {
   struct Step;
   Step stepFrom(std::int32_t at, std::int32_t from, int first, double x, double y) const;
   Location wander(double x, double y, std::int32_t at) const;
-  std::size_t invertedTriangles() const;
+  double shareOfInverted() const;
 
   std::vector<Eigen::Vector3d> points_;
   std::vector<Triangle> triangles_;
