@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <pcl_als/common/errors.h>
@@ -84,6 +85,36 @@ PointFileSources surveySources(const std::filesystem::path& path,
   return surveySources(*PointReader::open(path), also);
 }
 
+namespace {
+
+/// The points of a chunk from one row to another, which have the same id.
+PointSource sourceOf(const PointChunk& chunk, std::size_t from, std::size_t to) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PointSource source{chunk.point_source_id[from], to - from};
+  double first = kInfinity, last = -kInfinity;
+  for (std::size_t i = from; i < to; ++i) {
+    const double time = chunk.gps_time[i];
+    const bool timed = std::isfinite(time) && time != 0.0;
+    source.without_time += timed ? 0 : 1;
+    first = std::min(first, timed ? time : kInfinity);
+    last = std::max(last, timed ? time : -kInfinity);
+  }
+  if (source.hasTimes()) source.first_time = first, source.last_time = last;
+  const std::vector<double>* const columns[] = {&chunk.x, &chunk.y, &chunk.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double* const values = columns[axis]->data();
+    double least = kInfinity, most = -kInfinity;
+    for (std::size_t i = from; i < to; ++i) {
+      least = std::min(least, values[i]);
+      most = std::max(most, values[i]);
+    }
+    source.minimum[axis] = least, source.maximum[axis] = most;
+  }
+  return source;
+}
+
+}  // namespace
+
 PointFileSources surveySources(PointReader& reader,
                                const std::function<void(const PointChunk&)>& also) {
   PointFileSources file{reader.info(), {}, reader.damage()};
@@ -92,14 +123,13 @@ PointFileSources surveySources(PointReader& reader,
   PointChunk chunk;
   while (reader.read(chunk)) {
     file.info.point_count += chunk.size();
-    for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
-      const double time = chunk.gps_time[i];
-      const std::uint64_t no_time = std::isfinite(time) && time != 0.0 ? 0 : 1;
-      const std::uint16_t id = chunk.point_source_id[i];
-      const PointSource one{id, 1, time, time, point, point, no_time};
-      const auto [found, added] = sources.try_emplace(id, one);
-      if (!added) found->second.merge(one);
+    for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
+      const std::uint16_t id = chunk.point_source_id[from];
+      for (to = from + 1; to < chunk.size() && chunk.point_source_id[to] == id; ++to) {
+      }
+      const PointSource run = sourceOf(chunk, from, to);
+      const auto [found, added] = sources.try_emplace(id, run);
+      if (!added) found->second.merge(run);
     }
     if (also) also(chunk);
   }

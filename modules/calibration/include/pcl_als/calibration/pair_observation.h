@@ -129,7 +129,7 @@ struct WeightedObservations {
 };
 
 /// So many observations represent a block in further adjustments.
-inline constexpr std::size_t kRepresentative = 20'000;
+inline constexpr std::size_t kRepresentative = 10'000;
 
 /// Every k-th observation of an area with k times its weight and zero misclosure, so that about
 /// \a count remain, and all control: nearly the same information at less cost.
