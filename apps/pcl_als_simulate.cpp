@@ -30,10 +30,11 @@ void declareScene(CommandLine& line) {
 }
 
 void addNoise(CommandLine& line) {
-  line.add<std::string>("noise",
-                        "none; range: 2 cm; realistic: also encoder, footprint, intensity, "
-                        "control and slowly drifting trajectory errors",
-                        "none");
+  line.add<std::string>(
+      "noise",
+      "none; range: 2 cm; realistic: also encoder, refractive index, footprint, intensity, "
+      "control and slowly drifting trajectory errors",
+      "none");
   line.addOptional("ins",
                    "trajectory errors of a GNSS/INS in place of those of -noise: survey (2 cm, 9\" "
                    "roll and pitch, 18\" heading), tactical (3 cm, 54\", 126\"), mems (4 cm, 90\", "

@@ -52,6 +52,26 @@ TEST(SimulatorNoise, RangeNoiseIsTwoCentimetresAlongTheBeam) {
   EXPECT_NEAR(along.mean(), 0.0, 4e-4);
 }
 
+/// Ranges of a session have a common relative error, of another size in every block.
+TEST(SimulatorNoise, RefractiveIndexScalesTheRanges) {
+  SimulationOptions options = oneLine();
+  RunningStatistics scales;
+  for (options.seed = 1; options.seed <= 40; ++options.seed) {
+    options.noise.refraction = 0.0;
+    const SimulatedPoint exact = Simulator(options).strip(0).front();
+    options.noise.refraction = 1e-4;
+    const SimulatedPoint p = Simulator(options).strip(0).front();
+    ASSERT_EQ(p.surface, exact.surface);
+    // Along the pulse: the height of the sensor is 540 m above the ground, whose relief is 35 m.
+    const double height = (p.position - exact.position).z() / 540.0;
+    ASSERT_LT(std::abs(height), 5e-4);
+    scales.add(height);
+  }
+  // Standard errors of 40 values: 1.6e-5 and 1.1e-5.
+  EXPECT_NEAR(scales.mean(), 0.0, 5e-5);
+  EXPECT_NEAR(scales.standardDeviation(), 1e-4, 4e-5);
+}
+
 TEST(SimulatorNoise, TrajectoryErrorsHaveTheirSize) {
   const Simulator simulator(longLine(25000.0));
   const auto written = simulator.trajectory(), exact = simulator.trueTrajectory();

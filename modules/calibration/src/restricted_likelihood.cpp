@@ -177,9 +177,9 @@ void LikelihoodEquations::differentiate(const std::vector<AreaNormal>& areas, in
 
 }  // namespace
 
-RestrictedLikelihood Adjustment::restrictedLikelihood(
-    const SharedErrorLevels& levels, const std::vector<SystemParameter>& estimate,
-    double differentiated_below) const {
+RestrictedLikelihood Adjustment::restrictedLikelihood(const SharedErrorLevels& levels,
+                                                      const std::vector<SystemParameter>& estimate,
+                                                      double differentiated_below) const {
   const bool same_local = levels.local == levels_.local;
   const std::unique_ptr<const ErrorNormal> other =
       same_local ? nullptr : assemble(errors_.localVariance(levels));

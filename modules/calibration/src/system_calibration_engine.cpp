@@ -84,8 +84,8 @@ void SystemCalibrationEngine::weigh(State& state) const {
   parallelFor(residuals.size(), settings_.threads, [&](std::size_t area) {
     residuals[area].reserve(state.observations[area].size());
     for (const PairObservation& o : state.observations[area])
-      residuals[area].emplace_back(
-          o, state.adjustment.residual(o, state.choice.solution) - o.offset);
+      residuals[area].emplace_back(o,
+                                   state.adjustment.residual(o, state.choice.solution) - o.offset);
   });
   // A selection is not representative: it consists mostly of slopes far from the flight line.
   if (state.all()) state.weights.findScales(residuals, settings_.threads);

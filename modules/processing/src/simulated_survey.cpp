@@ -158,6 +158,7 @@ nlohmann::ordered_json biasJson(const SystemVector& bias) {
 nlohmann::ordered_json noiseJson(const simulation::NoiseOptions& noise, const std::string& name) {
   nlohmann::ordered_json json = {{"level", name},
                                  {"range_m", noise.range},
+                                 {"refraction_ppm", 1e6 * noise.refraction},
                                  {"scan_angle_arcsec", noise.scan_angle / kRadiansPerArcsec},
                                  {"footprint", noise.footprint},
                                  {"intensity_relative", noise.intensity},

@@ -67,6 +67,7 @@ NoiseOptions NoiseOptions::named(std::string_view level) {
   if (level != "realistic")
     throw UsageError("noise '" + std::string(level) + "': there are none, range, realistic");
   noise.scan_angle = 3.0 * kRadiansPerArcsec;
+  noise.refraction = 3e-6;
   noise.position = 0.015;
   noise.roll_pitch = 8.0 * kRadiansPerArcsec;
   noise.heading = 16.0 * kRadiansPerArcsec;
@@ -142,6 +143,7 @@ void SimulationOptions::check() const {
   require(targets, 0, 10000, "number of targets");
   require(target_diameter, 0.1, 20.0, "diameter of targets (m)");
   require(noise.range, 0.0, 1.0, "range noise (m)");
+  require(noise.refraction, 0.0, 1e-3, "error of the refractive index");
   require(noise.scan_angle, 0.0, 0.01, "scan angle noise (rad)");
   require(noise.position, 0.0, 10.0, "position noise (m)");
   require(noise.roll_pitch, 0.0, 0.01, "roll and pitch noise (rad)");

@@ -84,6 +84,12 @@ BeamAngles Channel::reported(const ScanPattern::Reading& reading) const {
   return beam;
 }
 
+/// Error of the refractive index in a session.
+double refractionOf(const SimulationOptions& options, int session) {
+  Random random(keyOf({options.seed, 0xA1F, static_cast<std::uint64_t>(session)}));
+  return options.noise.refraction * random.normal();
+}
+
 /// Fires the pulses of one chunk.
 class PulseRun {
  public:
@@ -92,6 +98,7 @@ class PulseRun {
       : options_(options),
         extinction_(extinction),
         line_(line),
+        refraction_(refractionOf(options, line.plan().session)),
         tracer_(scene, options.scanner, options.noise.footprint) {
     for (int i = 0; i < options.scanner.channels; ++i)
       channels_.emplace_back(options, line.plan(), i);
@@ -113,6 +120,7 @@ class PulseRun {
   const SimulationOptions& options_;
   double extinction_;
   const FlownLine& line_;
+  double refraction_;  ///< error of all ranges, relative
   std::vector<Channel> channels_;
   PulseTracer tracer_;
 };
@@ -204,7 +212,7 @@ void PulseRun::record(const Shot& shot, const Echo& echo, Random& random,
                       SimulatedPoint& point) const {
   const NoiseOptions& noise = options_.noise;
   const Channel& channel = shot.channel;
-  double measured = channel.true_system.measuredRange(echo.range);
+  double measured = channel.true_system.measuredRange(echo.range) + refraction_ * echo.range;
   if (noise.range > 0.0) {
     const double timing = noise.footprint ? kSpreadNoise * echo.spread : 0.0;
     measured += std::hypot(noise.range, timing) * random.normal();

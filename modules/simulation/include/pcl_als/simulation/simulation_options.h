@@ -21,6 +21,7 @@ namespace pcl_als::simulation {
 /// Standard deviations of the errors of the measurements; all zero: no errors.
 struct NoiseOptions {
   double range = 0.0;       ///< metres, white, one value per return
+  double refraction = 0.0;  ///< of the range: refractive index, one value per session
   double scan_angle = 0.0;  ///< radians, white, error of the mirror encoder per pulse
   double position = 0.0;    ///< metres per axis, trajectory
   double roll_pitch = 0.0;  ///< radians, trajectory
@@ -33,9 +34,9 @@ struct NoiseOptions {
 
   bool trajectory() const { return position > 0.0 || roll_pitch > 0.0 || heading > 0.0; }
 
-  /// "none"; "range": 2 cm, nothing else; "realistic": range 2 cm, encoder 3 arcsec, intensity 3 %,
-  /// control 1 cm, footprint, trajectory 1.5 cm, 8 arcsec roll and pitch, 16 arcsec heading over
-  /// 20 s. UsageError for another name.
+  /// "none"; "range": 2 cm, nothing else; "realistic": range 2 cm, encoder 3 arcsec, refractive
+  /// index 3 ppm, intensity 3 %, control 1 cm, footprint, trajectory 1.5 cm, 8 arcsec roll and
+  /// pitch, 16 arcsec heading over 20 s. UsageError for another name.
   static NoiseOptions named(std::string_view level);
 
   /// Sets the trajectory errors to those of a GNSS/INS after post-processing (standard deviations
