@@ -15,8 +15,18 @@ constexpr int kComponents = SharedErrorLevels::kCount;
 using Vector = Eigen::Matrix<double, kComponents, 1>;
 using Matrix = Eigen::Matrix<double, kComponents, kComponents>;
 
-// Range of the logarithms of the components: factors of 1/4096 and 16.
-const double kLowest = -12.0 * std::log(2.0), kHighest = 4.0 * std::log(2.0);
+// Range of the logarithms of the components: factors of 1/4096 and 16; 1024 for attitude, whose
+// errors differ that much between the grades of inertial systems. Larger position errors would
+// absorb heights in another unit.
+const double kLowest = -12.0 * std::log(2.0);
+
+// Of each component: position (and the shifts, which come last), roll and pitch, heading.
+constexpr int kKinds = 3;
+
+Vector highest() {
+  return Vector::NullaryExpr(
+      [](Eigen::Index k) { return (k % kKinds == 0 ? 4.0 : 10.0) * std::log(2.0); });
+}
 
 SharedErrorLevels levelsOf(const Vector& logarithms) {
   std::array<double, kComponents> values{};
@@ -40,10 +50,46 @@ struct Objective {
   SymmetricEigen<Eigen::Dynamic> curvature;
 };
 
-/// -2 ln of the prior is 2 ln(1 + x^2) for a logarithm x: Cauchy of scale 1, so that components may
+/// Of which component the logarithm of a component is expected a priori to be that of, where it is
+/// positive; -1: none. Grades of inertial systems differ in roll, pitch and heading alike, and
+/// short lines hardly determine errors of the heading.
+int followedBy(int component) {
+  return component < kComponents - 1 && component % kKinds == 2 ? component - 1 : -1;
+}
+
+// Largest variance of a logarithm: that of a component that only the prior determines.
+constexpr double kMostVariance = 0.5;
+
+/// Difference of a logarithm from its most likely value a priori: the variances of the model are
+/// expectations, exp(s^2 / 2) times the most likely ones.
+double fromExpected(const Vector& logarithms, int component) {
+  const int followed = followedBy(component);
+  const double centre = followed < 0 ? 0.0 : std::max(0.0, logarithms[followed]);
+  return logarithms[component] - (centre - 0.5 * kMostVariance);
+}
+
+/// -2 ln of the prior is 2 ln(1 + x^2) for a difference x: Cauchy of scale 1, so that components may
 /// vanish for systems that are far more accurate than their data sheet.
 double priorDeviance(const Vector& logarithms) {
-  return 2.0 * logarithms.unaryExpr([](double x) { return std::log1p(x * x); }).sum();
+  double sum = 0.0;
+  for (int k = 0; k < kComponents; ++k)
+    sum += 2.0 * std::log1p(std::pow(fromExpected(logarithms, k), 2));
+  return sum;
+}
+
+/// Adds the derivatives of priorDeviance(); the curvature is that of the parabola that touches it.
+void addPrior(const Vector& logarithms, Vector& gradient, Matrix& curvature) {
+  for (int k = 0; k < kComponents; ++k) {
+    const double x = fromExpected(logarithms, k), weight = 4.0 / (1.0 + x * x);
+    gradient[k] += weight * x;
+    curvature(k, k) += weight;
+    const int followed = followedBy(k);
+    if (followed < 0 || !(logarithms[followed] > 0.0)) continue;
+    gradient[followed] -= weight * x;
+    curvature(followed, followed) += weight;
+    curvature(k, followed) -= weight;
+    curvature(followed, k) -= weight;
+  }
 }
 
 /// \param known a value that is already known: a larger one has no derivatives
@@ -57,18 +103,15 @@ Objective objectiveAt(const Vector& logarithms, const Adjustment& adjustment,
   Objective objective{likelihood.deviance + of_prior, likelihood.gradient, {}};
   if (std::isfinite(known) && !(objective.value < known)) return objective;
   Matrix curvature = likelihood.information;
-  for (int k = 0; k < kComponents; ++k) {
-    const double x = logarithms[k], weight = 4.0 / (1.0 + x * x);
-    objective.gradient[k] += weight * x;
-    // Second derivatives with respect to the logarithm contain the gradient as well. Without its
-    // positive values, a component that is far too large decreases in one step. The prior's
-    // curvature is that of the parabola that touches it.
-    curvature(k, k) += std::min(0.0, likelihood.gradient[k]) + weight;
-  }
+  // Second derivatives with respect to the logarithm contain the gradient as well. Without its
+  // positive values, a component that is far too large decreases in one step.
+  curvature.diagonal() += likelihood.gradient.cwiseMin(0.0);
+  addPrior(logarithms, objective.gradient, curvature);
   // A component at a limit that would go beyond it stays there.
+  const Vector most = highest();
   for (int k = 0; k < kComponents; ++k) {
     const bool beyond =
-        objective.gradient[k] > 0.0 ? logarithms[k] <= kLowest : logarithms[k] >= kHighest;
+        objective.gradient[k] > 0.0 ? logarithms[k] <= kLowest : logarithms[k] >= most[k];
     if (!beyond) continue;
     objective.gradient[k] = 0.0;
     curvature.row(k).setZero();
@@ -106,14 +149,13 @@ double predictedChange(const Objective& at, const Vector& step) {
 /// smaller than the expected one, and so would the standard deviations of parameters be that rest
 /// on it.
 SharedErrorLevels expectedLevels(const Vector& minimum, const Objective& at) {
-  constexpr double kMost = 0.5;  // s^2 of a component that only the prior determines
   Vector logarithms = minimum;
   for (int k = 0; k < kComponents; ++k) {
     // The objective is -2 ln of the density.
     const double variance =
         2.0 *
         (at.curvature.vectors.row(k).cwiseAbs2() * at.curvature.values.cwiseInverse()).value();
-    logarithms[k] += 0.5 * std::min(kMost, variance);
+    logarithms[k] += 0.5 * std::min(kMostVariance, variance);
   }
   return levelsOf(logarithms);
 }
@@ -128,7 +170,7 @@ EstimatedLevels estimateLevels(Adjustment& adjustment, const std::vector<SystemP
   Objective at = objectiveAt(best, adjustment, estimate);
   double radius = kLargestRadius;
   for (int i = 1; i < kMostEvaluations && std::isfinite(at.value); ++i) {
-    const Vector next = (best + stepOf(at, radius)).cwiseMax(kLowest).cwiseMin(kHighest);
+    const Vector next = (best + stepOf(at, radius)).cwiseMax(kLowest).cwiseMin(highest());
     const Vector step = next - best;
     const double predicted = predictedChange(at, step);
     if (predicted > -tolerance) break;
