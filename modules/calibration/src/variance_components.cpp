@@ -68,8 +68,8 @@ double fromExpected(const Vector& logarithms, int component) {
   return logarithms[component] - (centre - 0.5 * kMostVariance);
 }
 
-/// -2 ln of the prior is 2 ln(1 + x^2) for a difference x: Cauchy of scale 1, so that components may
-/// vanish for systems that are far more accurate than their data sheet.
+/// -2 ln of the prior is 2 ln(1 + x^2) for a difference x: Cauchy of scale 1, so that components
+/// may vanish for systems that are far more accurate than their data sheet.
 double priorDeviance(const Vector& logarithms) {
   double sum = 0.0;
   for (int k = 0; k < kComponents; ++k)

@@ -204,11 +204,12 @@ struct EstimatedLevels {
 /** \brief Estimates the variance components of the shared errors by restricted maximum likelihood
  * (REML), and sets the adjustment to their expectations.
  *
- * Each is the variance of the model times a factor between 1/4096 and 16, with a Cauchy prior on
- * the logarithm of the factor (scale: a factor of e): a component that the observations do not
- * determine keeps the model's variance, and one that they do determine is hardly affected by the
- * prior. The minimum is found by Newton's method within a trust region, with the average
- * information as the curvature, in the logarithms of the factors.
+ * Each is the variance of the model times a factor between 1/4096 and 16 (attitude: 1024), with a
+ * Cauchy prior on the logarithm of the factor (scale: a factor of e): a component that the
+ * observations do not determine keeps the model's variance, and one that they do determine is
+ * hardly affected by the prior. The prior of a heading component is about that of roll and pitch
+ * where this is larger than the model's. The minimum is found by Newton's method within a trust
+ * region, with the average information as the curvature, in the logarithms of the factors.
  *
  * \param start the most likely components of similar observations, if there are any
  * \param tolerance the search ends where a further step would change -2 ln of the likelihood by
