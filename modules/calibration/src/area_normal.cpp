@@ -169,16 +169,14 @@ class Partial {
     right.setZero(columns);
   }
   void add(const TouchedRow& touched, double misclosure, double weight) {
-    const double root = std::sqrt(weight);
-    rows_.col(count_).head(columns_) = root * touched.row.head(columns_).transpose();
-    misclosures_[count_] = root * misclosure;
+    const auto row = touched.row.head(columns_).transpose();
+    rows_.col(count_).head(columns_) = std::sqrt(weight) * row;
+    right += weight * misclosure * row;
     if (++count_ == kRows) flush();
   }
   void flush() {
     if (count_ == 0) return;
-    const auto rows = rows_.topLeftCorner(columns_, count_);
-    dense::addSquare(rows, matrix);
-    right.noalias() += rows * misclosures_.head(count_);
+    dense::addSquare(rows_.topLeftCorner(columns_, count_), matrix);
     count_ = 0;
   }
 
@@ -189,7 +187,6 @@ class Partial {
   static constexpr int kRows = 32;
   Eigen::Matrix<double, TouchedRow::kSize, kRows> rows_ =  // one in each column
       Eigen::Matrix<double, TouchedRow::kSize, kRows>::Zero();
-  Eigen::Matrix<double, kRows, 1> misclosures_ = Eigen::Matrix<double, kRows, 1>::Zero();
   int count_ = 0, columns_ = 0;
 };
 

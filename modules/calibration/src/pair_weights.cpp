@@ -111,6 +111,7 @@ void PairWeights::findScales(const Residuals& residuals, int threads) {
   }
   pointing_ = mostLikelyPointing(groups, threads);
   std::vector<std::pair<const Values*, double*>> scales;
+  scales.reserve(groups.size());
   for (const auto& [group, values] : groups) scales.emplace_back(&values, &scales_[group]);
   parallelFor(scales.size(), threads,
               [&](std::size_t i) { *scales[i].second = scatterOf(*scales[i].first, pointing_); });
