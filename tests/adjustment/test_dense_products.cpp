@@ -55,9 +55,6 @@ TEST_F(DenseProducts, AddSquaresToTheLowerTriangle) {
   const Eigen::MatrixXd square = naiveProduct(a, a.transpose()).array() + 1.0;
   EXPECT_TRUE(lowerOf(sum).isApprox(lowerOf(square), rounding));
   EXPECT_EQ(sum(0, kSize - 1), 1.0);
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(32, 32);
-  dense::addNormal(a, normal);
-  EXPECT_TRUE(lowerOf(normal).isApprox(lowerOf(naiveProduct(a.transpose(), a)), rounding));
 }
 
 TEST_F(DenseProducts, SolveWithTheCholeskyFactor) {

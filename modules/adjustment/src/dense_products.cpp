@@ -22,10 +22,6 @@ void addSquare(const ConstView& a, View sum) {
   sum.selfadjointView<Eigen::Lower>().rankUpdate(a);
 }
 
-void addNormal(const ConstView& a, View sum) {
-  sum.selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
-}
-
 void multiply(const ConstView& a, const ConstView& b, View result) {
   result.noalias() = a * b;
 }

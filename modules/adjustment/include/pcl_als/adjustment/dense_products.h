@@ -27,8 +27,6 @@ void solveLower(const ConstView& lower, View right);
 void solveLowerFromRight(const ConstView& lower, View left);
 /// The lower triangle of \a sum += a a'.
 void addSquare(const ConstView& a, View sum);
-/// The lower triangle of \a sum += a' a.
-void addNormal(const ConstView& a, View sum);
 /// result = a b
 void multiply(const ConstView& a, const ConstView& b, View result);
 /// sum += a' b
