@@ -21,6 +21,7 @@ class ConicalBlock : public testing::TestWithParam<std::uint64_t> {
     simulation::SimulationOptions options =
         simulation::SimulationOptions::preset("conical", 1.0, 0.3);
     options.noise = simulation::NoiseOptions::named("realistic");
+    options.noise.refraction = 0.0;  // as when these blocks were chosen
     options.seed = GetParam();
     survey_.emplace(options);
     SimulatedSurvey::Request request;
@@ -102,9 +103,9 @@ TEST(SeveralScanPlanes, HaveTheScaleOfTheirOwnAngle) {
   }
 }
 
-// Of the seeds 31 to 60 only 31 has a time offset of a probability above 0.05 (0.56, at 3.2
-// standard deviations): 39 and 60 have the largest ones of the others.
-INSTANTIATE_TEST_SUITE_P(Seeds, ConicalBlock, testing::Values(34U, 39U, 60U));
+// With an error of the refractive index the time offset of seed 31 has a probability of 0.56, and
+// those of the seeds 32 to 60 at most 0.05.
+INSTANTIATE_TEST_SUITE_P(Seeds, ConicalBlock, testing::Values(31U, 34U, 39U, 60U));
 
 }  // namespace
 }  // namespace pcl_als
