@@ -121,19 +121,11 @@ while IFS= read -r file; do
   ((lines <= 400)) || breach "$file" "has $lines lines, more than 400"
 done < <(find modules apps tests share \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' \) | sort)
 
-# Functions are short enough to be read at once, and so is the source of a tool.
+# Functions are short enough to be read at once.
 while IFS=$'\t' read -r lines file line signature; do
   ((lines <= 57)) || breach "$file:$line" "a function of $lines lines, more than 57: $signature"
 done < <(find modules apps \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -exec \
   awk -f "$here/function_lengths.awk" {} +)
-while IFS= read -r file; do
-  lines=$(wc -l <"$file")
-  ((lines <= 250)) || breach "$file" "has $lines lines, more than 250 for a tool"
-done < <(find apps -maxdepth 1 -name '*.cpp' | sort)
-
-# The tools only parse options, call one job, print and save: they are short altogether.
-lines=$(find apps \( -name '*.cpp' -o -name '*.h' \) -exec cat {} + | wc -l)
-((lines <= 4000)) || breach apps "has $lines lines, more than 4000"
 
 # Every table of the glossary has the same columns.
 if [[ -e share/GLOSSARY.md ]] && grep -B1 -E '^\|[-|]+\|$' share/GLOSSARY.md | grep -vE '^(--|\|-)' |
