@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# Sourced by share/demo/run.sh and tests/run.sh: what a fresh Debian 12 machine needs, and how the
+# Sourced by share/demo/run.sh and tests/run.sh: what a fresh Debian (12 or 13) needs, and how the
 # project is configured there. Strict mode and the C locale are set for the caller.
 set -euo pipefail
 export LC_ALL=C
@@ -9,17 +9,24 @@ export LC_ALL=C
 pcl_als_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 pcl_als_build=${PCL_ALS_BUILD_DIR:-$pcl_als_root/build}
 
-# One entry per Debian package; after the colon the program or file that makes it unnecessary.
+# One entry per Debian package; after the colon the program or file that makes it unnecessary. What
+# every Debian has (packages marked essential, e.g. coreutils, grep, perl-base) is not listed;
+# tests/architecture/programs.sh finds programs of scripts that are missing here.
 pcl_als_packages_build=(
   g++:c++ cmake:cmake ninja-build:ninja ccache:ccache mawk:awk
-  libpcl-dev libeigen3-dev libboost-program-options-dev libproj-dev libgdal-dev
+  libpcl-dev libeigen3-dev libproj-dev libgdal-dev
   python3-dev pybind11-dev:/usr/include/pybind11/pybind11.h
   libceres-dev nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
   fonts-dejavu-core:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf xvfb:Xvfb
 )
 pcl_als_packages_test=(
-  libgtest-dev:/usr/include/gtest/gtest.h xz-utils:xz chromium:chromium
-  python3-numpy python3-matplotlib python3-pip python3-venv python3-wheel
+  libgtest-dev:/usr/include/gtest/gtest.h
+  xz-utils:xz           # real data
+  mount:mount           # full and read-only disks
+  procps:pgrep          # processes that are left behind
+  chromium:chromium     # reports in a browser
+  file:file dpkg-dev:dpkg-shlibdeps lintian:lintian  # CPack's Debian packages, and what is wrong with them
+  python3-numpy python3-matplotlib python3-venv      # the Python package, its examples, its installation
 )
 
 _pcl_als_present() {  # package[:program-or-file]

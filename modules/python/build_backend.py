@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
-"""A PEP 517 backend that builds the package with CMake; it needs CMake, Ninja and the package wheel.
+"""A PEP 517 backend that builds the package with CMake and Ninja; it needs no other Python package.
 
-Setting: build-dir=FOLDER, a build of the sources that is used and brought up to date. Without it
-the sources are built anew in a temporary folder, which takes some minutes.
+Setting: build-dir=FOLDER, a build of the sources that is used and brought up to date; a relative
+path is that from the top folder of the sources. Without it the sources are built anew in a temporary
+folder, which takes some minutes.
 """
+import base64
+import hashlib
 import os
 import pathlib
 import re
@@ -13,8 +16,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
-
-from wheel.wheelfile import WheelFile
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -47,6 +49,10 @@ def _stage(build, stage):
     for component in ("python", "libraries"):
         _run("cmake", "--install", build, "--prefix", stage, "--component", component)
     extension, = stage.glob("lib/python3*/dist-packages/pcl_als/_pcl_als*.so")
+    suffix = sysconfig.get_config_var("EXT_SUFFIX")
+    if extension.name != "_pcl_als" + suffix:
+        raise SystemExit(f"{build} has the package for another Python ({extension.name}); this one needs {suffix}: "
+                         f"configure it with -DPCL_ALS_PYTHON={sys.executable}")
     for library in _libraries_of(extension, stage):
         _copy(library, extension.parent)
     return extension.parent
@@ -84,19 +90,36 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     return folder.name
 
 
+def _write_wheel(path, files, texts):
+    """A wheel (PEP 427) of files, by their name in it, and of the texts of its dist-info folder."""
+    info = f"pcl_als-{_version()}.dist-info"
+    entries = [(name, file.read_bytes(), file.stat().st_mode) for name, file in sorted(files.items())]
+    entries += [(f"{info}/{name}", text.encode("utf-8"), 0o100644) for name, text in texts.items()]
+    record = ""
+    for name, content, _ in entries:
+        digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode("ascii")
+        record += f"{name},sha256={digest},{len(content)}\n"
+    entries.append((f"{info}/RECORD", (record + f"{info}/RECORD,,\n").encode("utf-8"), 0o100644))
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as wheel:
+        for name, content, mode in entries:
+            entry = zipfile.ZipInfo(name)
+            entry.external_attr = mode << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            wheel.writestr(entry, content)
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     given = (config_settings or {}).get("build-dir")
     name = f"pcl_als-{_version()}-{_tag()}.whl"
-    with tempfile.TemporaryDirectory() as temporary:
+    # Beside other builds, where ccache finds their objects.
+    beside = ROOT if os.access(ROOT, os.W_OK) else None
+    with tempfile.TemporaryDirectory(prefix="build-wheel-", dir=beside) as temporary:
         folder = pathlib.Path(temporary).resolve()
-        build = pathlib.Path(given).resolve() if given else folder / "build"
+        build = (ROOT / given).resolve() if given else folder
         _build(build, given)
         package = _stage(build, folder / "stage")
-        with WheelFile(os.path.join(wheel_directory, name), "w") as wheel:
-            for path in sorted(path for path in package.rglob("*") if path.is_file()):
-                wheel.write(str(path), f"pcl_als/{path.relative_to(package)}")
-            for file, text in _metadata(_tag()).items():
-                wheel.writestr(f"pcl_als-{_version()}.dist-info/{file}", text)
+        files = {f"pcl_als/{path.relative_to(package)}": path for path in package.rglob("*") if path.is_file()}
+        _write_wheel(os.path.join(wheel_directory, name), files, _metadata(_tag()))
     return name
 
 

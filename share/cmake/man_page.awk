@@ -9,7 +9,8 @@ function escaped(text) {
   if (text ~ /^[.']/) text = "\\\&" text
   return text
 }
-# An option's text is collected over its lines and printed when the next option begins.
+# An option's text begins two blanks after it or in the next line; it is collected over its lines and
+# printed when the next option begins.
 function finish_option() {
   if (option == "") return
   print ".TP\n.B " escaped(option) "\n" escaped(description)
@@ -51,7 +52,6 @@ part == "options" && /^  -/ {
   }
   sub(/ +$/, "", option)
   sub(/^--/, "-", option)
-  sub(/^-h \[ --help \]/, "-h, -help", option)
   next
 }
 part == "options" && NF > 0 {

@@ -53,3 +53,10 @@ if(PCL_ALS_SANITIZE)
 endif()
 
 include(${CMAKE_CURRENT_LIST_DIR}/pcl_als_packages.cmake)
+
+# Since 1.14, PCL's targets make users of its filters compile with OpenMP. Libraries with and without it
+# could share neither precompiled headers nor Eigen's inline functions, and Eigen would divide products
+# among threads of its own. None needs it: jobs have their own threads.
+if(TARGET OpenMP::OpenMP_CXX)
+  set_target_properties(OpenMP::OpenMP_CXX PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+endif()

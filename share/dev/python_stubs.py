@@ -11,14 +11,13 @@ import re
 import textwrap
 
 import pcl_als
-from pcl_als import _pcl_als
 
 HEADER = '''# SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 # Made by share/dev/python_stubs.py; not to be edited.
 import os
 import pathlib
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike
@@ -49,8 +48,8 @@ def signature_of(docstring):
     # What is returned is a path itself, not a text.
     returned = types_of(result).replace("_Path", "pathlib.Path")
     # What is taken is more than what is returned.
-    taken = types_of(arguments).replace("numpy.ndarray", "ArrayLike").replace("List[", "Sequence[")
-    taken = taken.replace("strips: StripChoice", "strips: Union[StripChoice, Sequence[str]]")
+    taken = types_of(arguments).replace("numpy.ndarray", "ArrayLike").replace("List[", "Iterable[")
+    taken = taken.replace("strips: StripChoice", "strips: Union[StripChoice, Iterable[str]]")
     return taken, returned, text.strip()
 
 
@@ -59,6 +58,12 @@ def documented(text, depth):
         return " ..."
     wrapped = textwrap.fill('"""' + text.replace("\\", "\\\\") + '"""', 96 - 4 * depth)
     return "\n" + textwrap.indent(wrapped, INDENT * depth)
+
+
+def python_stub(name, function, depth):
+    """The stub of a function that is written in Python."""
+    signature = str(inspect.signature(function)).replace("typing.", "")
+    return f"{INDENT * depth}def {name}{signature}:" + documented(" ".join(function.__doc__.split()), depth + 1)
 
 
 def function_stub(name, docstring, depth=0):
@@ -105,7 +110,9 @@ def class_stub(name, value):
             lines.append(property_stub(member, content))
         elif member in ("__init__", "__len__") or not member.startswith("_"):
             docstring = content.__doc__ or ""
-            if not docstring.startswith("Initialize self"):  # a class that only jobs make
+            if inspect.isfunction(content) and ") -> " not in docstring:
+                lines.append(python_stub(member, content, 1))
+            elif not docstring.startswith("Initialize self"):  # a class that only jobs make
                 lines.append(function_stub(member, docstring, 1))
     return "\n".join(lines)
 
@@ -113,7 +120,7 @@ def class_stub(name, value):
 def stubs():
     parts = []
     for name in pcl_als.__all__:
-        value = getattr(_pcl_als, name)
+        value = getattr(pcl_als, name)
         if inspect.isclass(value):
             parts.append(class_stub(name, value))
         elif callable(value):

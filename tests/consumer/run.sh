@@ -12,6 +12,8 @@ root=$(cd -- "$here/../.." && pwd -P)
 rm -rf -- "$scratch" && mkdir -p -- "$scratch" && cd -- "$scratch"
 
 cmake --install "$build" --prefix "$scratch/first" >install.log
+# Folders of Debian's packages are only in these packages.
+[[ $(ls first/share/doc) == pcl_als ]] || { echo "installed folders of documentation: $(ls first/share/doc)"; exit 1; }
 mv first "moved prefix"
 prefix="$scratch/moved prefix"
 if grep -rlF -e "$root/" -e "$build/" -e "$scratch/first" "$prefix" --include='*.cmake' --include='*.h' --include='*.hpp'; then
@@ -41,6 +43,7 @@ for project in "$here/project" "$here/agreement" "$root/share/examples/pipeline"
   cmake --build "$name"
 done
 
+./project/defined_by_source && ./project/defined_by_target
 ./project/consumer "$block/strip1.las" "$block/trajectory.csv"
 "$prefix/bin/pcl_als_calibrate" "$block"/strip*.las -trajectory "$block/trajectory.csv" \
   -control "$block/control.csv" -output calibration.json -quiet || [[ $? == 3 ]]

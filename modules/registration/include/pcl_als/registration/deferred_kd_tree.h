@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <pcl/search/kdtree.h>
@@ -20,11 +21,15 @@ class DeferredKdTree : public pcl::search::KdTree<PointT> {
   using typename Base::IndicesConstPtr;
   using typename Base::PointCloudConstPtr;
 
-  void setInputCloud(const PointCloudConstPtr& cloud,
-                     const IndicesConstPtr& indices = IndicesConstPtr()) override {
+  /// Of PCL's function: void before version 1.14, then a bool that tells success.
+  using InputResult = decltype(std::declval<Base&>().setInputCloud(PointCloudConstPtr()));
+
+  InputResult setInputCloud(const PointCloudConstPtr& cloud,
+                            const IndicesConstPtr& indices = IndicesConstPtr()) override {
     this->input_ = cloud;
     this->indices_ = indices;
     built_ = false;
+    return static_cast<InputResult>(true);
   }
 
   int nearestKSearch(const PointT& point, int k, pcl::Indices& neighbours,
