@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 
@@ -17,9 +20,13 @@ namespace {
 CommandLine example() {
   CommandLine line("pcl_als_example", "shows options.", "FILE… -output OUT",
                    "pcl_als_example a.las");
-  line.add<double>("threshold", "a length, m", 0.5);
-  line.add<std::string>("model", "a name", "simple");
-  line.addOptional("control", "a file");
+  line.setArguments({{"", 0, Arguments::kAnyNumber}});
+  line.addNumber("threshold", "a length", 0.5, {-10.0, 10.0, "m"});
+  line.addChoice("model", "a name", {"simple", "full"}, "simple");
+  line.addInputFile("control", "a file");
+  line.addInputFiles("flight", "files");
+  line.addOutputFile("output", "a result", {".json"});
+  line.addOutputFolder("report", "a report", always({"report.html", "part*.csv"}));
   line.addFlag("invert", "a flag");
   return line;
 }
@@ -43,15 +50,15 @@ TEST(CommandLine, OneDashAndTwoAreTheSame) {
   for (const char* option : {"-threshold", "--threshold"}) {
     CommandLine line = example();
     ASSERT_TRUE(parse(line, {"a.las", option, "0.25", "b.las"}));
-    EXPECT_EQ(line.get<double>("threshold"), 0.25);
-    EXPECT_EQ(line.inputs(2, 2), (std::vector<std::string>{"a.las", "b.las"}));
+    EXPECT_EQ(line.number("threshold"), 0.25);
+    EXPECT_EQ(line.inputs(), (std::vector<std::string>{"a.las", "b.las"}));
   }
 }
 
 TEST(CommandLine, DefaultsHoldUntilGiven) {
   CommandLine line = example();
   ASSERT_TRUE(parse(line, {}));
-  EXPECT_EQ(line.get<double>("threshold"), 0.5);
+  EXPECT_EQ(line.number("threshold"), 0.5);
   EXPECT_EQ(line.text("model"), "simple");
   EXPECT_FALSE(line.has("control"));
   EXPECT_FALSE(line.has("invert"));
@@ -62,7 +69,7 @@ TEST(CommandLine, DefaultsHoldUntilGiven) {
 TEST(CommandLine, ValuesMayBeNegativeOrFollowAnEqualsSign) {
   CommandLine line = example();
   ASSERT_TRUE(parse(line, {"-threshold", "-3", "--model=full", "-invert"}));
-  EXPECT_EQ(line.get<double>("threshold"), -3.0);
+  EXPECT_EQ(line.number("threshold"), -3.0);
   EXPECT_EQ(line.text("model"), "full");
   EXPECT_TRUE(line.has("invert"));
 }
@@ -73,27 +80,118 @@ TEST(CommandLine, RefusalsNameTheOption) {
   EXPECT_NE(refusal({"-threshold", "wide"}).find("threshold"), std::string::npos);
   EXPECT_NE(refusal({"-thresh", "1"}).find("thresh"), std::string::npos);  // no abbreviations
   EXPECT_NE(refusal({"-threads", "-1"}).find("threads"), std::string::npos);
+  EXPECT_NE(refusal({"-model", "half"}).find("'half' is none of simple, full"), std::string::npos);
+  EXPECT_NE(refusal({"-invert=1"}).find("invert"), std::string::npos);
+  EXPECT_NE(refusal({"-model", "full", "-model", "full"}).find("twice"), std::string::npos);
+  EXPECT_NE(refusal({"-control", "-invert"}).find("control"), std::string::npos);
   EXPECT_EQ(refusal({"-threads", "2"}), "accepted");
 }
 
 TEST(CommandLine, NumbersAreCheckedAgainstTheirRange) {
-  for (const char* value : {"-1", "11", "nan", "inf"}) {
-    CommandLine line = example();
-    ASSERT_TRUE(parse(line, {"-threshold", value}));
-    try {
-      line.number("threshold", 0.0, 10.0, "m");
-      FAIL() << "accepted " << value;
-    } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find("-threshold"), std::string::npos);
-    }
-  }
+  for (const char* value : {"-11", "11", "nan", "inf", "1e3", ""})
+    EXPECT_NE(refusal({"-threshold", value}).find("-threshold"), std::string::npos) << value;
+  EXPECT_NE(refusal({"-threshold", "11"}).find("is not a number from -10 to 10 m"),
+            std::string::npos);
 }
 
 TEST(CommandLine, NumberOfInputsIsChecked) {
+  const auto parsed = [](std::vector<Arguments> forms, std::vector<const char*> arguments) {
+    CommandLine line = example();
+    line.setArguments(std::move(forms));
+    return parse(line, std::move(arguments));
+  };
+  EXPECT_THROW(parsed({{"", 2, 3}}, {"a.las"}), UsageError);
+  EXPECT_THROW(parsed({{"", 0, 0}}, {"a.las"}), UsageError);
+  EXPECT_THROW(parsed({{"", 1, 1, {".las"}}}, {"a.las"}), UsageError);
+  EXPECT_TRUE(parsed({{"", 1, 1, {".las"}}}, {"a.las", "b.las"}));
+  EXPECT_TRUE(parsed({{"report", 1, 3}, {"", 1, 1, {".las"}}}, {"a.las", "-report", "r"}));
+}
+
+TEST(CommandLine, AListEndsAtOptionsAndPointFiles) {
   CommandLine line = example();
-  ASSERT_TRUE(parse(line, {"a.las"}));
-  EXPECT_THROW(line.inputs(2, 3), UsageError);
-  EXPECT_THROW(line.inputs(0, 0), UsageError);
+  ASSERT_TRUE(parse(line, {"-flight", "a.las", "b.csv", "c.las", "-flight=d.csv", "-invert"}));
+  EXPECT_EQ(line.list("flight"), (std::vector<std::string>{"a.las", "b.csv", "d.csv"}));
+  EXPECT_EQ(line.text("flight"), "a.las,b.csv,d.csv");
+  EXPECT_EQ(line.inputs(), std::vector<std::string>{"c.las"});
+}
+
+TEST(CommandLine, ReadingAnAbsentOptionIsWrongUsage) {
+  CommandLine line = example();
+  ASSERT_TRUE(parse(line, {}));
+  try {
+    line.text("control");
+    FAIL() << "has a value";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("option -control is needed"), std::string::npos);
+  }
+  EXPECT_TRUE(line.list("flight").empty());
+}
+
+TEST(CommandLine, RelationsOfOptionsAreChecked) {
+  const auto parsed = [](std::vector<const char*> arguments) {
+    CommandLine line = example();
+    line.exclude({"control", "flight"}, true);
+    line.makeDependent("invert", "control");
+    return parse(line, std::move(arguments));
+  };
+  EXPECT_TRUE(parsed({"-control", "x", "-invert"}));
+  EXPECT_THROW(parsed({}), UsageError);
+  EXPECT_THROW(parsed({"-control", "x", "-flight", "y"}), UsageError);
+  EXPECT_THROW(parsed({"-flight", "y", "-invert"}), UsageError);
+}
+
+/// A folder with the files of names, which say their name.
+std::filesystem::path folderWith(const std::vector<std::string>& names) {
+  const std::filesystem::path folder = std::filesystem::path(PCL_ALS_TEST_SCRATCH) / "command_line";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  for (const std::string& name : names) std::ofstream(folder / name) << name;
+  return folder;
+}
+
+TEST(CommandLine, AnOutputIsNoInputAndNoOtherOutput) {
+  const std::filesystem::path folder = folderWith({"control.json", "part.csv", "report.html"});
+  std::filesystem::create_symlink("control.json", folder / "link.json");
+  std::filesystem::create_hard_link(folder / "control.json", folder / "twin.json");
+  const std::string control = folder / "control.json", part = folder / "part.csv";
+  for (const char* name : {"control.json", "./control.json", "link.json", "twin.json",
+                           "../command_line/control.json"}) {
+    const std::string output = (folder / name).string();
+    EXPECT_NE(refusal({"-control", control.c_str(), "-output", output.c_str()})
+                  .find("is also an input (-control)"),
+              std::string::npos)
+        << name;
+    EXPECT_NE(refusal({control.c_str(), "-output", output.c_str()}).find("is also an input"),
+              std::string::npos);
+  }
+  const std::string inside = folder / "part.csv";
+  const std::string here = folder.string(), html = folder / "x.json";
+  EXPECT_NE(refusal({"-control", inside.c_str(), "-report", here.c_str()}).find("is also an input"),
+            std::string::npos);
+  EXPECT_EQ(refusal({"-output", html.c_str()}), "accepted");
+  EXPECT_NE(refusal({"-output", (folder / "x.txt").c_str()}).find("does not end in .json"),
+            std::string::npos);
+  EXPECT_NE(refusal({"-output", here.c_str()}).find(".json"), std::string::npos);
+}
+
+TEST(CommandLine, AReportReplacesNoFileOfTheUser) {
+  const std::filesystem::path folder = folderWith({"part7.csv", "other.csv"});
+  const std::string here = folder.string();
+  EXPECT_NE(refusal({"-report", here.c_str()}).find("part7.csv: would be replaced"),
+            std::string::npos);
+  std::filesystem::remove(folder / "part7.csv");
+  EXPECT_EQ(refusal({"-report", here.c_str()}), "accepted");
+}
+
+TEST(CommandLine, WhatTheCommandReadsStaysProtected) {
+  const std::filesystem::path folder = folderWith({"control.csv"});
+  const std::string control = folder / "control.csv";
+  {
+    CommandLine line = example();
+    ASSERT_TRUE(parse(line, {"-control", control.c_str()}));
+    EXPECT_THROW(writeFile(control, "new"), UsageError);
+  }
+  writeFile(control, "new");
 }
 
 TEST(CommandLine, HelpHasEveryOptionWithItsDefault) {
@@ -103,7 +201,7 @@ TEST(CommandLine, HelpHasEveryOptionWithItsDefault) {
     EXPECT_FALSE(parse(line, {option}));
     const std::string help = testing::internal::GetCapturedStdout();
     for (const char* part : {"shows options.", "threshold", "0.5", "simple", "control", "invert",
-                             "threads", "Example", "Exit status"})
+                             "threads", "-10 to 10", "simple|full", "Example", "Exit status"})
       EXPECT_NE(help.find(part), std::string::npos) << part;
   }
 }
@@ -111,7 +209,7 @@ TEST(CommandLine, HelpHasEveryOptionWithItsDefault) {
 TEST(Run, TurnsExceptionsIntoOneLineAndAStatus) {
   const auto status = [](const auto& error) {
     testing::internal::CaptureStderr();
-    const int result = run("pcl_als_example", [&]() -> int { throw error; });
+    const int result = run(example(), [&]() -> int { throw error; });
     return std::make_pair(result, testing::internal::GetCapturedStderr());
   };
   EXPECT_EQ(status(UsageError("option -x")),
@@ -120,7 +218,7 @@ TEST(Run, TurnsExceptionsIntoOneLineAndAStatus) {
             std::make_pair(2, std::string("pcl_als_example: a.las: empty\n")));
   EXPECT_EQ(status(std::bad_alloc()).first, 2);
   EXPECT_EQ(status(std::runtime_error("other")).first, 2);
-  EXPECT_EQ(run("pcl_als_example", [] { return 3; }), 3);
+  EXPECT_EQ(run(example(), [] { return 3; }), 3);
 }
 
 TEST(SplitList, TrimsAndDropsEmptyParts) {

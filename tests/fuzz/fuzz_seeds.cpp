@@ -3,6 +3,7 @@
 #include "fuzz_seeds.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 #include <unistd.h>
@@ -103,6 +104,21 @@ std::vector<std::string> lazSeeds() {
   std::sort(paths.begin(), paths.end());
   std::vector<std::string> seeds;
   for (const auto& path : paths) seeds.push_back(test::readBytes(path));
+  return seeds;
+}
+
+std::vector<std::string> lazChunkSeeds() {
+  std::vector<std::string> seeds = lazSeeds();
+  const std::size_t files = seeds.size();
+  for (std::size_t i = 0; i < files; ++i)
+    for (const std::uint32_t size : {1U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFEU, 0xFFFFFFFFU}) {
+      constexpr std::size_t header = 94, chunk_size = 54 + 12;
+      std::string file = seeds[i];
+      std::uint16_t vlr = 0;
+      std::memcpy(&vlr, &file[header], sizeof vlr);  // that of the compression stands first
+      std::memcpy(&file[vlr + chunk_size], &size, sizeof size);
+      seeds.push_back(std::move(file));
+    }
   return seeds;
 }
 

@@ -10,6 +10,8 @@ namespace pcl_als::fuzz {
 // Small valid files of every kind, to begin from.
 std::vector<std::string> lasSeeds();
 std::vector<std::string> lazSeeds();
+/// The same, and with chunk sizes that ask for more than there is.
+std::vector<std::string> lazChunkSeeds();
 std::vector<std::string> copcSeeds();
 std::vector<std::string> pcdSeeds();
 std::vector<std::string> trajectorySeeds();

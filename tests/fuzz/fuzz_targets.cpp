@@ -19,6 +19,7 @@
 #include <pcl_als/las/las_file.h>
 
 #include "fuzz_seeds.h"
+#include "laz_codec_target.h"
 
 namespace pcl_als::fuzz {
 
@@ -196,6 +197,7 @@ const std::vector<Target>& readerTargets() {
       {"las", las, lasSeeds},
       {"laz", laz, lazSeeds},
       {"damaged_laz", damagedLaz, lazSeeds},
+      {"laz_codec", lazCodec, lazChunkSeeds},
       {"copc", copc, copcSeeds},
       {"pcd", pcd, pcdSeeds},
       {"trajectory_csv", trajectoryCsv, trajectorySeeds},

@@ -196,11 +196,45 @@ TEST(CopcDamage, IsRefusedInOneLine) {
   expect(changed<std::int32_t>(node + 24, 2000000000), "not within the file");
   expect(changed<std::int32_t>(node + 24, 0), "points in 0 bytes");
   expect(changed<std::int32_t>(node + 28, -7), "-7 points");
-  expect(changed<std::int32_t>(node + 28, 2000000000), "no chunk of the chunk table");
-  expect(changed<std::uint64_t>(node + 16, 1000), "no chunk of the chunk table");
+  expect(changed<std::int32_t>(node + 28, 2000000000), "of the 60000 points of the file");
+  expect(changed<std::uint64_t>(node + 16, 1000), "lies outside its cube");
+  // Nodes that are missing for a window they do not meet, too.
+  expect(changed<std::int32_t>(node + 28, 0), "of the 60000 points of the file");
+  expect(changed<std::int32_t>(page + 28, 0), "of the 60000 points of the file");  // a whole page
+  expect(changed<std::uint64_t>(info + 48, 32), "of the 60000 points of the file");
+  expect(changed<std::int32_t>(block().entryOf({0, 0, 0, 0}), 5), "is missing");  // level
+  expect(changed<std::int32_t>(node + 4, 1), "stands there twice");               // x
+  // The cube is elsewhere or of another size.
+  expect(changed<double>(info, 1e6), "lies outside its cube");
+  expect(changed<double>(info + 24, 20.0), "lies outside its cube");
   std::string twice = block().str();
   twice.replace(node + 16, 16, twice.substr(block().entryOf({0, 0, 0, 0}) + 16, 16));
-  expect(twice, "are one chunk");
+  expect(twice, "of the 60000 points of the file");
+}
+
+/// Any changed bit of the hierarchy is refused, or the points in a window are the same.
+TEST(CopcDamage, LosesNoPointsSilently) {
+  const fs::path path = test::scratch("copc_bits") / "block.copc.laz";
+  const CopcBytes small(test::copcPoints(3000), {});
+  test::writeBytes(path, small.str());
+  const PointWindow window = boxed(100.0, 100.0, 400.0, 300.0);
+  const Read right = readPart(path, window);
+  int refused = 0, different = 0, rounds = 0;
+  for (std::size_t at = small.rootPage(); at < small.str().size(); at += 7)
+    for (const int bit : {0, 5}) {
+      std::string bytes = small.str();
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << bit));
+      test::writeBytes(path, bytes);
+      ++rounds;
+      try {
+        const Read part = readPart(path, window);
+        if (part.time != right.time) ++different;
+      } catch (const InputError&) {
+        ++refused;
+      }
+    }
+  EXPECT_EQ(different, 0) << "of " << rounds;
+  EXPECT_GT(refused, rounds * 9 / 10);
 }
 
 TEST(CopcDamage, DoesNotConcernTheWholeFile) {

@@ -128,7 +128,7 @@ TEST(LasUnits, PointsAndExtentAreDeliveredInMetres) {
   const PointFileInfo& info = reader->info();
   EXPECT_DOUBLE_EQ(info.resolution.x(), 0.001 * 0.3048);
   EXPECT_DOUBLE_EQ(info.resolution.z(), 0.001 * kSurveyFoot);
-  const LasHeader& header = LasFile(path).header();
+  const LasHeader header = LasFile(path).header();
   EXPECT_EQ(header.scale.x(), 0.001);  // the header itself is as stored
   EXPECT_DOUBLE_EQ(info.minimum.x(), header.minimum.x() * 0.3048);
   EXPECT_DOUBLE_EQ(info.maximum.z(), header.maximum.z() * kSurveyFoot);

@@ -34,6 +34,7 @@ Strip<PointLidar> someStrip(std::size_t count) {
     p.number_of_returns = 4;
     p.classification = static_cast<std::uint8_t>(i % 256);
     p.flags = kEdgeOfFlightLine | kSynthetic;
+    p.user_data = static_cast<std::uint8_t>(i % 7);
     strip.cloud->push_back(p);
   }
   return strip;
@@ -41,8 +42,8 @@ Strip<PointLidar> someStrip(std::size_t count) {
 
 void expectSame(const pcl::PointCloud<PointLidar>& a, const pcl::PointCloud<PointLidar>& b) {
   ASSERT_EQ(a.size(), b.size());
-  // From x to flags; the bytes behind them are padding.
-  constexpr std::size_t kBytes = offsetof(PointLidar, flags) + 1;
+  // From x to user_data; the bytes behind them are padding.
+  constexpr std::size_t kBytes = offsetof(PointLidar, user_data) + 1;
   for (std::size_t i = 0; i < a.size(); ++i)
     ASSERT_EQ(std::memcmp(&a[i], &b[i], kBytes), 0) << "point " << i;
 }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/strip_loader.h>
 #include <pcl_als/las/las_writer.h>
 
 #include "las_bytes.h"
@@ -58,7 +60,7 @@ std::filesystem::path fileWithChannels(const char* name, double first) {
     points.x[i] = static_cast<double>(i);
     points.return_number[i] = points.number_of_returns[i] = 1;
     points.flags[i] = static_cast<std::uint8_t>((i % 4) << 6U);
-    points.channel[i] = static_cast<std::uint8_t>(5 - i);
+    points.user_data[i] = static_cast<std::uint8_t>(5 - i);
     beam.push_back(first + static_cast<double>(i));
   }
   const auto path = test::scratch("point_reader_channels") / name;
@@ -85,6 +87,12 @@ TEST(PointReader, ChannelsAreThoseOfTheFieldThatIsNamed) {
     EXPECT_EQ(channelsIn(path, "user_data"), (Channels{5, 4, 3, 2, 1, 0}));
     EXPECT_EQ(channelsIn(path, "beam"), (Channels{10, 11, 12, 13, 14, 15}));
   }
+  // Of a PCD that was made of the file: what a point has.
+  const auto pcd = test::scratch("point_reader_channels_pcd") / "a.pcd";
+  savePcd(pcd, loadStrips({fileWithChannels("a.laz", 10.0)}).front());
+  EXPECT_EQ(channelsIn(pcd, ""), (Channels{0, 1, 2, 3, 0, 1}));
+  EXPECT_EQ(channelsIn(pcd, "user_data"), (Channels{5, 4, 3, 2, 1, 0}));
+  EXPECT_THROW(channelsIn(pcd, "beam"), InputError);
 }
 
 TEST(PointReader, AFieldWithoutChannelsIsNamed) {

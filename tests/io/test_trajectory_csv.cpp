@@ -162,8 +162,9 @@ TEST(TrajectoryCsv, ErrorsNameFileLineAndColumn) {
 }
 
 TEST(TrajectoryCsv, BytesThatAreNoTextAreQuotedSafely) {
-  const std::string message = refusal(std::string("time,x,y,z\n1,2,\x01\0\x1b[31m,4\n", 24));
+  const std::string message = refusal("time,x,y,z\n1,2,\x01\x02\x1b[31m,4\n");
   EXPECT_NE(message.find("'??"), std::string::npos) << message;
+  EXPECT_NE(refusal(std::string("time,x\n\0,4\n", 11)).find("zero byte"), std::string::npos);
 }
 
 TEST(TrajectoryCsv, MissingFileAndFolderAreNamed) {

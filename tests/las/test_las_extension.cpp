@@ -124,14 +124,5 @@ TEST(LasExtension, WithoutFieldsIsACopy) {
   EXPECT_EQ(test::readBytes(folder / "out.las"), bytes);
 }
 
-TEST(LasExtension, RefusesADescriptionInAnExtendedRecord) {
-  const auto folder = test::scratch("las_extension_evlr");
-  LasBytes las;
-  las.extra = 4;
-  las.evlrs = {LasBytes::evlr("LASF_Spec", 4, std::string(192, '\0'))};
-  test::writeBytes(folder / "in.las", las.str());
-  EXPECT_THROW(placeExtension(LasFile(folder / "in.las"), kTwo), InputError);
-}
-
 }  // namespace
 }  // namespace pcl_als

@@ -12,6 +12,7 @@
 #include "las_bytes.h"
 #include "real_data.h"
 #include "test_files.h"
+#include "wrong_boxes.h"
 
 namespace pcl_als {
 namespace {
@@ -136,13 +137,34 @@ TEST(LasRewriter, CompressedAndPlainFilesAreEditedAlike) {
   EXPECT_EQ(test::readBytes(folder / "plain.las"), test::readBytes(folder / "unpacked.las"));
 }
 
-TEST(LasRewriter, AWrongBoxIsLeftAloneUntilPointsMove) {
-  const auto folder = test::scratch("las_rewriter_box");
+TEST(LasRewriter, AWrongBoxIsReplacedByThatOfThePoints) {
+  LasBytes las;
+  las.count = 300;
+  LasExtension keeping;
+  keeping.keeps_coordinates = true;
+  for (const test::WrongBox& wrong : test::wrongBoxes(las)) {
+    const auto folder = test::scratch("las_rewriter_box");
+    test::writeBytes(folder / "in.las", wrong.bytes);
+    const LasRewriteResult result = rewriteLas(folder / "in.las", folder / "out.las", kNothing);
+    EXPECT_FALSE(result.box_changed);
+    ASSERT_EQ(result.remarks.size(), 1U) << wrong.name;
+    EXPECT_EQ(result.remarks[0].find("the header's bounding box is wrong: it says "), 0U);
+    EXPECT_EQ(test::readBytes(folder / "out.las"), las.str()) << wrong.name;
+    EXPECT_EQ(extendLas(LasFile(folder / "in.las"), folder / "kept.las", keeping, kNothing).remarks,
+              result.remarks);
+    EXPECT_EQ(test::readBytes(folder / "kept.las"), las.str()) << wrong.name;
+  }
+}
+
+TEST(LasRewriter, ABoxThatIsRoundedOtherwiseIsKept) {
+  const auto folder = test::scratch("las_rewriter_rounded_box");
   std::string bytes = LasBytes().str();
-  const double wrong = 1e6;
-  std::memcpy(&bytes[kLasBoxPosition], &wrong, sizeof wrong);
+  double x = 0.0;
+  std::memcpy(&x, &bytes[kLasBoxPosition], sizeof x);
+  x += 0.0004;  // less than a step
+  std::memcpy(&bytes[kLasBoxPosition], &x, sizeof x);
   test::writeBytes(folder / "in.las", bytes);
-  rewriteLas(folder / "in.las", folder / "out.las", kNothing);
+  EXPECT_TRUE(rewriteLas(folder / "in.las", folder / "out.las", kNothing).remarks.empty());
   EXPECT_EQ(test::readBytes(folder / "out.las"), bytes);
 }
 

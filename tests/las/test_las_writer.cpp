@@ -86,11 +86,11 @@ TEST_P(LasWriterMatrix, ReadsBackWhatWasWritten) {
   }
 }
 
-TEST(LasWriter, ScannerChannelAndUserDataHoldTheChannel) {
+TEST(LasWriter, ScannerChannelAndUserDataAreFieldsOfTheirOwn) {
   const auto folder = test::scratch("las_writer_channel");
   PointChunk p = somePoints(8);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    p.channel[i] = static_cast<std::uint8_t>(4 * i);  // of point 0 the same in both
+    p.user_data[i] = static_cast<std::uint8_t>(4 * i);
     p.flags[i] = static_cast<std::uint8_t>((i % 4) << 6U);
   }
   LasWriter writer(folder / "out.las", around(4, 6));
@@ -103,6 +103,7 @@ TEST(LasWriter, ScannerChannelAndUserDataHoldTheChannel) {
     EXPECT_EQ(q.channel[i], i % 4) << "the scanner channel, which has two bits";
     const std::byte* record = &records[i * file.header().record_length];
     EXPECT_EQ(std::to_integer<std::size_t>(record[17]), 4 * i) << "user data";
+    EXPECT_EQ(q.user_data[i], 4 * i);
   }
 }
 

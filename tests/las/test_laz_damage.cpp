@@ -120,6 +120,109 @@ TEST(LazDamage, AnyChangedByteIsSurvived) {
   }
 }
 
+/// The chunk size of the VLR asks for no memory: only the points that there are need some.
+TEST(LazDamage, AChunkSizeWithoutSense) {
+  for (const LazSchema& right : {kPointwise, kLayered}) {
+    const ByteVector file = fileOf(right, 250);
+    for (const std::uint32_t size :
+         {1U, 2U, 99U, 101U, 249U, 250U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFEU}) {
+      LazSchema schema = right;
+      schema.chunk_size = size;
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_NE(messageOf(schema, file, 250), "") << size;
+      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    }
+  }
+}
+
+TEST(LazDamage, NoByteHoldsMorePointsThanIsAssumed) {
+  constexpr std::size_t count = 2000000;
+  for (const int format : {0, 1, 6}) {
+    const LazSchema schema = LazSchema::forFormat(format,
+                                                  format == 0   ? 20
+                                                  : format == 1 ? 28
+                                                                : 30,
+                                                  2 * count);
+    const ByteVector records(count * schema.recordLength());
+    const ByteVector file = test::encode(schema, records);
+    EXPECT_LT(count / file.size(), 1250U);
+    EXPECT_GT(count / file.size(), 400U);
+    EXPECT_TRUE(test::decode(schema, file, count) == records);
+  }
+}
+
+TEST(LazDamage, AHugeRecordInASmallFile) {
+  const LazSchema schema = LazSchema::forFormat(6, 65535, 2000000000);
+  const ByteVector file = test::encode(schema, ByteVector(65535 * 3));
+  EXPECT_NE(messageOf(schema, file, 100000000).find("cannot hold 100000000 points"),
+            std::string::npos);
+}
+
+/// The position behind the compressed points.
+std::size_t tableOf(const ByteVector& file) {
+  std::uint64_t table = 0;
+  std::memcpy(&table, file.data(), sizeof table);
+  return table;
+}
+
+/// The format has no checksum, but decoding that has lost its way does not end where it must.
+TEST(LazDamage, NoiseInsideAChunkIsNoticed) {
+  test::Numbers numbers(2);
+  const auto noise = [&numbers](ByteVector& file, std::size_t from, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i)
+      file[from + i] = static_cast<std::uint8_t>(numbers.next());
+  };
+  for (const int format : {1, 6}) {
+    LazSchema schema = LazSchema::forFormat(format, format == 1 ? 28 : 30, 4000);
+    const ByteVector whole =
+        test::encode(schema, test::LazRecords(format, 0, test::PointKind::survey, 1).make(10000));
+    const std::size_t begin = 8, end = tableOf(whole);
+    for (int round = 0; round < 100; ++round) {
+      ByteVector file = whole;
+      const auto room = static_cast<unsigned>(end - begin - 2000);
+      noise(file, begin + numbers.below(room), 2000);
+      EXPECT_NE(messageOf(schema, file, 10000), "") << format << ' ' << round;
+    }
+    // The last chunk, which has fewer points than the others, is checked like them.
+    ByteVector file = whole;
+    noise(file, end - 500, 100);
+    const std::string message = messageOf(schema, file, 10000);
+    EXPECT_NE(message.find("chunk 3 (points 8001 to 10000)"), std::string::npos) << message;
+  }
+}
+
+/// A file without chunks or without a chunk table ends like others.
+TEST(LazDamage, NoiseIsNoticedWithoutAChunkTable) {
+  test::Numbers numbers(3);
+  LazSchema schema = LazSchema::forFormat(1, 28, 4000);
+  ByteVector whole =
+      test::encode(schema, test::LazRecords(1, 0, test::PointKind::survey, 1).make(4000));
+  whole.resize(tableOf(whole));
+  put64(whole, 0, 0);
+  int noticed = 0;
+  for (int round = 0; round < 100; ++round) {
+    ByteVector file = whole;
+    for (unsigned i = 0; i < 100; ++i)
+      file[1000 + 5 * static_cast<std::size_t>(round) + i] =
+          static_cast<std::uint8_t>(numbers.next());
+    if (!messageOf(schema, file, 4000).empty()) ++noticed;
+  }
+  EXPECT_GE(noticed, 90);
+}
+
+TEST(LazDamage, AHeaderWithTooFewPointsIsNoDamageOfOtherChunks) {
+  for (const LazSchema& schema : {kPointwise, kLayered}) {
+    const ByteVector file = fileOf(schema, 250), all = test::decode(schema, file, 250);
+    // Within the second of three chunks; at the end of the second; nothing at all.
+    for (const std::size_t count : {150U, 200U, 0U}) {
+      const ByteVector part = test::decode(schema, file, count);
+      EXPECT_TRUE(std::equal(part.begin(), part.end(), all.begin())) << count;
+    }
+    EXPECT_NE(messageOf(schema, file, 249).find("or the header announces too few"),
+              std::string::npos);
+  }
+}
+
 struct BadRecord {
   const char* message;
   std::size_t at;

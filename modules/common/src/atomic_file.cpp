@@ -13,6 +13,8 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_protection.h>
+#include <pcl_als/common/file_version.h>
 
 #include "temporary_registry.h"
 
@@ -43,6 +45,7 @@ fs::path temporaryNameFor(const fs::path& target) {
 
 AtomicFile::AtomicFile(fs::path target) : requested_(std::move(target)) {
   if (!requested_.has_filename()) throw InputError(requested_.string() + ": is not a file name");
+  detail::beginOutput(requested_);
   target_ = throughLinks(requested_);
   struct stat existing {};
   const bool exists = stat(target_.c_str(), &existing) == 0;
@@ -112,6 +115,7 @@ void AtomicFile::writeAt(std::uint64_t offset, const void* data, std::size_t byt
 
 void AtomicFile::commit() {
   if (slot_ == nullptr) throw InputError(requested_.string() + ": was already completed");
+  detail::listOutput(requested_, temporary_);
   // Network file systems report a full disk only here.
   const int descriptor = descriptor_;
   descriptor_ = -1;
@@ -127,6 +131,7 @@ void AtomicFile::commit() {
   }
   detail::unregisterTemporary(slot_);
   slot_ = nullptr;
+  UnchangedInputs::forget(target_);
 }
 
 void writeFile(const std::filesystem::path& target, std::string_view text) {

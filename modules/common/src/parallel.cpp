@@ -4,11 +4,13 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/thread_limit.h>
 
@@ -48,6 +50,12 @@ unsigned threadCount(int requested) {
   const int count = requested > 0 ? requested : limit.load();
   if (count > 0) return static_cast<unsigned>(count);
   return std::max(1U, std::thread::hardware_concurrency());
+}
+
+int requiredThreads(int threads) {
+  if (threads >= 0) return threads;
+  throw UsageError("number of threads: must be 0 (all cores) or more, not " +
+                   std::to_string(threads));
 }
 
 unsigned reserveThreads(unsigned wanted, unsigned most) {

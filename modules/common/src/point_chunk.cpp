@@ -8,7 +8,8 @@ void PointChunk::resize(std::size_t count) {
   for (auto* column : {&x, &y, &z, &gps_time}) column->resize(count);
   for (auto* column : {&intensity, &scan_angle}) column->resize(count);
   point_source_id.resize(count);
-  for (auto* column : {&return_number, &number_of_returns, &classification, &flags, &channel})
+  for (auto* column :
+       {&return_number, &number_of_returns, &classification, &flags, &user_data, &channel})
     column->resize(count);
 }
 
@@ -29,6 +30,7 @@ PointChunk PointChunk::select(const std::vector<std::size_t>& rows) const {
           part(number_of_returns),
           part(classification),
           part(flags),
+          part(user_data),
           part(channel)};
 }
 

@@ -18,6 +18,12 @@ SystemLookup::SystemLookup(const CalibrationResult& calibration) {
   for (const HeldSurface& surface : calibration.held) {
     for (const std::string& strip : surface.strips) system_[strip] = fixed_;
   }
+  const bool by_channel = std::any_of(system_.begin(), system_.end(), [](const auto& entry) {
+    return passOfStrip(entry.first) != entry.first;
+  });
+  if (!by_channel) return;
+  channel_field_ =
+      calibration.channel_field.empty() ? "scanner_channel" : calibration.channel_field;
 }
 
 std::uint8_t SystemLookup::of(std::uint16_t source, std::uint8_t channel) const {
@@ -28,6 +34,10 @@ std::uint8_t SystemLookup::of(std::uint16_t source, std::uint8_t channel) const 
     const auto found = system_.find(strip);
     if (found != system_.end()) return found->second;
   }
+  if (source == 0 && strip_.empty())
+    throw InputError(
+        "points without a point source id: give the id of their strip, on which the system of the "
+        "calibration depends");
   if (!several_) return 0;
   throw InputError("points of strip " + (source != 0 ? number : "'" + strip_ + "'") + ", channel " +
                    std::to_string(channel) + " belong to none of the systems of the calibration");

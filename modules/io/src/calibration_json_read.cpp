@@ -5,10 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
+#include <pcl_als/io/result_json.h>
 #include <pcl_als/io/survey_io.h>
 
 #include "calibration_json.h"
-#include "csv_table.h"
 #include "diagnosis_json.h"
 #include "json_node.h"
 #include "json_parse.h"
@@ -74,6 +75,7 @@ void readParameters(const Node& parameters,
       estimate.std_formal = node["std_formal"].numberOrNan() * info.internal_per_unit;
     }
     if (node.has("status")) estimate.status = statusOf(node["status"]);
+    if (node.has("determined")) estimate.determined = node["determined"].truth();
     if (node.has("reason")) estimate.reason = node["reason"].text();
   }
 }
@@ -339,8 +341,12 @@ CalibrationResult calibrationFromJson(const std::string& text, const std::string
 
 }  // namespace detail
 
+CalibrationResult parseCalibration(const std::string& text, const std::string& name) {
+  return detail::calibrationFromJson(text, name);
+}
+
 CalibrationResult readCalibration(const std::filesystem::path& path) {
-  return detail::calibrationFromJson(detail::readWholeFile(path), path.string());
+  return detail::calibrationFromJson(readWholeFile(path, kJsonLimits), path.string());
 }
 
 }  // namespace pcl_als

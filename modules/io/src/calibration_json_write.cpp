@@ -44,6 +44,7 @@ Json parametersOf(const Parameters& estimates) {
     entry["std_formal"] = number(estimate.std_formal / info.internal_per_unit);
     entry["unit"] = info.unit;
     entry["status"] = toString(estimate.status);
+    if (!estimate.determined) entry["determined"] = false;
     if (!estimate.reason.empty()) entry["reason"] = estimate.reason;
     parameters[std::string(info.name)] = std::move(entry);
   }

@@ -5,9 +5,9 @@
 #include <cstring>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/io/image_block_io.h>
 
-#include "csv_table.h"
 #include "json_node.h"
 #include "json_parse.h"
 
@@ -76,7 +76,7 @@ double positive(const JsonNode& node) {
 }  // namespace
 
 FrameCamera readCamera(const std::filesystem::path& path) {
-  const nlohmann::json json = detail::parseJson(detail::readWholeFile(path), path.string());
+  const nlohmann::json json = detail::parseJson(readWholeFile(path, kJsonLimits), path.string());
   const JsonNode root(json, path.string());
   if (!root.has("format") || root["format"].text() != kFormat)
     root.refuse(std::string("is no camera: 'format' must be \"") + kFormat + "\"");

@@ -8,8 +8,10 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/las/external_waveforms.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/las/recorded_pose.h>
+#include <pcl_als/las/unclaimed_bytes.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -55,22 +57,6 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
     remarks.push_back(
         "the header declares adjusted standard GPS time, but all times look like "
         "seconds of the week");
-}
-
-void remarkBox(const PointFileInfo& info, const PointStatistics& s,
-               std::vector<std::string>& remarks) {
-  // Writers round differently; a unit of the coordinates is allowed.
-  const Eigen::Vector3d low = (info.minimum - s.minimum).cwiseAbs();
-  const Eigen::Vector3d high = (info.maximum - s.maximum).cwiseAbs();
-  const Eigen::Vector3d allowed = 1.01 * info.resolution;
-  if ((low.array() <= allowed.array()).all() && (high.array() <= allowed.array()).all()) return;
-  std::ostringstream text;
-  text.setf(std::ios::fixed);
-  text.precision(3);
-  text << "the header's bounding box is wrong: it says (" << info.minimum.transpose() << ") to ("
-       << info.maximum.transpose() << "), the points reach from (" << s.minimum.transpose()
-       << ") to (" << s.maximum.transpose() << ")";
-  remarks.push_back(text.str());
 }
 
 void remarkHeader(const LasHeader& h, const PointStatistics& s, std::vector<std::string>& remarks) {
@@ -124,14 +110,19 @@ void remarkFile(FileCensus& file, const PointWindow& window) {
     remarks.emplace_back(whole ? "the file holds no points" : "no point of the file was read");
     return;
   }
+  const auto add = [&remarks](const std::string& text) {
+    if (!text.empty()) remarks.push_back(text);
+  };
   remarkTimes(file.info, s, remarks);
-  if (whole) remarkBox(file.info, s, remarks);
   const std::string extension = lowerExtension(file.info.path);
   if (extension == ".las" || extension == ".laz") {
     const LasFile las(file.info.path, kLazAllFields,
                       window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse);
     if (whole) remarkHeader(las.header(), s, remarks);
     remarkPose(las, remarks);
+    remarks.insert(remarks.end(), las.extraBytes().remarks.begin(), las.extraBytes().remarks.end());
+    add(ExternalWaveforms::of(las).describe());
+    add(unclaimedBytes(las).describe());
   }
   remarkCount(remarks, s.invalid_coordinates, s.points, "has coordinates that are no place",
               "have coordinates that are no place");

@@ -8,6 +8,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/io/class_io.h>
 
 #include "csv_table.h"
@@ -45,7 +46,7 @@ std::vector<ClassSite> sitesOfCsv(const fs::path& path) {
 class GeoJsonSites {
  public:
   explicit GeoJsonSites(const fs::path& path) : name_(path.string()) {
-    const Json json = Json::parse(detail::readWholeFile(path), nullptr, false);
+    const Json json = Json::parse(readWholeFile(path, kJsonLimits), nullptr, false);
     if (json.is_discarded() || !json.is_object() || !json.contains("features") ||
         !json["features"].is_array())
       throw InputError(name_ + ": is no GeoJSON with features");

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/text_values.h>
 
 #include "csv_table.h"
@@ -79,7 +80,7 @@ std::size_t fieldsOf(const std::string& unit) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path, const Header& header)
-    : name_(path.string()), content_(readWholeFile(path)), rest_(content_) {
+    : name_(path.string()), content_(readWholeFile(path, kTableLimits)), rest_(content_) {
   if (!header.columns.empty()) {
     skipToNumbers(header);
   } else if (findHeader(header)) {

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <system_error>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/text_values.h>
 
 namespace pcl_als::detail {
@@ -58,27 +57,8 @@ char separatorOf(std::string_view header) {
 
 }  // namespace
 
-std::string readWholeFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    throw InputError(path.string() + ": no such file");
-  }
-  if (std::filesystem::is_directory(path, error)) {
-    throw InputError(path.string() + ": is a folder, not a file");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(path.string() + ": cannot be opened");
-  std::string content;
-  for (std::vector<char> block(std::size_t{1} << 16); stream;) {
-    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
-    content.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (stream.bad()) throw InputError(path.string() + ": cannot be read");
-  return content;
-}
-
 CsvTable::CsvTable(const std::filesystem::path& path)
-    : name_(path.string()), content_(readWholeFile(path)), rest_(content_) {
+    : name_(path.string()), content_(readWholeFile(path, kTableLimits)), rest_(content_) {
   readFirstLine();
 }
 

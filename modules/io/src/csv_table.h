@@ -11,9 +11,6 @@
 
 namespace pcl_als::detail {
 
-/// The bytes of a file; InputError naming it when it cannot be read.
-std::string readWholeFile(const std::filesystem::path& path);
-
 /** \brief A text table with a header line, read record by record.
  *
  * Separator , ; tab or blanks, as the header has it; columns are found by name (case ignored,
@@ -51,6 +48,8 @@ class CsvTable {
   /// Reads the next record; false at the end. InputError when its fields are not as many as the
   /// header's.
   bool next();
+  /// Number of the line that was read last, from one.
+  std::size_t line() const { return line_; }
   /// A field of the record as it stands.
   std::string_view text(std::size_t column) const { return fields_[column]; }
   /// A finite number.

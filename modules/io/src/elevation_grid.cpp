@@ -6,10 +6,9 @@
 #include <string_view>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/io/plan_io.h>
-
-#include "csv_table.h"
 
 namespace pcl_als {
 namespace {
@@ -102,7 +101,7 @@ double firstOf(const Words& words, const Header& header, const std::string& axis
 }  // namespace
 
 ElevationGrid ElevationGrid::read(const std::filesystem::path& path) {
-  const std::string content = detail::readWholeFile(path);
+  const std::string content = readWholeFile(path, kGridLimits);
   Words words(path.string(), content);
   if (words.peek().empty()) throw InputError(path.string() + ": is empty");
   const Header header = readHeader(words);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/header_box.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/las_point_reader.h>
 
@@ -51,21 +52,25 @@ LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWin
 
 void LasPointReader::findChannelField() {
   if (fieldsFor(window_.channel_field) != kLazExtraBytes) return;
-  std::string names = "user_data";
-  for (const LasExtraField& field : file_.extraFields()) {
-    if (field.name == window_.channel_field) channel_field_ = field;
-    names += ", " + field.name;
+  const std::string path = info_.path.string();
+  if (const LasExtraField* field =
+          findLasExtraField(file_.extraFields(), window_.channel_field, path)) {
+    channel_field_ = *field;
+    if (field->type != LasExtraType::undocumented) return;
+    throw InputError(path + ": field '" + window_.channel_field +
+                     "' with the channel of the scanner has no data type");
   }
-  if (!channel_field_)
-    throw InputError(info_.path.string() + ": has no field '" + window_.channel_field +
-                     "' with the channel of the scanner; it has " + names);
+  std::string names = "user_data";
+  for (const LasExtraField& field : file_.extraFields()) names += ", " + field.name;
+  throw InputError(path + ": has no field '" + window_.channel_field +
+                   "' with the channel of the scanner; it has " + names);
 }
 
 void LasPointReader::fillChannel(PointChunk& chunk) {
-  const std::size_t length = file_.header().record_length;
   if (channel_field_) {
     std::vector<double> values;
-    decodeLasExtraField(records(), chunk.size(), length, *channel_field_, values);
+    decodeLasExtraField(records(), chunk.size(), file_.header().record_length, *channel_field_,
+                        values);
     for (std::size_t i = 0; i < chunk.size(); ++i) {
       if (!(values[i] >= 0.0 && values[i] <= 255.0))
         throw InputError(info_.path.string() + ": field '" + window_.channel_field + "' holds " +
@@ -73,15 +78,19 @@ void LasPointReader::fillChannel(PointChunk& chunk) {
       chunk.channel[i] = static_cast<std::uint8_t>(values[i]);
     }
   } else if (fieldsFor(window_.channel_field) != 0) {
-    const std::byte* at = records() + file_.layout().user_data;
-    for (std::size_t i = 0; i < chunk.size(); ++i, at += length)
-      chunk.channel[i] = std::to_integer<std::uint8_t>(*at);
+    chunk.channel = chunk.user_data;
   }
 }
 
 std::string LasPointReader::damage() const {
   if (!window_.keep_readable || file_.intact().complete()) return {};
   return file_.path().string() + ": " + file_.intact().describe();
+}
+
+std::string LasPointReader::boxRemark(const Eigen::AlignedBox3d& points) const {
+  const PointFileInfo stated = file_.info();
+  if (!window_.everything() && headerBoxContains(stated, points)) return {};
+  return headerBoxRemark(stated, points);
 }
 
 /// Moves the records inside the bounds to the front of the buffer; returns their number.

@@ -5,14 +5,9 @@
 
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/local_point_reader.h>
+#include <pcl_als/io/new_las_file.h>
 
 namespace pcl_als {
-namespace {
-
-// Seconds of the week may run on past its end; as adjusted standard time these were September 2011.
-constexpr double kLastWeekSecond = 2.0 * 604800.0;
-
-}  // namespace
 
 bool LocalPointReader::read(PointChunk& chunk) {
   // A block may hold invalid points only; the end is where the points end.
@@ -29,7 +24,7 @@ void LocalPointReader::survey(const Eigen::Vector3d& origin, bool has_times) {
   info_.crs_kind = describeCrs(info_.crs).kind;
   info_.point_count = 0;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
-  bool in_week = true;
+  double earliest = HUGE_VAL, latest = -HUGE_VAL;
   PointChunk chunk;
   while (readLocal(chunk)) {
     info_.point_count += chunk.size();
@@ -37,7 +32,8 @@ void LocalPointReader::survey(const Eigen::Vector3d& origin, bool has_times) {
       const Eigen::Vector3d point(chunk.x[i], chunk.y[i], chunk.z[i]);
       low = low.cwiseMin(point);
       high = high.cwiseMax(point);
-      in_week = in_week && chunk.gps_time[i] >= 0.0 && chunk.gps_time[i] <= kLastWeekSecond;
+      earliest = std::min(earliest, chunk.gps_time[i]);
+      latest = std::max(latest, chunk.gps_time[i]);
     }
   }
   if (info_.point_count == 0) low = high = Eigen::Vector3d::Zero();
@@ -45,7 +41,7 @@ void LocalPointReader::survey(const Eigen::Vector3d& origin, bool has_times) {
   info_.maximum = high + origin;
   const double largest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
   info_.resolution.setConstant(std::max(1e-6, largest * std::ldexp(1.0, -23)));
-  if (has_times) info_.time_kind = in_week ? TimeKind::week_seconds : TimeKind::adjusted_standard;
+  if (has_times) info_.time_kind = probableTimeKind(earliest, latest);
   rewind();
 }
 

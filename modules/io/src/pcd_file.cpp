@@ -91,14 +91,17 @@ void dropInvalid(PointChunk& chunk) {
   for (auto* column : {&chunk.intensity, &chunk.scan_angle}) keepOnly(rows, *column);
   keepOnly(rows, chunk.point_source_id);
   for (auto* column : {&chunk.return_number, &chunk.number_of_returns, &chunk.classification,
-                       &chunk.flags, &chunk.channel})
+                       &chunk.flags, &chunk.user_data, &chunk.channel})
     keepOnly(rows, *column);
   chunk.resize(rows.size());
 }
 
 }  // namespace
 
-PcdFile::PcdFile(const std::filesystem::path& path) : file_(path), header_(readHeader(file_)) {
+PcdFile::PcdFile(const std::filesystem::path& path, const std::string& channel_field)
+    : file_(path),
+      header_(readHeader(file_)),
+      channel_field_(channel_field == "scanner_channel" ? "" : channel_field) {
   checkFields();
   rewind();
 }
@@ -116,6 +119,11 @@ void PcdFile::checkFields() const {
     throw InputError(file_.name() +
                      ": the PCD's gps_time is not of type F 8 (double); a float of week seconds "
                      "has steps of 0.03 s, two metres of flight");
+  if (channel_field_.empty() || header_.find(channel_field_.c_str()) != nullptr) return;
+  std::string names;
+  for (const PcdField& field : header_.fields) names += (names.empty() ? "" : ", ") + field.name;
+  throw InputError(file_.name() + ": has no field '" + channel_field_ +
+                   "' with the channel of the scanner; it has " + names);
 }
 
 void PcdFile::rewind() {
@@ -140,8 +148,13 @@ bool PcdFile::read(std::size_t records, PointChunk& chunk) {
   block.column("number_of_returns", std::uint8_t{1}, chunk.number_of_returns);
   block.column("classification", std::uint8_t{0}, chunk.classification);
   block.column("flags", std::uint8_t{0}, chunk.flags);
-  chunk.channel = chunk.flags;
-  for (std::uint8_t& channel : chunk.channel) channel = channel >> 6U;
+  block.column("user_data", std::uint8_t{0}, chunk.user_data);
+  if (channel_field_.empty()) {
+    chunk.channel = chunk.flags;
+    for (std::uint8_t& channel : chunk.channel) channel = channel >> 6U;
+  } else {
+    block.column(channel_field_.c_str(), std::uint8_t{0}, chunk.channel);
+  }
   dropInvalid(chunk);
   return count > 0;
 }

@@ -29,13 +29,15 @@ class PcdRecords {
  */
 class PcdFile {
  public:
-  explicit PcdFile(const std::filesystem::path& path);
+  /// \param channel_field PointWindow::channel_field
+  explicit PcdFile(const std::filesystem::path& path, const std::string& channel_field = {});
   ~PcdFile();
   PcdFile(const PcdFile&) = delete;
   PcdFile& operator=(const PcdFile&) = delete;
 
   const PcdHeader& header() const { return header_; }
   const std::string& name() const { return file_.name(); }
+  const FileVersion& version() const { return file_.version(); }
   /// The next points out of at most \a records records; false at the end of the file.
   bool read(std::size_t records, PointChunk& chunk);
   void rewind();
@@ -45,6 +47,7 @@ class PcdFile {
 
   InputFile file_;
   PcdHeader header_;
+  std::string channel_field_;  ///< empty: bits of the flags
   std::unique_ptr<PcdRecords> records_;
   std::uint64_t position_ = 0;
   std::vector<std::byte> buffer_;

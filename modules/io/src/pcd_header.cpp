@@ -41,10 +41,9 @@ class HeaderParser {
   [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
   void takeLine(const std::string& line) {
-    if (line.rfind(kPcdCrsComment, 0) == 0)
-      header_.crs = line.substr(std::string(kPcdCrsComment).size());
-    if (line.rfind(kPcdStripComment, 0) == 0)
-      header_.strip_id = line.substr(std::string(kPcdStripComment).size());
+    takeComment(line, kPcdCrsComment, header_.crs);
+    takeComment(line, kPcdStripComment, header_.strip_id);
+    takeComment(line, kPcdCorrectionsComment, header_.corrections);
     if (line.empty() || line[0] == '#') return;
     std::istringstream stream(line);
     std::string key;
@@ -52,6 +51,10 @@ class HeaderParser {
     std::vector<std::string> values;
     for (std::string value; stream >> value;) values.push_back(value);
     takeEntry(key, values);
+  }
+
+  static void takeComment(const std::string& line, const std::string& key, std::string& value) {
+    if (line.rfind(key, 0) == 0) value = line.substr(key.size());
   }
 
   void takeEntry(const std::string& key, const std::vector<std::string>& values) {

@@ -29,7 +29,7 @@ struct PcdHeader {
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();  ///< the LocalFrame's origin
   PcdData data = PcdData::ascii;
   std::uint64_t data_position = 0;
-  std::string crs, strip_id;  ///< from our comment lines; empty without
+  std::string crs, strip_id, corrections;  ///< from our comment lines; empty without
 
   /// The field of that name; null when there is none.
   const PcdField* find(const std::string& name) const;
@@ -38,6 +38,7 @@ struct PcdHeader {
 
 inline constexpr const char* kPcdCrsComment = "# pcl_als crs ";
 inline constexpr const char* kPcdStripComment = "# pcl_als strip ";
+inline constexpr const char* kPcdCorrectionsComment = "# pcl_als corrections ";
 
 /// Parses the header lines at the beginning of \a text. InputError: "NAME: …".
 PcdHeader parsePcdHeader(const std::string& text, std::uint64_t file_size, const std::string& name);

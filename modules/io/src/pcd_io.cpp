@@ -23,6 +23,7 @@ std::string headerOf(const Strip<PointLidar>& strip, const std::vector<PcdColumn
   detail::PcdDescription description;
   description.strip_id = strip.id;
   description.frame = strip.frame;
+  description.corrections = strip.corrections;
   for (const PcdColumn& column : columns) description.columns.push_back(column.name);
   description.width = organized ? cloud.width : cloud.size();
   description.height = organized ? cloud.height : 1;
@@ -95,7 +96,14 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
 }
 
 Strip<PointLidar> loadPcd(const std::filesystem::path& path) {
-  detail::PcdFile file(path);
+  return loadPcd(path, {});
+}
+
+Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field) {
+  detail::PcdFile file(path, channel_field);
+  if (!channel_field.empty() && channel_field != "scanner_channel" && channel_field != "user_data")
+    throw InputError(file.name() + ": clouds do not keep the field '" + channel_field +
+                     "' with the channel of the scanner: use the LAS file that it was made from");
   Strip<PointLidar> strip;
   strip.frame = frameOf(file);
   const Eigen::Vector3d shift = strip.frame.origin - file.header().viewpoint;
@@ -105,6 +113,7 @@ Strip<PointLidar> loadPcd(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < chunk.size(); ++i)
       strip.cloud->push_back(detail::pointOf(chunk, i, shift));
   strip.cloud->sensor_origin_.head<3>() = strip.frame.origin.cast<float>();
+  strip.corrections = file.header().corrections;
   strip.id = idOf(file, path, *strip.cloud);
   return strip;
 }

@@ -51,15 +51,17 @@ std::string pcdHeaderText(const PcdDescription& d) {
   text << "# .PCD v0.7 - Point Cloud Data file format\n";
   if (!d.strip_id.empty()) text << kPcdStripComment << oneLine(d.strip_id) << '\n';
   if (!d.frame.crs.empty()) text << kPcdCrsComment << oneLine(d.frame.crs) << '\n';
+  if (!d.corrections.empty()) text << kPcdCorrectionsComment << oneLine(d.corrections) << '\n';
   text << "VERSION 0.7\n"
           "FIELDS x y z gps_time intensity scan_angle point_source_id return_number "
-          "number_of_returns classification flags";
+          "number_of_returns classification flags user_data";
   for (const std::string& column : d.columns) text << ' ' << column;
-  text << "\nSIZE 4 4 4 8 4 4 2 1 1 1 1" << repeated("4", more) << "\nTYPE F F F F F F U U U U U"
-       << repeated("F", more) << "\nCOUNT 1 1 1 1 1 1 1 1 1 1 1" << repeated("1", more)
-       << "\nWIDTH " << countText(d.width, d.counts_later) << "\nHEIGHT " << d.height
-       << "\nVIEWPOINT " << origin.x() << ' ' << origin.y() << ' ' << origin.z()
-       << " 1 0 0 0\nPOINTS " << countText(d.width * d.height, d.counts_later) << "\nDATA binary\n";
+  text << "\nSIZE 4 4 4 8 4 4 2 1 1 1 1 1" << repeated("4", more)
+       << "\nTYPE F F F F F F U U U U U U" << repeated("F", more)
+       << "\nCOUNT 1 1 1 1 1 1 1 1 1 1 1 1" << repeated("1", more) << "\nWIDTH "
+       << countText(d.width, d.counts_later) << "\nHEIGHT " << d.height << "\nVIEWPOINT "
+       << origin.x() << ' ' << origin.y() << ' ' << origin.z() << " 1 0 0 0\nPOINTS "
+       << countText(d.width * d.height, d.counts_later) << "\nDATA binary\n";
   return text.str();
 }
 
@@ -69,7 +71,7 @@ void putPcdPoint(const PointLidar& p, char* at) {
   put(at, p.intensity), put(at, p.scan_angle);
   put(at, p.point_source_id);
   put(at, p.return_number), put(at, p.number_of_returns);
-  put(at, p.classification), put(at, p.flags);
+  put(at, p.classification), put(at, p.flags), put(at, p.user_data);
 }
 
 }  // namespace pcl_als::detail

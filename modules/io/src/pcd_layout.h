@@ -16,6 +16,7 @@ namespace pcl_als::detail {
 struct PcdDescription {
   std::string strip_id;  ///< may be empty
   LocalFrame frame;
+  std::string corrections;           ///< record of applied corrections; may be empty
   std::vector<std::string> columns;  ///< further fields of one float each
   std::uint64_t width = 0, height = 1;
   /// The header is as long as with the largest counts, so that they can be stored afterwards.
@@ -25,7 +26,7 @@ struct PcdDescription {
 std::string pcdHeaderText(const PcdDescription& description);
 
 /// Bytes of a point, without further columns.
-inline constexpr std::size_t kPcdRecord = 34;
+inline constexpr std::size_t kPcdRecord = 35;
 void putPcdPoint(const PointLidar& point, char* at);
 
 }  // namespace pcl_als::detail

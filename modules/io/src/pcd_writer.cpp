@@ -18,11 +18,13 @@ struct PcdWriter::State {
   explicit State(const std::filesystem::path& path) : file(path), name(path.string()) {}
 };
 
-PcdWriter::PcdWriter(const std::filesystem::path& path, LocalFrame frame, std::string strip_id)
+PcdWriter::PcdWriter(const std::filesystem::path& path, LocalFrame frame, std::string strip_id,
+                     std::string corrections)
     : state_(std::make_unique<State>(path)) {
   detail::PcdDescription& description = state_->description;
   description.strip_id = std::move(strip_id);
   description.frame = std::move(frame);
+  description.corrections = std::move(corrections);
   description.counts_later = true;
   state_->file.write(detail::pcdHeaderText(description));
 }

@@ -20,6 +20,7 @@ inline PointLidar pointOf(const PointChunk& chunk, std::size_t row, const Eigen:
   point.number_of_returns = chunk.number_of_returns[row];
   point.classification = chunk.classification[row];
   point.flags = chunk.flags[row];
+  point.user_data = chunk.user_data[row];
   return point;
 }
 

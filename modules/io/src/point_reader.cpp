@@ -14,10 +14,13 @@ namespace {
 /// A PCD header knows neither box nor kind of time.
 class PcdPointReader : public LocalPointReader {
  public:
-  explicit PcdPointReader(const std::filesystem::path& path) : file_(path) {
+  PcdPointReader(const std::filesystem::path& path, const PointWindow& window)
+      : file_(path, window.channel_field) {
     info_.path = path;
+    info_.version = file_.version();
     info_.crs = file_.header().crs;
     info_.units.source = info_.units.vertical_source = "PCD";
+    info_.corrections = file_.header().corrections;
     info_.format = std::string("PCD ") + file_.header().dataName();
     survey(file_.header().viewpoint, file_.header().find("gps_time") != nullptr);
   }
@@ -54,6 +57,10 @@ class BoundedReader : public PointReader {
 
 }  // namespace
 
+void requirePointFiles(std::size_t count) {
+  if (count == 0) throw UsageError("no point files are given");
+}
+
 std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path,
                                                const PointWindow& window, OtherCoordinates other) {
   const std::string extension = lowerExtension(path);
@@ -63,10 +70,7 @@ std::unique_ptr<PointReader> PointReader::open(const std::filesystem::path& path
     if (window.resolution > 0.0)
       throw InputError(path.string() +
                        ": is no COPC file; only these can be read at a lower resolution");
-    if (!window.channel_field.empty() && window.channel_field != "scanner_channel")
-      throw InputError(path.string() + ": a PCD has no field '" + window.channel_field +
-                       "' with the channel of the scanner");
-    auto reader = std::make_unique<PcdPointReader>(path);
+    auto reader = std::make_unique<PcdPointReader>(path, window);
     if (!window.bounds) return reader;
     return std::make_unique<BoundedReader>(std::move(reader), window);
   }

@@ -5,6 +5,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 
@@ -15,13 +16,23 @@ bool isCode(const std::string& crs) {
   return crs.rfind("EPSG:", 0) == 0;
 }
 
+/// The middle of the box of a file; the place of its first point where that is no box.
+Eigen::Vector2d placeIn(const PointFileInfo& file) {
+  const Eigen::Vector2d middle = 0.5 * (file.minimum + file.maximum).head<2>();
+  const Eigen::Vector2d size = (file.maximum - file.minimum).head<2>();
+  const bool is_box = middle.allFinite() && size.minCoeff() >= 0.0 && size.maxCoeff() > 0.0;
+  if (is_box || file.point_count == 0 || !std::filesystem::exists(file.path)) return middle;
+  PointChunk chunk;
+  if (!PointReader::open(file.path)->read(chunk)) return middle;
+  return {chunk.x[0], chunk.y[0]};
+}
+
 /// Two codes are compared as systems; other descriptions by the coordinates that they give to a
 /// place, because PROJ does not recognise every dialect of a description.
 bool areOfOneSystem(const PointFileInfo& first, const PointFileInfo& other) {
   if (first.crs == other.crs) return true;
   if (isCode(first.crs) && isCode(other.crs)) return sameGroundFrame(first.crs, other.crs);
-  const Eigen::Vector2d middle = 0.5 * (other.minimum + other.maximum).head<2>();
-  return !coordinatesDiffer(first.crs, other.crs, middle);
+  return !coordinatesDiffer(first.crs, other.crs, placeIn(other));
 }
 
 /// "EPSG:25832", or of another description what PROJ calls it.
@@ -57,40 +68,68 @@ std::string assumption(const PointFileInfo& file) {
   return why + "; coordinates are taken as metres";
 }
 
-/// Empty where there is nothing to say: metres, stated.
-std::string remarkOf(const PointFileInfo& file) {
-  if (!file.units.known()) return assumption(file);
-  if (file.units.metric()) return {};
-  return "coordinates in " + describeUnits(file) +
-         " are brought to metres; point files are written in their own units";
+/// What there is to say of a file's units (nothing of stated metres) and of earlier corrections.
+std::vector<std::string> remarksOf(const PointFileInfo& file) {
+  std::vector<std::string> remarks;
+  if (!file.units.known())
+    remarks.push_back(assumption(file));
+  else if (!file.units.metric())
+    remarks.push_back("coordinates in " + describeUnits(file) +
+                      " are brought to metres; point files are written in their own units");
+  for (const AppliedCorrection& correction : parseCorrections(file.corrections))
+    remarks.push_back(correction.describe());
+  return remarks;
 }
+
+bool sameCorrections(const std::vector<PointFileInfo>& files) {
+  return std::all_of(files.begin(), files.end(), [&files](const PointFileInfo& file) {
+    return file.corrections == files.front().corrections;
+  });
+}
+
+/// Remarks that several files share.
+class SharedRemarks {
+ public:
+  void add(const std::string& remark, const PointFileInfo& file) {
+    const auto known = std::find_if(remarks_.begin(), remarks_.end(),
+                                    [&](const auto& entry) { return entry.first == remark; });
+    if (known == remarks_.end())
+      remarks_.push_back({remark, {&file}});
+    else
+      known->second.push_back(&file);
+  }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> texts;
+    for (const auto& [remark, of] : remarks_) {
+      std::string name = of.front()->path.filename().string();
+      if (of.size() > 1) name += " and " + std::to_string(of.size() - 1) + " more";
+      texts.push_back(name + ": " + remark);
+    }
+    return texts;
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<const PointFileInfo*>>> remarks_;
+};
 
 }  // namespace
 
 PointReference commonReference(const std::vector<PointFileInfo>& files) {
   PointReference common;
   const PointFileInfo* first = nullptr;
-  std::vector<std::pair<std::string, std::vector<const PointFileInfo*>>> remarks;
+  SharedRemarks remarks;
   for (const PointFileInfo& file : files) {
     requireMapCoordinates(file);
     if (first != nullptr && !file.crs.empty()) requireSameCrs(*first, file);
     if (first == nullptr && !file.crs.empty()) first = &file;
-    const std::string remark = remarkOf(file);
-    if (remark.empty()) continue;
-    const auto known = std::find_if(remarks.begin(), remarks.end(),
-                                    [&](const auto& entry) { return entry.first == remark; });
-    if (known == remarks.end())
-      remarks.push_back({remark, {&file}});
-    else
-      known->second.push_back(&file);
+    for (const std::string& remark : remarksOf(file)) remarks.add(remark, file);
   }
   requireKnownUnits(files);
   if (first != nullptr) common.crs = first->crs;
-  for (const auto& [remark, of] : remarks) {
-    std::string name = of.front()->path.filename().string();
-    if (of.size() > 1) name += " and " + std::to_string(of.size() - 1) + " more";
-    common.remarks.push_back(name + ": " + remark);
-  }
+  common.remarks = remarks.texts();
+  if (!sameCorrections(files))
+    common.remarks.emplace_back(
+        "the files were not corrected alike: strips that are compared should be");
   return common;
 }
 

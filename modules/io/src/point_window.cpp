@@ -40,7 +40,9 @@ void refuseEmptyWindow(const std::vector<std::filesystem::path>& files, const Po
       PointReader::open(files.at(0), whole, PointReader::OtherCoordinates::as_stored);
   const PointFileInfo& info = reader->info();
   if (!window.bounds) throw InputError(files[0].string() + ": no point can be read");
+  const bool has_header = info.format.rfind("PCD", 0) != 0;
   throw InputError("no point lies within the bounds; " + files[0].string() + " covers " +
+                   (has_header ? "by its header " : "") +
                    placeText(info.minimum.head<2>(), info.maximum.head<2>()));
 }
 
@@ -55,7 +57,7 @@ void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk) {
   keepRows(rows, chunk.point_source_id);
   keepRows(rows, chunk.return_number), keepRows(rows, chunk.number_of_returns);
   keepRows(rows, chunk.classification), keepRows(rows, chunk.flags);
-  keepRows(rows, chunk.channel);
+  keepRows(rows, chunk.user_data), keepRows(rows, chunk.channel);
   chunk.resize(rows.size());
 }
 

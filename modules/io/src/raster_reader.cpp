@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/raster_io.h>
 
@@ -50,22 +51,20 @@ void checkSize(GDALDatasetH dataset, const fs::path& path) {
 }  // namespace
 
 struct RasterReader::State {
+  explicit State(fs::path p) : path(std::move(p)), file(path) {}
   ~State() {
     const GdalReports reports(path);
     dataset.reset();
   }
 
   fs::path path;
+  InputFile file;  ///< open beside GDAL, to notice when the file is changed
   RasterLayout layout;
   detail::Dataset dataset;
   std::vector<float> no_data;  ///< of each band; NaN: none
 };
 
-RasterReader::RasterReader(const fs::path& path) : state_(std::make_unique<State>()) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    throw InputError(path.string() + ": does not exist or is no file");
-  state_->path = path;
+RasterReader::RasterReader(const fs::path& path) : state_(std::make_unique<State>(path)) {
   const GdalReports reports(path);
   const char* const drivers[] = {"GTiff", nullptr};
   detail::gdalDriver("GTiff");
@@ -117,6 +116,7 @@ PointFileInfo RasterReader::info() const {
   info.point_count = grid.cells();
   info.minimum.head<2>() << grid.west, grid.north - grid.rows * grid.cell;
   info.maximum.head<2>() << grid.west + grid.columns * grid.cell, grid.north;
+  info.version = state_->file.version();
   info.crs = grid.crs;
   info.crs_kind = crs.kind;
   info.units = unitsOfCrs(grid.crs);
@@ -143,6 +143,7 @@ void RasterReader::read(std::size_t band, const RasterWindow& window, float* val
       GDALRasterIO(handle, GF_Read, window.column, window.row, window.columns, window.rows, values,
                    window.columns, window.rows, GDT_Float32, 0, 0);
   reports.check(outcome == CE_None, "cannot be read");
+  state_->file.requireUnchanged();
   const float no_data = state_->no_data[band];
   const double scale = GDALGetRasterScale(handle, nullptr);
   const double offset = GDALGetRasterOffset(handle, nullptr);
@@ -172,6 +173,7 @@ void RasterReader::readReduced(std::size_t band, const RasterWindow& window, int
   const CPLErr outcome = GDALRasterIOEx(handle, GF_Read, window.column, window.row, window.columns,
                                         window.rows, values, columns, rows, GDT_Byte, 0, 0, &how);
   reports.check(outcome == CE_None, "cannot be read");
+  state_->file.requireUnchanged();
 }
 
 }  // namespace pcl_als

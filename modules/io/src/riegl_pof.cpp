@@ -10,10 +10,10 @@
 #include <string>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 
-#include "csv_table.h"
 #include "leap_seconds.h"
 #include "week_rollover.h"
 
@@ -111,7 +111,7 @@ TrajectorySample toSample(const Record& record) {
 }
 
 std::string pofContent(const fs::path& path) {
-  std::string content = readWholeFile(path);
+  std::string content = readWholeFile(path, kBinaryLimits);
   if (content.compare(0, kPofSignature.size(), kPofSignature) != 0 || content.size() < kPofHeader)
     throw InputError(path.string() +
                      ": is not a RIEGL trajectory, which begins with RIEGL POSITION&ORIENTATION "
@@ -230,7 +230,7 @@ TrajectoryRecords readRieglTrajectory(const fs::path& path, const TrajectoryRead
 }
 
 std::vector<TrajectoryAccuracy> readRieglAccuracies(const fs::path& path) {
-  const std::string name = path.string(), content = readWholeFile(path);
+  const std::string name = path.string(), content = readWholeFile(path, kBinaryLimits);
   const PoqExtent extent = poqExtent(content, name);
   const fs::path trajectory = besideIt(path, ".pof");
   std::error_code error;

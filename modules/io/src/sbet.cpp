@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/system_parameters.h>
 
-#include "csv_table.h"
 #include "week_rollover.h"
 
 namespace pcl_als::detail {
@@ -53,7 +53,7 @@ TrajectorySample toSample(const Record& record) {
 
 TrajectoryRecords readSbet(const std::filesystem::path& path, const TrajectoryReading& reading) {
   const std::string name = path.string();
-  const std::string content = readWholeFile(path);
+  const std::string content = readWholeFile(path, kBinaryLimits);
   if (content.empty()) throw InputError(name + ": is empty");
   if (content.size() % kRecordBytes != 0) {
     throw InputError(name + ": its size, " + std::to_string(content.size()) +

@@ -57,6 +57,16 @@ void PointSource::merge(const PointSource& other) {
   maximum = maximum.cwiseMax(other.maximum);
 }
 
+Eigen::AlignedBox3d PointFileSources::box() const {
+  Eigen::AlignedBox3d box;
+  for (const PointSource& source : sources) {
+    if (!source.minimum.allFinite() || !source.maximum.allFinite()) continue;
+    box.extend(source.minimum);
+    box.extend(source.maximum);
+  }
+  return box;
+}
+
 StripNaming::StripNaming(const Files& files) {
   const bool by_file = sameSingleId(files) && !timesConnect(files);
   std::set<std::string> taken;
@@ -117,7 +127,7 @@ PointSource sourceOf(const PointChunk& chunk, std::size_t from, std::size_t to) 
 
 PointFileSources surveySources(PointReader& reader,
                                const std::function<void(const PointChunk&)>& also) {
-  PointFileSources file{reader.info(), {}, reader.damage()};
+  PointFileSources file{reader.info(), {}, reader.damage(), {}};
   file.info.point_count = 0;  // of a part of a file only an estimate is known before
   std::map<std::uint16_t, PointSource> sources;
   PointChunk chunk;
@@ -134,6 +144,10 @@ PointFileSources surveySources(PointReader& reader,
     if (also) also(chunk);
   }
   for (const auto& entry : sources) file.sources.push_back(entry.second);
+  const Eigen::AlignedBox3d box = file.box();
+  const std::string remark = reader.boxRemark(box);
+  if (!remark.empty()) file.box_remark = file.info.path.string() + ": " + remark;
+  if (!box.isEmpty()) file.info.minimum = box.min(), file.info.maximum = box.max();
   return file;
 }
 

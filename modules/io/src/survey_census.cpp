@@ -37,11 +37,25 @@ class Census {
       survey_.files.push_back({PointReader::open(path, window, kAnyCoordinates)->info(), {}, {}});
       total_ += survey_.files.back().info.point_count;
     }
-    survey_.cell = cell > 0.0 ? cell : usualCell();
+    survey_.cell = cell > 0.0 ? cell : usualCensusCell(infos());
   }
 
-  SurveyCensus take() {
+  /// Reads all files. \return false where a header that is wrong made the cells too small or large.
+  bool read() {
+    const double used = survey_.cell;
     for (std::size_t f = 0; f < survey_.files.size(); ++f) readFile(f);
+    std::vector<PointFileInfo> measured = infos();
+    for (std::size_t f = 0; f < measured.size(); ++f) {
+      const PointStatistics& s = survey_.files[f].statistics;
+      measured[f].point_count = s.points;
+      measured[f].minimum = s.minimum, measured[f].maximum = s.maximum;
+    }
+    proper_cell_ = usualCensusCell(measured);
+    return !wrong_header_ || used == proper_cell_;
+  }
+  double properCell() const { return proper_cell_; }
+
+  SurveyCensus take() {
     if (done_ == 0 && !survey_.window.everything()) refuseNothingRead();
     survey_.duplicates = duplicates_.count();
     survey_.duplicates_estimated = duplicates_.estimated();
@@ -54,17 +68,10 @@ class Census {
  private:
   using SourceKey = std::pair<std::size_t, int>;  // file; point source id, or index of given_
 
-  /// By the density that the headers declare, so that a cell holds about 20 points.
-  double usualCell() const {
-    double area = 0.0;
-    for (const FileCensus& file : survey_.files) {
-      const Eigen::Vector3d size = file.info.maximum - file.info.minimum;
-      area += size.x() * size.y();
-    }
-    const double side = std::sqrt(kPointsPerCell * area / static_cast<double>(total_));
-    for (const double cell : {1.0, 2.0, 5.0})
-      if (side <= cell) return cell;
-    return 10.0;
+  std::vector<PointFileInfo> infos() const {
+    std::vector<PointFileInfo> infos;
+    for (const FileCensus& file : survey_.files) infos.push_back(file.info);
+    return infos;
   }
 
   [[noreturn]] void refuseNothingRead() const {
@@ -88,6 +95,12 @@ class Census {
     }
     for (const auto& [key, tally] : sources_)
       if (key.first == f) detail::mergeStatistics(survey_.files[f].statistics, tally.statistics());
+    const PointStatistics& s = survey_.files[f].statistics;
+    if (s.points == s.invalid_coordinates) return;
+    const std::string remark = reader->boxRemark({s.minimum, s.maximum});
+    if (remark.empty()) return;
+    survey_.files[f].remarks.push_back(remark);
+    wrong_header_ = true;
   }
 
   /// Runs of the same strip, as most chunks have few.
@@ -220,6 +233,8 @@ class Census {
   const CensusStrips& given_;
   SurveyCensus survey_;
   std::uint64_t total_ = 0, done_ = 0;
+  bool wrong_header_ = false;  ///< of any file
+  double proper_cell_ = 0.0;   ///< by the points
   std::map<SourceKey, SourceTally> sources_;
   std::vector<CellCounts> cells_;  ///< by strip
   detail::DuplicateSample duplicates_;
@@ -227,11 +242,30 @@ class Census {
 
 }  // namespace
 
+double usualCensusCell(const std::vector<PointFileInfo>& files) {
+  double area = 0.0;
+  std::uint64_t points = 0;
+  for (const PointFileInfo& file : files) {
+    const Eigen::Vector3d size = file.maximum - file.minimum;
+    area += size.x() * size.y();
+    points += file.point_count;
+  }
+  const double side = std::sqrt(kPointsPerCell * area / static_cast<double>(points));
+  for (const double cell : {1.0, 2.0, 5.0})
+    if (side <= cell) return cell;
+  return 10.0;
+}
+
 SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double cell,
                         const std::function<void(double)>& progress, const CensusStrips& strips,
                         const PointWindow& window) {
   if (!(std::isfinite(cell) && cell >= 0.0)) throw UsageError("cell size must be positive, metres");
-  return Census(files, cell, progress, strips, window).take();
+  Census census(files, cell, progress, strips, window);
+  // Given strips are counted as they are read, and their cell is given.
+  if (census.read() || cell > 0.0 || strips.run) return census.take();
+  Census again(files, census.properCell(), progress, strips, window);
+  again.read();
+  return again.take();
 }
 
 }  // namespace pcl_als

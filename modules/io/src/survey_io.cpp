@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <numeric>
+
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/io/survey_io.h>
@@ -29,6 +31,10 @@ TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
     records = readLeicaTrajectory(path, reading);
   } else {
     records = readTextTrajectory(path, reading);
+  }
+  if (!records.places.lines) {
+    records.places.numbers.resize(records.samples.size());
+    std::iota(records.places.numbers.begin(), records.places.numbers.end(), 1U);
   }
   unwrapWeek(records.samples);
   for (std::size_t i = 0; i < records.accuracy.size(); ++i)

@@ -9,9 +9,8 @@
 #include <string>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/system_parameters.h>
-
-#include "csv_table.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -43,7 +42,7 @@ const char* fault(const Record& record) {
 TrajectoryRecords readTerrascanTrajectory(const std::filesystem::path& path,
                                           const TrajectoryReading& reading) {
   const std::string name = path.string();
-  const std::string content = readWholeFile(path);
+  const std::string content = readWholeFile(path, kBinaryLimits);
   if (content.size() < kLeastHeader || content.compare(0, 8, "TSCANTRJ") != 0)
     throw InputError(name + ": is not a TerraScan trajectory, which begins with TSCANTRJ");
   const std::int64_t header = integerAt(content, 12), count = integerAt(content, 16);

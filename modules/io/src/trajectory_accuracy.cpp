@@ -9,10 +9,10 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 
-#include "csv_table.h"
 #include "riegl_pof.h"
 #include "week_rollover.h"
 
@@ -125,7 +125,7 @@ std::string describe(const AccuracySummary& summary) {
 std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path) {
   if (lowerExtension(path) == ".poq") return detail::readRieglAccuracies(path);
   constexpr std::size_t kBytes = sizeof(AccuracyRecord);
-  const std::string content = detail::readWholeFile(path);
+  const std::string content = readWholeFile(path, kBinaryLimits);
   if (content.empty()) throw InputError(path.string() + ": is empty");
   if (content.size() % kBytes != 0) {
     throw InputError(path.string() + ": its size, " + std::to_string(content.size()) +

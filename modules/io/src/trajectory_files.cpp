@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <set>
 
 #include <pcl_als/common/errors.h>
@@ -47,13 +48,18 @@ double medianStep(const std::vector<TrajectorySample>& samples) {
   return steps.empty() ? 0.0 : medianInPlace(steps);
 }
 
+std::vector<std::size_t> orderInTime(const std::vector<TrajectorySample>& samples) {
+  std::vector<std::size_t> order(samples.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return samples[a].time < samples[b].time; });
+  return order;
+}
+
 Part sortedPart(const fs::path& path, TrajectoryFile file) {
   Part part{path, std::move(file)};
   std::vector<TrajectorySample>& samples = part.file.samples;
-  std::vector<std::size_t> order(samples.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return samples[a].time < samples[b].time; });
+  const std::vector<std::size_t> order = orderInTime(samples);
   const std::vector<TrajectorySample> before = samples;
   const std::vector<TrajectoryAccuracy> accuracy = part.file.accuracy;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -158,6 +164,7 @@ class Joined {
   TrajectoryFile result(const std::vector<Part>& parts) {
     TrajectoryFile file = parts.front().file;
     file.samples = std::move(samples_);
+    file.places = {};
     if (!any_accuracy_) accuracy_.clear();
     file.accuracy = std::move(accuracy_);
     file.remarks.clear();
@@ -232,9 +239,14 @@ std::string timeKindOf(const TimeRange& times) {
 
 }  // namespace
 
-std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
+bool isTrajectoryFile(const fs::path& path) {
   static const std::set<std::string> kExtensions = {".csv", ".txt", ".sbet", ".out", ".pos",
                                                     ".asc", ".trj", ".pof",  ".sol"};
+  return kExtensions.count(lowerExtension(path)) != 0 && !isAccuracyFile(path);
+}
+
+std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
+  if (paths.empty()) throw UsageError("no trajectory files are given");
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
     std::error_code error;
@@ -244,8 +256,7 @@ std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
     }
     std::vector<fs::path> inside;
     for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
-      if (kExtensions.count(lowerExtension(entry.path())) != 0 && !isAccuracyFile(entry.path()))
-        inside.push_back(entry.path());
+      if (isTrajectoryFile(entry.path())) inside.push_back(entry.path());
     }
     if (inside.empty()) {
       throw InputError(path.string() +
@@ -268,10 +279,17 @@ std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
 TrajectoryFile readTrajectoryFiles(const std::vector<fs::path>& paths,
                                    const TrajectoryReading& reading) {
   const std::vector<fs::path> files = trajectoryPaths(paths);
-  if (files.size() == 1) return readTrajectoryFile(files.front(), reading);
+  std::vector<TrajectoryFile> read;
+  for (const fs::path& path : files) read.push_back(readTrajectoryFile(path, reading));
+  return joinTrajectoryFiles(std::move(read), files);
+}
+
+TrajectoryFile joinTrajectoryFiles(std::vector<TrajectoryFile> files,
+                                   const std::vector<fs::path>& paths) {
+  if (files.size() == 1) return std::move(files.front());
   std::vector<Part> parts;
-  for (const fs::path& path : files)
-    parts.push_back(sortedPart(path, readTrajectoryFile(path, reading)));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    parts.push_back(sortedPart(paths[i], std::move(files[i])));
   commonTimes(parts);
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Part& a, const Part& b) { return a.first < b.first; });
@@ -291,9 +309,11 @@ TrajectoryFacts inspectTrajectory(const fs::path& path, const TrajectoryReading&
                                [](const TrajectorySample& s) { return s.hasAttitude(); });
   facts.accuracy = records.accuracy;
   std::vector<TrajectorySample>& samples = facts.local;
-  samples = records.samples;
-  std::sort(samples.begin(), samples.end(),
-            [](const TrajectorySample& a, const TrajectorySample& b) { return a.time < b.time; });
+  facts.places.lines = records.places.lines;
+  for (const std::size_t i : orderInTime(records.samples)) {
+    samples.push_back(records.samples[i]);
+    facts.places.numbers.push_back(records.places.numbers[i]);
+  }
   for (const TrajectorySample& sample : samples) facts.times.add(sample.time);
   facts.median_step = medianStep(samples);
   facts.time_kind = timeKindOf(facts.times);

@@ -195,6 +195,7 @@ TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::pa
   file.heading_is_yaw = records.heading_is_yaw && reading.axes == AttitudeAxes::ned;
   FrameChange(records, path, reading).apply();
   file.samples = std::move(records.samples);
+  file.places = std::move(records.places);
   file.accuracy = std::move(records.accuracy);
   file.remarks = std::move(records.remarks);
   return file;

@@ -18,6 +18,7 @@ struct TrajectoryRecords {
   bool heading_is_true = false;              ///< stated by the name of the column
   bool orthometric = false;                  ///< heights are above a geoid
   std::vector<TrajectorySample> samples;     ///< positions: metres, or latitude, longitude (rad)
+  SamplePlaces places;                       ///< of the samples
   std::vector<TrajectoryAccuracy> accuracy;  ///< of the samples, or empty
   std::vector<std::string> remarks;
 };

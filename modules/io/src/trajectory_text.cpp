@@ -100,8 +100,10 @@ TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
   records.heading_is_true = columns.headingIsTrue();
   records.orthometric = columns.orthometric();
   records.columns = columns.describe();
+  records.places.lines = true;
   while (table.next()) {
     records.samples.push_back(reader.sample());
+    records.places.numbers.push_back(static_cast<std::uint32_t>(table.line()));
     if (reader.hasAccuracy())
       records.accuracy.push_back(reader.accuracy(records.samples.back().time));
   }

@@ -9,6 +9,8 @@
 #include <pcl_als/las/laz_io.h>
 #include <pcl_als/las/laz_schema.h>
 
+#include "chunk_table.h"
+
 namespace pcl_als::laz {
 
 /// Decodes the points of one chunk after the other; every chunk in pieces of any size.
@@ -21,9 +23,10 @@ class ChunkDecoder {
   virtual void decode(std::size_t records, std::uint8_t* out) = 0;
   /// Where the chunk ends in the file, after its last record was decoded.
   virtual std::uint64_t end() const = 0;
-  /// Whether the records that were decoded took all bytes of the chunk: not so in nearly all
-  /// damaged chunks that can be decoded at all.
-  virtual bool exhausted() const = 0;
+  /// Whether the compressed data end behind the records that were decoded, as an encoder ends them.
+  /// Layers must take all of their bytes, and the chunk must have no further record. Nearly all
+  /// damaged chunks that can be decoded at all do not end so.
+  virtual bool ended() const = 0;
 };
 
 /// Encodes one chunk after the other.
@@ -34,6 +37,11 @@ class ChunkEncoder {
   /// Appends the bytes of the chunk, if it has a record, and begins the next one.
   virtual void finish(std::vector<std::uint8_t>& out) = 0;
 };
+
+/// Damage where a decoder that has decoded all points of a chunk does not stand at its end: the
+/// format has no checksum, but behind most damage decoding loses its way.
+/// \param knows_end the end of the chunk is known from elsewhere
+void requireEnd(const ChunkDecoder& decoder, const Chunk& chunk, bool knows_end);
 
 /// \param fields LazField bits, of layered chunks.
 std::unique_ptr<ChunkDecoder> makeChunkDecoder(const LazSchema& schema, unsigned fields);

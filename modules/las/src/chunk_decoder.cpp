@@ -29,7 +29,7 @@ class PointwiseDecoder : public ChunkDecoder {
   }
 
   std::uint64_t end() const override { return coder_.source().position(); }
-  bool exhausted() const override { return coder_.source().left() == 0; }
+  bool ended() const override { return !first_ && coder_.ended(); }
 
  private:
   void begin(std::uint8_t* out) {
@@ -97,9 +97,9 @@ class LayeredDecoder : public ChunkDecoder {
   }
 
   std::uint64_t end() const override { return end_; }
-  bool exhausted() const override {
+  bool ended() const override {
     return left_ == 0 && std::all_of(layers_.begin(), layers_.end(), [](const auto* layer) {
-             return !layer->present || layer->coder.source().left() == 0;
+             return !layer->present || (layer->coder.source().left() == 0 && layer->coder.ended());
            });
   }
 
@@ -144,6 +144,13 @@ class LayeredDecoder : public ChunkDecoder {
 };
 
 }  // namespace
+
+void requireEnd(const ChunkDecoder& decoder, const Chunk& chunk, bool knows_end) {
+  if (chunk.holds_more || (decoder.ended() && (!knows_end || decoder.end() == chunk.end))) return;
+  throw Damage(
+      "its data do not end behind its points: some of these are wrong, or the header announces too "
+      "few");
+}
 
 std::unique_ptr<ChunkDecoder> makeChunkDecoder(const LazSchema& schema, unsigned fields) {
   if (schema.layered()) return std::make_unique<LayeredDecoder>(schema, fields);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "chunk_table.h"
 
+#include <algorithm>
+
 #include "chunk_coder.h"
 #include "integer_predictor.h"
 #include "point_context.h"
@@ -11,9 +13,13 @@ namespace {
 
 constexpr std::uint64_t kPointer = 8, kTableHeader = 8;
 constexpr std::size_t kPointsContext = 0, kBytesContext = 1;
-// A point costs at least three symbols, and no symbol less than 1/4000 bit (its share is at most
-// 1 - 2^-13): no byte holds more points than this.
-constexpr std::uint64_t kMostPointsPerByte = 16384;
+// The shares of the other symbols of an alphabet of n are at least (n - 3) / 2^15. A point costs a
+// symbol of 64 or 128 for what changes, and at least two of 33 for x and y: 0.0065 bits or more,
+// which is at most 1250 points in a byte.
+constexpr std::uint64_t kMostPointsPerByte = 2048;
+// Extra bytes of layered points that never change cost nothing. Records of 256 bytes remain
+// possible at any density, while a small file cannot ask for an unlimited time.
+constexpr std::uint64_t kMostRecordBytesPerByte = 256 * kMostPointsPerByte;
 
 std::uint64_t loadPointer(const LazReadAt& read, std::uint64_t position) {
   std::uint8_t bytes[kPointer];
@@ -21,13 +27,15 @@ std::uint64_t loadPointer(const LazReadAt& read, std::uint64_t position) {
   return load<std::uint64_t>(bytes);
 }
 
+/// In place of the position of the chunk table: it is at the end of the file.
+constexpr std::uint64_t kStreamed = ~std::uint64_t{0};
+
 /// Position of the chunk table; 0 where there is none.
 std::uint64_t findTable(const LazReadAt& read, const PointExtent& extent) {
-  constexpr std::uint64_t streamed = ~std::uint64_t{0};  // the pointer is at the end of the file
   const std::uint64_t chunks = extent.offset_to_points + kPointer;
   if (extent.file_size < chunks) throw Damage("the file ends before its points");
   std::uint64_t table = loadPointer(read, extent.offset_to_points);
-  if (table == streamed && extent.file_size >= chunks + kTableHeader + kPointer)
+  if (table == kStreamed && extent.file_size >= chunks + kTableHeader + kPointer)
     table = loadPointer(read, extent.file_size - kPointer);
   const bool inside = table >= chunks && extent.file_size >= kTableHeader &&
                       table <= extent.file_size - kTableHeader;
@@ -56,6 +64,7 @@ ChunkTable readTable(const LazSchema& schema, const LazReadAt& read, const Point
     throw Damage("its chunk table announces more chunks than fit into the file");
   ChunkTable table;
   table.from_table = true;
+  table.end = source.position();
   if (count == 0) return table;
   coder.start();
   IntegerPredictor<EntropyDecoder> numbers(32, 2);
@@ -70,15 +79,21 @@ ChunkTable readTable(const LazSchema& schema, const LazReadAt& read, const Point
     if (next.end > position) throw Damage("its chunk table reaches past the chunks");
     table.chunks.push_back(next);
   }
+  table.end = source.position();
   return table;
 }
 
-/// The last chunk of a fixed size holds what is left.
+/// The last chunk of a fixed size holds what is left. No chunk is decoded beyond the points that
+/// the header announces: a chunk size without sense must not ask for memory.
 void limitPoints(ChunkTable& table, const LazSchema& schema, const PointExtent& extent) {
-  if (schema.variableChunks()) return;
-  for (Chunk& chunk : table.chunks)
-    chunk.points = std::min(
-        chunk.points, extent.point_count > chunk.first ? extent.point_count - chunk.first : 0);
+  const bool counted = schema.variableChunks() || (schema.layered() && !table.from_table);
+  for (Chunk& chunk : table.chunks) {
+    chunk.first = std::min(chunk.first, extent.point_count);
+    const std::uint64_t left = extent.point_count - chunk.first;
+    if (chunk.points <= left) continue;
+    chunk.points = left;
+    chunk.holds_more = counted || &chunk != &table.chunks.back();
+  }
 }
 
 /// Follows the sizes in layered chunks up to the announced number of points.
@@ -126,7 +141,9 @@ ChunkTable findChunks(const LazSchema& schema, const LazReadAt& read, const Poin
   const std::uint64_t position = findTable(read, extent);
   if (position != 0) {
     try {
-      return readTable(schema, read, extent, position);
+      ChunkTable table = readTable(schema, read, extent, position);
+      if (loadPointer(read, extent.offset_to_points) == kStreamed) table.end = 0;
+      return table;
     } catch (const Damage&) {
       if (schema.variableChunks() && !schema.layered()) throw;
     }
@@ -136,9 +153,18 @@ ChunkTable findChunks(const LazSchema& schema, const LazReadAt& read, const Poin
 
 }  // namespace
 
-void checkDensity(const Chunk& chunk) {
-  if (chunk.points / kMostPointsPerByte > chunk.end - chunk.begin)
-    throw Damage("a chunk of " + std::to_string(chunk.end - chunk.begin) + " bytes cannot hold " +
+std::size_t ChunkTable::chunkOf(std::uint64_t point) const {
+  const auto after =
+      std::upper_bound(chunks.begin(), chunks.end(), point,
+                       [](std::uint64_t p, const Chunk& chunk) { return p < chunk.first; });
+  return static_cast<std::size_t>(after - chunks.begin()) - 1;
+}
+
+void checkDensity(const Chunk& chunk, std::size_t record_length) {
+  const std::uint64_t bytes = chunk.end - chunk.begin;
+  if (chunk.points / kMostPointsPerByte > bytes ||
+      chunk.points / (kMostRecordBytesPerByte / record_length) > bytes)
+    throw Damage("a chunk of " + std::to_string(bytes) + " bytes cannot hold " +
                  std::to_string(chunk.points) + " points");
 }
 
@@ -149,7 +175,7 @@ ChunkTable readChunkTable(const LazSchema& schema, const LazReadAt& read, const 
   if (table.complete && !incomplete) checkPoints(table, extent);
   limitPoints(table, schema, extent);
   if (incomplete) return table;
-  for (const Chunk& chunk : table.chunks) checkDensity(chunk);
+  for (const Chunk& chunk : table.chunks) checkDensity(chunk, schema.recordLength());
   return table;
 }
 

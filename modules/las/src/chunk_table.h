@@ -13,8 +13,10 @@ namespace pcl_als::laz {
 /// One compressed chunk of a file.
 struct Chunk {
   std::uint64_t first = 0;   ///< index of its first point
-  std::uint64_t points = 0;  ///< of the file; the header may announce fewer
+  std::uint64_t points = 0;  ///< that are decoded
   std::uint64_t begin = 0, end = 0;
+  /// The chunk holds further points, which the header does not announce.
+  bool holds_more = false;
 };
 
 /// Where the points of a file lie.
@@ -32,14 +34,21 @@ struct ChunkTable {
   std::vector<Chunk> chunks;
   bool complete = true;
   bool from_table = false;  ///< the chunks are those of the chunk table of the file
+  /// Position behind the chunk table; 0: not known, or the table is at the end of the file.
+  std::uint64_t end = 0;
+  /// Index of the chunk with a point.
+  std::size_t chunkOf(std::uint64_t point) const;
+  /// Whether Chunk::end is known before the chunk is decoded.
+  bool knowsEnds(const LazSchema& schema) const { return from_table || schema.layered(); }
 };
 
 /// Damage where the chunks cannot hold the announced points.
 /// \param incomplete accepts chunks that hold fewer, and chunks that cannot hold their points
 ChunkTable readChunkTable(const LazSchema& schema, const LazReadAt& read, const PointExtent& extent,
                           bool incomplete = false);
-/// Damage where so few bytes cannot hold the points of a chunk.
-void checkDensity(const Chunk& chunk);
+/// Damage where the bytes of a chunk cannot hold its points, or not plausibly.
+/// \param record_length bytes of a decoded point
+void checkDensity(const Chunk& chunk, std::size_t record_length);
 
 /// Bytes of the chunk table. \param points per chunk, used where their number varies.
 std::vector<std::uint8_t> serialiseChunkTable(const LazSchema& schema,

@@ -17,10 +17,13 @@ constexpr std::size_t kEntryBytes = 32;
 constexpr std::size_t kEntriesAtOnce = 4096;
 constexpr int kDeepest = 30;  ///< coordinates of nodes are 32-bit numbers
 constexpr std::int32_t kPage = -1;
+constexpr std::size_t kMostOthersVisited = 1024;
+
+using Key = std::array<std::int32_t, 4>;  ///< level, x, y, z
 
 /// An entry of a page: a node, or another page.
 struct Entry {
-  std::array<std::int32_t, 4> key{};  ///< level, x, y, z
+  Key key{};
   std::uint64_t offset = 0;
   std::int32_t bytes = 0, points = 0;
 };
@@ -34,10 +37,13 @@ Entry parseEntry(const std::byte* at) {
   return entry;
 }
 
-std::string nameOf(const Entry& entry) {
+std::string nameOf(const Key& key) {
   std::string text = "node";
-  for (std::size_t i = 0; i < 4; ++i) text += (i == 0 ? " " : "-") + std::to_string(entry.key[i]);
+  for (std::size_t i = 0; i < 4; ++i) text += (i == 0 ? " " : "-") + std::to_string(key[i]);
   return text;
+}
+std::string nameOf(const Entry& entry) {
+  return nameOf(entry.key);
 }
 
 class Hierarchy {
@@ -45,7 +51,7 @@ class Hierarchy {
   Hierarchy(const CopcInfo& info, const CopcFile& file, const LasWindow& window)
       : info_(info), file_(file), deepest_(deepestLevel(info, window)) {
     if (!window.bounds) return;
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(file.step);
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(file.scale.head<2>().maxCoeff());
     bounds_ = Eigen::AlignedBox2d(window.bounds->min() - margin, window.bounds->max() + margin);
   }
 
@@ -56,6 +62,13 @@ class Hierarchy {
       pages_.pop_back();
       readPage(page);
     }
+    checkParents();
+    std::uint64_t points = 0;
+    for (const CopcNode& node : nodes_) points += node.points;
+    if (points != file_.points)
+      refuse("the nodes of its octree hold " + std::to_string(points) + " of the " +
+             std::to_string(file_.points) + " points of the file");
+    checkPlaces();
     return std::move(nodes_);
   }
 
@@ -99,7 +112,9 @@ class Hierarchy {
 
   void take(const Entry& entry) {
     checkKey(entry);
-    if (entry.points == 0 || !wanted(entry)) return;
+    if (entry.points != kPage && !keys_.insert(entry.key).second)
+      refuse(nameOf(entry) + " stands there twice");
+    if (entry.points == 0) return;
     if (entry.points < kPage || entry.bytes <= 0)
       refuse(nameOf(entry) + " has " + std::to_string(entry.points) + " points in " +
              std::to_string(entry.bytes) + " bytes");
@@ -109,7 +124,47 @@ class Hierarchy {
       refuse(nameOf(entry) + ", " + std::to_string(bytes) + " bytes at byte " +
              std::to_string(entry.offset) + ", is not within the file of " +
              std::to_string(file_.size) + " bytes");
-    nodes_.push_back({entry.offset, bytes, static_cast<std::uint64_t>(entry.points)});
+    nodes_.push_back(
+        {entry.offset, bytes, static_cast<std::uint64_t>(entry.points), wanted(entry)});
+    cubes_.push_back(entry.key);
+  }
+
+  /// Every wanted node is read anyway; others are visited in equal steps.
+  void checkPlaces() const {
+    const std::size_t every = nodes_.size() / kMostOthersVisited + 1;
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (nodes_[i].wanted || i % every == 0) checkPlace(nodes_[i], cubes_[i]);
+  }
+
+  /// A chunk begins with its first point, not compressed.
+  void checkPlace(const CopcNode& node, const Key& key) const {
+    std::array<std::byte, 3 * sizeof(std::int32_t)> record;
+    if (node.bytes < record.size()) refuse(nameOf(key) + " is too short for a point");
+    file_.read(node.offset, record.size(), record.data());
+    Eigen::Vector3d point;
+    for (int axis = 0; axis < 3; ++axis)
+      point[axis] = loadLas<std::int32_t>(&record[static_cast<std::size_t>(4 * axis)]);
+    point = point.cwiseProduct(file_.scale) + file_.offset;
+    const Eigen::Vector3d margin = 2.0 * file_.scale;  // positions may have been rounded twice
+    const Eigen::AlignedBox3d cube = cubeOf(key);
+    if (!Eigen::AlignedBox3d(cube.min() - margin, cube.max() + margin).contains(point))
+      refuse("the first point of " + nameOf(key) + " lies outside its cube");
+  }
+
+  Eigen::AlignedBox3d cubeOf(const Key& key) const {
+    const double size = std::ldexp(2.0 * info_.half_size, -key[0]);
+    const Eigen::Vector3d low = (info_.centre.array() - info_.half_size).matrix() +
+                                size * Eigen::Vector3d(key[1], key[2], key[3]);
+    return {low, (low.array() + size).matrix()};
+  }
+
+  /// A reader that descends from the root does not find a node without its parent.
+  void checkParents() const {
+    for (const Key& key : keys_) {
+      if (key[0] == 0) continue;
+      const Key parent{key[0] - 1, key[1] >> 1, key[2] >> 1, key[3] >> 1};
+      if (keys_.count(parent) == 0) refuse("the parent of " + nameOf(key) + " is missing");
+    }
   }
 
   void checkKey(const Entry& entry) const {
@@ -123,11 +178,8 @@ class Hierarchy {
   bool wanted(const Entry& entry) const {
     if (entry.key[0] > deepest_) return false;
     if (bounds_.isEmpty()) return true;
-    const double size = std::ldexp(2.0 * info_.half_size, -entry.key[0]);
-    const Eigen::Vector2d low = (info_.centre.head<2>().array() - info_.half_size).matrix() +
-                                size * Eigen::Vector2d(entry.key[1], entry.key[2]);
-    const Eigen::AlignedBox2d box(low, (low.array() + size).matrix());
-    return bounds_.intersects(box);
+    const Eigen::AlignedBox3d cube = cubeOf(entry.key);
+    return bounds_.intersects(Eigen::AlignedBox2d(cube.min().head<2>(), cube.max().head<2>()));
   }
 
   const CopcInfo& info_;
@@ -137,7 +189,9 @@ class Hierarchy {
   std::vector<Page> pages_;     ///< to be read
   std::set<std::uint64_t> known_pages_;
   std::uint64_t page_bytes_ = 0;
+  std::set<Key> keys_;
   std::vector<CopcNode> nodes_;
+  std::vector<Key> cubes_;  ///< of nodes_
 };
 
 }  // namespace

@@ -11,6 +11,13 @@ void EntropyDecoder::start() {
   if (value_ == kWholeInterval) throw Damage("the compressed data do not begin as they must");
 }
 
+bool EntropyDecoder::ended() const {
+  // The counterpart of EntropyEncoder::finish().
+  if (length_ > 2 * kShortestInterval) return value_ >= 1 && value_ <= kShortestInterval;
+  constexpr std::uint32_t half = kShortestInterval >> 1;
+  return value_ <= half && value_ > half - (1U << 16);
+}
+
 std::uint32_t EntropyDecoder::rawStep(unsigned bits) {
   const std::uint32_t unit = length_ >> bits;
   const std::uint32_t found = value_ / unit;

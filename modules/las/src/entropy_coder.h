@@ -30,6 +30,9 @@ class EntropyDecoder {
   ByteSource& source() { return source_; }
   const ByteSource& source() const { return source_; }
   void start();
+  /// Whether the data can end here: an encoder ends them by one or two bytes, which depend on its
+  /// interval, and by zeros. Where symbols were decoded from damaged data this is improbable.
+  bool ended() const;
 
   std::uint32_t symbol(Model& model, std::uint32_t /*ignored*/ = 0) {
     const std::uint32_t unit = length_ >> kShareBits;

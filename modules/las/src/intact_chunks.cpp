@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::size_t kDecodedBytes = std::size_t{1} << 18;  ///< of records that are not kept
 
-/// Whether all points of a chunk can be decoded; the decoder then knows where it ends.
+/// Whether all points of a chunk can be decoded and its data end behind them.
 bool decodes(ChunkDecoder& decoder, const LazReadAt& read, const Chunk& chunk,
-             std::size_t record_length) {
+             std::size_t record_length, bool knows_end) {
   const std::size_t most = std::max<std::size_t>(1, kDecodedBytes / record_length);
   try {
-    checkDensity(chunk);
+    checkDensity(chunk, record_length);
     decoder.open(&read, chunk.begin, chunk.end);
     std::vector<std::uint8_t> records(std::min<std::uint64_t>(most, chunk.points) * record_length);
     for (std::uint64_t done = 0; done < chunk.points;) {
@@ -27,6 +27,7 @@ bool decodes(ChunkDecoder& decoder, const LazReadAt& read, const Chunk& chunk,
       decoder.decode(part, records.data());
       done += part;
     }
+    requireEnd(decoder, chunk, knows_end);
   } catch (const Damage&) {
     return false;
   }
@@ -38,7 +39,7 @@ std::vector<Chunk> walkIntact(const LazSchema& schema, const LazReadAt& read,
                               const LazPoints& points, Chunk next) {
   std::vector<Chunk> intact;
   const auto decoder = makeChunkDecoder(schema, points.fields);
-  while (next.points > 0 && decodes(*decoder, read, next, schema.recordLength())) {
+  while (next.points > 0 && decodes(*decoder, read, next, schema.recordLength(), false)) {
     next.end = decoder->end();
     intact.push_back(next);
     next.first += next.points;
@@ -65,18 +66,12 @@ LazIntact findIntactChunks(const LazSchema& schema, const LazReadAt& read, const
   parallelFor(table.chunks.size(), points.threads, [&](std::size_t i) {
     const Chunk& chunk = table.chunks[i];
     const auto decoder = makeChunkDecoder(schema, points.fields);
-    // A chunk that is limited by the number of points in the header may hold more.
-    const bool all = schema.variableChunks() || chunk.points == schema.chunk_size;
-    intact[i] = decodes(*decoder, read, chunk, schema.recordLength()) &&
-                (!all || (decoder->end() == chunk.end && decoder->exhausted()));
+    intact[i] = chunk.points > 0 &&
+                decodes(*decoder, read, chunk, schema.recordLength(), table.knowsEnds(schema));
   });
   if (table.from_table) found.chunk_count = table.chunks.size();
-  for (std::size_t i = 0; i < intact.size(); ++i) {
-    const Chunk& chunk = table.chunks[i];
-    const std::uint64_t end = std::min(chunk.first + chunk.points, points.point_count);
-    if (intact[i] != 0 && chunk.first < end)
-      found.chunks.push_back({chunk.first, end - chunk.first});
-  }
+  for (std::size_t i = 0; i < intact.size(); ++i)
+    if (intact[i] != 0) found.chunks.push_back({table.chunks[i].first, table.chunks[i].points});
   return found;
 }
 

@@ -95,10 +95,35 @@ LasReference referenceOfKeys(const GeoKeys& keys) {
   return reference;
 }
 
-/// Longitudes may run to 360 degrees.
-bool mayBeDegrees(const LasHeader& h) {
-  return h.minimum.x() >= -360.0 && h.maximum.x() <= 360.0 && h.minimum.y() >= -90.0 &&
-         h.maximum.y() <= 90.0;
+/// The plan box of the first and last points in the unit of the file; empty where they cannot be
+/// read.
+Eigen::AlignedBox2d boxOfSomePoints(const LasFile& file) {
+  const LasHeader& h = file.header();
+  const std::size_t length = h.record_length;
+  const auto count = std::min<std::uint64_t>(h.point_count / 2 + 1, 256);
+  std::vector<std::byte> records(2 * count * length);
+  Eigen::AlignedBox2d box;
+  if (h.point_count == 0) return box;
+  try {
+    file.readRanges({{0, count}, {h.point_count - count, count}}, records.data());
+  } catch (const InputError&) {
+    return box;  // damaged points are refused where they are needed
+  }
+  for (std::size_t i = 0; i < 2 * count; ++i) {
+    const Eigen::Vector2d raw(loadLas<std::int32_t>(&records[i * length]),
+                              loadLas<std::int32_t>(&records[i * length + 4]));
+    box.extend(Eigen::Vector2d(raw.cwiseProduct(h.scale.head<2>()) + h.offset.head<2>()));
+  }
+  return box;
+}
+
+/// By the points, because the box in the header may be wrong. Longitudes may run to 360 degrees.
+bool mayBeDegrees(const LasFile& file) {
+  const LasHeader& h = file.header();
+  Eigen::AlignedBox2d box = boxOfSomePoints(file);
+  if (box.isEmpty()) box = {h.minimum.head<2>().eval(), h.maximum.head<2>().eval()};
+  return box.min().x() >= -360.0 && box.max().x() <= 360.0 && box.min().y() >= -90.0 &&
+         box.max().y() <= 90.0;
 }
 
 /// Coordinates in steps of a micrometre with heights in steps of a millimetre are no lengths.
@@ -108,11 +133,11 @@ bool hasStepsOfDegrees(const LasHeader& h) {
   return step <= kLargestStep && h.scale.z() >= kLeastRatio * step;
 }
 
-void checkDegrees(const LasHeader& h, LasReference& reference) {
-  if (reference.kind == CrsKind::geographic && !mayBeDegrees(h)) {
+void checkDegrees(const LasFile& file, LasReference& reference) {
+  if (reference.kind == CrsKind::geographic && !mayBeDegrees(file)) {
     reference = LasReference();
-  } else if (reference.kind == CrsKind::unknown && !reference.units.known() && mayBeDegrees(h) &&
-             hasStepsOfDegrees(h)) {
+  } else if (reference.kind == CrsKind::unknown && !reference.units.known() &&
+             hasStepsOfDegrees(file.header()) && mayBeDegrees(file)) {
     reference.kind = CrsKind::geographic;
   }
 }
@@ -145,7 +170,7 @@ LasReference readLasReference(const LasFile& file) {
     reference.units = by_keys.units;
   }
   if (by_wkt && !reference.units.verticalKnown()) setVertical(keys, reference);
-  checkDegrees(file.header(), reference);
+  checkDegrees(file, reference);
   return reference;
 }
 

@@ -85,6 +85,7 @@ void decodeBlock(const Source& from, const LasRecordLayout& layout, const Eigen:
   from.column(12, &to.intensity[first],
               [](const std::byte* at) { return static_cast<float>(loadLas<std::uint16_t>(at)); });
   from.column(layout.point_source_id, &to.point_source_id[first], loadLas<std::uint16_t>);
+  from.column(layout.user_data, &to.user_data[first], byteAt);
   if (layout.gps_time >= 0)
     from.column(layout.gps_time, &to.gps_time[first], loadLas<double>);
   else

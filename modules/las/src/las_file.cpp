@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <mutex>
+#include <set>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
@@ -23,7 +24,7 @@ struct LasFile::State {
   LasHeader header;
   LasRecordLayout layout;
   std::vector<LasVlrEntry> vlrs;
-  std::vector<LasExtraField> extra_fields;
+  LasExtraBytes extra;
   std::unique_ptr<LazPointReader> laz;
   LasDamage damage = LasDamage::refuse;
   LasIntact intact;
@@ -37,7 +38,8 @@ struct LasFile::State {
 
 namespace {
 
-constexpr std::size_t kLargestExtraRecord = std::size_t{1} << 20;
+/// A record has room for this many fields of a byte; what is behind describes nothing.
+constexpr std::uint64_t kLargestExtraRecord = 65535 * kLasExtraDescriptor;
 
 LasHeader readHeader(const InputFile& file, LasDamage damage) {
   std::array<std::byte, 375> block{};
@@ -126,7 +128,37 @@ std::vector<std::byte> lazPayload(const LasFile& file) {
       "missing");
 }
 
-/// The chunk of each node, in file order.
+LasExtraBytes readExtraBytes(const LasFile& file) {
+  std::vector<std::vector<std::byte>> payloads;
+  for (const LasVlrEntry& vlr : file.vlrs()) {
+    if (!isRecord(vlr, kLasSpecUser, kLasExtraBytesRecord)) continue;
+    std::vector<std::byte>& payload =
+        payloads.emplace_back(std::min(vlr.length, kLargestExtraRecord));
+    file.readBytes(vlr.position, payload.size(), payload.data());
+  }
+  LasExtraBytes extra =
+      joinLasExtraBytes(payloads, file.layout().length, file.header().record_length);
+  if (payloads.size() > 1)
+    extra.remarks.insert(extra.remarks.begin(),
+                         "the " + std::to_string(payloads.size()) +
+                             " records that describe the extra bytes are read as one, in the order "
+                             "of the file");
+  return extra;
+}
+
+/// The record of applied corrections; empty where there is none.
+std::string correctionsOf(const LasFile& file) {
+  constexpr std::uint64_t kLongest = std::numeric_limits<std::uint16_t>::max();
+  for (const LasVlrEntry& vlr : file.vlrs()) {
+    if (!isRecord(vlr, kLasCorrectionsUser, kLasCorrectionsRecord) || vlr.length > kLongest)
+      continue;
+    const std::vector<std::byte> bytes = file.payload(vlr);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  }
+  return {};
+}
+
+/// The chunks of the nodes that are wanted, in file order; every node must be a chunk.
 std::vector<LasRecordRange> chunksOf(const std::vector<detail::CopcNode>& nodes,
                                      LazPointReader& laz, const LasFile& file) {
   const auto refuse = [&](const detail::CopcNode& node, const char* what) {
@@ -135,18 +167,18 @@ std::vector<LasRecordRange> chunksOf(const std::vector<detail::CopcNode>& nodes,
                      " (damaged COPC hierarchy; a conversion without bounds makes a file without)");
   };
   std::vector<LasRecordRange> ranges;
+  std::set<std::uint64_t> used;  // first records
   for (const detail::CopcNode& node : nodes) {
     const LasRecordRange chunk = laz.chunkAt(node.offset, node.offset + node.bytes);
     if (chunk.count != node.points || chunk.first > file.header().point_count ||
         chunk.count > file.header().point_count - chunk.first)
       refuse(node, "is no chunk of the chunk table");
-    ranges.push_back(chunk);
+    if (!used.insert(chunk.first).second)
+      throw InputError(file.path().string() + ": two nodes of its COPC hierarchy are one chunk");
+    if (node.wanted) ranges.push_back(chunk);
   }
   std::sort(ranges.begin(), ranges.end(),
             [](const LasRecordRange& a, const LasRecordRange& b) { return a.first < b.first; });
-  for (std::size_t i = 1; i < ranges.size(); ++i)
-    if (ranges[i].first == ranges[i - 1].first)
-      throw InputError(file.path().string() + ": two nodes of its COPC hierarchy are one chunk");
   return ranges;
 }
 
@@ -180,11 +212,7 @@ LasFile::LasFile(std::filesystem::path path, unsigned laz_fields, LasDamage dama
       if (!entry.extended && isRecord(entry, kCopcUser, detail::kCopcInfoRecord)) s.copc = &entry;
   }
   s.reference = detail::readLasReference(*this);
-  const auto extra = std::find_if(s.vlrs.begin(), s.vlrs.end(), [](const LasVlrEntry& entry) {
-    return isRecord(entry, "LASF_Spec", 4) && entry.length <= kLargestExtraRecord;
-  });
-  if (extra != s.vlrs.end())
-    s.extra_fields = parseLasExtraFields(payload(*extra), s.layout.length, s.header.record_length);
+  s.extra = readExtraBytes(*this);
 }
 
 LasFile::~LasFile() = default;
@@ -202,8 +230,8 @@ const LasRecordLayout& LasFile::layout() const {
 const std::vector<LasVlrEntry>& LasFile::vlrs() const {
   return state_->vlrs;
 }
-const std::vector<LasExtraField>& LasFile::extraFields() const {
-  return state_->extra_fields;
+const LasExtraBytes& LasFile::extraBytes() const {
+  return state_->extra;
 }
 std::string LasFile::crs() const {
   return state_->reference.crs;
@@ -217,8 +245,14 @@ const LinearUnits& LasFile::units() const {
 std::uint64_t LasFile::fileSize() const {
   return state_->file.size();
 }
-int LasFile::descriptor() const {
-  return state_->file.descriptor();
+std::uint64_t LasFile::pointsEnd() const {
+  const LasHeader& h = header();
+  if (state_->laz) return detail::readLazExtent(state_->file, h, lazPayload(*this)).end;
+  return h.offset_to_points + h.point_count * h.record_length;
+}
+std::uint64_t LasFile::surplusPointBytes() const {
+  if (!state_->laz) return 0;
+  return detail::readLazExtent(state_->file, header(), lazPayload(*this)).surplus_bytes;
 }
 
 LasScaling LasFile::toMetres() const {
@@ -232,6 +266,7 @@ PointFileInfo LasFile::info() const {
   const Eigen::Vector3d metres = units().metres();
   PointFileInfo info;
   info.path = path();
+  info.version = state_->file.version();
   info.point_count = h.point_count;
   info.minimum = h.minimum.cwiseProduct(metres);
   info.maximum = h.maximum.cwiseProduct(metres);
@@ -244,6 +279,7 @@ PointFileInfo LasFile::info() const {
                          ? TimeKind::adjusted_standard
                          : TimeKind::week_seconds;
   info.format = h.describe() + (isCopc() ? ", COPC" : "");
+  info.corrections = correctionsOf(*this);
   return info;
 }
 
@@ -314,7 +350,9 @@ std::vector<LasRecordRange> LasFile::recordsWithin(const LasWindow& window) cons
   detail::CopcFile file;
   file.name = s.file.name();
   file.size = s.file.size();
-  file.step = s.header.scale.head<2>().maxCoeff();
+  file.points = s.header.point_count;
+  file.scale = s.header.scale;
+  file.offset = s.header.offset;
   file.read = [this](std::uint64_t position, std::size_t bytes, std::byte* out) {
     readBytes(position, bytes, out);
   };

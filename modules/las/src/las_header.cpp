@@ -209,4 +209,11 @@ std::vector<std::byte> serialiseLasVlr(const LasVlr& vlr, bool extended) {
   return bytes;
 }
 
+LasVlr lasCorrectionsVlr(const std::string& corrections) {
+  LasVlr vlr{kLasCorrectionsUser, kLasCorrectionsRecord, "corrections applied by pcl_als", {}};
+  const auto* bytes = reinterpret_cast<const std::byte*>(corrections.data());
+  vlr.data.assign(bytes, bytes + corrections.size());
+  return vlr;
+}
+
 }  // namespace pcl_als

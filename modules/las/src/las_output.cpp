@@ -10,6 +10,8 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 
+#include "las_bytes.h"
+
 namespace pcl_als::detail {
 namespace {
 
@@ -27,27 +29,44 @@ void storeChanged(LasHead& head, bool compressed) {
   storeLas(&head.bytes[kFormat], format);
 }
 
-void insertLazRecord(LasHead& head, const std::vector<std::byte>& vlr) {
-  head.bytes.insert(head.bytes.begin() + static_cast<std::ptrdiff_t>(head.vlrs_end), vlr.begin(),
-                    vlr.end());
-  head.header.offset_to_points += static_cast<std::uint32_t>(vlr.size());
-  head.header.vlr_count += 1;
-  storeChanged(head, true);
-}
-
-void eraseVlr(LasHead& head, const LasVlrEntry& vlr) {
-  const auto first = static_cast<std::ptrdiff_t>(vlr.position - kLasVlrHeader);
-  const auto size = static_cast<std::ptrdiff_t>(kLasVlrHeader + vlr.length);
-  head.bytes.erase(head.bytes.begin() + first, head.bytes.begin() + first + size);
-  head.vlrs_end -= static_cast<std::size_t>(size);
-  head.header.offset_to_points -= static_cast<std::uint32_t>(size);
-  head.header.vlr_count -= 1;
-}
+constexpr std::size_t kVlrUser = 2, kVlrId = 18, kVlrLength = 20;
 
 }  // namespace
 
-bool describesChunks(const LasVlrEntry& vlr) {
-  return (vlr.user_id == kLazUser && vlr.record_id == kLazRecord) || vlr.user_id == kCopcUser;
+bool describesChunks(const std::string& user_id, std::uint16_t record_id) {
+  return (user_id == kLazUser && record_id == kLazRecord) || user_id == kCopcUser;
+}
+
+bool describesExtraBytes(const std::string& user_id, std::uint16_t record_id) {
+  return user_id == kLasSpecUser && record_id == kLasExtraBytesRecord;
+}
+
+std::size_t eraseVlrs(LasHead& head, const VlrKind& is_erased) {
+  std::size_t first = 0;
+  for (std::size_t at = head.header.header_size; at < head.vlrs_end;) {
+    const std::size_t size = kLasVlrHeader + loadLas<std::uint16_t>(&head.bytes[at + kVlrLength]);
+    if (!is_erased(textField(&head.bytes[at + kVlrUser], 16),
+                   loadLas<std::uint16_t>(&head.bytes[at + kVlrId]))) {
+      at += size;
+      continue;
+    }
+    const auto begin = head.bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    head.bytes.erase(begin, begin + static_cast<std::ptrdiff_t>(size));
+    head.vlrs_end -= size;
+    head.header.offset_to_points -= static_cast<std::uint32_t>(size);
+    head.header.vlr_count -= 1;
+    if (first == 0) first = at;
+  }
+  storeChanged(head, false);
+  return first == 0 ? head.vlrs_end : first;
+}
+
+void insertVlr(LasHead& head, std::size_t at, const std::vector<std::byte>& vlr) {
+  head.bytes.insert(head.bytes.begin() + static_cast<std::ptrdiff_t>(at), vlr.begin(), vlr.end());
+  head.vlrs_end += vlr.size();
+  head.header.offset_to_points += static_cast<std::uint32_t>(vlr.size());
+  head.header.vlr_count += 1;
+  storeChanged(head, false);
 }
 
 LasHead readLasHead(const LasFile& file) {
@@ -56,16 +75,11 @@ LasHead readLasHead(const LasFile& file) {
   head.bytes.resize(head.header.offset_to_points);
   file.readBytes(0, head.bytes.size(), head.bytes.data());
   head.vlrs_end = head.header.header_size;
-  std::vector<const LasVlrEntry*> dropped;
-  for (const LasVlrEntry& vlr : file.vlrs()) {
-    if (vlr.extended) continue;
-    head.vlrs_end = vlr.position + vlr.length;
-    if (describesChunks(vlr)) dropped.push_back(&vlr);
-  }
+  for (const LasVlrEntry& vlr : file.vlrs())
+    if (!vlr.extended) head.vlrs_end = vlr.position + vlr.length;
   if (!head.header.compressed) return head;
   head.header.compressed = false;
-  for (auto vlr = dropped.rbegin(); vlr != dropped.rend(); ++vlr) eraseVlr(head, **vlr);
-  storeChanged(head, false);
+  eraseVlrs(head, describesChunks);
   return head;
 }
 
@@ -73,7 +87,10 @@ LasOutput::LasOutput(const std::filesystem::path& path, LasHead head, int thread
     : name_(path.string()), file_(path), record_length_(head.header.record_length) {
   const LazSchema schema = LazSchema::forFormat(head.header.point_format, record_length_);
   const bool compressed = lowerExtension(path) == ".laz";
-  if (compressed) insertLazRecord(head, lazVlr(schema));
+  if (compressed) {
+    insertVlr(head, head.vlrs_end, lazVlr(schema));
+    storeChanged(head, true);
+  }
   offset_to_points_ = head.header.offset_to_points;
   file_.write(head.bytes.data(), head.bytes.size());
   if (!compressed) return;

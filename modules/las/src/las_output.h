@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -29,9 +30,19 @@ struct LasHead {
 /// describe its compression and the octree of its chunks (COPC).
 LasHead readLasHead(const LasFile& file);
 
+/// Whether a VLR of this user id and record id is of some kind.
+using VlrKind = std::function<bool(const std::string& user_id, std::uint16_t record_id)>;
+
+/// Removes the VLRs of a kind; returns where the first one was, or the end of the VLRs.
+std::size_t eraseVlrs(LasHead& head, const VlrKind& is_erased);
+/// Inserts the bytes of a whole VLR between two others or behind the last one.
+void insertVlr(LasHead& head, std::size_t at, const std::vector<std::byte>& vlr);
+
 /// Whether a record (VLR or EVLR) describes how the points of its file are compressed or where
 /// their chunks are: it does not hold for a file that is written anew.
-bool describesChunks(const LasVlrEntry& vlr);
+bool describesChunks(const std::string& user_id, std::uint16_t record_id);
+/// Whether a record (VLR or EVLR) describes extra bytes.
+bool describesExtraBytes(const std::string& user_id, std::uint16_t record_id);
 
 /// Plain or compressed (by extension .laz) point records into an AtomicFile.
 class LasOutput {

@@ -5,7 +5,9 @@
 #include <mutex>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/header_box.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/las/external_waveforms.h>
 #include <pcl_als/las/las_rewriter.h>
 
 #include "las_extension.h"
@@ -32,6 +34,20 @@ struct Boxes {
   }
 };
 
+bool recordsCorrections(const std::string& user_id, std::uint16_t record_id) {
+  return user_id == kLasCorrectionsUser && record_id == kLasCorrectionsRecord;
+}
+
+/// The head of the output: fields are added and the record of corrections is replaced.
+detail::LasHead headOf(const LasFile& input, const LasExtension& extension) {
+  detail::LasHead head = detail::extendedHead(input, extension.fields);
+  if (!extension.corrections) return head;
+  const std::size_t at = detail::eraseVlrs(head, recordsCorrections);
+  if (!extension.corrections->empty())
+    detail::insertVlr(head, at, serialiseLasVlr(lasCorrectionsVlr(*extension.corrections)));
+  return head;
+}
+
 class Rewrite {
  public:
   Rewrite(const LasFile& input, const std::filesystem::path& output, const LasEdit& edit,
@@ -39,13 +55,14 @@ class Rewrite {
       : input_(input),
         edit_(edit),
         header_(input.header()),
-        head_(detail::extendedHead(input, extension.fields)),
+        head_(headOf(input, extension)),
         out_length_(head_.header.record_length),
         per_block_(extension.block_records > 0
                        ? extension.block_records
                        : std::max<std::size_t>(1, kBlockBytes / out_length_)),
         keeps_coordinates_(extension.keeps_coordinates),
         threads_(threads),
+        waveforms_(input, output),
         output_(output, head_, threads) {}
 
   LasRewriteResult run() {
@@ -54,11 +71,10 @@ class Rewrite {
     else
       parallelFor((header_.point_count + per_block_ - 1) / per_block_, threads_,
                   [this](std::size_t block) { rewriteBlock(block); });
-    detail::copyLasTail(input_, output_);
-    LasRewriteResult result;
-    result.points = header_.point_count;
-    result.box_changed = !(boxes_.before == boxes_.after);
-    if (result.box_changed) storeBox();
+    detail::copyLasTail(input_, output_, out_length_ > header_.record_length);
+    waveforms_.prepare();
+    const LasRewriteResult result = finish();
+    waveforms_.commit();
     output_.commit();
     return result;
   }
@@ -96,11 +112,13 @@ class Rewrite {
   }
 
   void editBlock(const LasRecordBlock& block) {
-    if (keeps_coordinates_) return edit_(block);
     detail::LasBox before, after;
     before.add(block.records, block.count, out_length_);
     edit_(block);
-    after.add(block.records, block.count, out_length_);
+    if (keeps_coordinates_)
+      after = before;
+    else
+      after.add(block.records, block.count, out_length_);
     boxes_.add(before, after);
   }
 
@@ -118,6 +136,18 @@ class Rewrite {
     }
   }
 
+  /// Stores a box that changed or was wrong.
+  LasRewriteResult finish() {
+    LasRewriteResult result;
+    result.points = header_.point_count;
+    result.box_changed = !(boxes_.before == boxes_.after);
+    const PointFileInfo info = input_.info();
+    const std::string wrong_box = headerBoxRemark(info, boxes_.before.inMetres(input_));
+    if (result.box_changed || !wrong_box.empty()) storeBox();
+    result.remarks = detail::remarksOf(input_, wrong_box, waveforms_);
+    return result;
+  }
+
   void storeBox() {
     LasHeader changed = header_;
     boxes_.after.store(changed);
@@ -133,6 +163,7 @@ class Rewrite {
   const std::size_t per_block_;
   const bool keeps_coordinates_;
   const int threads_;
+  WaveformCopy waveforms_;
   detail::LasOutput output_;
   Boxes boxes_;
 };

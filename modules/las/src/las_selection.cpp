@@ -33,11 +33,13 @@ struct LasSelectionWriter::State {
   const LasFile& like;
   LasHeader header;
   detail::LasTally tally;
+  WaveformCopy waveforms;
   detail::LasOutput output;
 
   State(const std::filesystem::path& path, const LasFile& file, int threads)
       : like(file),
         header(file.header()),
+        waveforms(file, path),
         output(checked(path, file), detail::readLasHead(file), threads) {}
 };
 
@@ -62,7 +64,13 @@ void LasSelectionWriter::finish() {
   detail::copyLasTail(s.like, s.output);
   s.tally.store(s.header);
   s.output.putCounts(s.header);
+  s.waveforms.prepare();
+  s.waveforms.commit();
   s.output.commit();
+}
+
+std::vector<std::string> LasSelectionWriter::remarks() const {
+  return detail::remarksOf(state_->like, {}, state_->waveforms);
 }
 
 std::array<std::int64_t, 3> stepsBetween(const LasFile& from, const LasFile& to) {
@@ -77,6 +85,8 @@ std::array<std::int64_t, 3> stepsBetween(const LasFile& from, const LasFile& to)
   if (!sameFields(from.extraFields(), to.extraFields())) refuse("description of extra bytes");
   if (((a.global_encoding ^ b.global_encoding) & kLasAdjustedStandardTime) != 0)
     refuse("kind of GPS time");
+  if (from.path() != to.path() && (refersToWaveforms(from) || refersToWaveforms(to)))
+    refuse("set of waveforms");
   std::array<std::int64_t, 3> steps{};
   for (int axis = 0; axis < 3; ++axis) {
     const double exact = (a.offset[axis] - b.offset[axis]) / a.scale[axis];

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <pcl_als/las/unclaimed_bytes.h>
+
 namespace pcl_als::detail {
 namespace {
 
@@ -15,36 +17,40 @@ struct Range {
   std::uint64_t begin = 0, end = 0;
 };
 
-/// Where the bytes behind the points begin. Behind compressed points only what the header refers
-/// to can be told from the chunk table.
+/// Where the bytes behind the points begin. Where the end of compressed points is not known, only
+/// what the header refers to can be told from them.
 std::uint64_t tailOf(const LasFile& input) {
   const LasHeader& h = input.header();
   if (!h.compressed && input.isTruncated()) return input.fileSize();
-  if (!h.compressed) return h.offset_to_points + h.point_count * h.record_length;
-  std::uint64_t tail = input.fileSize();
+  if (!h.compressed) return input.pointsEnd();
+  const std::uint64_t points_end = input.pointsEnd();
+  std::uint64_t tail = points_end > 0 ? points_end : input.fileSize();
   if (h.evlr_count > 0) tail = std::min(tail, h.evlr_start);
   if (h.waveform_start > h.offset_to_points) tail = std::min(tail, h.waveform_start);
   return tail;
 }
 
 /// The extended VLRs that do not hold for the output, in the order of the file.
-std::vector<Range> droppedRecords(const LasFile& input) {
+std::vector<Range> droppedRecords(const LasFile& input, bool extended_records) {
+  const bool compressed = input.header().compressed;
   std::vector<Range> dropped;
-  if (!input.header().compressed) return dropped;
-  for (const LasVlrEntry& vlr : input.vlrs())
-    if (vlr.extended && describesChunks(vlr))
+  for (const LasVlrEntry& vlr : input.vlrs()) {
+    if (!vlr.extended) continue;
+    if ((compressed && describesChunks(vlr.user_id, vlr.record_id)) ||
+        (extended_records && describesExtraBytes(vlr.user_id, vlr.record_id)))
       dropped.push_back({vlr.position - kLasEvlrHeader, vlr.position + vlr.length});
+  }
   return dropped;
 }
 
 class Tail {
  public:
-  Tail(const LasFile& input, LasOutput& output)
+  Tail(const LasFile& input, LasOutput& output, bool extended_records)
       : input_(input),
         output_(output),
         from_(tailOf(input)),
         to_(output.endPoints()),
-        dropped_(droppedRecords(input)) {}
+        dropped_(droppedRecords(input, extended_records)) {}
 
   void copy() {
     std::uint64_t at = from_;
@@ -98,8 +104,18 @@ class Tail {
 
 }  // namespace
 
-void copyLasTail(const LasFile& input, LasOutput& output) {
-  Tail(input, output).copy();
+void copyLasTail(const LasFile& input, LasOutput& output, bool extended_records) {
+  Tail(input, output, extended_records).copy();
+}
+
+std::vector<std::string> remarksOf(const LasFile& input, const std::string& wrong_box,
+                                   const WaveformCopy& waveforms) {
+  std::vector<std::string> remarks = input.extraBytes().remarks;
+  if (!wrong_box.empty()) remarks.push_back(wrong_box);
+  if (!waveforms.remark().empty()) remarks.push_back(waveforms.remark());
+  const UnclaimedBytes unclaimed = unclaimedBytes(input);
+  if (unclaimed.any()) remarks.push_back(unclaimed.describeCopy());
+  return remarks;
 }
 
 }  // namespace pcl_als::detail

@@ -52,6 +52,14 @@ void LasBox::store(LasHeader& header) const {
   }
 }
 
+Eigen::AlignedBox3d LasBox::inMetres(const LasFile& file) const {
+  if (empty()) return {};
+  LasHeader header = file.header();
+  store(header);
+  const Eigen::Vector3d metres = file.units().metres();
+  return {header.minimum.cwiseProduct(metres), header.maximum.cwiseProduct(metres)};
+}
+
 void LasTally::add(const std::byte* records, std::size_t count, std::size_t record_length,
                    const LasRecordLayout& layout) {
   points += count;

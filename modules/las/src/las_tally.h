@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <limits>
 
+#include <Eigen/Geometry>
+
+#include <pcl_als/las/las_file.h>
 #include <pcl_als/las/las_header.h>
 #include <pcl_als/las/las_record.h>
 
@@ -24,7 +27,8 @@ struct LasBox {
   void add(const LasBox& other);
   bool operator==(const LasBox& other) const { return low == other.low && high == other.high; }
   bool empty() const { return low[0] > high[0]; }
-  /// Stores the box in metres; an empty one as zeros.
+  Eigen::AlignedBox3d inMetres(const LasFile& file) const;
+  /// Stores the box in the unit of the file; an empty one as zeros.
   void store(LasHeader& header) const;
 };
 

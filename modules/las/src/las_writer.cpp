@@ -77,7 +77,8 @@ std::vector<LasVlr> collectVlrs(const LasWriterOptions& options,
                                 const std::vector<LasExtraField>& fields) {
   std::vector<LasVlr> vlrs = detail::lasCrsRecords(options.crs, options.point_format >= 6);
   if (!fields.empty())
-    vlrs.push_back({"LASF_Spec", 4, "Extra Bytes Record", serialiseLasExtraFields(fields)});
+    vlrs.push_back({kLasSpecUser, kLasExtraBytesRecord, "Extra Bytes Record",
+                    serialiseLasExtraFields(fields)});
   vlrs.insert(vlrs.end(), options.vlrs.begin(), options.vlrs.end());
   return vlrs;
 }

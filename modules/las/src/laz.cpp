@@ -2,8 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "laz.h"
 
+#include <algorithm>
+
 #include <pcl_als/common/errors.h>
 
+#include "byte_source.h"
+#include "chunk_table.h"
 #include "las_bytes.h"
 
 namespace pcl_als::detail {
@@ -39,6 +43,28 @@ std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHe
     file.read(position, bytes, out);
   };
   return std::make_unique<LazPointReader>(std::move(schema), read, points, file.name());
+}
+
+LazExtent readLazExtent(const InputFile& file, const LasHeader& header,
+                        const std::vector<std::byte>& payload) {
+  const auto read = [&file](std::uint64_t position, std::size_t bytes, void* out) {
+    file.read(position, bytes, out);
+  };
+  LazExtent extent;
+  try {
+    const LazSchema schema = LazSchema::parse(reinterpret_cast<const std::uint8_t*>(payload.data()),
+                                              payload.size(), file.name());
+    // A table of no points would not be read.
+    const std::uint64_t points = std::max<std::uint64_t>(1, header.point_count);
+    const laz::ChunkTable table =
+        laz::readChunkTable(schema, read, {header.offset_to_points, file.size(), points}, true);
+    extent.end = table.end;
+    for (const laz::Chunk& chunk : table.chunks)
+      if (chunk.first >= header.point_count) extent.surplus_bytes += chunk.end - chunk.begin;
+  } catch (const laz::Damage&) {
+    // Where the points of such a file end is not known.
+  }
+  return extent;
 }
 
 std::vector<std::byte> lazVlr(const LazSchema& schema) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,14 @@ namespace pcl_als::detail {
 std::unique_ptr<LazPointReader> openLazPoints(const InputFile& file, const LasHeader& header,
                                               const std::vector<std::byte>& payload,
                                               unsigned fields, bool keep_intact);
+
+/// What of a compressed file its points use, by the chunk table.
+struct LazExtent {
+  std::uint64_t end = 0;            ///< position behind the chunk table; 0: not known
+  std::uint64_t surplus_bytes = 0;  ///< of chunks behind the points that the header announces
+};
+LazExtent readLazExtent(const InputFile& file, const LasHeader& header,
+                        const std::vector<std::byte>& payload);
 
 /// The VLR (header and payload) that a compressed file needs among its others.
 std::vector<std::byte> lazVlr(const LazSchema& schema);

@@ -62,7 +62,6 @@ struct LazPointReader::State {
 
   void open();
   bool holdsLargeChunk() const;
-  std::size_t chunkOf(std::uint64_t point) const;
   [[noreturn]] void refuse(std::size_t chunk, const char* what) const;
   std::unique_ptr<laz::ChunkDecoder> takeDecoder();
   void decodeChunk(laz::ChunkDecoder& decoder, std::size_t index, std::uint8_t* out) const;
@@ -99,13 +98,6 @@ bool LazPointReader::State::holdsLargeChunk() const {
   });
 }
 
-std::size_t LazPointReader::State::chunkOf(std::uint64_t point) const {
-  const auto after =
-      std::upper_bound(table.chunks.begin(), table.chunks.end(), point,
-                       [](std::uint64_t p, const Chunk& chunk) { return p < chunk.first; });
-  return static_cast<std::size_t>(after - table.chunks.begin()) - 1;
-}
-
 void LazPointReader::State::refuse(std::size_t chunk, const char* what) const {
   const Chunk& c = table.chunks[chunk];
   throw DamagedFile(name + ": chunk " + std::to_string(chunk + 1) + " (points " +
@@ -128,11 +120,7 @@ void LazPointReader::State::decodeChunk(laz::ChunkDecoder& decoder, std::size_t 
   try {
     decoder.open(&read_at, chunk.begin, chunk.end);
     decoder.decode(chunk.points, out);
-    // The header may announce fewer points than the chunks hold.
-    const bool whole = index + 1 < table.chunks.size() &&
-                       (schema.variableChunks() || chunk.points == schema.chunk_size);
-    if (whole && decoder.end() != chunk.end)
-      throw laz::Damage("its end is not where the chunk table says");
+    laz::requireEnd(decoder, chunk, table.knowsEnds(schema));
   } catch (const laz::Damage& damage) {
     refuse(index, damage.what());
   }
@@ -170,7 +158,7 @@ void LazPointReader::State::decodeChunks(std::size_t begin, std::size_t end, Dec
 
 /// Decodes the chunks from that of \a point on that reach up to \a wanted_end.
 void LazPointReader::State::decodeFrom(std::uint64_t point, std::uint64_t wanted_end) {
-  const std::size_t first = chunkOf(point);
+  const std::size_t first = table.chunkOf(point);
   std::vector<std::size_t> runs{first};
   std::uint64_t count = 0;
   for (std::size_t i = first; i < table.chunks.size(); i = runs.back()) {
@@ -213,7 +201,7 @@ void LazPointReader::State::takeNext(std::uint64_t point) {
       decodeChunks(run.begin, run.end, run);
     });
   }
-  const std::size_t chunk = chunkOf(point);
+  const std::size_t chunk = table.chunkOf(point);
   if (ahead->size() == 0 || table.chunks[chunk].first != ahead_from) {
     ahead->clear();
     next_ahead = chunk;
@@ -246,7 +234,7 @@ void LazPointReader::State::readDecoded(std::uint64_t first, std::size_t count, 
 
 /// Moves the cursor to a chunk at or before a point.
 void LazPointReader::State::placeCursor(std::uint64_t point) {
-  const std::size_t chunk = chunkOf(point);
+  const std::size_t chunk = table.chunkOf(point);
   if (cursor.open && cursor.next <= point && cursor.chunk >= chunk) return;
   if (!cursor.decoder) cursor.decoder = laz::makeChunkDecoder(schema, points.fields);
   cursor.chunk = chunk;
@@ -285,6 +273,7 @@ void LazPointReader::State::advance(std::size_t count, std::uint8_t* out) {
     out += part * record_length;
     cursor.next += part;
     count -= part;
+    if (part == left) laz::requireEnd(*cursor.decoder, chunk, table.knowsEnds(schema));
   }
 }
 
@@ -329,7 +318,7 @@ void LazPointReader::State::readRanges(const std::vector<LasRecordRange>& ranges
       continue;
     }
     for (std::uint64_t at = range.first, end = range.first + range.count; at < end;) {
-      const std::size_t index = chunkOf(at);
+      const std::size_t index = table.chunkOf(at);
       const Chunk& chunk = table.chunks[index];
       const std::uint64_t count = std::min(end, chunk.first + chunk.points) - at;
       if (count == chunk.points)

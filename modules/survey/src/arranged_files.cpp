@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/survey/arranged_files.h>
 
 namespace pcl_als {
@@ -12,6 +13,7 @@ namespace {
 
 std::vector<SurveyedFile> surveyAll(const std::vector<std::filesystem::path>& paths,
                                     const PointWindow& window) {
+  requirePointFiles(paths.size());
   std::vector<SurveyedFile> files;
   files.reserve(paths.size());
   for (const std::filesystem::path& path : paths)
@@ -91,8 +93,10 @@ SurveyCensus takeCensus(const std::vector<std::filesystem::path>& files, double 
                         const PointWindow& window, std::vector<LeftOutPoints>& left_out) {
   const ArrangedFiles arranged(files, choice, window);
   std::vector<std::uint64_t> counts;
-  SurveyCensus census =
-      takeCensus(files, cell, progress, censusStrips(arranged.arrangement(), counts), window);
+  std::vector<PointFileInfo> measured;
+  for (const SurveyedFile& file : arranged.files()) measured.push_back(file.sources.info);
+  SurveyCensus census = takeCensus(files, cell > 0.0 ? cell : usualCensusCell(measured), progress,
+                                   censusStrips(arranged.arrangement(), counts), window);
   left_out = arranged.arrangement().leftOut(counts);
   return census;
 }

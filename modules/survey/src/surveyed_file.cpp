@@ -1,15 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <array>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 #include <pcl_als/survey/surveyed_file.h>
 
 namespace pcl_als {
+namespace {
+
+/// The version of a file when it was opened first; later readings must find the same.
+class FirstVersion {
+ public:
+  void check(const PointFileInfo& info) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!version_) version_ = info.version;
+    if (*version_ != info.version) refuseChangedFile(info.path.string());
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<FileVersion> version_;
+};
+
+}  // namespace
 
 SurveyInput SurveyInput::ofFile(const std::filesystem::path& path, const PointWindow& window) {
   SurveyInput input;
   input.path = path;
-  input.open = [path, window] { return PointReader::open(path, window); };
+  input.open = [path, window, first = std::make_shared<FirstVersion>()] {
+    auto reader = PointReader::open(path, window);
+    first->check(reader->info());
+    return reader;
+  };
   return input;
 }
 

@@ -23,8 +23,8 @@ struct TemporarySlot;
  *
  * commit() does not fsync: it guards against failures of the program and of the file system's
  * space, not against a power cut. A symbolic link as target is written through, the permissions of
- * an existing target are kept, and a target that is no regular file (a folder, a device) is
- * refused.
+ * an existing target are kept, and a target that is no regular file (a folder, a device) or that is
+ * protected (FileProtection) is refused.
  */
 class AtomicFile {
  public:

@@ -39,7 +39,11 @@ struct ParameterEstimate {
   double std = 0.0;         ///< standard deviation including errors that pairs share
   double std_formal = 0.0;  ///< Habib et al. 2011, Eq. (26): only the noise of points
   ParameterStatus status = ParameterStatus::fixed;
-  std::string reason;  ///< why it is fixed or not estimable; empty when estimated
+  std::string reason;  ///< why it is fixed, not estimable, or not determined; otherwise empty
+  /// False for an estimate that tells nothing: it does not differ from zero by two standard
+  /// deviations, one of which moves points noticeably (DeterminationLimits::on_points). It is
+  /// applied nevertheless, because the others are right only together with it.
+  bool determined = true;
 };
 
 /// One iteration of the adjustment.

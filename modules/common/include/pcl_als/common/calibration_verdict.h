@@ -15,7 +15,7 @@ enum class CalibrationStatus {
   usable,
   parameters_affected,  ///< errors that the model does not describe have changed the estimates
   no_improvement,       ///< the misfit between the strips is not smaller after the calibration
-  not_determined,       ///< no parameter, or not every requested one, is determined
+  not_determined,       ///< no parameter, or not every requested one, can be estimated
   not_converged,        ///< the iteration ended without a solution
 };
 

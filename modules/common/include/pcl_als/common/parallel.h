@@ -9,6 +9,9 @@ namespace pcl_als {
 
 /// Number of threads to use for a request: itself when positive, else what the machine has.
 unsigned threadCount(int requested);
+/// The number of threads of a setting: 0 (all cores, the default everywhere) or more; UsageError
+/// for a negative one.
+int requiredThreads(int threads);
 
 /** \brief Calls body(chunk) once for every chunk in [0, chunk_count), on up to \a threads threads.
  *

@@ -14,8 +14,11 @@ struct PointChunk {
   std::vector<float> intensity, scan_angle;
   std::vector<std::uint16_t> point_source_id;
   std::vector<std::uint8_t> return_number, number_of_returns, classification,
-      flags;                          ///< PointFlag
-  std::vector<std::uint8_t> channel;  ///< of the scanner; 0 where none is recorded
+      flags;  ///< PointFlag
+  std::vector<std::uint8_t> user_data;
+  /// Of the scanner, from the field that the reader was given (PointWindow::channel_field); 0 where
+  /// none is recorded. Writers do not use it.
+  std::vector<std::uint8_t> channel;
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t count);

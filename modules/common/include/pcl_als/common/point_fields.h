@@ -35,6 +35,11 @@ template <typename PointT>
 struct HasFlags<PointT, std::void_t<decltype(PointT::flags)>> : std::true_type {};
 
 template <typename PointT, typename = void>
+struct HasUserData : std::false_type {};
+template <typename PointT>
+struct HasUserData<PointT, std::void_t<decltype(PointT::user_data)>> : std::true_type {};
+
+template <typename PointT, typename = void>
 struct HasIntensity : std::false_type {};
 template <typename PointT>
 struct HasIntensity<PointT, std::void_t<decltype(PointT::intensity)>> : std::true_type {};
@@ -53,7 +58,8 @@ struct HasScanAngle<PointT, std::void_t<decltype(PointT::scan_angle)>> : std::tr
  *
  * Fields are found by their names in PointLidar and have its units: gps_time (seconds),
  * return_number and number_of_returns (both or none; 1), classification (ASPRS code; 0), flags
- * (bits of PointFlag; 0), intensity (0), scan_angle (degrees; 0), point_source_id (0).
+ * (bits of PointFlag; 0), user_data (0), intensity (0), scan_angle (degrees; 0), point_source_id
+ * (0).
  */
 template <typename PointT>
 struct PointFields {
@@ -90,6 +96,12 @@ struct PointFields {
   std::uint8_t flags() const {
     if constexpr (HasFlags<PointT>::value)
       return static_cast<std::uint8_t>(point.flags);
+    else
+      return 0;
+  }
+  std::uint8_t userData() const {
+    if constexpr (HasUserData<PointT>::value)
+      return static_cast<std::uint8_t>(point.user_data);
     else
       return 0;
   }

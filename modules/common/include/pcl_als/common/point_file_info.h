@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/common/linear_units.h>
 
 namespace pcl_als {
@@ -36,7 +37,11 @@ struct PointFileInfo {
   CrsKind crs_kind = CrsKind::unknown;
   LinearUnits units;  ///< of the file; everything else here is in metres
   TimeKind time_kind = TimeKind::none;
-  std::string format;  ///< "LAS 1.4, point format 6", "PCD binary"
+  FileVersion version;  ///< of the file when it was opened
+  std::string format;   ///< "LAS 1.4, point format 6", "PCD binary"
+  /// Record of the corrections that were applied to the points (io/applied_correction.h), as the
+  /// file stores it; empty: none is recorded.
+  std::string corrections;
 };
 
 }  // namespace pcl_als

@@ -45,6 +45,7 @@ struct EIGEN_ALIGN16 PointLidar {
   std::uint8_t number_of_returns = 1;
   std::uint8_t classification = 0;  ///< ASPRS class code
   std::uint8_t flags = 0;           ///< bits of PointFlag
+  std::uint8_t user_data = 0;       ///< as the file has it; of some systems the scanner channel
 
   PointLidar() { x = y = z = 0.0F, data[3] = 1.0F; }
   PointLidar(float px, float py, float pz) { x = px, y = py, z = pz, data[3] = 1.0F; }
@@ -70,8 +71,9 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(
                                                                         intensity)(
         float, scan_angle, scan_angle)(std::uint16_t, point_source_id,
                                        point_source_id)(std::uint8_t, return_number, return_number)(
-        std::uint8_t, number_of_returns, number_of_returns)(std::uint8_t, classification,
-                                                            classification)(std::uint8_t, flags,
-                                                                            flags))
+        std::uint8_t, number_of_returns,
+        number_of_returns)(std::uint8_t, classification,
+                           classification)(std::uint8_t, flags, flags)(std::uint8_t, user_data,
+                                                                       user_data))
 
 #include <pcl_als/common/impl/centroid_point.hpp>

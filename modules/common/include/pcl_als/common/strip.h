@@ -17,6 +17,7 @@ struct Strip {
   std::string id;  ///< name used in pairs and results; the point source id where the file has one
   LocalFrame frame;
   typename pcl::PointCloud<PointT>::Ptr cloud{new pcl::PointCloud<PointT>};
+  std::string corrections;  ///< record of applied corrections, see PointFileInfo::corrections
 };
 
 }  // namespace pcl_als

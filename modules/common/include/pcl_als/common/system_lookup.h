@@ -20,10 +20,14 @@ class SystemLookup {
 
   /// Id of the strip of points without a point source id; the stem of their file.
   void setStrip(std::string strip) { strip_ = std::move(strip); }
+  const std::string& strip() const { return strip_; }
   /// Whether all points are of one system.
   bool single() const { return system_.empty(); }
+  /// Field with the channel of the scanner that of() needs: "scanner_channel", "user_data" or the
+  /// name of another field; empty: systems and fixed strips do not depend on the channel.
+  const std::string& channelField() const { return channel_field_; }
   /// Index of the system; that of strips that were held fixed is fixed(). InputError for a strip
-  /// that belongs to none.
+  /// that belongs to none, and for a point without any id of its strip.
   std::uint8_t of(std::uint16_t source, std::uint8_t channel) const;
   /// The index after that of the last system: points of it are not corrected.
   std::uint8_t fixed() const { return fixed_; }
@@ -32,7 +36,7 @@ class SystemLookup {
   std::map<std::string, std::uint8_t> system_;  ///< by id of the strip
   std::uint8_t fixed_ = 1;
   bool several_ = false;  ///< systems: every strip is of one of them
-  std::string strip_;
+  std::string strip_, channel_field_;
 };
 
 }  // namespace pcl_als

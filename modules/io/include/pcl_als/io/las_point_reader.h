@@ -26,7 +26,7 @@ class LasPointReader : public PointReader {
  public:
   /// What a PointChunk has columns for; the layers of other fields of a .laz are not decoded.
   static constexpr unsigned kColumns = kLazZ | kLazClassification | kLazFlags | kLazIntensity |
-                                       kLazScanAngle | kLazPointSource | kLazGpsTime;
+                                       kLazScanAngle | kLazUserData | kLazPointSource | kLazGpsTime;
 
   /// \param fields LazField bits that records() are to have.
   LasPointReader(const std::filesystem::path& path, const PointWindow& window,
@@ -34,6 +34,7 @@ class LasPointReader : public PointReader {
 
   const PointFileInfo& info() const override { return info_; }
   std::string damage() const override;
+  std::string boxRemark(const Eigen::AlignedBox3d& points) const override;
   bool read(PointChunk& chunk) override;
 
   const LasFile& file() const { return file_; }

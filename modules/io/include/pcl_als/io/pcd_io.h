@@ -36,5 +36,8 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
  * 0; else the file's stem. Coordinates stored as double get a frame around their centre.
  */
 Strip<PointLidar> loadPcd(const std::filesystem::path& path);
+/// The same; InputError where the file, or PointLidar, has no field with the channel of the scanner
+/// of that name (PointWindow::channel_field; empty: it is not needed).
+Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field);
 
 }  // namespace pcl_als

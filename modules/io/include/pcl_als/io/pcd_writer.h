@@ -24,7 +24,9 @@ class PcdWriter {
   static constexpr double kFarthest = 32768.0;
 
   /// \param strip_id name of the strip; empty: none is stored
-  PcdWriter(const std::filesystem::path& path, LocalFrame frame, std::string strip_id = {});
+  /// \param corrections record of applied corrections (PointFileInfo); empty: none is stored
+  PcdWriter(const std::filesystem::path& path, LocalFrame frame, std::string strip_id = {},
+            std::string corrections = {});
   ~PcdWriter();
 
   /// Appends the rows [from, to). InputError for a point farther than kFarthest from the origin.

@@ -7,11 +7,16 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/point_file_info.h>
 #include <pcl_als/io/point_window.h>
 
 namespace pcl_als {
+
+/// UsageError where a job is given no point file at all.
+void requirePointFiles(std::size_t count);
 
 /** \brief Reads the points of a .las, .laz or .pcd file chunk by chunk, in file order, in constant
  * memory.
@@ -42,6 +47,9 @@ class PointReader {
   /// What of a damaged file cannot be read (PointWindow::keep_readable), as one line with the name
   /// of the file; empty: nothing.
   virtual std::string damage() const { return {}; }
+  /// Of the box of all points that read() gave: that the header of the file states another one;
+  /// empty: it does not. Points in a part of the file must only be within the box of the header.
+  virtual std::string boxRemark(const Eigen::AlignedBox3d& /*points*/) const { return {}; }
   /// The next at most kChunk points; false (and an empty chunk) at the end.
   virtual bool read(PointChunk& chunk) = 0;
 };

@@ -11,8 +11,9 @@ namespace pcl_als {
 
 /// The CRS and units that the point files of one job have in common.
 struct PointReference {
-  std::string crs;                   ///< of the first file that has one; empty when none has
-  std::vector<std::string> remarks;  ///< units that are converted or assumed, one line each
+  std::string crs;  ///< of the first file that has one; empty when none has
+  /// Units that are converted or assumed, corrections that were applied before, one line each.
+  std::vector<std::string> remarks;
 };
 
 /** \brief Finds what files have in common, and refuses those that do not belong together.

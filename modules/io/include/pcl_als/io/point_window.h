@@ -25,9 +25,9 @@ struct PointWindow {
   double resolution = 0.0;
   /// Read what is intact of damaged or truncated .las and .laz files (PointReader::damage()).
   bool keep_readable = false;
-  /// Field of .las and .laz files with the channel of the scanner (PointChunk::channel):
-  /// "user_data" or the name of an extra-bytes field; empty or "scanner_channel": that of point
-  /// formats 6-10.
+  /// Field with the channel of the scanner (PointChunk::channel): "user_data" or the name of an
+  /// extra-bytes field (of a PCD: of any field); empty or "scanner_channel": that of point formats
+  /// 6-10, which a PCD has in its flags.
   std::string channel_field;
 
   /// Whether all points are read and damaged files are refused.

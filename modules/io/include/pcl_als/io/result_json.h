@@ -12,4 +12,7 @@ namespace pcl_als {
 /// not finite.
 std::string calibrationJson(const CalibrationResult& result);
 
+/// Reads such a text back, as readCalibration() does. InputError names \a name and what is wrong.
+CalibrationResult parseCalibration(const std::string& text, const std::string& name);
+
 }  // namespace pcl_als

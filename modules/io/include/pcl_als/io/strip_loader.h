@@ -3,9 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <pcl_als/common/strip.h>
+#include <pcl_als/io/point_window.h>
+#include <pcl_als/io/strip_columns.h>
 
 namespace pcl_als {
 
@@ -16,9 +19,27 @@ namespace pcl_als {
  * the same id, cut by a grid of 5 km, each relative to the centre of its square. Memory: 48 bytes
  * per point. Files are read twice.
  *
- * InputError when files declare different kinds of GPS time or CRS that do not agree
- * (commonReference()). Coordinates are in metres, whatever unit the files count in.
+ * UsageError without any file. InputError when files declare different kinds of GPS time or CRS
+ * that do not agree (commonReference()). Coordinates are in metres, whatever unit the files count
+ * in.
  */
 std::vector<Strip<PointLidar>> loadStrips(const std::vector<std::filesystem::path>& files);
+
+/// The points and the fields of them that are loaded.
+struct StripLoading {
+  PointWindow window;                ///< points outside are left out
+  bool all_columns = false;          ///< with every PointColumn that the files have
+  std::vector<std::string> columns;  ///< with these; InputError for one that no file has
+};
+
+/** \brief The same with colours, near infrared, user data and extra bytes of .las and .laz files,
+ * which take 8 bytes per value, and of a part of the files.
+ *
+ * Points of files that lack a field which others have get NaN where its type is a floating-point
+ * one, else 0. Extra bytes of undocumented type are left out; arrays of two and three values are
+ * NAME[0], NAME[1] and NAME[2]. InputError where no point is in the window.
+ */
+std::vector<StripWithColumns> loadStrips(const std::vector<std::filesystem::path>& files,
+                                         const StripLoading& loading);
 
 }  // namespace pcl_als

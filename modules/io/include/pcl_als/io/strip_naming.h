@@ -34,9 +34,13 @@ struct PointSource {
 
 /// A point file and the ids in it, ascending.
 struct PointFileSources {
-  PointFileInfo info;
+  PointFileInfo info;  ///< with the number and the box of the points that were read
   std::vector<PointSource> sources;
-  std::string damage{};  ///< PointReader::damage()
+  std::string damage{};      ///< PointReader::damage()
+  std::string box_remark{};  ///< PointReader::boxRemark(), with the name of the file
+
+  /// Of all sources whose coordinates are numbers.
+  Eigen::AlignedBox3d box() const;
 };
 
 /// Reads a file once and returns its ids. Constant memory. \a also gets every chunk, too.

@@ -87,13 +87,19 @@ struct CensusStrips {
       run;
 };
 
+/// 1, 2, 5 or 10 m, so that a cell of files of this number of points in these boxes holds about 20.
+double usualCensusCell(const std::vector<PointFileInfo>& files);
+
 /** \brief Reads point files once and lists their contents.
  *
  * Memory is that of the occupied cells (4 bytes each) and at most a few hundred MB: where the
  * points are spread over more cells the cell size doubles, and duplicates are counted in a sample
  * of the points chosen by hash (all points up to half a million).
  *
- * \param cell metres; 0: 1, 2, 5 or 10 by the density that the headers declare
+ * Files whose headers state a wrong bounding box may be read twice, because the size of the cells
+ * depends on it.
+ *
+ * \param cell metres; 0: usualCensusCell()
  * \param progress called with the fraction of points read
  * \param strips whose names are listed, one entry each
  * \param window the part of the files that is read

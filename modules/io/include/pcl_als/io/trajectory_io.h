@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -72,9 +73,21 @@ struct TrajectoryReading {
 /// deviations are not those of the trajectory that the points were computed with.
 inline constexpr const char* kReconstructedFormat = "reconstructed from points";
 
+/// Where the samples of a file stand in it.
+struct SamplePlaces {
+  bool lines = false;                  ///< of a text file; otherwise records
+  std::vector<std::uint32_t> numbers;  ///< of the samples, from one
+
+  /// "line 12", "record 12"
+  std::string name(std::size_t sample) const {
+    return (lines ? "line " : "record ") + std::to_string(numbers[sample]);
+  }
+};
+
 /// A trajectory as a file holds it, in the frame of the points.
 struct TrajectoryFile {
   std::vector<TrajectorySample> samples;  ///< in the order of the file
+  SamplePlaces places;                    ///< of the samples; empty where files were joined
   /// The heading's column is called yaw. Some write yaw counter-clockwise from east; the samples
   /// hold it as a heading, clockwise from north, until the course shows otherwise.
   bool heading_is_yaw = false;
@@ -113,6 +126,10 @@ TrajectoryFile readTrajectoryFile(const std::filesystem::path& path,
 TrajectoryFile readTrajectoryFiles(const std::vector<std::filesystem::path>& paths,
                                    const TrajectoryReading& reading);
 
+/// Joins trajectories as readTrajectoryFiles() does. \a paths: of the files, for messages.
+TrajectoryFile joinTrajectoryFiles(std::vector<TrajectoryFile> files,
+                                   const std::vector<std::filesystem::path>& paths);
+
 /// What a trajectory file states, without projection.
 struct TrajectoryFacts {
   std::string format, frame, columns;
@@ -125,9 +142,13 @@ struct TrajectoryFacts {
   /// In order of time, positions east, north and up of the first sample, metres; of geographic
   /// coordinates on a sphere, of geocentric ones zero.
   std::vector<TrajectorySample> local;
+  SamplePlaces places;  ///< of \a local
 };
 TrajectoryFacts inspectTrajectory(const std::filesystem::path& path,
                                   const TrajectoryReading& reading);
+
+/// Whether a file in a folder is a trajectory by its name.
+bool isTrajectoryFile(const std::filesystem::path& path);
 
 /// The trajectory files that paths mean: themselves, or those of a folder. InputError for a folder
 /// without any.

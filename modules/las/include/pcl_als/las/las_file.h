@@ -71,7 +71,9 @@ class LasFile {
   const LasHeader& header() const;
   const LasRecordLayout& layout() const;
   const std::vector<LasVlrEntry>& vlrs() const;  ///< VLRs, then EVLRs, in file order
-  const std::vector<LasExtraField>& extraFields() const;
+  /// The one description of the extra bytes that all its VLRs and EVLRs give together.
+  const LasExtraBytes& extraBytes() const;
+  const std::vector<LasExtraField>& extraFields() const { return extraBytes().fields; }
   std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not state it
   CrsKind crsKind() const;
   /// What the coordinates count in; of geographic and geocentric ones the default.
@@ -79,6 +81,11 @@ class LasFile {
   /// InputError for a file whose coordinates are no map coordinates: degrees or geocentric.
   LasScaling toMetres() const;
   std::uint64_t fileSize() const;
+  /// Position of the first byte behind the points, and behind the chunk table of a .laz; 0: not
+  /// known.
+  std::uint64_t pointsEnd() const;
+  /// Bytes of compressed points of a .laz behind those that the header announces.
+  std::uint64_t surplusPointBytes() const;
   PointFileInfo info() const;
 
   /// Payload of a VLR; InputError when it is longer than \a limit bytes.
@@ -91,7 +98,6 @@ class LasFile {
   void readRecords(std::uint64_t first, std::size_t count, std::byte* out) const;
   /// The records of several ranges, one behind the other; faster where these are whole chunks.
   void readRanges(const std::vector<LasRecordRange>& ranges, std::byte* out) const;
-  int descriptor() const;
 
   /// With LasDamage::keep_intact: the records that can be read. A .laz is decoded for it, once.
   const LasIntact& intact() const;

@@ -94,6 +94,13 @@ struct LasVlrEntry {
   bool extended = false;
 };
 
+/// User id and record id of the VLR that records the corrections applied to the points of a file,
+/// JSON text (io/applied_correction.h).
+inline constexpr const char* kLasCorrectionsUser = "pcl_als";
+inline constexpr std::uint16_t kLasCorrectionsRecord = 1;
+/// The VLR with such a record.
+LasVlr lasCorrectionsVlr(const std::string& corrections);
+
 inline constexpr std::size_t kLasVlrHeader = 54;
 inline constexpr std::size_t kLasEvlrHeader = 60;
 

@@ -53,8 +53,7 @@ void decodeLasRecords(const std::byte* records, std::size_t count, std::size_t r
 /** \brief Columns to raw records; bytes of the standard fields that PointChunk lacks (colours,
  * waveform) and the extra bytes are zeroed.
  *
- * The scanner channel of formats 6-10, which has two bits, is that of PointChunk::flags; a
- * different PointChunk::channel is stored in the user data, which are 0 otherwise.
+ * The scanner channel of formats 6-10, which has two bits, is that of PointChunk::flags.
  *
  * What the format cannot carry (a coordinate out of the 32-bit range, return number 9 or class 64
  * in format 1, …) is an InputError: "NAME: point 12: …".

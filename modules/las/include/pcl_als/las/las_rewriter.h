@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,16 +30,20 @@ using LasEdit = std::function<void(const LasRecordBlock&)>;
 struct LasRewriteResult {
   std::uint64_t points = 0;
   bool box_changed = false;  ///< the bounding box of the points differs from that of the input
+  /// Of the input: descriptors of extra bytes that were ignored, a wrong box in its header,
+  /// external waveforms, bytes behind the points.
+  std::vector<std::string> remarks;
 };
 
 /** \brief Copies a LAS file, changing only what \a edit changes in the point records.
  *
  * Everything else is kept byte for byte: header, VLRs, EVLRs, bytes between, waveform packets,
- * extra bytes, bytes after the points, point order. The header's bounding box is rewritten where
- * the box of the integer coordinates changed, from those coordinates. Memory is constant (a few MB
+ * extra bytes, bytes after the points, point order. External waveforms are copied beside the output
+ * (WaveformCopy). The header's bounding box is rewritten from the integer coordinates where the box
+ * of these changed, or where that of the input is wrong. Memory is constant (a few MB
  * per thread). Output through AtomicFile. .las and .laz in and out, by extension.
  *
- * UsageError when \a output is \a input.
+ * UsageError when \a output is \a input; InputError where the name of the waveforms is taken.
  */
 LasRewriteResult rewriteLas(const std::filesystem::path& input, const std::filesystem::path& output,
                             const LasEdit& edit, int threads = 0);
@@ -48,19 +54,23 @@ LasRewriteResult rewriteLas(const LasFile& input, const std::filesystem::path& o
 struct LasExtension {
   std::vector<LasExtraField> fields;  ///< appended to every record, zeros before the edit
   std::size_t block_records = 0;      ///< records of the blocks handed to the edit; 0: about 1 MiB
-  bool keeps_coordinates = false;     ///< the edit leaves X, Y and Z alone: no box is taken of them
+  bool keeps_coordinates = false;     ///< the edit leaves X, Y and Z alone
+  /// Record of applied corrections (PointFileInfo::corrections) in place of that of the input; an
+  /// empty text removes it. By default it is kept.
+  std::optional<std::string> corrections;
 };
 
 /** \brief Where the fields will lie in the records of the output: behind all that is there.
  *
- * UsageError for a name that the file has already, or more bytes than a record can hold; InputError
- * where the file describes its extra bytes in an extended VLR.
+ * UsageError for a name that the file has already, or more bytes than a record can hold.
  */
 std::vector<LasExtraField> placeExtension(const LasFile& input,
                                           const std::vector<LasExtraField>& fields);
 
-/// As rewriteLas(), with longer records: the extra-bytes VLR is extended (or made); bytes of the
-/// records that the input did not describe are described as undocumented. All else is kept.
+/// As rewriteLas(), with longer records. One extra-bytes VLR takes the place of all VLRs and EVLRs
+/// that describe extra bytes of the input: the descriptors of LasFile::extraBytes() as they are,
+/// the bytes that none of them describes as undocumented, and the new fields. All else is kept.
+/// InputError where the descriptors do not fit into a VLR (341 fields).
 LasRewriteResult extendLas(const LasFile& input, const std::filesystem::path& output,
                            const LasExtension& extension, const LasEdit& edit, int threads = 0);
 

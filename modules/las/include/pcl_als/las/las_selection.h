@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <pcl_als/las/las_file.h>
 
@@ -15,14 +17,10 @@ namespace pcl_als {
 /** \brief Writes some of the point records of a LAS file to a new file (LAZ by extension).
  *
  * Header, VLRs, EVLRs, waveform packets and all other bytes are those of the file that the output
- * is like; the number of points, the returns by number and the bounding box are those of the
- * records that are appended. Constant memory; output through AtomicFile.
- * \code
- * const LasFile file("tile.laz");
- * LasSelectionWriter writer("part.laz", file);
- * writer.append(records, count);
- * writer.finish();
- * \endcode
+ * is like, and its external waveforms are copied (WaveformCopy); the number of points, the returns
+ * by number and the bounding box are those of the records that are appended. Constant memory;
+ * output through AtomicFile. \code const LasFile file("tile.laz"); LasSelectionWriter
+ * writer("part.laz", file); writer.append(records, count); writer.finish(); \endcode
  */
 class LasSelectionWriter {
  public:
@@ -34,6 +32,8 @@ class LasSelectionWriter {
   void append(const std::byte* records, std::size_t count);
   std::uint64_t pointCount() const;
   void finish();
+  /// Of the file that the output is like: what was copied besides the records, or ignored.
+  std::vector<std::string> remarks() const;
 
  private:
   struct State;
@@ -45,7 +45,8 @@ class LasSelectionWriter {
  *
  * InputError, which names the first difference, where records of \a from cannot become records of
  * \a to without a change of their values: another point format, record length, scale, kind of GPS
- * time or description of extra bytes, or offsets that differ by a fraction of a step.
+ * time or description of extra bytes, offsets that differ by a fraction of a step, or waveforms, to
+ * which records refer by their place among those of their own file.
  */
 std::array<std::int64_t, 3> stepsBetween(const LasFile& from, const LasFile& to);
 

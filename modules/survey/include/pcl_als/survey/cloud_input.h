@@ -67,6 +67,7 @@ class CloudReader : public LocalPointReader {
     chunk.number_of_returns[row] = fields.numberOfReturns();
     chunk.classification[row] = fields.classification();
     chunk.flags[row] = fields.flags();
+    chunk.user_data[row] = fields.userData();
     chunk.channel[row] = fields.flags() >> 6U;
   }
 
