@@ -246,8 +246,11 @@ TEST(Trajectory, SamplesOfOneTimeFarApartAreRefused) {
   auto samples = sampled(straight(0), 0.0, 2.0, 0.5);
   samples.push_back(samples.back());
   samples.back().position.x() += 1.1;
+  EXPECT_NE(Trajectory(samples).repairs().front().find("left out"), std::string::npos);
   try {
-    const Trajectory trajectory(samples);
+    Trajectory::Options unscreened;
+    unscreened.screen_samples = false;
+    const Trajectory trajectory(samples, unscreened);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("2.000000"), std::string::npos) << error.what();

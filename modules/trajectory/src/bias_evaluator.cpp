@@ -60,8 +60,10 @@ void CoverageCount::merge(const CoverageCount& other) {
   without_time += other.without_time;
   without_attitude += other.without_attitude;
   unsolved += other.unsolved;
+  without_strip_errors += other.without_strip_errors;
   first_missed = std::min(first_missed, other.first_missed);
   last_missed = std::max(last_missed, other.last_missed);
+  sizes.merge(other.sizes);
 }
 
 std::string CoverageCount::describe(const Trajectory& trajectory) const {
@@ -126,14 +128,16 @@ void BiasEvaluator::countMissed(double time, CoverageCount& coverage) const {
 /// angles are those of its middle. The cells are counted from zero, so that the order of points
 /// changes no bit.
 void BiasEvaluator::spanEffect(const FlightSpan& span, const PointColumns& points,
-                               std::size_t count, const EffectColumns& effect) const {
+                               std::size_t count, const EffectColumns& effect,
+                               CoverageCount& coverage) const {
   constexpr double kCell = 0.1;  // seconds
   for (std::size_t first = 0, last = 0; first < count; first = last) {
     const double cell = std::floor(points.time[first] / kCell);
     const double from_time = cell * kCell, to_time = (cell + 1.0) * kCell;
     for (++last; last < count && std::floor(points.time[last] / kCell) == cell;) ++last;
     TrajectoryErrorKnot start, middle, end;
-    errors_->at(0.5 * (from_time + to_time), middle);
+    if (!errors_->at(0.5 * (from_time + to_time), middle))
+      coverage.without_strip_errors += last - first;
     errors_->at(from_time, start);
     errors_->at(to_time, end);
     SystemVector biases = biases_;
@@ -172,7 +176,7 @@ void BiasEvaluator::effect(const PointColumns& points, std::size_t count,
     // A time at span.to belongs to the next span, so that the order of points changes no bit.
     while (last < count && points.time[last] >= span.from && points.time[last] < span.to) ++last;
     if (errors_ != nullptr) {
-      spanEffect(span, from(points, first), last - first, from(effect, first));
+      spanEffect(span, from(points, first), last - first, from(effect, first), coverage);
     } else {
       detail::biasKernel(span, mounting, from(points, first), last - first, from(effect, first));
     }

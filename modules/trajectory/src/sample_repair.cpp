@@ -23,6 +23,8 @@ std::string withTime(const char* format, double time) {
 /// Far beyond any survey (seconds, metres), near enough to keep every sum finite.
 constexpr double kLimit = 1e12;
 
+}  // namespace
+
 void refuseUnusable(const std::vector<TrajectorySample>& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const TrajectorySample& sample = samples[i];
@@ -36,6 +38,8 @@ void refuseUnusable(const std::vector<TrajectorySample>& samples) {
                      " has a time or position that is not finite or beyond 1e12; remove it");
   }
 }
+
+namespace {
 
 void sortByTime(std::vector<TrajectorySample>& samples, std::vector<std::string>& repairs) {
   const auto earlier = [](const TrajectorySample& a, const TrajectorySample& b) {
@@ -71,7 +75,6 @@ TrajectorySample merged(const std::vector<TrajectorySample>& samples, std::size_
 }  // namespace
 
 void sortAndMerge(std::vector<TrajectorySample>& samples, std::vector<std::string>& repairs) {
-  refuseUnusable(samples);
   sortByTime(samples, repairs);
   std::size_t kept = 0, moved = 0;
   const std::size_t count = samples.size();
@@ -100,6 +103,10 @@ double gapThreshold(const std::vector<TrajectorySample>& samples, double request
   for (std::size_t i = 1; i < samples.size(); ++i) {
     steps.push_back(samples[i].time - samples[i - 1].time);
   }
+  return gapThreshold(std::move(steps));
+}
+
+double gapThreshold(std::vector<double> steps) {
   return std::max(1.0, 5.0 * medianInPlace(steps));
 }
 

@@ -196,6 +196,8 @@ void SystemCorrection::changeOf(const System& system, const PointColumns& points
       columns[axis][i] += invert_ ? system.offset[axis] : -system.offset[axis];
   }
   if (needs_recovered_) keepUnknown(points, count, change, coverage);
+  for (std::size_t i = 0; i < count; ++i)
+    coverage.sizes.add(change.x[i], change.y[i], change.z[i], points.time[i]);
 }
 
 void SystemCorrection::keepUnknown(const PointColumns& points, std::size_t count,

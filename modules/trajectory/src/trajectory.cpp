@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/trajectory/trajectory.h>
+#include <pcl_als/trajectory/trajectory_screening.h>
 
 #include "line_fit.h"
 #include "sample_repair.h"
@@ -109,6 +110,8 @@ SensorPose FlightSpan::at(double time) const {
 Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& options)
     : half_width_(options.line_fit_half_width) {
   checkOptions(options);
+  detail::refuseUnusable(samples);
+  if (options.screen_samples) leaveOutOutliers(samples);
   detail::sortAndMerge(samples, repairs_);
   gap_threshold_ = detail::gapThreshold(samples, options.gap_threshold);
   detail::dropIsolated(samples, gap_threshold_, repairs_);
@@ -122,6 +125,15 @@ Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& opt
   if (options.use_attitude) takeAttitude(samples);
   if (options.nominal_attitude) has_attitude_ = nominal_ = true;
   buildIndex();
+}
+
+void Trajectory::leaveOutOutliers(std::vector<TrajectorySample>& samples) {
+  const TrajectoryScreening screening = screenTrajectory(samples);
+  const std::string objection = screening.objection();
+  if (!objection.empty()) throw InputError("trajectory: " + objection);
+  if (screening.outliers.empty()) return;
+  repairs_.push_back("trajectory: " + screening.describe());
+  removeAt(samples, screening.indices());
 }
 
 void Trajectory::findGaps(const std::vector<TrajectorySample>& samples) {
@@ -189,6 +201,7 @@ Trajectory Trajectory::withoutAttitude() const {
   Options options;
   options.line_fit_half_width = half_width_;
   options.gap_threshold = gap_threshold_;
+  options.screen_samples = false;
   return {std::move(samples), options};
 }
 

@@ -41,7 +41,8 @@ const char* const kRemedy =
 TrajectoryPlausibility::TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight,
                                                Attitude attitude)
     : flight_(std::move(flight)), attitude_(attitude) {
-  if (flight_->hasAttitude() && !flight_->attitudeIsNominal()) {
+  if (attitude != Attitude::not_compared && flight_->hasAttitude() &&
+      !flight_->attitudeIsNominal()) {
     path_ = std::make_shared<const Trajectory>(flight_->withoutAttitude());
   }
 }
@@ -161,11 +162,18 @@ std::string TrajectoryPlausibility::causeOf(const Strip& strip) {
   return cause.empty() ? cause : "; " + cause;
 }
 
+std::string TrajectoryPlausibility::whyOutOfReach(int strip) const {
+  const Strip& s = strips_[static_cast<std::size_t>(strip)];
+  const std::string found = objection(s);
+  return found.empty() ? found : found + causeOf(s);
+}
+
 void TrajectoryPlausibility::checkStrips(std::vector<Finding>& findings) const {
-  for (const Strip& strip : strips_) {
-    const std::string found = strip.used ? objection(strip) : std::string();
+  for (std::size_t i = 0; i < strips_.size(); ++i) {
+    if (!strips_[i].used) continue;
+    const std::string found = whyOutOfReach(static_cast<int>(i));
     if (found.empty()) continue;
-    findings.push_back({true, "strip " + strip.name + ": " + found + causeOf(strip) + kRemedy});
+    findings.push_back({true, "strip " + strips_[i].name + ": " + found + kRemedy});
   }
 }
 

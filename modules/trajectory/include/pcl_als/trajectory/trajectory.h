@@ -84,6 +84,9 @@ class Trajectory {
     /// that measure ahead and behind): unlike without attitude, y of a point is used. Not with
     /// use_attitude.
     bool nominal_attitude = false;
+    /// Leave out single samples and short runs that contradict their neighbours
+    /// (screenTrajectory()). False: the samples were screened already.
+    bool screen_samples = true;
   };
   enum class Coverage { covered, before_start, after_end, in_gap };
   struct Gap {
@@ -92,10 +95,10 @@ class Trajectory {
 
   explicit Trajectory(std::vector<TrajectorySample> samples)
       : Trajectory(std::move(samples), Options()) {}
-  /// Sorts by time and merges samples of equal time (at most 1 m apart: their mean). Throws
-  /// InputError for fewer than two distinct times, a time or position that is not finite, samples
-  /// of one time that are further apart, or a trajectory that does not move in plan; UsageError for
-  /// impossible options.
+  /// Leaves out samples that contradict their neighbours, sorts by time and merges samples of equal
+  /// time (at most 1 m apart: their mean). InputError for outliers that cannot be left out, fewer
+  /// than two distinct times, a time or position that is not finite, samples of one time that are
+  /// further apart, or a trajectory that does not move in plan; UsageError for impossible options.
   Trajectory(std::vector<TrajectorySample> samples, const Options& options);
 
   std::size_t size() const { return nodes_.size(); }
@@ -122,8 +125,8 @@ class Trajectory {
   /// The same flight with a body rotated against the local flight line; roll stays zero.
   Trajectory withAttitude(const std::function<PitchAndCrab(double time)>& attitude) const;
 
-  /// One line for each kind of repair (unsorted, duplicated, isolated between gaps, at rest); empty
-  /// without repairs.
+  /// One line for each kind of repair (outliers, unsorted, duplicated, isolated between gaps, at
+  /// rest); empty without repairs.
   const std::vector<std::string>& repairs() const { return repairs_; }
 
   /// A time that is not finite counts as before the start (NaN, -inf) or after the end.
@@ -148,6 +151,7 @@ class Trajectory {
     Rotation rotation;
   };
 
+  void leaveOutOutliers(std::vector<TrajectorySample>& samples);
   void findGaps(const std::vector<TrajectorySample>& samples);
   void fitDirections(const std::vector<TrajectorySample>& samples);
   void takeAttitude(const std::vector<TrajectorySample>& samples);

@@ -48,6 +48,7 @@ class TrajectoryPlausibility {
   enum class Attitude {
     used,      ///< results depend on it: a wrong attitude is refused
     not_used,  ///< a wrong attitude gives a warning, because it may be that of another flight
+    not_compared,
   };
   explicit TrajectoryPlausibility(std::shared_ptr<const Trajectory> flight,
                                   Attitude attitude = Attitude::used);
@@ -87,6 +88,10 @@ class TrajectoryPlausibility {
   std::string timeSteps(int strip) const {
     return strips_[static_cast<std::size_t>(strip)].times.describe();
   }
+
+  /// Why most points of a strip cannot have been measured from the trajectory ("its points lie 5283
+  /// m beside the trajectory"), with the likely cause; empty where they can, or none was added.
+  std::string whyOutOfReach(int strip) const;
 
   struct Finding {
     bool refuse = false;  ///< results would be wrong; otherwise only suspicious
