@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/trajectory/scan_geometry.h>
+
 #include "calibration_judgement.h"
 #include "misfit_comparison.h"
 
@@ -185,6 +187,45 @@ TEST(CalibrationJudgement, SignificanceCountsCorrelatedBiasesTogether) {
   result.correlation = Eigen::MatrixXd::Constant(2, 2, 0.9);
   result.correlation.diagonal().setOnes();
   EXPECT_TRUE(biasesAreSignificant(result));
+}
+
+/// Two strips at 1000 m, the edge of the swath 400 m aside; the heading in arc-seconds.
+CalibrationResult withHeading(double bias, double std) {
+  CalibrationResult result;
+  ParameterEstimate& heading = result[P::boresight_heading];
+  heading.status = ParameterStatus::estimated;
+  heading.bias = bias * kRadiansPerArcsec;
+  heading.std = std * kRadiansPerArcsec;
+  result.diagnosis.resize(1);
+  result.diagnosis[0].source = "boresight_heading";
+  result.diagnosis[0].determined = true;
+  result.verdict.reason = "the misfit between the strips is smaller";
+  ScanGeometry edge;
+  edge.x = 400.0, edge.z = -1000.0;
+  nameUndetermined(edge, 0.08, result);
+  return result;
+}
+
+// 106" at 400 m: 0.206 m.
+TEST(NameUndetermined, AnEstimateThatTellsNothingIsNamedInTheVerdict) {
+  const CalibrationResult result = withHeading(-88.0, 106.0);
+  EXPECT_TRUE(result.verdict.usable());
+  EXPECT_EQ(result.verdict.reason,
+            "the misfit between the strips is smaller; not determined: boresight_heading "
+            "(-88 +- 106 arcsec, up to 20.56 cm at the edge of the swath)");
+  EXPECT_FALSE(result[P::boresight_heading].determined);
+  EXPECT_NE(result[P::boresight_heading].reason.find("20.56 cm"), std::string::npos);
+  EXPECT_FALSE(result.diagnosis[0].determined);
+  EXPECT_TRUE(result[P::boresight_roll].determined);  // was not estimated
+}
+
+TEST(NameUndetermined, ValuesThatDifferFromZeroOrMovePointsLittleAreDetermined) {
+  for (const auto& [bias, std] : {std::pair(-230.0, 106.0), std::pair(-5.0, 40.0)}) {
+    const CalibrationResult result = withHeading(bias, std);  // 2.2 std; 7.8 cm
+    EXPECT_TRUE(result[P::boresight_heading].determined) << bias;
+    EXPECT_EQ(result.verdict.reason, "the misfit between the strips is smaller");
+    EXPECT_TRUE(result.diagnosis[0].determined);
+  }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 /// Two strips; the second has a constant error in height and in roll.
 CalibrationResult resultWith(double up, double roll) {
   CalibrationResult result;
-  result.strip_errors = {{"7", {{0.0}, {1.0}}}, {"8", {{0.0}, {1.0}}}};
+  result.strip_errors = {{"7", {{0.0}, {1.0}}, {}}, {"8", {{0.0}, {1.0}}, {}}};
   for (TrajectoryErrorKnot& knot : result.strip_errors[1].knots) {
     knot.position.z() = up;
     knot.angles[1] = roll;

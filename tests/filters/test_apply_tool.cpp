@@ -297,7 +297,7 @@ TEST(ApplyTool, WrongUsageAndUnusableInputHaveTheirStatus) {
     const char* message;
   } cases[] = {
       {"strip.las" + with, 1, "IN OUT"},
-      {"strip.las strip.las" + with, 1, "same file"},
+      {"strip.las strip.las" + with, 1, "also an input"},
       {"strip.las out.pcd" + with, 1, "one kind"},
       {"strip.las out.las -trajectory trajectory.csv", 1, "-calibration"},
       {"strip.las out.las -trajectory trajectory.csv -biases roll=3", 1, "'roll'"},

@@ -81,6 +81,25 @@ TEST(OverlapSelection, EqualsTryingAllPoints) {
   }
 }
 
+TEST(OverlapSelection, AFrameThatWasNotSetIsNamed) {
+  const Pair pair;
+  OverlapSelection<PointLidar> overlap = pair.filter();
+  overlap.setLocalFrame(LocalFrame());
+  pcl::Indices indices;
+  try {
+    overlap.filter(indices);
+    FAIL() << "5467 km";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("5467 km"), std::string::npos) << text;
+    EXPECT_NE(text.find("setLocalFrame"), std::string::npos) << text;
+  }
+  // A strip elsewhere is no overlap, and no error.
+  overlap.setLocalFrame(frameAt(532000.0, 5450000.0));
+  overlap.filter(indices);
+  EXPECT_TRUE(indices.empty());
+}
+
 TEST(OverlapSelection, FollowsThePclRules) {
   const Pair pair;
   pair.a->at(10).x = kNaN;
@@ -233,6 +252,7 @@ TEST(SurfaceSelection, DependsNeitherOnTheFrameNorOnThreads) {
   SurfaceSelection<PointLidar> one, other;
   one.setInputCloud(scene.cloud);
   other.setInputCloud(scene.cloud);
+  one.setNumberOfThreads(1);
   other.setNumberOfThreads(8);
   // By whole squares: the same squares hold the same points.
   other.setLocalFrame(frameAt(432000.0, 5450000.0));

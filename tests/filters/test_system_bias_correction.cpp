@@ -275,6 +275,8 @@ TEST(SystemBiasCorrection, ThreadsChangeNoBit) {
   f.cloud = cloudOf(f.frame, swath(kOrigin, 20.0, 70000));
   f.filter.setInputCloud(f.cloud);
   Cloud one, eight;
+  EXPECT_EQ(f.filter.getNumberOfThreads(), 0);  // all cores
+  f.filter.setNumberOfThreads(1);
   f.filter.filter(one);
   f.filter.setNumberOfThreads(8);
   f.filter.filter(eight);
@@ -294,6 +296,30 @@ TEST(SystemBiasCorrection, TimeOffsetIsAddedToPointTimes) {
     ASSERT_NEAR(shifted[i].x, expected[i].x, 6.2e-5);
     ASSERT_EQ(shifted[i].gps_time, (*f.cloud)[i].gps_time);
   }
+}
+
+std::string messageOf(SystemBiasCorrection<PointLidar>& filter) {
+  Cloud corrected;
+  try {
+    filter.filter(corrected);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(SystemBiasCorrection, AFrameThatWasNotSetIsNamed) {
+  Fixture f;
+  f.filter.setLocalFrame(LocalFrame());
+  const std::string text = messageOf(f.filter);
+  EXPECT_NE(text.find("setLocalFrame"), std::string::npos) << text;
+  EXPECT_NE(text.find(" m beside the trajectory"), std::string::npos) << text;
+  f.filter.setCheckTrajectory(false);
+  EXPECT_EQ(messageOf(f.filter), "");
+  // A frame of elsewhere on the same map, 20 km away.
+  f.filter.setCheckTrajectory(true);
+  f.filter.setLocalFrame(LocalFrame::around(kOrigin + Eigen::Vector3d(0.0, 20e3, 0.0)));
+  EXPECT_NE(messageOf(f.filter).find("setLocalFrame"), std::string::npos);
 }
 
 TEST(SystemBiasCorrection, AUsersOwnPointTypeWorks) {

@@ -177,6 +177,7 @@ TEST(CorrespondenceEstimationPointToPatch, ThreadsChangeNothing) {
   estimation.setInputSource(test::cloudOf<PointLidar>(test::scenePoints(20000, 0.05, 3)));
   estimation.setInputTarget(test::cloudOf<PointLidar>(test::scenePoints(20000, 0.05, 4)));
   pcl::Correspondences one, eight;
+  estimation.setNumberOfThreads(1);
   estimation.determineCorrespondences(one);
   estimation.setNumberOfThreads(8);
   estimation.determineCorrespondences(eight);

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
 namespace {
@@ -103,7 +104,56 @@ void warnOfIneffectiveBiases(CalibrationResult& result) {
        Remedy::strips});
 }
 
+/// "-88 +- 106 arcsec"
+std::string valueText(SystemParameter p, const ParameterEstimate& estimate) {
+  const SystemParameterInfo& info = infoOf(p);
+  char text[96];
+  std::snprintf(text, sizeof text, "%.3g +- %.3g%s%s", estimate.bias / info.internal_per_unit,
+                estimate.std / info.internal_per_unit, info.unit == "1" ? "" : " ",
+                info.unit == "1" ? "" : std::string(info.unit).c_str());
+  return text;
+}
+
+/// Why an estimate tells nothing; empty where it does.
+std::string whyUndetermined(SystemParameter p, const ParameterEstimate& estimate,
+                            const ScanGeometry& edge, double limit) {
+  const double on_points = (designBlock(edge).col(indexOf(p)) * estimate.std).norm();
+  const bool differs = std::abs(estimate.bias) > kSignificant * estimate.std;
+  if (estimate.status != ParameterStatus::estimated || differs || !(on_points > limit)) return {};
+  return "not determined: it does not differ from zero, and one standard deviation moves points at "
+         "the edge of the swath by " +
+         centimetres(on_points);
+}
+
 }  // namespace
+
+void nameUndetermined(const ScanGeometry& edge, double limit, CalibrationResult& result) {
+  std::string names;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const SystemParameter p = info.parameter;
+    const std::string reason = whyUndetermined(p, result[p], edge, limit);
+    if (reason.empty()) continue;
+    result[p].reason += (result[p].reason.empty() ? "" : "; ") + reason;
+    result[p].determined = false;
+    names += (names.empty() ? "" : ", ") + std::string(info.name) + " (" + valueText(p, result[p]) +
+             ", up to " + centimetres((designBlock(edge).col(indexOf(p)) * result[p].std).norm()) +
+             " at the edge of the swath)";
+    for (ErrorFinding& finding : result.diagnosis)
+      if (finding.source == info.name) finding.determined = false;
+  }
+  for (SystemEstimate& system : result.systems) {
+    for (const SystemParameterInfo& info : systemParameters()) {
+      ParameterEstimate& estimate = system.parameters[indexOf(info.parameter)];
+      const std::string reason = whyUndetermined(info.parameter, estimate, edge, limit);
+      if (reason.empty() || !estimate.reason.empty()) continue;
+      estimate.reason = reason;
+      estimate.determined = false;
+    }
+  }
+  if (names.empty()) return;
+  result.verdict.reason +=
+      (result.verdict.reason.empty() ? "" : "; ") + ("not determined: " + names);
+}
 
 bool biasesAreSignificant(const CalibrationResult& result) {
   const auto size = static_cast<Eigen::Index>(result.correlation_order.size());

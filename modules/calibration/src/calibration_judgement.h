@@ -9,6 +9,8 @@
 
 namespace pcl_als {
 
+struct ScanGeometry;
+
 /** \brief Gives a result its verdict from its iterations, parameters and misfit.
  *
  * Objections that other checks have added to result.verdict are kept. A usable result gets the
@@ -23,6 +25,14 @@ namespace pcl_als {
  */
 void judgeCalibration(const std::vector<SystemParameter>& requested,
                       const std::string& not_converged, CalibrationResult& result);
+
+/** \brief Names the estimates that tell nothing: within two standard deviations of zero, one of
+ * which moves points at the edge of the swath by more than \a limit metres.
+ *
+ * They stay in the result, because parameters that are correlated with them are right only together
+ * with them. Each gets a reason (ParameterEstimate::determined), and the verdict names them.
+ */
+void nameUndetermined(const ScanGeometry& edge, double limit, CalibrationResult& result);
 
 /// Whether the estimated biases together differ from zero at a level of 1 %.
 bool biasesAreSignificant(const CalibrationResult& result);

@@ -348,6 +348,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   assessHeight(height_error_, result);
   judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
   assessParts(state, result);  // larger standard deviations must not make a result usable
+  nameUndetermined(swathEdge(state.observations), settings_.limits.on_points, result);
   return result;
 }
 

@@ -4,14 +4,13 @@
 // pipeline TRAJECTORY CONTROL.csv CALIBRATION.json OUT.pcd STRIP STRIP…: loads strips, selects the
 // points of the overlap that lie on surfaces suitable for measurement, calibrates the system from
 // the clouds, corrects them, registers the first two, before and after, and saves. PCL's filters
-// and ICP around pcl_als's selections, calibration, correction and correspondences.
+// and ICP around pcl_als's selections, calibration, correction and point-to-patch primitives.
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <vector>
 
-#include <pcl/features/normal_3d.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/icp.h>
 
@@ -24,12 +23,10 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/system_calibration.h>
-#include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
-#include <pcl_als/registration/correspondence_rejection_patch.h>
+#include <pcl_als/registration/point_to_patch.h>
 
 using pcl_als::PointLidar;
 using Cloud = pcl::PointCloud<PointLidar>;
-using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
 using Strip = pcl_als::Strip<PointLidar>;
 using Flight = std::shared_ptr<const pcl_als::Trajectory>;
 
@@ -85,43 +82,29 @@ Strip corrected(const Strip& strip, const Flight& trajectory,
   return result;
 }
 
-/// What can be measured of a strip against another, one point per cubic metre, with normals from
-/// PCL, in the frame \a frame.
-NormalCloud::Ptr surfaceOf(const Strip& strip, const Strip& other, const Flight& flight,
-                           const pcl_als::LocalFrame& frame) {
-  Cloud::Ptr thinned(new Cloud);
+/// What can be measured of a strip against another, one point per cubic metre, in the frame \a
+/// frame.
+Cloud::Ptr surfaceOf(const Strip& strip, const Strip& other, const Flight& flight,
+                     const pcl_als::LocalFrame& frame) {
+  Cloud::Ptr surface(new Cloud);
   pcl::VoxelGrid<PointLidar> grid;
   grid.setInputCloud(measurable(strip, other, flight));
   grid.setLeafSize(1.0F, 1.0F, 1.0F);
-  grid.filter(*thinned);
-
-  NormalCloud::Ptr surface(new NormalCloud);
-  pcl::copyPointCloud(*thinned, *surface);
+  grid.filter(*surface);
   const Eigen::Vector3f shift = (strip.frame.origin - frame.origin).cast<float>();
-  for (pcl::PointNormal& point : *surface) point.getVector3fMap() += shift;
-  pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> normals;
-  normals.setInputCloud(surface);
-  normals.setKSearch(12);
-  normals.setViewPoint(0.0F, 0.0F, 10000.0F);
-  NormalCloud::Ptr oriented(new NormalCloud(*surface));
-  normals.compute(*oriented);
-  return oriented;
+  for (PointLidar& point : *surface) point.getVector3fMap() += shift;
+  return surface;
 }
 
 /// The shift that remains between two strips, metres.
-Eigen::Vector3d remainingShift(const NormalCloud::Ptr& source, const NormalCloud::Ptr& target) {
-  using Estimation =
-      pcl_als::CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal, double>;
-  pcl::shared_ptr<Estimation> estimation(new Estimation);
-  pcl::shared_ptr<pcl_als::CorrespondenceRejectorPatch> rejector(
-      new pcl_als::CorrespondenceRejectorPatch);
-  rejector->setMatchProvider(estimation);
-  pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal, double> icp;
-  icp.setCorrespondenceEstimation(estimation);
-  icp.addCorrespondenceRejector(rejector);
+Eigen::Vector3d remainingShift(const Cloud::Ptr& source, const Cloud::Ptr& target) {
+  pcl::IterativeClosestPoint<PointLidar, PointLidar, double> icp;
+  pcl_als::usePointToPatch(icp);
   icp.setInputSource(source);
   icp.setInputTarget(target);
-  NormalCloud aligned;
+  icp.setMaximumIterations(40);
+  icp.setTransformationEpsilon(1e-12);
+  Cloud aligned;
   icp.align(aligned);
   if (!icp.hasConverged()) throw std::runtime_error("ICP did not converge");
   Eigen::Vector4d centre;

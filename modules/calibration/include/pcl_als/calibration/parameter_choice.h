@@ -24,6 +24,10 @@ struct DeterminationLimits {
   double heading = 180.0 * kRadiansPerArcsec;    ///< radians
   double range = 0.10;                           ///< metres
   double scan_angle_scale = 3e-4;                ///< unitless
+  /// Metres: an estimate within two standard deviations of zero, one of which moves points at the
+  /// edge of the swath by more, is called not determined. As the limit of lever arms, and the RMSDz
+  /// that the USGS Lidar Base Specification allows at QL1 and QL2.
+  double on_points = 0.08;
 
   /// The limits for a flying height (metres above ground): those of angles and of the scale are
   /// larger below 275 m, where 60 arcsec move points by less than a lever arm's limit does.

@@ -77,7 +77,8 @@ class IncidenceSelection : public PointSelection<PointT> {
 
  protected:
   /// UsageError without a trajectory, or for normals that are not one per point; InputError where
-  /// the trajectory covers none of the points.
+  /// the trajectory covers none of the points, or most of them cannot have been measured from it (a
+  /// frame that was not set, or another flight).
   std::vector<bool> select(const pcl::Indices& points) override;
 
  private:

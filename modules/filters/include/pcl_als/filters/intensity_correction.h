@@ -11,6 +11,7 @@
 #include <pcl/point_types.h>
 
 #include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/radiometry/radiometric_model.h>
@@ -33,7 +34,8 @@ namespace pcl_als {
  * number_of_returns; for other types than PointLidar include impl/intensity_correction.hpp. All
  * other fields are kept bit for bit; the input is not changed. Points that are not finite or not
  * below the sensor, and points outside given indices, stay unchanged; a point without a trajectory
- * is an InputError unless setKeepUncovered(true).
+ * is an InputError unless setKeepUncovered(true). A cloud most of whose points cannot have been
+ * measured from the trajectory is an InputError (a frame that was not set, or another flight).
  * \code
  * pcl_als::IntensityCorrection<pcl_als::PointLidar> correction;
  * correction.setTrajectory(trajectory);
@@ -61,7 +63,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
+  /// Frame of the cloud's coordinates, Strip::frame; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
@@ -88,8 +90,8 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   void setKeepUncovered(bool keep) { keep_uncovered_ = keep; }
   bool getKeepUncovered() const { return keep_uncovered_; }
 
-  /// 0: all cores. The result does not depend on it; default 1.
-  void setNumberOfThreads(int threads) { threads_ = threads; }
+  /// 0: all cores; the result does not depend on it. Default 0.
+  void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
   /// Numbers of points of the last filter() by RadiometryStatus.
@@ -111,7 +113,7 @@ class IntensityCorrection : public pcl::Filter<PointT> {
   TimeAlignment alignment_;
   double gain_ = 1.0;
   bool keep_uncovered_ = false;
-  int threads_ = 1;
+  int threads_ = 0;
   Counts counts_{};
   std::vector<PointRadiometry> radiometry_;
 };

@@ -35,6 +35,7 @@ class OverlapSelection : public PointSelection<PointT> {
  public:
   using Ptr = std::shared_ptr<OverlapSelection<PointT>>;
   using ConstPtr = std::shared_ptr<const OverlapSelection<PointT>>;
+  using PointCloud = typename PointSelection<PointT>::PointCloud;
   using PointCloudConstPtr = typename PointSelection<PointT>::PointCloudConstPtr;
 
   explicit OverlapSelection(bool extract_removed_indices = false)
@@ -57,7 +58,8 @@ class OverlapSelection : public PointSelection<PointT> {
   std::size_t getMinimumPoints() const { return minimum_points_; }
 
  protected:
-  /// UsageError where no other strip is set.
+  /// UsageError where no other strip is set; InputError where the frame of one strip was not set,
+  /// by the distance of the strips.
   std::vector<bool> select(const pcl::Indices& points) override;
 
  private:
@@ -65,6 +67,7 @@ class OverlapSelection : public PointSelection<PointT> {
     PointCloudConstPtr cloud;
     LocalFrame frame;
   };
+  void requireSameGround(const pcl::Indices& points) const;
   std::int64_t cellOf(const LocalFrame& frame, const PointT& point) const;
   void addCovered(const Other& other, std::unordered_set<std::int64_t>& covered) const;
 

@@ -9,6 +9,7 @@
 #include <pcl/filters/filter_indices.h>
 
 #include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_fields.h>
 #include <pcl_als/common/point_types.h>
 
@@ -29,12 +30,12 @@ class PointSelection : public pcl::FilterIndices<PointT> {
   using PointCloud = typename pcl::FilterIndices<PointT>::PointCloud;
   using PointCloudConstPtr = typename PointCloud::ConstPtr;
 
-  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
+  /// Frame of the cloud's coordinates, Strip::frame; default: the origin of the ground frame.
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
-  /// 0: all cores. The result does not depend on it; default 1.
-  void setNumberOfThreads(int threads) { threads_ = threads; }
+  /// 0: all cores; the result does not depend on it. Default 0.
+  void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
  protected:
@@ -48,7 +49,7 @@ class PointSelection : public pcl::FilterIndices<PointT> {
   virtual std::vector<bool> select(const pcl::Indices& points) = 0;
 
   LocalFrame frame_;
-  int threads_ = 1;
+  int threads_ = 0;
 };
 
 template <typename PointT>

@@ -4,15 +4,20 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <pcl/filters/filter.h>
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/trajectory/system_correction.h>
 
 namespace pcl_als {
+
+template <typename PointT>
+class PointSystems;
 
 /** \brief Removes known system biases from a strip: corrected = biased - A(biased) delta.
  *
@@ -23,12 +28,15 @@ namespace pcl_als {
  * metres). A calibration includes its model and attitude (SystemCorrection); biases alone (assumed
  * - true; m, rad, 1) are used with the attitude of the trajectory. The point type needs x, y, z
  * (float) and gps_time (double); for other types than PointLidar include
- * impl/system_bias_correction.hpp.
+ * impl/system_bias_correction.hpp. A calibration with several systems or fixed strips needs
+ * point_source_id, and flags (bits 6 and 7), user_data or another registered byte where it divides
+ * strips by the channel of the scanner in that field (CalibrationResult::channel_field).
  *
  * All other fields are kept bit for bit; the input is not changed. Points that are not finite, and
  * points outside given indices, stay unchanged. A point without a trajectory is an InputError with
  * counts and times unless setKeepUncovered(true), which keeps it unchanged; getCoverage() counts
- * them.
+ * them. A cloud most of whose points cannot have been measured from the trajectory is an InputError
+ * unless setCheckTrajectory(false).
  * \code
  * pcl_als::SystemBiasCorrection<pcl_als::PointLidar> correction;
  * correction.setTrajectory(trajectory);  // std::shared_ptr<const pcl_als::Trajectory>
@@ -53,7 +61,8 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   }
   std::shared_ptr<const Trajectory> getTrajectory() const { return trajectory_; }
 
-  /// Frame of the cloud's coordinates; default: the origin of the ground frame.
+  /// Frame of the cloud's coordinates, Strip::frame; default: the origin of the ground frame, from
+  /// which points then are thousands of kilometres away from the trajectory (an InputError).
   void setLocalFrame(const LocalFrame& frame) { frame_ = frame; }
   const LocalFrame& getLocalFrame() const { return frame_; }
 
@@ -71,6 +80,11 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
     biases_ = result.biases();
     calibration_ = result;
   }
+
+  /// Id of the strip, for points without a point source id, where the calibration has several
+  /// systems or fixed strips; default none.
+  void setStripId(const std::string& id) { strip_id_ = id; }
+  const std::string& getStripId() const { return strip_id_; }
 
   /// A correction that replaces the trajectory, calibration, attitude, inversion and time alignment
   /// that are set.
@@ -102,8 +116,13 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setKeepUncovered(bool keep) { keep_uncovered_ = keep; }
   bool getKeepUncovered() const { return keep_uncovered_; }
 
-  /// 0: all cores. The result does not depend on it; default 1.
-  void setNumberOfThreads(int threads) { threads_ = threads; }
+  /// Refuses a cloud most of whose points lie above the trajectory, or beyond any scan angle of it
+  /// (TrajectoryPlausibility): a frame that was not set, or another flight. Default true.
+  void setCheckTrajectory(bool check) { check_trajectory_ = check; }
+  bool getCheckTrajectory() const { return check_trajectory_; }
+
+  /// 0: all cores; the result does not depend on it. Default 0.
+  void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
   /// Numbers of points that the last filter() corrected or left out, by reason.
@@ -114,8 +133,8 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
 
  private:
   SystemCorrection usedCorrection() const;
-  CoverageCount correctChunk(const SystemCorrection& correction, std::size_t first,
-                             std::size_t last, PointCloud& output) const;
+  CoverageCount correctChunk(const SystemCorrection& correction, PointSystems<PointT> systems,
+                             std::size_t first, std::size_t last, PointCloud& output) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   std::optional<CalibrationResult> calibration_;
@@ -125,7 +144,9 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   SystemVector biases_ = SystemVector::Zero();
   TimeAlignment alignment_;
   bool invert_ = false, strip_corrections_ = false, keep_uncovered_ = false;
-  int threads_ = 1;
+  bool check_trajectory_ = true;
+  std::string strip_id_;
+  int threads_ = 0;
   CoverageCount coverage_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <pcl/registration/correspondence_estimation.h>
 
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/registration/patch_match_provider.h>
 
@@ -33,14 +34,20 @@ namespace pcl_als {
  * correspondences. Memory: 73 bytes per target point, 4 per source point and 100 per
  * correspondence.
  *
+ * **The transformation has to be estimated from the patches**, by TransformationEstimationPatch
+ * with this estimation as match provider. PCL's point-to-point estimation (the default of
+ * pcl::IterativeClosestPoint) would pull each point towards a vertex of its patch and stop short of
+ * the solution. An iteration in which no such estimation has used the matches is
+ * therefore a UsageError; usePointToPatch() sets all parts of a registration.
+ *
  * \code
- * using Estimation = CorrespondenceEstimationPointToPatch<pcl::PointNormal, pcl::PointNormal>;
- * pcl::shared_ptr<Estimation> estimation(new Estimation);
- * estimation->setMaximumNormalDistance(0.5);
- * icp.setCorrespondenceEstimation(estimation);
- * pcl::shared_ptr<CorrespondenceRejectorPatch> rejector(new CorrespondenceRejectorPatch);
- * rejector->setMatchProvider(estimation);
- * icp.addCorrespondenceRejector(rejector);
+ * pcl::IterativeClosestPoint<pcl_als::PointLidar, pcl_als::PointLidar> icp;
+ * const auto parts = pcl_als::usePointToPatch(icp);  // <pcl_als/registration/point_to_patch.h>
+ * parts.correspondences->setMaximumNormalDistance(2.0);
+ * icp.setInputSource(strip1);
+ * icp.setInputTarget(strip2);
+ * icp.setMaximumIterations(40);
+ * icp.align(aligned);
  * \endcode
  */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
@@ -64,12 +71,19 @@ class CorrespondenceEstimationPointToPatch
   void setResolution(double metres);
   double getResolution() const { return resolution_; }
 
-  /// Threads of the search; 0: as many as the machine has. The result does not depend on it.
-  /// Default 1.
-  void setNumberOfThreads(int threads);
+  /// 0: all cores; the result does not depend on it. Default 0.
+  void setNumberOfThreads(int threads) { threads_ = requiredThreads(threads); }
   int getNumberOfThreads() const { return threads_; }
 
-  /// \param max_distance metres, of the normal distance. UsageError without source or target.
+  /// Whether the transformation estimation has to use the patches; default true. False allows an
+  /// estimation that takes normal distances from the normals of the target points, as
+  /// pcl::registration::TransformationEstimationPointToPlaneLLS, or that searches patches itself.
+  void setPatchTransformationRequired(bool required) { patch_transformation_ = required; }
+  bool getPatchTransformationRequired() const { return patch_transformation_; }
+
+  /// \param max_distance metres, of the normal distance. UsageError without source or target, and
+  /// where the source cloud was moved although no estimation has used the matches of the last
+  /// search (setPatchTransformationRequired()).
   void determineCorrespondences(pcl::Correspondences& correspondences,
                                 double max_distance = std::numeric_limits<double>::max()) override;
 
@@ -85,8 +99,10 @@ class CorrespondenceEstimationPointToPatch
   const std::vector<PatchMatch>& getMatches() const { return matches_; }
   CloudSurface::ConstPtr getSurface() const override { return surface_; }
   const PatchMatch* findMatch(pcl::index_t source_point) const override;
+  void markTransformationEstimated() const override { transformation_estimated_ = true; }
 
  private:
+  void requirePatchTransformation() const;
   bool prepare();
   void search(pcl::Correspondences& correspondences, double limit);
   void keepReciprocal(pcl::Correspondences& correspondences, double limit);
@@ -94,10 +110,17 @@ class CorrespondenceEstimationPointToPatch
 
   double maximum_normal_distance_ = 1.0;
   double resolution_ = 0.001;
-  int threads_ = 1;
+  int threads_ = 0;
+  bool patch_transformation_ = true;
   CloudSurface::ConstPtr surface_;
   std::vector<PatchMatch> matches_;
   std::vector<std::int32_t> match_of_point_;  ///< index into matches_ by source point; -1: none
+  // Of the latest search: the source cloud, its first matched point with the position at that time,
+  // and whether a transformation was estimated from the matches.
+  pcl::weak_ptr<const pcl::PointCloud<PointSource>> searched_source_;
+  pcl::index_t searched_point_ = 0;
+  Eigen::Vector3f searched_position_ = Eigen::Vector3f::Zero();
+  mutable bool transformation_estimated_ = false;
 };
 
 }  // namespace pcl_als

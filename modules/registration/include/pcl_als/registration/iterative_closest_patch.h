@@ -5,6 +5,7 @@
 #include <pcl/registration/registration.h>
 
 #include <pcl_als/common/local_frame.h>
+#include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/registration/deferred_kd_tree.h>
 #include <pcl_als/registration/patch_alignment.h>
@@ -72,7 +73,7 @@ class IterativeClosestPatch : public pcl::Registration<PointSource, PointTarget,
   /// identity.
   void setPointNoise(const Eigen::Matrix3d& source, const Eigen::Matrix3d& target);
   /// 0: all cores; the result does not depend on it. Default 0.
-  void setNumberOfThreads(int threads) { settings_.threads = threads; }
+  void setNumberOfThreads(int threads) { settings_.threads = requiredThreads(threads); }
   int getNumberOfThreads() const { return settings_.threads; }
 
   /// Result of the last align().

@@ -22,15 +22,7 @@ namespace pcl_als {
  *
  * Patches are those of a CorrespondenceEstimationPointToPatch given to setMatchProvider(); without
  * one they are searched in the TIN of the target cloud, which is then built at each call.
- *
- * \code
- * icp.setCorrespondenceEstimation(estimation);          // point to patch
- * icp.addCorrespondenceRejector(rejector);
- * pcl::shared_ptr<TransformationEstimationPatch<P, P>> transformation(
- *     new TransformationEstimationPatch<P, P>);
- * transformation->setMatchProvider(estimation);
- * icp.setTransformationEstimation(transformation);
- * \endcode
+ * usePointToPatch() sets it together with the correspondence estimation and the rejector.
  */
 template <typename PointSource, typename PointTarget, typename Scalar = float>
 class TransformationEstimationPatch

@@ -18,7 +18,7 @@ struct SuitablePointsSettings {
   /// Limit of the roughness as a multiple of the median of suitable patches with slopes up to 15
   /// degrees, in addition to SurfaceCriterion::roughness; 0: no such limit.
   double plain_roughness_factor = 3.0;
-  int threads = 1;  ///< 0: all cores; the result does not depend on it
+  int threads = 0;  ///< 0: all cores; the result does not depend on it
 
   void check() const;  ///< UsageError
 };

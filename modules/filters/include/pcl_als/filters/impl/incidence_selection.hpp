@@ -12,6 +12,7 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/filters/impl/cloud_surfaces.hpp>
+#include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/incidence_selection.h>
 
 namespace pcl_als {
@@ -33,6 +34,7 @@ std::vector<bool> IncidenceSelection<PointT>::select(const pcl::Indices& points)
   constexpr std::size_t kChunk = 16384;  // divides the work
   if (!trajectory_) throw UsageError("IncidenceSelection: no trajectory is set");
   CloudSurfaces<PointT>::requireOnePerPoint(normals_, this->input_->size(), "IncidenceSelection");
+  requireReach(*this->input_, points, this->frame_, trajectory_, alignment_, this->filter_name_);
   const RadiometricEvaluator evaluator(trajectory_, RadiometricModel());
   const CloudSurfaces<PointT> surfaces(*this->input_, normals_, surfaces_);
   std::vector<std::uint8_t> covered(points.size());

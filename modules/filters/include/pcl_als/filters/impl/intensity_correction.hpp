@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/filters/impl/cloud_surfaces.hpp>
+#include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/intensity_correction.h>
 
 namespace pcl_als {
@@ -26,6 +27,7 @@ template <typename PointT>
 void IntensityCorrection<PointT>::applyFilter(PointCloud& output) {
   constexpr std::size_t kChunk = 16384;  // divides the work
   checkSettings();
+  requireReach(*this->input_, *this->indices_, frame_, trajectory_, alignment_, this->filter_name_);
   const RadiometricEvaluator evaluator(trajectory_, model_);
   const CloudSurfaces<PointT> surfaces(*this->input_, normals_, surfaces_);
   const std::size_t count = this->indices_->size();

@@ -56,10 +56,38 @@ void OverlapSelection<PointT>::addCovered(const Other& other,
 }
 
 template <typename PointT>
+void OverlapSelection<PointT>::requireSameGround(const pcl::Indices& points) const {
+  // Metres: floats so far from the origin of the ground frame have steps of 4 mm, so that a cloud
+  // relative to it does not reach there.
+  constexpr double kFarthest = 50e3;
+  const auto first_of = [](const PointCloud& cloud, const LocalFrame& frame) {
+    for (const PointT& point : cloud) {
+      const PointFields<PointT> fields{point};
+      if (fields.isFinite()) return frame.toGround(fields.position());
+    }
+    return Eigen::Vector3d(Eigen::Vector3d::Constant(std::nan("")));
+  };
+  if (points.empty()) return;
+  const Eigen::Vector3d here = first_of(*this->input_, this->frame_);
+  for (const Other& other : others_) {
+    if (this->frame_.origin.isZero(0.0) == other.frame.origin.isZero(0.0)) continue;
+    const Eigen::Vector3d apart = first_of(*other.cloud, other.frame) - here;
+    const double distance = std::hypot(apart.x(), apart.y());
+    if (!(distance > kFarthest)) continue;
+    throw InputError("OverlapSelection: another strip lies " +
+                     std::to_string(std::lround(1e-3 * distance)) +
+                     " km from the cloud: call setLocalFrame with the frame of the cloud, and "
+                     "addOtherStrip with that of the other strip; one of them is the origin of the "
+                     "ground frame");
+  }
+}
+
+template <typename PointT>
 std::vector<bool> OverlapSelection<PointT>::select(const pcl::Indices& points) {
   if (others_.empty()) throw UsageError("OverlapSelection: no other strip is set");
   std::unordered_set<std::int64_t> covered;
   for (const Other& other : others_) addCovered(other, covered);
+  requireSameGround(points);
   std::vector<bool> selected;
   selected.reserve(points.size());
   for (const auto index : points) {

@@ -9,19 +9,26 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_fields.h>
 #include <pcl_als/common/point_flag.h>
+#include <pcl_als/filters/impl/point_systems.hpp>
+#include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/system_bias_correction.h>
 
 namespace pcl_als {
 
 template <typename PointT>
 SystemCorrection SystemBiasCorrection<PointT>::usedCorrection() const {
-  if (correction_) return *correction_;
+  if (correction_) {
+    SystemCorrection correction = *correction_;
+    if (!strip_id_.empty()) correction.setStrip(strip_id_);
+    return correction;
+  }
   if (!trajectory_) throw UsageError("SystemBiasCorrection: no trajectory is set");
   SystemCorrection correction =
       calibration_ ? SystemCorrection(*calibration_, trajectory_,
                                       {strip_corrections_, invert_, false, further_attitude_})
                    : SystemCorrection(biases_, trajectory_, invert_);
   correction.setTimeAlignment(alignment_);
+  correction.setStrip(strip_id_);
   return correction;
 }
 
@@ -32,22 +39,34 @@ void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
   constexpr std::size_t kChunk = 16384;
   coverage_ = CoverageCount();
   const SystemCorrection correction = usedCorrection();
+  const PointSystems<PointT> systems(correction.systems(), this->filter_name_);
+  if (check_trajectory_)
+    requireReach(*this->input_, *this->indices_, frame_, correction.flight(),
+                 correction.timeAlignment(), this->filter_name_);
   const std::size_t count = this->indices_->size();
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   std::vector<CoverageCount> coverage(chunks);
   output = *this->input_;
   parallelFor(chunks, threads_, [&](std::size_t chunk) {
     const std::size_t first = chunk * kChunk;
-    coverage[chunk] = correctChunk(correction, first, std::min(first + kChunk, count), output);
+    coverage[chunk] =
+        correctChunk(correction, systems, first, std::min(first + kChunk, count), output);
   });
   for (const CoverageCount& part : coverage) coverage_.merge(part);
   if (coverage_.unsolved > 0 || (coverage_.missed() > 0 && !keep_uncovered_)) {
     throw InputError("SystemBiasCorrection: " + coverage_.describe(*correction.flight()));
   }
+  if (check_trajectory_ && !coverage_.sizes.objection().empty())
+    throw InputError(this->filter_name_ + ": " + coverage_.sizes.objection());
+  if (coverage_.lacksStripErrors() && !keep_uncovered_)
+    throw InputError(
+        "SystemBiasCorrection: the calibration has no strip corrections at the times of " +
+        std::to_string(coverage_.without_strip_errors) + " points of the cloud");
 }
 
 template <typename PointT>
 CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection& correction,
+                                                         PointSystems<PointT> systems,
                                                          std::size_t first, std::size_t last,
                                                          PointCloud& output) const {
   std::vector<std::size_t> chosen;
@@ -69,11 +88,7 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
     if constexpr (HasIntensity<PointT>::value) intensity.push_back(point.intensity);
     if constexpr (HasFlags<PointT>::value)
       turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
-    if (!correction.systems().single()) {
-      const PointFields<PointT> fields{point};
-      const auto channel = static_cast<std::uint8_t>(fields.flags() >> 6U);
-      system.push_back(correction.systems().of(fields.sourceId(), channel));
-    }
+    if (!correction.systems().single()) system.push_back(systems.of(point));
   }
   for (std::vector<double>& change : changes) change.resize(chosen.size());
   const PointColumns points{columns[0].data(),

@@ -7,7 +7,6 @@
 #include <string>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/parallel.h>
 #include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
 
 namespace pcl_als {
@@ -31,13 +30,22 @@ void CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::set
   this->target_cloud_updated_ = true;
 }
 
+/// A registration moves one cloud and searches again, for the same target.
 template <typename PointSource, typename PointTarget, typename Scalar>
-void CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::setNumberOfThreads(
-    int threads) {
-  if (threads < 0)
-    throw UsageError(this->corr_name_ + ": number of threads must be 0 (all) or more, not " +
-                     std::to_string(threads));
-  threads_ = threads;
+void CorrespondenceEstimationPointToPatch<PointSource, PointTarget,
+                                          Scalar>::requirePatchTransformation() const {
+  if (!patch_transformation_ || transformation_estimated_ || this->target_cloud_updated_) return;
+  const auto searched = searched_source_.lock();
+  if (!searched || searched != this->input_ ||
+      static_cast<std::size_t>(searched_point_) >= searched->size() ||
+      (*searched)[searched_point_].getVector3fMap() == searched_position_)
+    return;
+  throw UsageError(
+      this->corr_name_ +
+      ": the source was moved, but no transformation estimation has used the patches: call "
+      "usePointToPatch(registration), or set a TransformationEstimationPatch with this estimation "
+      "as match provider; for an estimation that takes normal distances itself (point to plane) "
+      "call setPatchTransformationRequired(false)");
 }
 
 /// Indices of the source and patches of the target; false where the target has no patches.
@@ -59,9 +67,12 @@ bool CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::pre
 template <typename PointSource, typename PointTarget, typename Scalar>
 void CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::
     determineCorrespondences(pcl::Correspondences& correspondences, double max_distance) {
+  requirePatchTransformation();
   correspondences.clear();
   matches_.clear();
   match_of_point_.clear();
+  searched_source_.reset();
+  transformation_estimated_ = false;
   const double limit = std::min(max_distance, maximum_normal_distance_);
   if (prepare() && limit > 0.0) search(correspondences, limit);
   this->deinitCompute();
@@ -116,6 +127,10 @@ void CorrespondenceEstimationPointToPatch<PointSource, PointTarget, Scalar>::sea
       correspondences.push_back(c);
     matches_.insert(matches_.end(), found.matches.begin(), found.matches.end());
   }
+  if (correspondences.empty()) return;
+  searched_source_ = this->input_;
+  searched_point_ = correspondences.front().index_query;
+  searched_position_ = (*this->input_)[searched_point_].getVector3fMap();
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>

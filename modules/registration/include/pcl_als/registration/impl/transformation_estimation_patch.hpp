@@ -35,6 +35,7 @@ void TransformationEstimationPatch<PointSource, PointTarget, Scalar>::estimate(
     }
   }
   transformation = patchMotion(found).matrix().template cast<Scalar>();
+  if (provider_) provider_->markTransformationEstimated();
 }
 
 template <typename PointSource, typename PointTarget, typename Scalar>

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// SystemBiasCorrection with calibrations of several systems, which the channels of a scanner are.
+#include <gtest/gtest.h>
+#include <pcl/point_cloud.h>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/filters/impl/system_bias_correction.hpp>
+
+#include "swath.h"
+
+/// A point type without the fields by which systems are told apart.
+struct EIGEN_ALIGN16 PlainPoint {
+  PCL_ADD_POINT4D;
+  double gps_time;
+  PCL_MAKE_ALIGNED_OPERATOR_NEW
+};
+POINT_CLOUD_REGISTER_POINT_STRUCT(PlainPoint,
+                                  (float, x, x)(float, y, y)(float, z, z)(double, gps_time,
+                                                                          gps_time))
+
+namespace pcl_als {
+namespace {
+
+using Cloud = pcl::PointCloud<PointLidar>;
+
+const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
+
+/// The points of a strip, half of them of channel 4 and half of channel 5.
+struct Fixture {
+  LocalFrame frame = LocalFrame::around(kOrigin);
+  std::shared_ptr<const Trajectory> trajectory = test::flownNorth(kOrigin, 20.0);
+  Cloud::Ptr cloud{new Cloud};
+  SystemBiasCorrection<PointLidar> filter;
+
+  Fixture() {
+    for (const test::SwathPoint& from : test::swath(kOrigin, 20.0, 5000)) {
+      PointLidar point;
+      point.getVector3fMap() = frame.toLocal(from.ground);
+      point.gps_time = from.time;
+      point.point_source_id = 7;
+      point.user_data = static_cast<std::uint8_t>(4 + cloud->size() % 2);
+      cloud->push_back(point);
+    }
+    filter.setTrajectory(trajectory);
+    filter.setLocalFrame(frame);
+    filter.setInputCloud(cloud);
+  }
+};
+
+std::string messageOf(SystemBiasCorrection<PointLidar>& filter) {
+  Cloud corrected;
+  try {
+    filter.filter(corrected);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Two systems, of which only that of channel 5 has biases; the channel is in \a field.
+CalibrationResult ofChannels(const std::string& field) {
+  CalibrationResult calibration;
+  calibration.converged = true;
+  calibration.channel_field = field;
+  for (const char* strip : {"7.ch4", "7.ch5"}) {
+    SystemEstimate system;
+    system.group.name = strip;
+    system.group.strips = {strip};
+    calibration.systems.push_back(system);
+  }
+  const SystemVector biases = test::typicalBiases();
+  for (int i = 0; i < kSystemParameterCount; ++i) {
+    ParameterEstimate& parameter = calibration.systems[1].parameters[static_cast<std::size_t>(i)];
+    parameter.status = ParameterStatus::estimated;
+    parameter.bias = biases[i];
+  }
+  return calibration;
+}
+
+TEST(ChannelsOfClouds, ChannelsOfTheUserDataHaveTheirOwnBiases) {
+  Fixture f;
+  Cloud all, corrected;
+  f.filter.setBiases(test::typicalBiases());
+  f.filter.filter(all);
+  f.filter.setCalibration(ofChannels("user_data"));
+  f.filter.filter(corrected);
+  for (std::size_t i = 0; i < f.cloud->size(); ++i) {
+    const Cloud& expected = i % 2 == 0 ? *f.cloud : all;
+    ASSERT_EQ(corrected[i].getVector3fMap(), expected[i].getVector3fMap()) << i;
+    ASSERT_EQ(corrected[i].user_data, 4 + i % 2);
+  }
+  EXPECT_GT((all[1].getVector3fMap() - (*f.cloud)[1].getVector3fMap()).norm(), 0.1F);
+}
+
+TEST(ChannelsOfClouds, AFieldWithoutWhichPointsWouldGetTheBiasesOfAnotherChannelIsNamed) {
+  Fixture f;
+  f.filter.setCalibration(ofChannels("beam"));
+  EXPECT_NE(messageOf(f.filter).find("field beam"), std::string::npos) << messageOf(f.filter);
+  // Without an id of their strip the points belong to none of the systems.
+  f.filter.setCalibration(ofChannels("user_data"));
+  for (PointLidar& point : *f.cloud) point.point_source_id = 0, point.user_data = 4;
+  EXPECT_NE(messageOf(f.filter).find("point source id"), std::string::npos) << messageOf(f.filter);
+  f.filter.setStripId("7");
+  EXPECT_EQ(messageOf(f.filter), "");
+
+  pcl::PointCloud<PlainPoint>::Ptr cloud(new pcl::PointCloud<PlainPoint>(1, 1));
+  SystemBiasCorrection<PlainPoint> filter;
+  filter.setTrajectory(f.trajectory);
+  filter.setInputCloud(cloud);
+  pcl::PointCloud<PlainPoint> corrected;
+  for (const char* field : {"user_data", "scanner_channel"}) {
+    filter.setCalibration(ofChannels(field));
+    filter.setStripId("");
+    EXPECT_THROW(filter.filter(corrected), UsageError);  // no point_source_id
+    filter.setStripId("7");
+    EXPECT_THROW(filter.filter(corrected), UsageError);  // no user_data, no flags
+  }
+}
+
+}  // namespace
+}  // namespace pcl_als
