@@ -10,6 +10,7 @@
 
 #include "las_bytes.h"
 #include "test_files.h"
+#include "wrong_boxes.h"
 
 namespace pcl_als {
 namespace {
@@ -33,6 +34,7 @@ PointChunk pointsOf(const fs::path& path, const PointWindow& window = {}) {
     append(all.gps_time, chunk.gps_time), append(all.intensity, chunk.intensity);
     append(all.point_source_id, chunk.point_source_id);
     append(all.classification, chunk.classification);
+    append(all.user_data, chunk.user_data);
     append(all.return_number, chunk.return_number);
   }
   return all;
@@ -87,6 +89,70 @@ TEST(PointConversion, BoundsKeepTheirEdgesAndTheOrder) {
   EXPECT_FALSE(fs::exists(folder / "none.las"));
 }
 
+// 2026-11: the origin of a PCD was the middle of the header's box, wherever the points were.
+TEST(PointConversion, APcdIsAroundThePointsWhateverTheHeaderSays) {
+  const auto folder = test::scratch("convert_wrong_boxes");
+  LasBytes las = test::fullFile(4, 6, 200000);  // more than the reader gives at once
+  const auto in = written(folder / "in.las", las);
+  convertPointFiles({in}, folder / "right.pcd");
+  PointConversionOptions part = within(boxOf(las, 200, 150000));
+  convertPointFiles({in}, folder / "part.pcd", part);
+  for (const test::WrongBox& wrong : test::wrongBoxes(las)) {
+    test::writeBytes(in, wrong.bytes);
+    const auto whole = convertPointFiles({in}, folder / "out.pcd");
+    EXPECT_TRUE(test::readBytes(folder / "out.pcd") == test::readBytes(folder / "right.pcd"))
+        << wrong.name;
+    EXPECT_EQ(whole.outputs[0].points, las.count);
+    EXPECT_EQ(std::count_if(whole.remarks.begin(), whole.remarks.end(),
+                            [](const std::string& remark) {
+                              return remark.find("bounding box is wrong") != std::string::npos;
+                            }),
+              1)
+        << wrong.name;
+    convertPointFiles({in}, folder / "out.pcd", part);
+    EXPECT_EQ(pointsOf(folder / "out.pcd").x.size(), 149801U) << wrong.name;
+  }
+}
+
+TEST(PointConversion, ExternalWaveformsComeAlong) {
+  const auto folder = test::scratch("convert_waveforms");
+  LasBytes las;
+  las.minor = 3, las.format = 4, las.encoding = 1 | 4, las.count = 1000;
+  const auto in = written(folder / "in.las", las);
+  test::writeBytes(folder / "in.wdp", "packets");
+  fs::create_directory(folder / "out");
+  const auto packed = convertPointFiles({in}, folder / "out" / "packed.laz");
+  EXPECT_EQ(test::readBytes(folder / "out" / "packed.wdp"), "packets");
+  ASSERT_EQ(packed.remarks.size(), 1U);
+  EXPECT_EQ(packed.remarks[0], in.string() + ": waveforms in in.wdp, 7 bytes, are copied to " +
+                                   (folder / "out" / "packed.wdp").string());
+  const auto part = convertPointFiles({in}, folder / "part.las", within(boxOf(las, 200, 599)));
+  EXPECT_EQ(test::readBytes(folder / "part.wdp"), "packets");
+  EXPECT_EQ(part.remarks.size(), 1U);
+  const auto cloud = convertPointFiles({in}, folder / "cloud.pcd");
+  ASSERT_EQ(cloud.remarks.size(), 1U);
+  EXPECT_NE(cloud.remarks[0].find("waveforms"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "cloud.wdp"));
+}
+
+TEST(PointConversion, BytesBehindThePointsAreNamed) {
+  const auto folder = test::scratch("convert_unclaimed");
+  LasBytes las;
+  las.after = las.record(7);
+  const auto in = written(folder / "in.las", las);
+  const std::string text =
+      in.string() +
+      ": 30 bytes behind the points belong to no record; they have the size of 1 further point of "
+      "30 bytes, which the header does not count";
+  const auto copied = convertPointFiles({in}, folder / "out.laz");
+  EXPECT_EQ(copied.remarks, std::vector<std::string>{text + "; they are copied as they are"});
+  const auto part = convertPointFiles({in}, folder / "part.las", within(boxOf(las, 0, 4)));
+  EXPECT_EQ(part.remarks, copied.remarks);
+  const auto cloud = convertPointFiles({in}, folder / "out.pcd");
+  ASSERT_EQ(cloud.remarks.size(), 1U);
+  EXPECT_NE(cloud.remarks[0].find("30 bytes behind the points"), std::string::npos);
+}
+
 TEST(PointConversion, AReaderOfAPartGivesTheSamePoints) {
   const auto folder = test::scratch("convert_reader");
   const LasBytes las = test::fullFile(4, 6, 1000);
@@ -106,8 +172,8 @@ TEST(PointConversion, ThroughPcdKeepsEveryColumn) {
   las.count = 500;
   const auto in = written(folder / "in.las", las);
   const auto result = convertPointFiles({in}, folder / "points.pcd");
-  ASSERT_EQ(result.remarks.size(), 1U);
-  EXPECT_NE(result.remarks[0].find("user data"), std::string::npos);
+  for (const std::string& remark : result.remarks)
+    EXPECT_EQ(remark.find("user data"), std::string::npos) << remark;
   convertPointFiles({folder / "points.pcd"}, folder / "out.laz");
   const PointChunk a = pointsOf(in), b = pointsOf(folder / "out.laz");
   ASSERT_EQ(b.size(), a.size());
@@ -121,6 +187,7 @@ TEST(PointConversion, ThroughPcdKeepsEveryColumn) {
   EXPECT_EQ(b.intensity, a.intensity);
   EXPECT_EQ(b.point_source_id, a.point_source_id);
   EXPECT_EQ(b.classification, a.classification);
+  EXPECT_EQ(b.user_data, a.user_data);
   EXPECT_EQ(b.return_number, a.return_number);
 }
 

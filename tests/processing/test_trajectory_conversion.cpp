@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/io/trajectory_writer.h>
 #include <pcl_als/processing/file_correction.h>
@@ -187,6 +189,36 @@ TEST(TrajectoryConversion, RefusesWhatItCannotWrite) {
   };
   EXPECT_NE(refusal("x.txt").find(".csv, .sbet or .out"), std::string::npos);
   EXPECT_NE(refusal("x.sbet").find("an SBET is in latitude and longitude"), std::string::npos);
+}
+
+/// The points of the strip were measured when the calibration knew nothing.
+TEST(StripCorrections, AreRefusedForAStripThatHasNone) {
+  Block block;
+  for (TrajectoryErrorKnot& knot : block.calibration.strip_errors[0].knots) knot.time += 1000.0;
+  block.calibration.strip_errors[0].id = "7";
+  const std::string message = test::messageOf<InputError>([&] { block.applied(true); });
+  EXPECT_NE(message.find("strip1.las: the calibration has no strip corrections for"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("points, of strip 1; it has some for 7"), std::string::npos) << message;
+  EXPECT_FALSE(fs::exists(block.folder / "applied.las"));
+  block.applied(false);
+
+  FileCorrectionOptions options;
+  options.strip_corrections = options.force = true;
+  options.check_trajectory = false;
+  const auto flight =
+      readFlight(block.folder / "trajectory.csv", flightFileOptions(block.calibration)).trajectory;
+  const FileCorrectionResult forced = correctPointFile(
+      block.folder / "strip1.las", block.folder / "forced.las", block.calibration, flight, options);
+  ASSERT_EQ(forced.warnings.size(), 1U);
+  EXPECT_NE(forced.warnings[0].text.find("no strip corrections"), std::string::npos);
+
+  savePcd(block.folder / "strip1.pcd", loadStrips({block.folder / "strip1.las"}).at(0));
+  options.force = false;
+  EXPECT_THROW(correctPointFile(block.folder / "strip1.pcd", block.folder / "applied.pcd",
+                                block.calibration, flight, options),
+               InputError);
 }
 
 }  // namespace

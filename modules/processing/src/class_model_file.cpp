@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/classification/surface_rasters.h>
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/io/class_io.h>
 #include <pcl_als/processing/class_model_file.h>
 
@@ -77,9 +77,7 @@ void writeClassModel(const std::filesystem::path& path, const GaussianModel& mod
 }
 
 GaussianModel readClassModel(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  if (!stream) throw InputError(path.string() + ": cannot be opened");
-  const Json json = Json::parse(stream, nullptr, false);
+  const Json json = Json::parse(readWholeFile(path, kJsonLimits), nullptr, false);
   if (json.is_discarded() || !json.is_object() || json.value("format", Json()) != kFormat)
     throw InputError(path.string() + ": is no file of class statistics");
   try {

@@ -7,6 +7,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/file_protection.h>
+#include <pcl_als/processing/point_conversion.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -26,10 +28,6 @@ std::string stemOf(const fs::path& path) {
   return isCopcName(path) ? path.stem().stem().string() : path.stem().string();
 }
 
-bool isFolder(const fs::path& output) {
-  return fs::is_directory(output) || output.extension().empty();
-}
-
 /// ".las", ".laz" or ".pcd" of a file in a folder.
 std::string extensionFor(const fs::path& input, const std::string& format) {
   const std::string extension = format.empty() ? lowerExtension(input) : "." + format;
@@ -46,8 +44,10 @@ void makeFolder(const fs::path& folder) {
     throw InputError(folder.string() + ": is no folder and cannot be made one");
 }
 
-/// UsageError for an output that is an input or another output, or that would be COPC.
-void check(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+/// UsageError for an output that is an input or another output, or that would be COPC, and for one
+/// in a folder that would replace a file of the user.
+void check(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs,
+           bool in_folder) {
   std::error_code absent;
   std::map<std::string, bool> known;
   for (const fs::path& output : outputs) {
@@ -60,6 +60,7 @@ void check(const std::vector<fs::path>& inputs, const std::vector<fs::path>& out
       if (fs::equivalent(input, output, absent))
         throw UsageError(output.string() + ": input and output are the same file");
   }
+  if (in_folder) refuseForeign(outputs);
 }
 
 /// A strip may be named by the path of a file.
@@ -75,10 +76,9 @@ std::string fileName(std::string strip) {
 std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs::path& output,
                                   const std::string& format) {
   std::vector<fs::path> outputs;
-  if (isFolder(output)) {
-    for (const fs::path& input : inputs)
-      outputs.push_back(output / (stemOf(input) + extensionFor(input, format)));
-    check(inputs, outputs);
+  if (isConversionFolder(output)) {
+    for (const fs::path& input : inputs) outputs.push_back(output / convertedName(input, format));
+    check(inputs, outputs, true);
     makeFolder(output);
     return outputs;
   }
@@ -90,21 +90,33 @@ std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs:
   if (!format.empty() && extension != "." + format)
     throw UsageError(output.string() + ": does not have the extension of format " + format);
   outputs.push_back(output);
-  check(inputs, outputs);
+  check(inputs, outputs, false);
   return outputs;
 }
 
 std::vector<fs::path> stripPaths(const std::vector<fs::path>& inputs, const fs::path& folder,
                                  const std::string& format,
                                  const std::vector<std::string>& strips) {
-  if (!isFolder(folder))
+  if (!isConversionFolder(folder))
     throw UsageError(folder.string() + ": is a file; a file for each strip needs a folder");
   const std::string extension = extensionFor(inputs.at(0), format);
   std::vector<fs::path> outputs;
   for (const std::string& strip : strips) outputs.push_back(folder / (fileName(strip) + extension));
-  check(inputs, outputs);
+  check(inputs, outputs, true);
   makeFolder(folder);
   return outputs;
 }
 
 }  // namespace pcl_als::detail
+
+namespace pcl_als {
+
+bool isConversionFolder(const std::filesystem::path& output) {
+  return std::filesystem::is_directory(output) || output.extension().empty();
+}
+
+std::string convertedName(const std::filesystem::path& input, const std::string& format) {
+  return detail::stemOf(input) + detail::extensionFor(input, format);
+}
+
+}  // namespace pcl_als

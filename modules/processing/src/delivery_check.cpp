@@ -302,6 +302,7 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   pair.a = survey_.strips()[a];
   pair.b = survey_.strips()[b];
   pair.overlap_area = overlaps_[k].area;
+  pair.too_small = pair.overlap_area < settings_.minimum_overlap;
   std::vector<OffsetSample> samples;
   for (std::size_t i = 0; i < areas_.size(); ++i) {
     const auto& found = samples_[i][k];

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/processing/file_batch.h>
@@ -45,13 +45,16 @@ FileBatch::FileBatch(std::vector<std::string> inputs, std::vector<std::string> o
                      const BatchOptions& options)
     : inputs_(std::move(inputs)),
       outputs_(std::move(outputs)),
+      protection_(inputs_),
       options_(options),
       kept_(inputs_.size(), 0) {
   if (inputs_.size() != outputs_.size())
     throw UsageError("there must be one output for each input");
   std::set<std::string> names;
-  for (const std::string& output : outputs_)
+  for (const std::string& output : outputs_) {
     if (!names.insert(output).second) throw UsageError("two inputs would become " + output);
+    protection_.check(output);
+  }
 }
 
 std::size_t FileBatch::keptCount() const {
@@ -93,9 +96,8 @@ fs::path FileBatch::recordOf(std::size_t file) const {
 }
 
 bool FileBatch::readRecord(std::size_t file, std::string& result) const {
-  if (!fs::exists(outputs_[file])) return false;
-  std::ifstream stream(recordOf(file), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!fs::exists(outputs_[file]) || !fs::exists(recordOf(file))) return false;
+  const std::string bytes = readWholeFile(recordOf(file), kBinaryLimits);
   const std::string wanted = identity(file);
   if (bytes.compare(0, wanted.size(), wanted) != 0) return false;
   result = bytes.substr(wanted.size());

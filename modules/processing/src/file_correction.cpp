@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
 #include <mutex>
+#include <set>
 #include <sstream>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/filters/integer_bias_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/pcd_io.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/file_correction.h>
 #include <pcl_als/survey/coverage_limit.h>
 #include <pcl_als/trajectory/system_correction.h>
+#include <pcl_als/trajectory/trajectory_errors.h>
 
+#include "correction_layout.h"
+#include "correction_record.h"
 #include "file_attitude.h"
 #include "file_times.h"
 #include "file_uncertainty.h"
@@ -38,6 +45,7 @@ struct Job {
   RecoveredAttitude further_attitude;
   bool attitude_recovered = false;  ///< from this file, with success or without
   bool level = false;               ///< the scanner is not linear, and options.force
+  std::string corrections;          ///< record of the output
   FileCorrectionResult result;
 
   std::string name() const { return input.string(); }
@@ -85,9 +93,62 @@ void recoverAttitude(Job& job, const Points& points) {
   job.level = true;
 }
 
+/// The strips of the file that have points at times without strip corrections.
+std::set<std::string> stripsWithoutErrors(const Job& job) {
+  const TrajectoryErrors errors(job.calibration.strip_errors);
+  std::set<std::string> strips;
+  const auto reader = PointReader::open(job.input);
+  PointChunk chunk;
+  TrajectoryErrorKnot ignored;
+  while (reader->read(chunk)) {
+    for (std::size_t i = 0; i < chunk.size(); ++i) {
+      const double time = job.alignment(chunk.gps_time[i]);
+      if (!std::isfinite(time) || errors.at(time, ignored)) continue;
+      const std::uint16_t id = chunk.point_source_id[i];
+      strips.insert(id == 0 ? job.input.stem().string() : std::to_string(id));
+    }
+  }
+  return strips;
+}
+
+std::string listed(const std::set<std::string>& names) {
+  constexpr std::size_t kMost = 20;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string& name : names) {
+    if (count++ == kMost) return text + " and further ones";
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
+/// A strip without strip corrections ends the job unless it is forced: its points would be
+/// corrected in another way than those of the other strips.
+void checkStripErrors(Job& job, const CoverageCount& coverage) {
+  if (!coverage.lacksStripErrors()) return;
+  std::set<std::string> known;
+  for (const StripErrors& strip : job.calibration.strip_errors) known.insert(strip.id);
+  const std::string text = "the calibration has no strip corrections for " +
+                           std::to_string(coverage.without_strip_errors) + " of " +
+                           std::to_string(coverage.points) + " points, of strip " +
+                           listed(stripsWithoutErrors(job)) + "; it has some for " + listed(known);
+  if (!job.options.force) throw InputError(job.name() + ": " + text, Remedy::force);
+  job.result.warnings.push_back(text);
+}
+
+/// A correction that no biases can cause ends the job.
+void checkSizes(Job& job, const CoverageCount& coverage) {
+  const std::string objection = coverage.sizes.objection();
+  if (objection.empty()) return;
+  if (!job.options.force) throw InputError(job.name() + ": " + objection, Remedy::force);
+  job.result.warnings.emplace_back(objection);
+}
+
 /// Points that the correction could not serve end the job, unless they are few or may stay as they
 /// are.
-void checkCoverage(const Job& job, const CoverageCount& coverage) {
+void checkCoverage(Job& job, const CoverageCount& coverage) {
+  checkStripErrors(job, coverage);
+  checkSizes(job, coverage);
   const bool stay = job.options.keep_uncovered || fewUncovered(coverage.missed(), coverage.points);
   if (coverage.unsolved == 0 && stay) return;
   throw InputError(job.name() + ": " + coverage.describe(*job.flight),
@@ -119,58 +180,15 @@ class Tally {
   Job& job_;
 };
 
-/// Sets where a record has the channel of the scanner, which divided the strips of the calibration.
-void setChannel(const Job& job, const LasFile& file, IntegerBiasCorrection::Layout& layout) {
-  constexpr std::size_t kFlags = 15;
-  const std::string& field = job.calibration.channel_field;
-  if (field.empty() || field == "scanner_channel") {
-    layout.channel_position = kFlags;
-    layout.channel_shift = 4;
-    layout.channel_mask = file.layout().format < 6 ? 0U : 3U;
-    return;
-  }
-  layout.channel_mask = 0xFF;
-  layout.channel_position = file.layout().user_data;
-  if (field == "user_data") return;
-  for (const LasExtraField& extra : file.extraFields()) {
-    if (extra.name != field) continue;
-    if (lasExtraSize(extra) != 1)
-      throw InputError(job.name() + ": field '" + field +
-                       "' with the channel has more than a byte");
-    layout.channel_position = extra.position;
-    return;
-  }
-  throw InputError(job.name() + ": has no field '" + field +
-                   "' with the channel of the scanner, by which the calibration divides strips");
-}
-
-IntegerBiasCorrection::Layout layoutOf(const Job& job, const LasFile& file) {
-  // Bytes of a record, which all formats up to 5, and all later ones, have in common.
-  constexpr std::size_t kIntensity = 12, kReturns = 14, kFlags = 15, kSource = 18,
-                        kLaterSource = 20;
-  const LasScaling metres = file.toMetres();
-  const bool early = file.layout().format < 6;
-  IntegerBiasCorrection::Layout layout;
-  layout.record_length = file.header().record_length;
-  layout.time_position = static_cast<std::size_t>(file.layout().gps_time);
-  layout.intensity_position = kIntensity;
-  layout.scan_direction_position = early ? kReturns : kFlags;
-  layout.scale = metres.scale;
-  layout.offset = metres.offset;
-  layout.source_position = early ? kSource : kLaterSource;
-  if (!job.calibration.systems.empty() || !job.calibration.channel_field.empty())
-    setChannel(job, file, layout);
-  return layout;
-}
-
 void rewrite(Job& job, const LasFile& file) {
   const SystemCorrection correction = correctionOf(job);
-  IntegerBiasCorrection::Layout layout = layoutOf(job, file);
+  IntegerBiasCorrection::Layout layout = detail::correctionLayout(file, correction.systems());
   std::unique_ptr<detail::FileUncertainty> uncertainty;
   if (job.options.uncertainty)
     uncertainty = std::make_unique<detail::FileUncertainty>(file, correction, layout,
                                                             job.calibration, job.options);
-  const LasExtension extension = uncertainty ? uncertainty->extension() : LasExtension();
+  LasExtension extension = uncertainty ? uncertainty->extension() : LasExtension();
+  extension.corrections = job.corrections;
   layout.record_length += 4 * extension.fields.size();
   const IntegerBiasCorrection engine(job.name(), correction, layout);
   Tally tally(file.header().point_count, job);
@@ -181,17 +199,50 @@ void rewrite(Job& job, const LasFile& file) {
     if (uncertainty) uncertainty->store(block, normals);
     tally.add(coverage);
   };
-  job.result.points =
-      (uncertainty ? extendLas(file, job.output, extension, edit, job.options.threads)
-                   : rewriteLas(file, job.output, edit, job.options.threads))
-          .points;
+  LasRewriteResult written = extendLas(file, job.output, extension, edit, job.options.threads);
+  job.result.points = written.points;
+  job.result.copy_remarks = std::move(written.remarks);
   job.result.coverage = tally.coverage();
   if (uncertainty) uncertainty->finish(job.result);
+}
+
+/// The correction of the job as files record it.
+AppliedCorrection correctionMade(const Job& job) {
+  AppliedCorrection correction;
+  correction.kind =
+      job.options.invert ? CorrectionKind::biases_applied : CorrectionKind::biases_removed;
+  correction.id = job.options.calibration_id.empty() ? calibrationId(job.calibration)
+                                                     : job.options.calibration_id;
+  correction.strip_corrections = job.options.strip_corrections;
+  correction.values = describeBiases(job.calibration);
+  return correction;
+}
+
+/// Whether the job can change any point.
+bool changesPoints(const Job& job) {
+  const CalibrationResult& calibration = job.calibration;
+  const auto differs = [](const SystemEstimate& system) { return !system.values().isZero(0.0); };
+  return job.options.strip_corrections || !calibration.biases().isZero(0.0) ||
+         !calibration.sources.isZero(0.0) ||
+         std::any_of(calibration.systems.begin(), calibration.systems.end(), differs);
+}
+
+/// Determines the record of corrections of the output; refuses a correction that was made before.
+void recordCorrection(Job& job, const std::string& before) {
+  job.corrections = before;
+  if (!changesPoints(job)) return;
+  const std::string record = detail::recordWith(before, correctionMade(job), job.name(),
+                                                job.options.force, job.result.warnings);
+  if (job.options.record) job.corrections = record;
 }
 
 bool lacksAttitude(const Job& job) {
   return job.calibration.attitude == AttitudeSource::points &&
          job.calibration.recovered_attitude.empty();
+}
+
+void addWarnings(Job& job, const Warnings& warnings) {
+  job.result.warnings.insert(job.result.warnings.end(), warnings.begin(), warnings.end());
 }
 
 void correctLas(Job& job) {
@@ -200,10 +251,11 @@ void correctLas(Job& job) {
     throw InputError(job.name() + ": point format " + std::to_string(file.layout().format) +
                      " has no GPS time; the correction needs it");
   }
+  recordCorrection(job, file.info().corrections);
   job.alignment = detail::alignmentOf(file, *job.flight, job.options.gps_week);
   job.result.time_remark = job.alignment.remark;
   if (job.options.check_trajectory) {
-    job.result.warnings = detail::checkFlight(file, job.alignment, job.flight, job.options.force);
+    addWarnings(job, detail::checkFlight(file, job.alignment, job.flight, job.options.force));
   }
   if (lacksAttitude(job)) recoverAttitude(job, file);
   try {
@@ -219,7 +271,8 @@ CoverageCount correctCloud(const Job& job, Strip<PointLidar>& strip,
   SystemBiasCorrection<PointLidar> filter;
   filter.setCorrection(correctionOf(job));
   filter.setLocalFrame(strip.frame);
-  filter.setKeepUncovered(true);  // checked by the caller, with the file's name
+  filter.setKeepUncovered(true);     // checked by the caller, with the file's name
+  filter.setCheckTrajectory(false);  // the same
   filter.setNumberOfThreads(job.options.threads);
   filter.setInputCloud(strip.cloud);
   filter.filter(corrected);
@@ -231,13 +284,15 @@ void correctPcd(Job& job) {
   if (fs::equivalent(job.input, job.output, absent)) {
     throw UsageError(job.output.string() + ": input and output are the same file");
   }
-  Strip<PointLidar> strip = loadPcd(job.input);
+  Strip<PointLidar> strip = loadPcd(job.input, SystemLookup(job.calibration).channelField());
+  recordCorrection(job, strip.corrections);
+  strip.corrections = job.corrections;
   job.result.points = strip.cloud->size();
   job.alignment = detail::alignmentOf(job.name(), strip, *job.flight, job.options.gps_week);
   job.result.time_remark = job.alignment.remark;
   if (job.options.check_trajectory) {
-    job.result.warnings =
-        detail::checkFlight(job.name(), strip, job.alignment, job.flight, job.options.force);
+    addWarnings(
+        job, detail::checkFlight(job.name(), strip, job.alignment, job.flight, job.options.force));
   }
   if (lacksAttitude(job)) recoverAttitude(job, strip);
   pcl::PointCloud<PointLidar>::Ptr corrected(new pcl::PointCloud<PointLidar>);
@@ -266,6 +321,7 @@ void addRemarks(Job& job) {
   }
   if (result.coverage.missed() > 0)
     remarks.push_back("left as they are: " + result.coverage.describe(*job.flight));
+  remarks.insert(remarks.end(), result.copy_remarks.begin(), result.copy_remarks.end());
   remarks.erase(std::remove(remarks.begin(), remarks.end(), std::string()), remarks.end());
 }
 
@@ -314,9 +370,11 @@ FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& out
     throw UsageError(input.string() + ": standard deviations are written to .las and .laz only");
   if (options.uncertainty && options.invert)
     throw UsageError(input.string() + ": inverted corrections have no standard deviations");
+  const UnchangedInputs unchanged;
   ProgressReport report(progress);
   report.begin("Writing " + output.string());
-  Job job{input, output, calibration, std::move(flight), options, report, {}, {}, false, false, {}};
+  Job job{input, output, calibration, std::move(flight), options, report, {}, {}, false,
+          false, {},     {}};
   if (pcd_in) {
     correctPcd(job);
   } else {

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/system_parameters.h>
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/file_motion.h>
+
+#include "correction_record.h"
 
 namespace pcl_als {
 namespace {
@@ -17,8 +22,21 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-std::uint64_t moveLas(const fs::path& input, const fs::path& output, const RigidMotion& motion,
-                      int threads) {
+/// The record of corrections of a moved file.
+std::string recordOf(const RigidMotion& motion, const std::string& before, const fs::path& input) {
+  AppliedCorrection correction;
+  correction.kind = CorrectionKind::rigid_motion;
+  std::ostringstream values;
+  values << "shift " << motion.shift.transpose() << " m, rotation "
+         << (motion.rotation / kRadiansPerDegree).transpose() << " degrees";
+  correction.values = values.str();
+  correction.id = contentId(correction.values);
+  Warnings warnings;
+  return detail::recordWith(before, correction, input.string(), true, warnings);
+}
+
+MovedFile moveLas(const fs::path& input, const fs::path& output, const RigidMotion& motion,
+                  int threads) {
   const LasFile file(input);
   const LasScaling metres = file.toMetres();
   const Vector3d scale = metres.scale, offset = metres.offset;
@@ -40,16 +58,20 @@ std::uint64_t moveLas(const fs::path& input, const fs::path& output, const Rigid
       }
     }
   };
-  return rewriteLas(file, output, edit, threads).points;
+  LasExtension extension;
+  extension.corrections = recordOf(motion, file.info().corrections, input);
+  LasRewriteResult written = extendLas(file, output, extension, edit, threads);
+  return {written.points, std::move(written.remarks)};
 }
 
-std::uint64_t movePcd(const fs::path& input, const fs::path& output, const RigidMotion& motion) {
+MovedFile movePcd(const fs::path& input, const fs::path& output, const RigidMotion& motion) {
   Strip<PointLidar> strip = loadPcd(input);
   const Eigen::Affine3d local = motion.transformation(strip.frame.origin, strip.frame.origin);
   for (PointLidar& point : *strip.cloud)
     point.getVector3fMap() = (local * point.getVector3fMap().cast<double>()).cast<float>();
+  strip.corrections = recordOf(motion, strip.corrections, input);
   savePcd(output, strip);
-  return strip.cloud->size();
+  return {strip.cloud->size(), {}};
 }
 
 }  // namespace
@@ -60,8 +82,8 @@ void checkMovable(const fs::path& input, const fs::path& output) {
                      ": source and output must be of one kind, .las/.laz or .pcd");
 }
 
-std::uint64_t movePointFile(const fs::path& input, const fs::path& output,
-                            const RigidMotion& motion, int threads) {
+MovedFile movePointFile(const fs::path& input, const fs::path& output, const RigidMotion& motion,
+                        int threads) {
   checkMovable(input, output);
   return lowerExtension(input) == ".pcd" ? movePcd(input, output, motion)
                                          : moveLas(input, output, motion, threads);

@@ -31,12 +31,6 @@ std::vector<LasExtraField> wantedFields() {
           fieldOf(kVertical, "std. deviation of the height, m")};
 }
 
-const LasExtraField* fieldNamed(const std::vector<LasExtraField>& fields, const std::string& name) {
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [&](const LasExtraField& f) { return f.name == name; });
-  return found == fields.end() ? nullptr : &*found;
-}
-
 std::vector<TrajectoryErrorKnot> knotsOf(const std::vector<TrajectoryAccuracy>& accuracy) {
   std::vector<TrajectoryErrorKnot> knots;
   for (const TrajectoryAccuracy& at : accuracy) {
@@ -68,8 +62,8 @@ FileUncertainty::FileUncertainty(const LasFile& file, const SystemCorrection& co
       uncertainty_(calibration, correction.flight(),
                    {options.strip_corrections, knotsOf(options.trajectory_accuracy)}) {
   if (options.deviation_cell > 0.0) {
-    const PointFileInfo info = file.info();
-    cells_ = std::make_unique<DeviationCells>(info.minimum.head<2>(), info.maximum.head<2>(),
+    const Eigen::AlignedBox3d box = input_->survey().sources.box();
+    cells_ = std::make_unique<DeviationCells>(box.min().head<2>(), box.max().head<2>(),
                                               options.deviation_cell);
   }
   surveyed_.push_back({input_->survey().sources, {}, {}, {}});
@@ -97,9 +91,11 @@ void FileUncertainty::chooseRadius() {
 
 /// Fields that the file has from an earlier correction are overwritten.
 void FileUncertainty::placeFields(const LasFile& file) {
-  const std::vector<LasExtraField>& there = file.extraFields();
+  const auto find = [&file](const std::vector<LasExtraField>& fields, const char* name) {
+    return findLasExtraField(fields, name, file.path().string());
+  };
   for (const LasExtraField& field : wantedFields()) {
-    const LasExtraField* known = fieldNamed(there, field.name);
+    const LasExtraField* known = find(file.extraFields(), field.name.c_str());
     if (known == nullptr) {
       extension_.fields.push_back(field);
     } else if (!isPlain(*known)) {
@@ -110,8 +106,8 @@ void FileUncertainty::placeFields(const LasFile& file) {
   extension_.block_records = input_->windowSize();
   const std::vector<LasExtraField> added = placeExtension(file, extension_.fields);
   const auto positionOf = [&](const char* name) {
-    const LasExtraField* field = fieldNamed(added, name);
-    return (field != nullptr ? field : fieldNamed(there, name))->position;
+    const LasExtraField* field = find(added, name);
+    return (field != nullptr ? field : find(file.extraFields(), name))->position;
   };
   horizontal_at_ = positionOf(kHorizontal);
   vertical_at_ = positionOf(kVertical);

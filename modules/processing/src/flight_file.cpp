@@ -6,6 +6,7 @@
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_file.h>
 #include <pcl_als/trajectory/heading_check.h>
+#include <pcl_als/trajectory/trajectory_screening.h>
 
 namespace pcl_als {
 namespace {
@@ -20,6 +21,32 @@ std::string decideYaw(TrajectoryFile& file) {
     sample.heading = headingFrom(kFromEast, sample.heading);
   }
   return "yaw is counter-clockwise from east, as the course shows: heading = 90 degrees - yaw";
+}
+
+/// Leaves out samples that contradict their neighbours.
+void leaveOutOutliers(TrajectoryFile& file, const std::filesystem::path& path) {
+  const TrajectoryScreening screening = screenTrajectory(file.samples);
+  const auto name = [&](std::size_t sample) { return file.places.name(sample); };
+  const std::string objection = screening.objection(name);
+  if (!objection.empty()) throw InputError(path.string() + ": " + objection);
+  if (screening.outliers.empty()) return;
+  file.remarks.push_back(path.filename().string() + ": " + screening.describe(name));
+  const std::vector<std::size_t> outliers = screening.indices();
+  removeAt(file.samples, outliers);
+  removeAt(file.places.numbers, outliers);
+  if (!file.accuracy.empty()) removeAt(file.accuracy, outliers);
+}
+
+/// Each file is screened by itself, before its samples are compared with those of the others.
+TrajectoryFile readScreened(const std::vector<std::filesystem::path>& paths,
+                            const TrajectoryReading& reading) {
+  const std::vector<std::filesystem::path> files = trajectoryPaths(paths);
+  std::vector<TrajectoryFile> parts;
+  for (const std::filesystem::path& path : files) {
+    parts.push_back(readTrajectoryFile(path, reading));
+    leaveOutOutliers(parts.back(), path);
+  }
+  return joinTrajectoryFiles(std::move(parts), files);
 }
 
 }  // namespace
@@ -48,7 +75,7 @@ FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions
 
 FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
                       const FlightFileOptions& options) {
-  TrajectoryFile file = readTrajectoryFiles(paths, options);
+  TrajectoryFile file = readScreened(paths, options);
   const std::string yaw = decideYaw(file);
   const bool complete = !file.samples.empty() &&
                         std::all_of(file.samples.begin(), file.samples.end(),
@@ -63,6 +90,7 @@ FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
   use.nominal_attitude = options.attitude == AttitudeUse::nominal;
   use.use_attitude = complete && (options.attitude == AttitudeUse::where_given ||
                                   options.attitude == AttitudeUse::needed);
+  use.screen_samples = false;
   FlightFile flight;
   if (options.keep_samples) flight.samples = file.samples;
   flight.trajectory = std::make_shared<const Trajectory>(std::move(file.samples), use);

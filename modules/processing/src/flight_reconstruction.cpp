@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
@@ -97,6 +98,7 @@ void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
 
 ReconstructedFlight reconstructFlight(SurveyReader& survey, const ReconstructionOptions& options,
                                       const ProgressCallback& callback) {
+  const UnchangedInputs unchanged;
   ProgressReport progress(callback);
   const ReadingProgress reading(survey, progress);
   for (const std::string& text : survey.choose(options.strips, {nullptr, std::nullopt, false}))

@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/survey_io.h>
@@ -93,6 +94,7 @@ ImageOrientationResult orientImages(ImageBlock block, const std::vector<ControlP
 ImageOrientationResult orientImages(const ImageBlockFiles& files,
                                     const ImageOrientationOptions& options,
                                     const ProgressCallback& callback) {
+  const UnchangedInputs unchanged;
   ProgressReport progress(callback);
   progress.begin("Reading the image block");
   ImageBlock block;

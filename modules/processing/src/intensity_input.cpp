@@ -107,10 +107,8 @@ class LasInput : public IntensityInput {
       out.points[i].label = labelOf(sorter, out.points[i]);
     }
     out.gain_control.clear();
-    if (gain_control_ >= 0)
-      decodeLasExtraField(records, count, step,
-                          file_.extraFields()[static_cast<std::size_t>(gain_control_)],
-                          out.gain_control);
+    if (gain_control_ != nullptr)
+      decodeLasExtraField(records, count, step, *gain_control_, out.gain_control);
     out.surface_points.clear();
     if (!request.surfaces) return;
     SurfacePoints surface_points(*request.arrangement, out);
@@ -126,14 +124,10 @@ class LasInput : public IntensityInput {
 
   void findGainControl(const std::string& name) {
     if (name.empty()) return;
-    const std::vector<LasExtraField>& fields = file_.extraFields();
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      if (fields[i].name == name && fields[i].type != LasExtraType::undocumented)
-        gain_control_ = static_cast<int>(i);
-    }
-    if (gain_control_ >= 0) return;
+    gain_control_ = findLasExtraField(file_.extraFields(), name, path_);
+    if (gain_control_ != nullptr && gain_control_->type != LasExtraType::undocumented) return;
     std::string names;
-    for (const LasExtraField& field : fields) names += " " + field.name;
+    for (const LasExtraField& field : file_.extraFields()) names += " " + field.name;
     throw InputError(path_ + ": has no extra field " + name + " of gain control values" +
                      (names.empty() ? "; it has none at all" : "; it has" + names));
   }
@@ -181,6 +175,9 @@ class LasInput : public IntensityInput {
     SurveyTally sum;
     for (const SurveyTally& tally : tallies) sum.merge(tally);
     sum.store(survey_);
+    const Eigen::AlignedBox3d box = survey_.sources.box();
+    if (!box.isEmpty())
+      survey_.sources.info.minimum = box.min(), survey_.sources.info.maximum = box.max();
     for (const std::vector<BlockBox>& part : boxes) {
       first_box_.push_back(boxes_.size());
       boxes_.insert(boxes_.end(), part.begin(), part.end());
@@ -300,7 +297,7 @@ class LasInput : public IntensityInput {
   const LasRecordLayout layout_;  ///< of the file, as are the next three
   const std::size_t length_;
   const Eigen::Vector3d scale_, offset_;
-  int gain_control_ = -1;  ///< index of the extra field
+  const LasExtraField* gain_control_ = nullptr;  ///< of file_
   std::vector<BlockBox> boxes_;
   std::vector<std::size_t> first_box_;  ///< of each window, and the end
 };

@@ -4,6 +4,8 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_version.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/processing/intensity_job.h>
 
 namespace pcl_als {
@@ -87,6 +89,7 @@ std::string IntensityJob::writeFile(std::size_t file, const std::string& output,
   outcome.counts[file].put(out);
   outcome.statistics.put(out);
   for (const IntensityHistogram& histogram : outcome.histograms) histogram.put(out);
+  out.put(outcome.remarks);
   return out.take();
 }
 
@@ -118,9 +121,13 @@ void IntensityJob::write(const std::vector<std::string>& outputs) {
     statistics.get(in);
     all.statistics.merge(statistics);
     for (IntensityHistogram& histogram : all.histograms) histogram.add(in);
+    std::vector<std::string> remarks;
+    in.get(remarks);
+    all.remarks.insert(all.remarks.end(), remarks.begin(), remarks.end());
   }
   doTogether(options.processes, [this] { showOthers(); });
   progress_.end(grouped(result_.counts().points) + " points");
+  for (const std::string& text : all.remarks) progress_.remark(text);
   if (batch.keptCount() > 0)
     progress_.remark(counted(batch.keptCount(), "file") + " complete from an earlier run");
 }
@@ -147,7 +154,7 @@ void IntensityJob::judge() {
 
 void requireOutputs(const std::vector<std::string>& paths,
                     const std::vector<std::string>& outputs) {
-  if (paths.empty()) throw UsageError("intensity: no file is given");
+  requirePointFiles(paths.size());
   if (paths.size() != outputs.size())
     throw UsageError("intensity: there must be one output for each input");
 }
@@ -189,6 +196,7 @@ IntensityResult correctIntensity(const std::vector<std::string>& paths,
                                  const IntensityOptions& options,
                                  const ProgressCallback& callback) {
   requireOutputs(paths, outputs);
+  const UnchangedInputs unchanged;
   ProgressReport progress(sharedProgress(options.batch.processes, callback));
   progress.begin("Reading " + counted(paths.size(), "file"));
   IntensitySettings settings = options.settings;

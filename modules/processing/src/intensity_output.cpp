@@ -13,6 +13,7 @@
 #include <pcl_als/processing/intensity_output.h>
 #include <pcl_als/survey/coverage_limit.h>
 
+#include "correction_record.h"
 #include "intensity_columns.h"
 
 namespace pcl_als {
@@ -213,10 +214,30 @@ struct FieldPlaces {
   }
 };
 
+/// The record of corrections of the output. InputError for intensities that were corrected before.
+std::string recordOf(const IntensityRun& run, const std::string& before, const std::string& name) {
+  AppliedCorrection correction;
+  correction.kind = CorrectionKind::intensity;
+  Warnings ignored;
+  return detail::recordWith(before, correction, name, run.settings().force, ignored);
+}
+
+LasExtension extensionOf(const IntensityRun& run, std::size_t file,
+                         const std::vector<LasExtraField>& fields) {
+  const LasFile& las = *run.input(file).las();
+  LasExtension extension;
+  extension.fields = fields;
+  extension.block_records = run.input(file).windowSize();
+  extension.keeps_coordinates = true;
+  extension.corrections = recordOf(run, las.info().corrections, las.path().string());
+  return extension;
+}
+
 /// As writeLas(), where no surfaces are needed.
 void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
                     const IntensityOutput& output, const std::function<void(double)>& progress,
-                    IntensityCounts& counts) {
+                    IntensityOutcome& outcome) {
+  IntensityCounts& counts = outcome.counts[file];
   const LasFile& las = *run.input(file).las();
   OutputFields wanted(output, false);
   wanted.avoid(las);
@@ -233,8 +254,8 @@ void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesy
     if (counts.points == all)
       checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
-  extendLas(las, path, {wanted.fields, run.input(file).windowSize(), true}, edit,
-            run.settings().threads);
+  outcome.addRemarks(las.path(), extendLas(las, path, extensionOf(run, file, wanted.fields), edit,
+                                           run.settings().threads));
 }
 
 void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
@@ -271,7 +292,8 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
     // With the counts of all points, but before the output gets its name.
     if (done == all) checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
-  extendLas(las, path, {wanted.fields, per_window, true}, edit, run.settings().threads);
+  outcome.addRemarks(las.path(), extendLas(las, path, extensionOf(run, file, wanted.fields), edit,
+                                           run.settings().threads));
 }
 
 void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
@@ -302,10 +324,16 @@ void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::
   if (run.settings().statistics && !stored.empty()) ordered.addHistogram(found, run, stored);
   ordered.add(0, std::move(part));
   checkCounts(run.input(file).path(), outcome.counts[file], run.settings().keep_uncovered);
+  corrected.corrections = recordOf(run, strip.corrections, run.input(file).path());
   savePcd(path, corrected, columns);
 }
 
 }  // namespace
+
+void IntensityOutcome::addRemarks(const std::filesystem::path& path,
+                                  const LasRewriteResult& written) {
+  for (const std::string& text : written.remarks) remarks.push_back(path.string() + ": " + text);
+}
 
 void writeCorrected(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
                     const IntensityOutput& output, const std::function<void(double)>& progress,
@@ -320,7 +348,7 @@ void writeCorrected(const IntensityRun& run, std::size_t file, const std::filesy
   if (pcd_out)
     writePcd(run, file, path, output, outcome);
   else if (RangeOnlyCorrection::serves(run.settings(), output) && run.allChosen(file))
-    writeRangeOnly(run, file, path, output, progress, outcome.counts[file]);
+    writeRangeOnly(run, file, path, output, progress, outcome);
   else
     writeLas(run, file, path, output, progress, outcome);
 }

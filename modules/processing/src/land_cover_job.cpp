@@ -6,6 +6,8 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_protection.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/processing/land_cover_job.h>
 
@@ -241,16 +243,20 @@ void LandCover::classifyPoints(const MaximumLikelihood& classifier) {
             classifyPointFile(inputs[file], batch.outputs()[file], classes, files_.arranged.get(),
                               file, options_.threads);
         fraction(1.0);
-        return ByteWriter().put(counts.points).put(counts.unclassified).take();
+        return ByteWriter().put(counts.points).put(counts.unclassified).put(counts.remarks).take();
       },
       [this](double fraction) { progress_.advance(fraction); });
-  PointClassCounts all{0, 0};
-  for (const std::string& result : results) {
-    ByteReader in(result);
-    all.points += in.take<std::uint64_t>();
-    all.unclassified += in.take<std::uint64_t>();
+  PointClassCounts all;
+  for (std::size_t file = 0; file < inputs.size(); ++file) {
+    PointClassCounts counts;
+    ByteReader(results[file]).get(counts.points).get(counts.unclassified).get(counts.remarks);
+    all.points += counts.points;
+    all.unclassified += counts.unclassified;
+    for (const std::string& text : counts.remarks)
+      all.remarks.push_back(inputs[file] + ": " + text);
   }
   progress_.end(grouped(all.points) + " points, " + grouped(all.unclassified) + " without a class");
+  for (const std::string& text : all.remarks) progress_.remark(text);
   if (batch.keptCount() > 0)
     progress_.remark(counted(batch.keptCount(), "file") + " complete from an earlier run");
 }
@@ -269,6 +275,11 @@ void checkOptions(const LandCoverOptions& options) {
 LandCoverResult classifyLandCover(const RasterInput& files, const LandCoverOptions& options,
                                   const ProgressCallback& callback) {
   checkOptions(options);
+  const UnchangedInputs unchanged;
+  FileProtection protection(files.paths);
+  for (const auto& output : {options.map, options.grids, options.posterior})
+    protection.check(output);
+  if (!options.points.empty()) protection.guard(options.points);
   ProgressReport progress(sharedProgress(options.batch.processes, callback));
   return LandCover(files, options, progress).run();
 }

@@ -5,6 +5,7 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/line_extraction.h>
@@ -42,6 +43,7 @@ ExtractedLines extractLines(const std::vector<std::filesystem::path>& files,
                             const LineExtractionOptions& options,
                             const ProgressCallback& callback) {
   options.settings.check();
+  const UnchangedInputs unchanged;
   ProgressReport progress(callback);
   progress.begin("Reading " + counted(files.size(), "point file"));
   StripChoice choice = options.strips;

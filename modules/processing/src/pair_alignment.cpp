@@ -64,20 +64,56 @@ std::string boxText(const Eigen::AlignedBox3d& box) {
   return text;
 }
 
-/// The box in plan that both strips have points in, with what they may be apart.
-AlignedBox2d commonBox(const AlignmentPair& pair, const StripFileInfo& source,
-                       const StripFileInfo& target, double reach) {
+/// The box in plan that both strips have points in, with what they may be apart; empty: none.
+AlignedBox2d commonBox(const StripFileInfo& source, const StripFileInfo& target, double reach) {
   const auto wide = [reach](const Eigen::AlignedBox3d& box) {
     return AlignedBox2d(box.min().head<2>().array() - reach, box.max().head<2>().array() + reach);
   };
-  AlignedBox2d common;
-  if (!source.box.isEmpty() && !target.box.isEmpty())
-    common = wide(source.box).intersection(wide(target.box));
-  if (common.isEmpty())
-    throw InputError(pair.source.name() + " and " + pair.target.name() +
-                     " do not overlap: " + boxText(source.box) + " and " + boxText(target.box));
-  return common;
+  if (source.box.isEmpty() || target.box.isEmpty()) return {};
+  return wide(source.box).intersection(wide(target.box));
 }
+
+/// The points of two strips where they overlap, relative to one origin.
+struct OverlapPoints {
+  StripFileInfo source_info, target_info;
+  PointReference reference;
+  StripPoints source, target;
+
+  /// Reads the files where their headers say that they overlap, and once more where the points
+  /// contradict these.
+  void read(const AlignmentPair& pair, double reach) {
+    if (tryBoxes(pair, reach, false) && source.headers_right && target.headers_right) return;
+    if (tryBoxes(pair, reach, true)) return;
+    throw InputError(pair.source.name() + " and " + pair.target.name() + " do not overlap: " +
+                     boxText(source_info.box) + " and " + boxText(target_info.box));
+  }
+
+  double resolution() const { return std::min(source_info.resolution, target_info.resolution); }
+
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> all = reference.remarks;
+    for (const StripFileInfo* info : {&source_info, &target_info})
+      all.insert(all.end(), info->remarks.begin(), info->remarks.end());
+    return all;
+  }
+
+ private:
+  bool tryBoxes(const AlignmentPair& pair, double reach, bool measured) {
+    source_info = stripFileInfo(pair.source, measured);
+    target_info = stripFileInfo(pair.target, measured);
+    std::vector<PointFileInfo> files = source_info.files;
+    files.insert(files.end(), target_info.files.begin(), target_info.files.end());
+    reference = commonReference(files);
+    const AlignedBox2d box = commonBox(source_info, target_info, reach);
+    if (box.isEmpty()) return false;
+    Eigen::Vector3d origin;
+    origin << box.center(), target_info.box.center().z();
+    origin = origin.array().round();
+    source = readStripPoints(pair.source, box, origin);
+    target = readStripPoints(pair.target, box, origin);
+    return true;
+  }
+};
 
 }  // namespace
 
@@ -102,22 +138,13 @@ PairAlignment alignPair(const AlignmentPair& pair, PatchAlignmentSettings settin
                         const ProgressCallback& callback) {
   ProgressReport progress(callback);
   progress.begin("Reading " + pair.source.name() + " and " + pair.target.name());
-  const StripFileInfo source_info = stripFileInfo(pair.source);
-  const StripFileInfo target_info = stripFileInfo(pair.target);
-  std::vector<PointFileInfo> files = source_info.files;
-  files.insert(files.end(), target_info.files.begin(), target_info.files.end());
-  const PointReference reference = commonReference(files);
-  const AlignedBox2d box =
-      commonBox(pair, source_info, target_info, settings.search_distance + 10.0);
-  settings.resolution = std::min(source_info.resolution, target_info.resolution);
-  Eigen::Vector3d origin;
-  origin << box.center(), target_info.box.center().z();
-  origin = origin.array().round();
-  const StripPoints source = readStripPoints(pair.source, box, origin);
-  const StripPoints target = readStripPoints(pair.target, box, origin);
+  OverlapPoints overlap;
+  overlap.read(pair, settings.search_distance + 10.0);
+  settings.resolution = overlap.resolution();
+  const StripPoints &source = overlap.source, &target = overlap.target;
   progress.end(grouped(source.positions.size()) + " and " + grouped(target.positions.size()) +
                " points in common reach");
-  for (const std::string& text : reference.remarks) progress.remark(text);
+  for (const std::string& text : overlap.remarks()) progress.remark(text);
   for (const std::string& text : describe(pair.use.left_out)) progress.remark(text);
 
   progress.begin("Aligning");

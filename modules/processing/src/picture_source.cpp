@@ -19,13 +19,6 @@ namespace {
 
 constexpr double kSmoothRms = 0.15;  // m: cells rougher than this are no surface to compare with
 
-const LasExtraField* findField(const LasFile& file, const std::string& name) {
-  for (const LasExtraField& field : file.extraFields()) {
-    if (field.name == name) return &field;
-  }
-  return nullptr;
-}
-
 /// The points of a file, with the values of an extra-bytes field where it has that.
 class PictureReader {
  public:
@@ -38,7 +31,7 @@ class PictureReader {
     }
     auto las = std::make_unique<LasPointReader>(path, window, PointReader::OtherCoordinates::refuse,
                                                 LasPointReader::kColumns | kLazExtraBytes);
-    field_ = findField(las->file(), field);
+    field_ = findLasExtraField(las->file().extraFields(), field, path.string());
     las_ = las.get();
     reader_ = std::move(las);
   }
@@ -101,7 +94,8 @@ PictureSource::PictureSource(const std::vector<std::string>& paths, bool split,
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
   remarks_ = commonReference(infos).remarks;
   for (const SurveyedFile& file : files_)
-    if (!file.sources.damage.empty()) remarks_.push_back(file.sources.damage);
+    for (const std::string& remark : {file.sources.damage, file.sources.box_remark})
+      if (!remark.empty()) remarks_.push_back(remark);
   arrangement_.emplace(files_, StripChoice{{}, {}, split, true}, FlownTimes());
   if (pointCount() == 0 && !window.everything())
     refuseEmptyWindow({paths.begin(), paths.end()}, window);

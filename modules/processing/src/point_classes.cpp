@@ -63,7 +63,7 @@ PointClassCounts classifyPcd(const std::filesystem::path& input,
   }
   const std::vector<int> found = classes.classify(points);
   const std::vector<std::uint8_t> codes = codesOf(classes.model());
-  PointClassCounts counts{points.size(), 0};
+  PointClassCounts counts{points.size(), 0, {}};
   for (std::size_t i = 0; i < found.size(); ++i) {
     PointLidar& point = (*strip.cloud)[i];
     auto& code = point.classification;
@@ -175,8 +175,8 @@ PointClassCounts classifyPointFile(const std::filesystem::path& input,
   const LasEdit edit = [&](const LasRecordBlock& block) {
     unclassified += classifyRecords(file, codes, block, classes, UsedPoints(arranged, place));
   };
-  const std::uint64_t points = rewriteLas(file, output, edit, threads).points;
-  return {points, unclassified.load()};
+  LasRewriteResult written = rewriteLas(file, output, edit, threads);
+  return {written.points, unclassified.load(), std::move(written.remarks)};
 }
 
 }  // namespace pcl_als

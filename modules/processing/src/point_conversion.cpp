@@ -8,6 +8,10 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_protection.h>
+#include <pcl_als/common/header_box.h>
+#include <pcl_als/io/pcd_writer.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/point_conversion.h>
@@ -40,7 +44,16 @@ class Source {
   }
 
   const PointFileInfo& info() const { return reader_->info(); }
-  bool read() { return reader_->read(chunk_); }
+  bool read() {
+    const bool more = reader_->read(chunk_);
+    box_.extend(boxOf(chunk_, 0, chunk_.size()));
+    return more;
+  }
+  /// That the header is wrong, after the last points were read.
+  std::string boxRemark() const {
+    const std::string remark = reader_->boxRemark(box_);
+    return remark.empty() ? remark : info().path.string() + ": " + remark;
+  }
   const PointChunk& chunk() const { return chunk_; }
   detail::PointBlock block() {
     if (las_ == nullptr) return {chunk_};
@@ -57,7 +70,13 @@ class Source {
   std::unique_ptr<PointReader> reader_;
   LasPointReader* las_ = nullptr;
   PointChunk chunk_;
+  Eigen::AlignedBox3d box_;  ///< of the points that were read
 };
+
+constexpr double kOriginStep = 10.0;  ///< metres: origins of PCD are multiples of it
+
+/// Ends the writing of a PCD whose origin was taken from a header that the points contradict.
+struct BoxIsWrong {};
 
 /// The end of a run of rows from \a from on that go to one output, and its number; -1: to none.
 using Distribution =
@@ -68,6 +87,7 @@ class Conversion {
   Conversion(const std::vector<fs::path>& inputs, const PointConversionOptions& options,
              const ProgressCallback& progress)
       : inputs_(inputs), options_(options), report_(progress) {
+    requirePointFiles(inputs.size());
     const StripChoice& choice = options.strips;
     if (choice.only.empty() && choice.without.empty() && !choice.split) return;
     StripChoice strips = choice;
@@ -92,8 +112,10 @@ class Conversion {
   struct Target {
     fs::path path;
     std::string strip;
-    Eigen::AlignedBox3d box;          ///< of its points; empty: that of the first file
+    Eigen::AlignedBox3d box;          ///< of its points; empty: that of the header is tried
     std::unique_ptr<PointSink> sink;  ///< opened with the first point
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of a PCD, about
+    Eigen::AlignedBox3d seen{};  ///< of the points so far, where that of the header is tried
   };
 
   [[noreturn]] void refuseNothing() const {
@@ -114,16 +136,35 @@ class Conversion {
       if (copiesWholeFile(inputs_[i], outputs[i])) {
         copyFile(inputs_[i], outputs[i]);
       } else {
-        std::vector<Target> targets(1);
-        targets[0].path = outputs[i];
-        records_ = detail::isLas(inputs_[i]);
-        distribute({i}, targets, chosen);
-        finish(targets);
+        writeFile(i, outputs[i], chosen);
       }
       const bool written = result_.outputs.size() > before;
       report_.end(written ? grouped(result_.outputs.back().points) + " points"
                           : "not written, no point is left");
     }
+  }
+
+  /// The header tells the origin of a PCD, as long as the points do not contradict it: then they
+  /// are read for their box first.
+  void writeFile(std::size_t input, const fs::path& output, const Distribution& chosen) {
+    records_ = detail::isLas(inputs_[input]);
+    std::vector<Target> targets(1);
+    targets[0].path = output;
+    if (arranged_) targets[0].box = arranged_->files()[input].sources.box();
+    try {
+      distribute({input}, targets, chosen);
+    } catch (const BoxIsWrong&) {
+      targets[0] = {output, {}, boxInWindow(input), nullptr};
+      distribute({input}, targets, chosen);
+    }
+    finish(targets);
+  }
+
+  Eigen::AlignedBox3d boxInWindow(std::size_t input) const {
+    Eigen::AlignedBox3d box;
+    Source source(inputs_[input], options_.window);
+    while (source.read()) box.extend(boxOf(source.chunk(), 0, source.chunk().size()));
+    return box;
   }
 
   void copyFile(const fs::path& input, const fs::path& output) {
@@ -140,6 +181,7 @@ class Conversion {
     };
     const auto copied = extendLas(file, output, none, edit, options_.threads);
     result_.outputs.push_back({output, copied.points});
+    for (const std::string& text : copied.remarks) remarkOnce(input.string() + ": " + text);
   }
 
   void writeStrips(const std::vector<fs::path>& paths) {
@@ -204,7 +246,27 @@ class Conversion {
         done += chunk.size();
         report_.advance(std::min(1.0, static_cast<double>(done) / expected(files, source)));
       }
+      if (!source.boxRemark().empty()) remarkOnce(source.boxRemark());
     }
+    for (const Target& target : targets) checkOrigin(target);
+  }
+
+  static bool triesHeader(const Target& target) {
+    return target.box.isEmpty() && !detail::isLas(target.path);
+  }
+
+  /// The points of a PCD are relative to the middle of the box that it was opened with.
+  static void checkOrigin(const Target& target) {
+    if (!target.sink || !triesHeader(target)) return;
+    const Eigen::AlignedBox2d seen(target.seen.min().head<2>().eval(),
+                                   target.seen.max().head<2>().eval());
+    if (seen.exteriorDistance(target.origin.head<2>().eval()) > kOriginStep) throw BoxIsWrong();
+  }
+
+  static bool isWithinReach(const Target& target) {
+    const Eigen::Vector3d farthest =
+        (target.seen.max() - target.origin).cwiseMax(target.origin - target.seen.min());
+    return farthest.maxCoeff() < PcdWriter::kFarthest - kOriginStep;
   }
 
   /// Points of all files, as far as their number is known.
@@ -220,8 +282,14 @@ class Conversion {
       target.sink = detail::openSink(
           target.path, inputs_[file], info,
           {records_, options_.window.keep_readable, target.strip, options_.threads});
+      target.origin = 0.5 * (info.minimum + info.maximum);
       const std::string loss = source.lossIn(target.path);
       if (!loss.empty()) remarkOnce(loss);
+    }
+    if (triesHeader(target)) {
+      target.seen.extend(boxOf(source.chunk(), from, to));
+      if (!headerBoxContains(source.info(), target.seen) || !isWithinReach(target))
+        throw BoxIsWrong();
     }
     target.sink->append(source.block(), from, to);
   }
@@ -236,6 +304,7 @@ class Conversion {
     for (Target& target : targets) {
       if (!target.sink) continue;
       target.sink->finish();
+      for (const std::string& text : target.sink->remarks()) remarkOnce(text);
       result_.outputs.push_back({target.path, target.sink->pointCount()});
       points += target.sink->pointCount();
     }
@@ -256,6 +325,9 @@ class Conversion {
 PointConversionResult convertPointFiles(const std::vector<fs::path>& inputs, const fs::path& output,
                                         const PointConversionOptions& options,
                                         const ProgressCallback& progress) {
+  const UnchangedInputs unchanged;
+  FileProtection protection(inputs);
+  if (isConversionFolder(output)) protection.guard(output);
   return Conversion(inputs, options, progress).run(output);
 }
 

@@ -3,20 +3,18 @@
 #include "point_sink.h"
 
 #include <array>
-#include <cmath>
 
 #include <pcl_als/common/file_extension.h>
-#include <pcl_als/crs/crs.h>
+#include <pcl_als/io/new_las_file.h>
 #include <pcl_als/io/pcd_writer.h>
 #include <pcl_als/las/las_selection.h>
 #include <pcl_als/las/las_writer.h>
+#include <pcl_als/las/unclaimed_bytes.h>
 
 namespace pcl_als::detail {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kOffsetStep = 1000.0;  ///< offsets of new LAS files are multiples of this
 
 /// Raw records into a file like that of the first of them.
 class RecordSink : public PointSink {
@@ -31,6 +29,9 @@ class RecordSink : public PointSink {
     if (block.file->path() != last_) {
       steps_ = stepsBetween(*block.file, like_);
       last_ = block.file->path();
+      const UnclaimedBytes unclaimed = unclaimedBytes(*block.file);
+      if (last_ != like_.path() && unclaimed.any())
+        remarks_.push_back(last_.string() + ": " + unclaimed.describe() + "; they are not copied");
     }
     std::byte* records = block.records + from * length;
     moveRecords(steps_, records, to - from, length, block.file->path().string());
@@ -38,12 +39,19 @@ class RecordSink : public PointSink {
   }
   std::uint64_t pointCount() const override { return writer_.pointCount(); }
   void finish() override { writer_.finish(); }
+  std::vector<std::string> remarks() const override {
+    std::vector<std::string> remarks = remarks_;
+    for (const std::string& text : writer_.remarks())
+      remarks.push_back(like_.path().string() + ": " + text);
+    return remarks;
+  }
 
  private:
   LasFile like_;
   LasSelectionWriter writer_;
   fs::path last_;  ///< file of the records that were appended last
   std::array<std::int64_t, 3> steps_{};
+  std::vector<std::string> remarks_;  ///< of other files than the one that the output is like
 };
 
 PointChunk rowsOf(const PointChunk& chunk, std::size_t from, std::size_t to) {
@@ -62,18 +70,13 @@ PointChunk rowsOf(const PointChunk& chunk, std::size_t from, std::size_t to) {
           part(chunk.number_of_returns),
           part(chunk.classification),
           part(chunk.flags),
+          part(chunk.user_data),
           part(chunk.channel)};
 }
 
 LasWriterOptions optionsFor(const PointFileInfo& info) {
-  LasWriterOptions options;
-  options.crs = info.crs;
-  options.time_kind = info.time_kind == TimeKind::adjusted_standard ? TimeKind::adjusted_standard
-                                                                    : TimeKind::week_seconds;
-  const Eigen::Vector3d metres = unitsOfCrs(info.crs).metres();
-  for (int axis = 0; axis < 3; ++axis)
-    options.offset[axis] =
-        std::floor(info.minimum[axis] / metres[axis] / kOffsetStep) * kOffsetStep;
+  LasWriterOptions options = newLasOptions(info.crs, info.time_kind, info.minimum);
+  if (!info.corrections.empty()) options.vlrs.push_back(lasCorrectionsVlr(info.corrections));
   return options;
 }
 
@@ -103,7 +106,7 @@ LocalFrame frameOf(const PointFileInfo& info) {
 class PcdSink : public PointSink {
  public:
   PcdSink(const fs::path& path, const PointFileInfo& info, const std::string& strip)
-      : writer_(path, frameOf(info), strip) {}
+      : writer_(path, frameOf(info), strip, info.corrections) {}
 
   void append(const PointBlock& block, std::size_t from, std::size_t to) override {
     writer_.append(block.chunk, from, to);
@@ -130,12 +133,18 @@ std::unique_ptr<PointSink> openSink(const fs::path& path, const fs::path& first,
 }
 
 std::string fieldsWithoutColumn(const LasFile& file) {
-  std::string names = "user data";
+  std::string names;
   const LasRecordLayout& layout = file.layout();
-  if (layout.rgb >= 0) names += ", colours";
-  if (layout.nir >= 0) names += ", near infrared";
-  if (layout.waveform >= 0) names += ", waveforms";
-  if (file.header().record_length > layout.length) names += ", extra bytes";
+  const auto add = [&names](bool lost, const std::string& name) {
+    if (lost) names += (names.empty() ? "" : ", ") + name;
+  };
+  add(layout.rgb >= 0, "colours");
+  add(layout.nir >= 0, "near infrared");
+  add(layout.waveform >= 0, "waveforms");
+  add(file.header().record_length > layout.length, "extra bytes");
+  const UnclaimedBytes unclaimed = unclaimedBytes(file);
+  add(unclaimed.any(), unclaimed.describe());
+  if (names.empty()) return names;
   return file.path().string() + ": a PCD does not store " + names;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <pcl_als/io/las_point_reader.h>
 #include <pcl_als/io/point_reader.h>
@@ -28,6 +29,8 @@ class PointSink {
   virtual void append(const PointBlock& block, std::size_t from, std::size_t to) = 0;
   virtual std::uint64_t pointCount() const = 0;
   virtual void finish() = 0;
+  /// After finish(): what was copied besides points, or is not in the output.
+  virtual std::vector<std::string> remarks() const { return {}; }
 };
 
 struct SinkOptions {

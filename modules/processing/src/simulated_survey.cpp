@@ -10,6 +10,7 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_protection.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/las_writer.h>
 #include <pcl_als/processing/simulated_images.h>
@@ -67,6 +68,8 @@ void fill(const std::vector<SimulatedPoint>& points, double time_shift, bool few
     chunk.number_of_returns[i] = p.number_of_returns;
     chunk.classification[i] = p.classification;
     chunk.flags[i] = static_cast<std::uint8_t>(p.flags | (few_channels ? p.channel << 6U : 0U));
+    // The scanner channel of LAS has two bits.
+    chunk.user_data[i] = few_channels ? std::uint8_t{0} : p.channel;
     chunk.channel[i] = p.channel;
   }
 }
@@ -310,6 +313,17 @@ void makeFolder(const std::filesystem::path& folder) {
     throw InputError(folder.string() + ": the folder cannot be made");
 }
 
+/// Whatever the user put into the folder stays there.
+void refuseForeignFiles(const SimulationOptions& options, const StripFileOptions& files) {
+  std::vector<std::filesystem::path> written;
+  for (const char* name :
+       {"trajectory.csv", "control.csv", "training.csv", "checkpoints.csv", "truth.json"})
+    written.push_back(files.folder / name);
+  for (const simulation::PlannedLine& line : options.lines)
+    written.push_back(files.folder / files.nameOf(line.id));
+  refuseForeign(written);
+}
+
 void refuseForeignStrips(const SimulationOptions& options, const StripFileOptions& files) {
   std::set<std::string> ours;
   for (const simulation::PlannedLine& line : options.lines) ours.insert(files.nameOf(line.id));
@@ -328,7 +342,11 @@ void refuseForeignStrips(const SimulationOptions& options, const StripFileOption
 void simulateSurvey(const SimulationOptions& options, const std::string& noise_name,
                     const StripFileOptions& files, int threads, const ProgressCallback& callback) {
   makeFolder(files.folder);
+  FileProtection protection;
+  protection.guard(files.folder);
+  if (files.images) protection.guard(files.folder / "images");
   refuseForeignStrips(options, files);
+  refuseForeignFiles(options, files);
   std::filesystem::remove(files.folder / "truth.json");  // until all is written there is no truth
   ProgressReport progress(callback);
   progress.begin("Building the scene");

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <optional>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/header_box.h>
 #include <pcl_als/common/point_types.h>
+#include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/processing/strip_positions.h>
 
@@ -48,10 +51,13 @@ std::string StripFiles::name() const {
   return strip.empty() ? files.front().string() : "strip " + strip;
 }
 
-StripFileInfo stripFileInfo(const StripFiles& strip) {
+StripFileInfo stripFileInfo(const StripFiles& strip, bool measured) {
   StripFileInfo info;
   for (const std::filesystem::path& file : strip.files) {
-    const PointFileInfo one = PointReader::open(file)->info();
+    const MeasuredFile known =
+        measured ? measureBox(file) : MeasuredFile{PointReader::open(file)->info(), {}};
+    const PointFileInfo& one = known.info;
+    if (!known.box_remark.empty()) info.remarks.push_back(known.box_remark);
     info.points += one.point_count;
     info.files.push_back(one);
     info.resolution = std::clamp(one.resolution.head<2>().minCoeff(), 1e-4, 0.01);
@@ -79,12 +85,17 @@ StripPoints readStripPoints(const StripFiles& strip, const Eigen::AlignedBox2d& 
   PointChunk chunk;
   for (std::size_t file = 0; file < strip.files.size(); ++file) {
     const auto reader = PointReader::open(strip.files[file]);
-    if (strip.arrangement == nullptr) {
-      while (reader->read(chunk)) addRun(chunk, 0, chunk.size(), box, points);
-      continue;
+    std::optional<StripArrangement::Sorter> sorter;
+    if (strip.arrangement != nullptr) sorter.emplace(*strip.arrangement, strip.places[file]);
+    Eigen::AlignedBox3d all;
+    while (reader->read(chunk)) {
+      all.extend(boxOf(chunk, 0, chunk.size()));
+      if (sorter)
+        addArranged(strip, *sorter, chunk, box, points);
+      else
+        addRun(chunk, 0, chunk.size(), box, points);
     }
-    StripArrangement::Sorter sorter(*strip.arrangement, strip.places[file]);
-    while (reader->read(chunk)) addArranged(strip, sorter, chunk, box, points);
+    if (strip.box.isEmpty() && !reader->boxRemark(all).empty()) points.headers_right = false;
   }
   if (points.read == 0) throw InputError(strip.name() + ": has no points");
   return points;

@@ -10,9 +10,12 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/shared_work.h>
+#include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/strip_rasters.h>
+
+#include "survey_messages.h"
 
 namespace pcl_als {
 namespace {
@@ -24,7 +27,7 @@ constexpr double kBytesPerCell = 380.0;
 /// are more threads.
 constexpr double kRoundBytes = 1e9;
 
-/// A file and the box its header gives, wider by its resolution.
+/// A file and the box of its points, wider by its resolution.
 struct BoxedFile {
   std::filesystem::path path;
   std::size_t place;  ///< among all files
@@ -125,26 +128,56 @@ class TileWork {
 
 }  // namespace
 
-RasterInput rasterInput(const std::vector<std::string>& paths) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
+namespace {
+
+/// Collective: the files with the boxes of their points, in each process.
+std::vector<MeasuredFile> measureFiles(const std::vector<std::string>& paths, int threads,
+                                       Communicator* processes) {
+  std::vector<MeasuredFile> files(paths.size());
+  std::vector<double> costs;
+  for (const std::string& path : paths) costs.push_back(detail::readingCost(path));
+  const SharedItems shares(processes, costs);
+  doTogether(processes, [&] {
+    for (const std::size_t i : shares.ownItems()) files[i] = measureBox(paths[i], threads);
+  });
+  shareValues(
+      processes, shares, files,
+      [](ByteWriter& out, const MeasuredFile& file) {
+        detail::put(out, file.info);
+        out.put(file.box_remark);
+      },
+      [](ByteReader& in, MeasuredFile& file) {
+        detail::get(in, file.info);
+        in.get(file.box_remark);
+      });
+  return files;
+}
+
+}  // namespace
+
+RasterInput rasterInput(const std::vector<std::string>& paths, int threads,
+                        Communicator* processes) {
+  requirePointFiles(paths.size());
   RasterInput files;
-  files.min_x = files.min_y = kFar, files.max_x = files.max_y = -kFar;
-  std::vector<PointFileInfo> infos;
-  for (const std::string& path : paths) {
-    const auto reader = PointReader::open(path);
-    const PointFileInfo& info = reader->info();
-    files.paths.emplace_back(path);
+  Eigen::AlignedBox2d box;
+  std::vector<PointFileInfo> with_points;
+  const std::vector<MeasuredFile> measured = measureFiles(paths, threads, processes);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const PointFileInfo& info = measured[i].info;
+    files.paths.emplace_back(paths[i]);
+    files.infos.push_back(info);
     if (info.point_count == 0) continue;
     files.points += info.point_count;
-    files.min_x = std::min(files.min_x, info.minimum.x());
-    files.min_y = std::min(files.min_y, info.minimum.y());
-    files.max_x = std::max(files.max_x, info.maximum.x());
-    files.max_y = std::max(files.max_y, info.maximum.y());
-    infos.push_back(info);
+    box.extend(info.minimum.head<2>()).extend(info.maximum.head<2>());
+    with_points.push_back(info);
   }
-  PointReference reference = commonReference(infos);
+  files.min_x = box.min().x(), files.min_y = box.min().y();
+  files.max_x = box.max().x(), files.max_y = box.max().y();
+  PointReference reference = commonReference(with_points);
   files.crs = std::move(reference.crs);
   files.remarks = std::move(reference.remarks);
+  for (const MeasuredFile& file : measured)
+    if (!file.box_remark.empty()) files.remarks.push_back(file.box_remark);
   if (files.points == 0)
     throw InputError(paths.front() + (paths.size() > 1 ? " and the others: hold" : ": holds") +
                      " no points");
@@ -166,12 +199,11 @@ namespace {
 std::vector<BoxedFile> boxedFiles(const RasterInput& files) {
   std::vector<BoxedFile> boxed;
   for (std::size_t place = 0; place < files.paths.size(); ++place) {
-    const std::filesystem::path& path = files.paths[place];
-    const PointFileInfo info = PointReader::open(path)->info();
+    const PointFileInfo& info = files.infos[place];
     const double x = info.resolution.x(), y = info.resolution.y();
     if (info.point_count > 0)
-      boxed.push_back({path, place, info.point_count, info.minimum.x() - x, info.minimum.y() - y,
-                       info.maximum.x() + x, info.maximum.y() + y});
+      boxed.push_back({files.paths[place], place, info.point_count, info.minimum.x() - x,
+                       info.minimum.y() - y, info.maximum.x() + x, info.maximum.y() + y});
   }
   return boxed;
 }

@@ -7,6 +7,9 @@
 #include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/file_version.h>
+#include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/planning/block_advice.h>
 #include <pcl_als/processing/survey_calibration.h>
@@ -77,12 +80,20 @@ struct References {
   }
 };
 
-/// Refuses a reference that its coordinates put elsewhere, whatever CRS it states.
+PlaceInBlock placeOf(const SurveyReader& survey, const PointFileInfo& reference) {
+  return {{reference.minimum.head<2>().eval(), reference.maximum.head<2>().eval()},
+          survey.extent()};
+}
+
+/// Refuses a reference that its coordinates put elsewhere, whatever CRS it states. Its header is
+/// believed where it puts the reference into the block.
 void requirePlace(const SurveyReader& survey, const PointFileInfo& reference) {
-  const Eigen::AlignedBox2d box(reference.minimum.head<2>().eval(),
-                                reference.maximum.head<2>().eval());
-  const PlaceInBlock place(box, survey.extent());
-  if (reference.point_count == 0 || place.distance == 0.0) return;
+  if (reference.point_count == 0 || placeOf(survey, reference).distance == 0.0) return;
+  const std::string extension = lowerExtension(reference.path);
+  const bool has_header = extension == ".las" || extension == ".laz";
+  const PlaceInBlock place =
+      placeOf(survey, has_header ? measureBox(reference.path).info : reference);
+  if (place.distance == 0.0) return;
   throw InputError(reference.path.string() + ": lies " + place.text() +
                    ": give a reference surface of this block, in its coordinate reference system");
 }
@@ -230,6 +241,7 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   if (areShared(survey.processes()) &&
       !(options.references.empty() && options.settings.fixed.empty()))
     throw UsageError("fixed strips and reference surfaces need a calibration in one process");
+  const UnchangedInputs unchanged;
   ProgressReport progress(sharedProgress(survey.processes(), callback));
   const ReadingProgress reading(survey, progress);
   for (const std::string& text :
@@ -258,6 +270,13 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
   for (const SurveyedFile& file : survey.files())
     if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);
+  const bool corrected =
+      std::any_of(survey.files().begin(), survey.files().end(),
+                  [](const SurveyedFile& file) { return !file.sources.info.corrections.empty(); });
+  if (corrected)
+    made.result.warnings.emplace_back(
+        "points were corrected before the calibration: its biases are those that remain in the "
+        "corrected files, and do not belong to the files as delivered");
   for (const SurveyedFile& file : survey.files())
     made.result.inputs.push_back(file.sources.info.path.string());
   for (const ReferenceSource& reference : options.references)

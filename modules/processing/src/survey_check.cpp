@@ -5,6 +5,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/quality/accuracy_standards.h>
@@ -74,6 +75,7 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
                              options.separation->quality_level >= kQualityLevels)) {
     throw UsageError("check: the quality level must be 0, 1, 2 or 3");
   }
+  const UnchangedInputs unchanged;
   ProgressReport progress(sharedProgress(survey.processes(), callback));
   const ReadingProgress reading(survey, progress);
   // The trajectory serves for scan angles only: points that it does not cover are compared, too.

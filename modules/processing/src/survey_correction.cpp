@@ -4,7 +4,9 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_version.h>
 #include <pcl_als/common/shared_work.h>
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/processing/survey_correction.h>
 
 namespace pcl_als {
@@ -27,6 +29,7 @@ std::string corrected(const std::string& input, const std::string& output,
       .put(result.points)
       .put(result.attitude_remark)
       .put(missed ? result.coverage.describe(*flight) : std::string())
+      .put(result.copy_remarks)
       .put(result.remarks)
       .take();
 }
@@ -42,12 +45,15 @@ std::vector<CorrectedFile> correctPointFiles(const std::vector<std::string>& inp
                                              const ProgressCallback& callback) {
   if (options.deviation_cell > 0.0)
     throw UsageError("a raster of standard deviations is made of one file only");
+  const UnchangedInputs unchanged;
   ProgressReport progress(sharedProgress(batch_options.processes, callback));
   FileBatch batch(inputs, outputs, batch_options);
+  FileCorrectionOptions of_file = options;
+  if (of_file.calibration_id.empty()) of_file.calibration_id = calibrationId(calibration);
   progress.begin("Writing " + counted(inputs.size(), "file"));
   const std::vector<std::string> results = batch.run(
       [&](std::size_t file, const std::function<void(double)>& fraction) {
-        return corrected(inputs[file], outputs[file], calibration, flight, options, fraction);
+        return corrected(inputs[file], outputs[file], calibration, flight, of_file, fraction);
       },
       [&progress](double fraction) { progress.advance(fraction); });
   std::vector<CorrectedFile> files(inputs.size());
@@ -58,6 +64,7 @@ std::vector<CorrectedFile> correctPointFiles(const std::vector<std::string>& inp
         .get(file.points)
         .get(file.attitude_remark)
         .get(file.uncovered)
+        .get(file.copy_remarks)
         .get(file.remarks);
     file.kept = batch.wasKept(i);
     points += file.points;

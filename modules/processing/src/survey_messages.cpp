@@ -13,9 +13,12 @@ void get(ByteReader& in, LengthUnit& unit) {
   in.get(unit.metres).get(unit.name);
 }
 
+}  // namespace
+
 void put(ByteWriter& out, const PointFileInfo& info) {
   out.put(info.path.string()).put(info.point_count).put(info.minimum).put(info.maximum);
   out.put(info.resolution).put(info.crs).put(info.crs_kind).put(info.time_kind).put(info.format);
+  out.put(info.corrections);
   put(out, info.units.horizontal);
   put(out, info.units.vertical);
   out.put(info.units.source).put(info.units.vertical_source);
@@ -25,21 +28,20 @@ void get(ByteReader& in, PointFileInfo& info) {
   info.path = in.take<std::string>();
   in.get(info.point_count).get(info.minimum).get(info.maximum);
   in.get(info.resolution).get(info.crs).get(info.crs_kind).get(info.time_kind).get(info.format);
+  in.get(info.corrections);
   get(in, info.units.horizontal);
   get(in, info.units.vertical);
   in.get(info.units.source).get(info.units.vertical_source);
 }
 
-}  // namespace
-
 void put(ByteWriter& out, const PointFileSources& sources) {
   put(out, sources.info);
-  out.putPlain(sources.sources).put(sources.damage);
+  out.putPlain(sources.sources).put(sources.damage).put(sources.box_remark);
 }
 
 void get(ByteReader& in, PointFileSources& sources) {
   get(in, sources.info);
-  in.getPlain(sources.sources).get(sources.damage);
+  in.getPlain(sources.sources).get(sources.damage).get(sources.box_remark);
 }
 
 void put(ByteWriter& out, const SurveyedFile& file) {

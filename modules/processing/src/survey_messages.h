@@ -8,6 +8,8 @@
 namespace pcl_als::detail {
 
 /// What is known of a point file, for another process.
+void put(ByteWriter& out, const PointFileInfo& info);
+void get(ByteReader& in, PointFileInfo& info);
 void put(ByteWriter& out, const PointFileSources& sources);
 void get(ByteReader& in, PointFileSources& sources);
 void put(ByteWriter& out, const SurveyedFile& file);

@@ -10,6 +10,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/strip_group.h>
+#include <pcl_als/io/point_reader.h>
 #include <pcl_als/processing/survey_reader.h>
 
 #include "survey_messages.h"
@@ -19,6 +20,7 @@ namespace {
 
 std::vector<SurveyInput> inputsOf(const std::vector<std::string>& paths,
                                   const PointWindow& window) {
+  requirePointFiles(paths.size());
   std::vector<SurveyInput> inputs;
   for (const std::string& path : paths) inputs.push_back(SurveyInput::ofFile(path, window));
   return inputs;
@@ -72,7 +74,8 @@ SurveyReader::SurveyReader(int threads, std::vector<SurveyInput> inputs, Communi
   for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
   reference_ = commonReference(infos);
   for (const SurveyedFile& file : files_)
-    if (!file.sources.damage.empty()) reference_.remarks.push_back(file.sources.damage);
+    for (const std::string& remark : {file.sources.damage, file.sources.box_remark})
+      if (!remark.empty()) reference_.remarks.push_back(remark);
   arrangement_.emplace(files_, StripChoice(), FlownTimes());
   divide(false);
 }

@@ -5,6 +5,9 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/file_protection.h>
+#include <pcl_als/common/file_version.h>
+#include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/io/trajectory_writer.h>
 #include <pcl_als/processing/trajectory_conversion.h>
 #include <pcl_als/trajectory/trajectory_correction.h>
@@ -129,6 +132,10 @@ std::vector<fs::path> writeTrajectoryFile(const fs::path& output,
 TrajectoryConversion convertTrajectory(const std::vector<fs::path>& paths, const fs::path& output,
                                        const Options& options, const ProgressCallback& callback) {
   checkTrajectoryOutput(output, options.reading.crs);
+  const UnchangedInputs unchanged;
+  const FileProtection protection(trajectoryPaths(paths));
+  protection.check(output);
+  if (isSbet(output)) protection.check(accuracyPath(output));
   ProgressReport progress(callback);
   progress.begin("Reading " + counted(paths.size(), "trajectory file"));
   FlightFile flight = flightOf(paths, options);

@@ -61,7 +61,8 @@ void addParameters(const CalibrationResult& result, std::vector<std::string>& se
     const ParameterEstimate& estimate = result[info.parameter];
     if (estimate.status == ParameterStatus::estimated) {
       sentences.push_back(plainName(info.parameter) + ": " +
-                          estimateText(info.parameter, estimate) + ".");
+                          estimateText(info.parameter, estimate) +
+                          (estimate.determined ? "." : ", " + estimate.reason + "."));
     } else if (estimate.status == ParameterStatus::not_estimable) {
       sentences.push_back(plainName(info.parameter) + ": not determined (" +
                           (estimate.reason.empty() ? "the data do not show it" : estimate.reason) +
@@ -112,8 +113,9 @@ Verdict verdictOf(const CalibrationResult& result) {
   const double after =
       compared ? result.misfit.rms_after : rmsOf(result.pairs, &PairFit::rms_after);
   const bool complete = std::none_of(
-      result.parameters.begin(), result.parameters.end(),
-      [](const ParameterEstimate& e) { return e.status == ParameterStatus::not_estimable; });
+      result.parameters.begin(), result.parameters.end(), [](const ParameterEstimate& e) {
+        return e.status == ParameterStatus::not_estimable || !e.determined;
+      });
   if (!result.verdict.usable()) {
     verdict.grade = VerdictGrade::bad;
     verdict.headline =

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
 
@@ -53,7 +54,10 @@ Json lasParts(const std::filesystem::path& path) {
   json["record_length"] = file.header().record_length;
   json["extra_fields"] = Json::array();
   for (const LasExtraField& field : file.extraFields())
-    json["extra_fields"].push_back({{"name", field.name}, {"description", field.description}});
+    json["extra_fields"].push_back({{"name", field.name},
+                                    {"description", field.description},
+                                    {"type", lasExtraTypeName(field)},
+                                    {"position", field.position}});
   json["vlrs"] = Json::array();
   for (const LasVlrEntry& vlr : file.vlrs())
     json["vlrs"].push_back({{"user", vlr.user_id},
@@ -82,6 +86,9 @@ Json fileJson(const FileCensus& file) {
   json["crs"] = file.info.crs;
   json["units"] = unitsJson(file.info);
   json["time_kind"] = timeKindName(file.info.time_kind);
+  json["corrections"] = Json::array();
+  for (const AppliedCorrection& correction : parseCorrections(file.info.corrections))
+    json["corrections"].push_back(correction.describe());
   json["resolution"] = vector(file.info.resolution);
   json["header_minimum"] = vector(file.info.minimum);
   json["header_maximum"] = vector(file.info.maximum);

@@ -6,6 +6,7 @@
 #include <pcl_als/common/class_name.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/crs/crs.h>
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
@@ -65,13 +66,6 @@ std::string classesText(const PointStatistics& s) {
   return text;
 }
 
-std::string typeName(const LasExtraField& field) {
-  static const char* const names[] = {"undocumented", "uint8",  "int8",  "uint16",
-                                      "int16",        "uint32", "int32", "uint64",
-                                      "int64",        "float",  "double"};
-  return names[static_cast<std::size_t>(field.type)];
-}
-
 /// Contents of LAS files only: software, extra bytes, variable length records.
 std::string lasText(const std::filesystem::path& path) {
   // The header and VLRs; the census has found what of the rest cannot be read.
@@ -81,11 +75,9 @@ std::string lasText(const std::filesystem::path& path) {
       entry("software", '"' + h.generating_software + "\", system \"" + h.system_id +
                             formatted("\", day %d of %d", h.creation_day, h.creation_year));
   for (const LasExtraField& field : file.extraFields())
-    text += entry("extra field", field.name + " (" + typeName(field) + ")" +
+    text += entry("extra field", field.name + " (" + lasExtraTypeName(field) + ")" +
                                      (field.description.empty() ? "" : ": " + field.description));
-  const std::size_t described = file.extraFields().empty() ? file.layout().length
-                                                           : file.extraFields().back().position +
-                                                                 file.extraFields().back().size;
+  const std::size_t described = file.extraBytes().end;
   if (described < h.record_length)
     text += entry("extra bytes",
                   std::to_string(h.record_length - described) + " per record without description");
@@ -111,6 +103,8 @@ std::string fileText(const FileCensus& file) {
     text += entry("CRS name", describeCrs(info.crs).name);
   text += entry(
       "unit", describeUnits(info) + (info.units.metric() ? "" : "; everything below is in metres"));
+  for (const AppliedCorrection& correction : parseCorrections(info.corrections))
+    text += entry("corrected", correction.describe());
   text += entry("resolution", formatted("%g m x %g m x %g m", info.resolution.x(),
                                         info.resolution.y(), info.resolution.z()));
   if (s.points > 0) {

@@ -5,6 +5,7 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/trajectory/heading_check.h>
+#include <pcl_als/trajectory/trajectory_screening.h>
 
 #include "json_number.h"
 
@@ -36,6 +37,23 @@ Json heading(const TrajectoryFacts& facts) {
   return json;
 }
 
+/// Samples that are left out where the trajectory is used, and what makes it unusable.
+void addOutliers(Json& json, const TrajectoryFacts& facts) {
+  const TrajectoryScreening screening = screenTrajectory(facts.local);
+  const auto name = [&](std::size_t sample) { return facts.places.name(sample); };
+  json["outliers"] = Json::array();
+  for (const OutlierRun& run : screening.outliers) {
+    Json entry{{facts.places.lines ? "line" : "record", facts.places.numbers[run.samples.front()]},
+               {"samples", run.samples.size()},
+               {"time", {run.from, run.to}}};
+    if (run.distance > 0.0) entry["distance_m"] = number(run.distance);
+    if (run.turn > 0.0) entry["turn_deg"] = number(run.turn / kRadiansPerDegree);
+    json["outliers"].push_back(std::move(entry));
+  }
+  const std::string objection = screening.objection(name);
+  json["unusable"] = objection.empty() ? Json(nullptr) : Json(objection);
+}
+
 Json trajectory(const std::string& path, const TrajectoryFacts& facts) {
   Json json;
   json["path"] = path;
@@ -50,6 +68,7 @@ Json trajectory(const std::string& path, const TrajectoryFacts& facts) {
   json["attitude"] = facts.attitude;
   json["heading"] = heading(facts);
   json["standard_deviations"] = deviations(facts.accuracy);
+  addOutliers(json, facts);
   return json;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/report/intensity_report.h>
 
 #include "json_number.h"
@@ -245,9 +245,7 @@ void writeIntensityJson(const std::filesystem::path& path, const IntensityReport
 
 StoredRadiometry readIntensityJson(const std::filesystem::path& path) {
   const std::string name = path.string();
-  std::ifstream stream(path);
-  if (!stream) throw InputError(name + ": cannot be read");
-  const Json json = Json::parse(stream, nullptr, false);
+  const Json json = Json::parse(readWholeFile(path, kJsonLimits), nullptr, false);
   if (json.is_discarded() || !json.is_object() || json.value("format", "") != kFormat ||
       json.value("version", 0) != 1 || !json.contains("model") || !json["model"].is_object())
     throw InputError(name + ": is no result of pcl_als_intensity, version 1");

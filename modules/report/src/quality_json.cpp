@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/report/quality_report.h>
 
 #include "json_number.h"
@@ -221,6 +222,14 @@ Json blockJson(const CheckedBlock& block) {
   return json;
 }
 
+Json requirementJson(const DeliveryRequirement& requirement) {
+  return {{"required_level", "QL" + std::to_string(requirement.level)},
+          {"kept", requirement.kept},
+          {"pairs_measured", requirement.pairs},
+          {"control_points", requirement.control_points},
+          {"reasons", requirement.reasons}};
+}
+
 Json limitsJson(int required) {
   Json list = Json::array();
   for (const QualityLevelLimits& level : qualityLevels()) {
@@ -242,7 +251,8 @@ std::string qualityJson(const QualityReport& report) {
                {"version", 1},
                {"tool_version", PCL_ALS_VERSION},
                {"signs", "offsets are a - b, shifts move a onto b, control is strip - control"},
-               {"limits", limitsJson(report.quality_level)}};
+               {"limits", limitsJson(report.quality_level)},
+               {"requirement", requirementJson(requireLevel(report.block, report.quality_level))}};
   json.update(blockJson(report.block));
   if (report.before) json["before"] = blockJson(*report.before);
   return json.dump(1) + '\n';

@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/report/picture/result_file_plots.h>
@@ -240,13 +240,9 @@ void addGains(const Json& root, std::vector<NamedPlot>& plots) {
 }  // namespace
 
 std::vector<NamedPlot> plotsOf(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw InputError(file.string() + ": cannot be read");
-  }
   std::vector<NamedPlot> plots;
   try {
-    const Json root = Json::parse(stream);
+    const Json root = Json::parse(readWholeFile(file, kJsonLimits));
     if (!root.is_object()) throw InputError(file.string() + ": is no result of a pcl_als tool");
     if (root.value("format", "") == "pcl_als calibration") addCalibration(file, plots);
     if (root.contains("curves")) addCurves(root["curves"], plots);

@@ -7,6 +7,7 @@
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/report/census_report.h>
 #include <pcl_als/trajectory/heading_check.h>
+#include <pcl_als/trajectory/trajectory_screening.h>
 
 namespace pcl_als {
 namespace {
@@ -44,6 +45,13 @@ std::string trajectoryText(const std::string& name, const TrajectoryFacts& facts
   if (!facts.accuracy.empty())
     text +=
         "  standard deviations, root mean square: " + describe(summarize(facts.accuracy)) + '\n';
+  const TrajectoryScreening screening = screenTrajectory(facts.local);
+  const auto name_of = [&](std::size_t sample) { return facts.places.name(sample); };
+  const std::string objection = screening.objection(name_of);
+  if (!objection.empty())
+    text += "  not usable: " + objection + '\n';
+  else if (!screening.outliers.empty())
+    text += "  " + screening.describe(name_of) + '\n';
   return text;
 }
 

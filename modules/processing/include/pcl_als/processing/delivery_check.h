@@ -43,6 +43,7 @@ struct CheckSettings {
 struct CheckedPair {
   std::string a, b;
   double overlap_area = 0.0;  ///< m^2
+  bool too_small = false;     ///< below CheckSettings::minimum_overlap: areas are not chosen for it
   std::size_t areas = 0;      ///< areas of comparison
   PairAssessment assessment;
   std::optional<PatchAlignmentResult> alignment;  ///< where it was attempted
@@ -115,9 +116,8 @@ class BlockCheck {
   void measureControl(CheckedBlock& block);
   CheckedPair assessOverlap(std::size_t overlap, CellMeans& cells);
   void alignPairs(std::vector<CheckedPair>& pairs, const std::function<void(double)>& progress);
-  bool isAligned(const CheckedPair& pair) const {
-    return pair.overlap_area >= settings_.minimum_overlap &&
-           pair.assessment.status != PairAssessment::Status::copy;
+  static bool isAligned(const CheckedPair& pair) {
+    return !pair.too_small && pair.assessment.status != PairAssessment::Status::copy;
   }
   void readForRoot(const PointSink& sink);
   // What processes tell each other.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pcl_als/common/communicator.h>
+#include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/shared_work.h>
 
 namespace pcl_als {
@@ -38,7 +39,8 @@ struct BatchOptions {
  */
 class FileBatch {
  public:
-  /// UsageError unless there is one output for each input, of different names.
+  /// UsageError unless there is one output for each input, of different names, and none of them is
+  /// an input, which stays protected while the object exists.
   FileBatch(std::vector<std::string> inputs, std::vector<std::string> outputs,
             const BatchOptions& options);
 
@@ -68,6 +70,7 @@ class FileBatch {
   void writeRecord(std::size_t file, const std::string& result) const;
 
   std::vector<std::string> inputs_, outputs_;
+  FileProtection protection_;
   BatchOptions options_;
   std::vector<char> kept_;
 };

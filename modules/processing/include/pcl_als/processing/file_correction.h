@@ -24,9 +24,12 @@ struct FileCorrectionOptions {
   bool keep_uncovered = false;  ///< points without trajectory stay unchanged; otherwise at most 1 %
   /// Refuse a trajectory that cannot belong to the points.
   bool check_trajectory = true;
-  /// Continue with warnings where this check fails or the verdict of the calibration is not
-  /// "usable", and with a level sensor where the scanner is not linear and has no attitude.
+  /// Continue with warnings where this check fails, the verdict of the calibration is not "usable",
+  /// it has no strip corrections for a strip of the file, or the file was corrected with the same
+  /// biases before; and with a level sensor where the scanner is not linear and has no attitude.
   bool force = false;
+  bool record = true;           ///< record the correction in the output (AppliedCorrection)
+  std::string calibration_id;   ///< calibrationId(); empty: computed
   std::optional<int> gps_week;  ///< of times that are seconds of the week; default: from the data
   int threads = 0;              ///< 0: all cores; the result does not depend on it
 
@@ -52,6 +55,8 @@ struct FileCorrectionResult {
   std::string attitude_remark;
   DeviationSummary deviations;             ///< with FileCorrectionOptions::uncertainty
   std::optional<Raster> deviation_raster;  ///< DeviationCells, without CRS
+  /// What of the input was wrong, and what was copied besides (LasRewriteResult).
+  std::vector<std::string> copy_remarks;
   /// All that a user should know, with the above.
   std::vector<std::string> remarks;
 };
@@ -70,6 +75,9 @@ std::string describeBiases(const CalibrationResult& calibration);
  *
  * With standard deviations, local surfaces are found from the points within a radius that holds 16
  * of them (LocalSurfaces), window by window; memory is that of some windows of 131,072 points.
+ *
+ * With strip corrections, InputError for a file of which more than a hundredth of the points belong
+ * to strips that have none.
  *
  * UsageError for input and output of different kinds or the same file, and for a calibration that
  * should not be applied, for standard deviations of a .pcd file or of inverted corrections;

@@ -80,7 +80,7 @@ class IntensityInput {
   struct Options {
     std::string gain_control;  ///< name of an extra field to read; empty: none
     std::size_t window = kWindow;
-    int threads = 1;
+    int threads = 0;  ///< 0: all cores
   };
   /// Opens a file according to its extension.
   static std::unique_ptr<IntensityInput> open(const std::string& path, const Options& options);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/intensity_run.h>
 
 namespace pcl_als {
@@ -26,10 +27,15 @@ struct IntensityOutput {
 struct IntensityOutcome {
   explicit IntensityOutcome(std::size_t strips) : statistics(strips), histograms(strips) {}
   std::vector<IntensityCounts> counts;  ///< by file
+  /// Of the files: what was wrong, and what was copied besides (LasRewriteResult); with their
+  /// names.
+  std::vector<std::string> remarks;
   IntensityStatistics statistics;
   std::vector<IntensityHistogram> histograms;
   /// Called with every point, one at a time; may be empty.
   std::function<void(int strip, const Eigen::Vector3d& place)> seen;
+
+  void addRemarks(const std::filesystem::path& path, const LasRewriteResult& written);
 };
 
 /** \brief Writes a file of the job with corrected intensities.

@@ -16,6 +16,8 @@ namespace pcl_als {
 
 struct PointClassCounts {
   std::uint64_t points = 0, unclassified = 0;
+  /// What of the input was wrong, and what was copied besides (LasRewriteResult).
+  std::vector<std::string> remarks;
 };
 
 /// Classes of points from a raster file, of which only the parts under the points are in memory.

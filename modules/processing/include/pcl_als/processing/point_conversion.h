@@ -59,4 +59,9 @@ PointConversionResult convertPointFiles(const std::vector<std::filesystem::path>
                                         const PointConversionOptions& options = {},
                                         const ProgressCallback& progress = {});
 
+/// Whether an output is a folder: it exists as one, or its name has no extension.
+bool isConversionFolder(const std::filesystem::path& output);
+/// The name in an output folder of the file that an input becomes; \a format as in the options.
+std::string convertedName(const std::filesystem::path& input, const std::string& format);
+
 }  // namespace pcl_als

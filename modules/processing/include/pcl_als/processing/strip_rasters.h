@@ -16,20 +16,27 @@
 
 namespace pcl_als {
 
-/// Contents of point files according to their headers.
+/// Contents of point files.
 struct RasterInput {
   std::vector<std::filesystem::path> paths;
+  std::vector<PointFileInfo> infos;  ///< of each, with the box of its points
   std::uint64_t points = 0;
-  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< metres
+  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  ///< of the points, metres
   std::string crs;                                            ///< of the first file that has one
-  std::vector<std::string> remarks;  ///< units that are converted or assumed
+  /// Units that are converted or assumed, headers that state another box than that of the points.
+  std::vector<std::string> remarks;
   /// Arrangement of the same files: only points of strips in use are read; null: all.
   std::shared_ptr<const ArrangedFiles> arranged;
   std::vector<LeftOutPoints> left_out;
 };
 
-/// Opens every file once. InputError for files without points or that commonReference() refuses.
-RasterInput rasterInput(const std::vector<std::string>& paths);
+/** \brief Reads the coordinates of every file once, because the box in a header may be wrong.
+ *
+ * Collective: \a processes (null: one) share the files. InputError for files without points or that
+ * commonReference() refuses. \a threads: 0: all cores.
+ */
+RasterInput rasterInput(const std::vector<std::string>& paths, int threads = 0,
+                        Communicator* processes = nullptr);
 /// Restricts the contents to the chosen strips: reads every file twice.
 void chooseStrips(const StripChoice& choice, RasterInput& files);
 

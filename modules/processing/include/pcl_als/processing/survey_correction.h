@@ -14,8 +14,9 @@ namespace pcl_als {
 /// What the correction of one of many files found.
 struct CorrectedFile {
   std::uint64_t points = 0;
-  std::string attitude_remark;  ///< as FileCorrectionResult
-  std::string uncovered;        ///< points that were left as they are; empty: none
+  std::string attitude_remark;            ///< as FileCorrectionResult
+  std::string uncovered;                  ///< points that were left as they are; empty: none
+  std::vector<std::string> copy_remarks;  ///< as FileCorrectionResult, also the next ones
   std::vector<std::string> remarks;
   bool kept = false;  ///< complete from an earlier run (BatchOptions::resume)
 };
