@@ -15,8 +15,9 @@ CommandLine commandLine() {
                    "MATRIX.csv -output accuracy.json [-compare OTHER.csv]",
                    "pcl_als_accuracy corrected_checked.csv -compare raw_checked.csv -output "
                    "accuracy.json");
-  line.addNeeded("output", "accuracy figures as JSON");
-  line.addOptional(
+  line.setArguments({{"", 1, 1}});
+  line.addOutputFile("output", "accuracy figures", {".json"}).needed();
+  line.addInputFile(
       "compare",
       "the other classification, of the same kind as the input: McNemar's test and the "
       "difference of the kappas");
@@ -24,7 +25,7 @@ CommandLine commandLine() {
 }
 
 int accuracy(const CommandLine& line) {
-  const std::string input = line.inputs(1, 1).front();
+  const std::string input = line.inputs().front();
   const std::string other = line.has("compare") ? line.text("compare") : "";
   const AccuracyReport report = accuracyOfFiles(input, other);
   if (!line.quiet()) std::cout << accuracyText(report);

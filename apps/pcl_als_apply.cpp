@@ -11,15 +11,12 @@
 
 #include "command_line.h"
 #include "flight_options.h"
-#include "output_check.h"
 #include "processes.h"
 
 namespace {
 
 using namespace pcl_als;
 using app::CommandLine;
-
-constexpr std::size_t kMostFiles = 100000;
 
 CommandLine commandLine() {
   CommandLine line("pcl_als_apply",
@@ -29,12 +26,16 @@ CommandLine commandLine() {
                    "-corrected DIR …",
                    "pcl_als_apply strip1.las corrected1.las -trajectory trajectory.csv "
                    "-calibration calibration.json");
+  line.setArguments(
+      {{"corrected", 1, app::Arguments::kAnyNumber}, {"", 1, 1, {".las", ".laz", ".pcd"}}});
   app::addFlightOptions(line);
-  line.addOptional("calibration", "calibration.json with the biases");
-  line.addOptional("biases",
-                   "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
-                   "names as in calibration.json");
-  line.addOptional("corrected", "folder for the corrected copies of any number of files");
+  line.addInputFile("calibration", "calibration.json with the biases");
+  line.addText("biases",
+               "NAME=VALUE,... instead of a calibration: assumed - true, in m, arcsec or 1; "
+               "names as in calibration.json");
+  line.exclude({"calibration", "biases"}, true);
+  line.addOutputFolder("corrected", "folder for the corrected copies of any number of files",
+                       app::copiesOfInputs());
   app::addResumeOption(line);
   app::addModelOption(line);
   line.addFlag("invert", "apply the biases instead of removing them");
@@ -44,14 +45,22 @@ CommandLine commandLine() {
       "uncertainty",
       "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
       "standard deviation of every point, m (LAS, LAZ)");
-  line.addOptional("uncertainty_raster",
-                   "GeoTIFF of these standard deviations, root mean squares in cells");
-  line.add("uncertainty_cell", "size of its cells, m", 2.0);
+  line.addOutputFile("uncertainty_raster",
+                     "GeoTIFF of these standard deviations, root mean squares in cells",
+                     {".tif", ".tiff"});
+  line.addNumber("uncertainty_cell", "size of its cells", 2.0, {0.01, 1e4, "m"});
+  line.exclude({"corrected", "uncertainty_raster"});
   app::addAccuracyOption(line,
                          "for -uncertainty at times of which the calibration knows nothing "
                          "(default: the trajectory's own columns)");
   app::addForceOption(
-      line, "the calibration's verdict is not \"usable\" or inputs do not belong together");
+      line,
+      "the calibration's verdict is not \"usable\", a file was corrected with it before, or inputs "
+      "do not belong together");
+  line.addFlag(
+      "no_record",
+      "do not record the correction in the output (default: LAS in a VLR, PCD in a comment "
+      "line, so that it is not made twice)");
   line.addFlag("keep_uncovered",
                "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
                "file, which are counted; a file with more is refused)");
@@ -74,9 +83,6 @@ CalibrationResult usableCalibration(const CommandLine& line) {
 
 /// Biases and the trajectory window they belong to; 0 where the file does not say.
 CalibrationResult biasesOf(const CommandLine& line) {
-  if (line.has("calibration") == line.has("biases")) {
-    throw UsageError("give one of -calibration and -biases (see pcl_als_apply -h)");
-  }
   if (line.has("calibration")) return usableCalibration(line);
   CalibrationResult result;
   const SystemVector biases = line.parsed("biases", biasesIn);
@@ -99,12 +105,12 @@ FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult
   options.invert = line.has("invert");
   options.keep_uncovered = line.has("keep_uncovered");
   options.force = line.has("force");
+  options.record = !line.has("no_record");
   options.gps_week = app::gpsWeek(line);
   options.threads = line.threads();
   options.uncertainty = line.has("uncertainty") || line.has("uncertainty_raster");
   if (!line.has("uncertainty_raster")) return options;
-  app::checkWritable(line.text("uncertainty_raster"));
-  options.deviation_cell = line.number("uncertainty_cell", 0.01, 1e4, "m");
+  options.deviation_cell = line.number("uncertainty_cell");
   return options;
 }
 
@@ -113,15 +119,6 @@ FileCorrectionOptions optionsOf(const CommandLine& line, const CalibrationResult
 AttitudeSource attitudeOf(const Trajectory& flight) {
   if (!flight.hasAttitude()) return AttitudeSource::points;
   return flight.attitudeIsNominal() ? AttitudeSource::nominal : AttitudeSource::trajectory;
-}
-
-/// The points of a file, or with -corrected of many.
-std::vector<std::string> inputsOf(const CommandLine& line) {
-  if (!line.has("corrected")) return {line.inputs(2, 2).front()};
-  if (line.has("uncertainty_raster"))
-    throw UsageError("options -corrected and -uncertainty_raster exclude each other");
-  app::makeOutputFolder("corrected", line.text("corrected"));
-  return line.inputs(1, kMostFiles);
 }
 
 void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
@@ -137,7 +134,7 @@ void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
 }
 
 int apply(const CommandLine& line) {
-  const std::vector<std::string> files = inputsOf(line);
+  const std::vector<std::string>& files = line.inputs();
   CalibrationResult calibration = biasesOf(line);
   FileCorrectionOptions options = optionsOf(line, calibration);
   const PointReference reference = commonReference(files);
@@ -155,8 +152,8 @@ int apply(const CommandLine& line) {
     applyToMany(line, files, calibration, flight, options);
     return app::kDone;
   }
-  FileCorrectionResult result = correctPointFile(files[0], line.inputs(2, 2)[1], calibration,
-                                                 flight, options, app::progressOf(line));
+  FileCorrectionResult result = correctPointFile(files[0], line.output(), calibration, flight,
+                                                 options, app::progressOf(line));
   app::remarks(line, result.remarks);
   if (!result.deviation_raster) return app::kDone;
   result.deviation_raster->grid.crs = reference.crs;

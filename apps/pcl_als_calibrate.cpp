@@ -16,7 +16,6 @@
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
-#include "output_check.h"
 #include "processes.h"
 #include "remedy_options.h"
 #include "report_options.h"
@@ -30,30 +29,58 @@ using app::CommandLine;
 using app::Step;
 namespace fs = std::filesystem;
 
-CommandLine commandLine() {
+/// The files of -reference FILE[:STD[:OFFSET]].
+std::vector<fs::path> referenceFiles(const CommandLine& line) {
+  std::vector<fs::path> files;
+  for (std::string file : line.list("reference")) {
+    std::error_code error;
+    while (!fs::exists(file, error) && file.find(':') != std::string::npos)
+      file.erase(file.rfind(':'));
+    files.emplace_back(file);
+  }
+  return files;
+}
+
+/// How many points and pairs are used.
+void addWorkOptions(CommandLine& line) {
   const CalibrationSettings defaults;
+  line.addNumber("max_distance", "largest normal distance of a pair at the start",
+                 defaults.max_normal_distance, {0.05, 50.0, "m"});
+  line.addNumber("points", "largest number of points that are used",
+                 1e-6 * static_cast<double>(defaults.selection.point_budget),
+                 {0.01, 1000.0, "millions"});
+  line.addNumber("candidates", "number of these that may form pairs with patches of other strips",
+                 1e-3 * static_cast<double>(defaults.candidates), {1.0, 1e6, "thousands"});
+  line.addNumber("select",
+                 "largest number of pairs that are adjusted, chosen for the precision of the "
+                 "parameters; 0: all",
+                 1e-3 * static_cast<double>(defaults.pair_budget), {0.0, 1e6, "thousands"});
+}
+
+CommandLine commandLine() {
   CommandLine line("pcl_als_calibrate",
                    "estimates the biases of a LiDAR system's parameters from overlapping strips "
                    "and control (Habib et al. 2011).",
                    "STRIP... -trajectory T [-control C] -output calibration.json [options]",
                    "pcl_als_calibrate strip*.las -trajectory trajectory.csv -control control.csv "
                    "-output calibration.json");
+  line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
   app::addFlightOptions(line);
   app::addControlOptions(line);
-  line.addList(
+  line.addInputFiles(
       "reference",
       "FILE[:STD[:OFFSET]] ...: surfaces that strips are compared with (GeoTIFF, LAS, LAZ, "
       "PCD), standard deviation along the normal (0.02) and of a common height (0: known), "
-      "m");
+      "m",
+      referenceFiles);
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
-  line.addOptional("prior",
-                   "known biases with standard deviations: boresight_roll=0:5,… (m, arcsec)");
+  line.addText("prior", "known biases with standard deviations: boresight_roll=0:5,… (m, arcsec)");
   app::addSystemOptions(line);
-  line.addOptional("pairs",
-                   "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
-                   "strips are used for control only");
+  line.addText("pairs",
+               "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
+               "strips are used for control only");
   app::addEstimateOption(line, "the data determine");
   app::addModelOption(line);
   app::addForceOption(line,
@@ -62,27 +89,23 @@ CommandLine commandLine() {
   line.addFlag("vertical",
                "with quasi_rigorous: assume a vertical sensor aligned with the flight line, as "
                "published, instead of recovering pitch and crab from the points");
-  line.addNeeded("output", "calibration.json to write");
-  line.addOptional("corrected", "folder for corrected copies of all strips, also beyond -bounds");
+  line.addOutputFile("output", "calibration.json to write", {".json"}).needed();
+  line.addOutputFolder("corrected",
+                       "folder for corrected copies of all strips, also beyond -bounds",
+                       app::copiesOfInputs());
   app::addResumeOption(line);
   line.addFlag("strip_corrections",
                "with -corrected: also correct the estimated trajectory errors (not with -bounds)");
-  line.addOptional("report", "folder for report.html (with pictures), report.md, tables as CSV");
+  line.exclude({"corrected", "keep_readable"});
+  line.exclude({"strip_corrections", "bounds"});
+  app::addReportOption(line, "folder for report.html (with pictures), report.md, tables as CSV",
+                       {"parameters.csv", "control.csv", "held.csv", "systems.csv", "pairs.csv",
+                        "iterations.csv", "areas.csv"});
   app::addErrorOptions(line);
   app::addAccuracyOption(line,
                          "their root mean squares over the strips are the prior standard "
                          "deviations of trajectory errors that no option gives");
-  line.add("max_distance", "largest normal distance of a pair at the start, m",
-           defaults.max_normal_distance);
-  line.add("points", "largest number of points that are used, millions",
-           1e-6 * static_cast<double>(defaults.selection.point_budget));
-  line.add("candidates",
-           "number of these that may form pairs with patches of other strips, thousands",
-           1e-3 * static_cast<double>(defaults.candidates));
-  line.add("select",
-           "largest number of pairs that are adjusted, thousands, chosen for the precision of the "
-           "parameters; 0: all",
-           1e-3 * static_cast<double>(defaults.pair_budget));
+  addWorkOptions(line);
   return line;
 }
 
@@ -106,29 +129,14 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   settings.shared_errors = app::sharedErrorsOf(line);
   if (line.has("prior")) settings.shared_errors.biases = biasPrior(line.text("prior"));
   app::readSystems(line, settings);
-  settings.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
-  settings.max_normal_distance = line.number("max_distance", 0.05, 50.0, "m");
-  settings.selection.point_budget =
-      static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
-  settings.candidates =
-      static_cast<std::size_t>(1e3 * line.number("candidates", 1.0, 1e6, "thousands"));
-  settings.pair_budget =
-      static_cast<std::size_t>(1e3 * line.number("select", 0.0, 1e6, "thousands"));
+  settings.control_sigma = line.number("control_sigma");
+  settings.max_normal_distance = line.number("max_distance");
+  settings.selection.point_budget = static_cast<std::size_t>(1e6 * line.number("points"));
+  settings.candidates = static_cast<std::size_t>(1e3 * line.number("candidates"));
+  settings.pair_budget = static_cast<std::size_t>(1e3 * line.number("select"));
   settings.force = line.has("force");
   settings.threads = line.threads();
   return settings;
-}
-
-/// Outputs that cannot be written are refused before the computation.
-void checkOutputs(const CommandLine& line) {
-  if (line.has("corrected") && line.has("keep_readable"))
-    throw UsageError("options -corrected and -keep_readable exclude each other (see -h)");
-  if (line.has("strip_corrections") && line.has("bounds"))
-    throw UsageError("options -strip_corrections and -bounds exclude each other (see -h)");
-  app::checkWritable(line.text("output"));
-  for (const char* option : {"corrected", "report"}) {
-    if (line.has(option)) app::makeOutputFolder(option, line.text(option));
-  }
 }
 
 /// Writes the corrected copies of all strips (-corrected).
@@ -144,17 +152,20 @@ void writeCorrected(const CommandLine& line, const std::vector<std::string>& fil
   options.keep_uncovered = true;     // strips too small to calibrate may lie outside the trajectory
   BatchOptions batch = app::batchOptions(line);
   batch.joint = true;
-  for (const CorrectedFile& file :
-       correctPointFiles(files, outputsIn(line.text("corrected"), files), result, flight, options,
-                         batch, app::progressOf(line))) {
+  const std::vector<CorrectedFile> corrected =
+      correctPointFiles(files, outputsIn(line.text("corrected"), files), result, flight, options,
+                        batch, app::progressOf(line));
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const CorrectedFile& file = corrected[i];
     app::remark(line, file.attitude_remark);
     if (!file.uncovered.empty()) app::remark(line, "left as they are: " + file.uncovered);
+    for (const std::string& text : file.copy_remarks) app::remark(line, files[i] + ": " + text);
   }
 }
 
 /// Its inputs are listed in the result.
 ReportOrigin originOf(const CommandLine& line) {
-  ReportOrigin origin = app::reportOrigin(line, {"control"});
+  ReportOrigin origin = app::reportOrigin(line);
   origin.inputs.clear();
   return origin;
 }
@@ -184,7 +195,7 @@ int conclude(const CommandLine& line, const std::vector<std::string>& files,
 }
 
 int calibrate(const CommandLine& line) {
-  const std::vector<std::string>& files = line.inputs(1, 100000);
+  const std::vector<std::string>& files = line.inputs();
   SurveyCalibrationOptions options;
   options.settings = settingsOf(line);
   if (line.has("pairs")) options.pairs = line.parsed("pairs", pairsIn);
@@ -197,7 +208,6 @@ int calibrate(const CommandLine& line) {
   options.keep_heading = line.given("heading_sigma");
   const AttitudeUse attitude = attitudeToUse(line);
   const PointWindow window = app::windowOf(line);
-  checkOutputs(line);
   Step step("Reading " + counted(files.size(), "point file"), line.quiet());
   SurveyReader survey(files, line.threads(), window, app::processes());
   step.done(grouped(survey.pointCount()) + " points");
@@ -207,16 +217,14 @@ int calibrate(const CommandLine& line) {
   options.reconstructed = whole.reconstructed();
   if (options.accuracy.empty() && !options.reconstructed) options.accuracy = whole.accuracy;
   options.control = app::controlOf(line);
-  if (line.has("reference"))
-    for (const std::string& text : line.list("reference"))
-      options.references.push_back(openReference(text));
+  for (const std::string& text : line.list("reference"))
+    options.references.push_back(openReference(text));
   CalibrationPage page(line.has("report"));
   options.observer = page.observer();
   SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
   CalibrationResult& result = calibration.result;
   app::nameOptions(line, result.warnings);
-  for (const std::string& file : line.list("trajectory")) result.inputs.push_back(file);
-  if (line.has("control")) result.inputs.push_back(line.text("control"));
+  for (const fs::path& file : line.optionInputs()) result.inputs.push_back(file.string());
   if (isRoot(app::processes())) {
     writeCalibration(line.text("output"), result);
     if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;

@@ -10,13 +10,13 @@
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/memory.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/report/quality_page.h>
 #include <pcl_als/report/quality_report.h>
 
 #include "command_line.h"
 #include "flight_options.h"
-#include "output_check.h"
 #include "processes.h"
 #include "remedy_options.h"
 #include "report_options.h"
@@ -40,60 +40,84 @@ CommandLine commandLine() {
       "quality.json [-report DIR]",
       "pcl_als_check corrected/strip*.las -before strips -control control.csv -output "
       "quality.json -report report");
+  line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
   app::addFlightOptions(line, "for scan angles that are finer than those of the files");
   app::addForceOption(line);
-  line.addOptional("before",
-                   "the same strips before the correction: a folder, or files separated by commas; "
-                   "both are reported side by side");
+  line.addInputFile("before",
+                    "the same strips before the correction: a folder, or files separated by "
+                    "commas; both are reported side by side",
+                    [](const CommandLine& given) { return app::pointFiles(given, "before"); });
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
   app::addControlOptions(line);
-  line.addNeeded("output", "quality.json to write");
-  line.addOptional(
-      "report",
+  line.addOutputFile("output", "quality.json to write", {".json"}).needed();
+  app::addReportOption(
+      line,
       "folder for report.html (pictures inside), tables as Markdown and CSV, swath separation "
-      "images");
-  line.add("quality_level", "required quality level, 0 to 3 (QL0 to QL3)", 2);
-  line.add("control_sigma", "standard deviation of control points whose file gives none, m",
-           defaults.control_sigma);
-  line.add("max_distance", "larger offsets count as different objects, m",
-           defaults.limits.maximum_distance);
-  line.add("cell",
-           "cell size of the swath separation image, m; 0: as required by the quality level", 0.0);
-  line.add("points", "largest number of points in the areas that are compared, millions", 12.0);
+      "images",
+      {"quality.md", "pairs.csv", "slope_aspect.csv", "profiles.csv", "offsets.csv", "run.csv",
+       "control.csv", "swath_separation.tif", "swath_separation_metres.tif", "swath_separation.png",
+       "swath_separation_before.tif", "swath_separation_before_metres.tif",
+       "swath_separation_before.png"});
+  line.addWhole("quality_level", "quality level of the report (QL0 to QL3)", 2,
+                {0, kQualityLevels - 1, {}});
+  line.addChoice("require",
+                 "the quality level of the report, with exit status 3 where the delivery does not "
+                 "keep it: every overlapping pair has to be measured and within the limit, and so "
+                 "has control where it is given",
+                 {"QL0", "QL1", "QL2", "QL3"});
+  line.addNumber("control_sigma", "standard deviation of control points whose file gives none",
+                 defaults.control_sigma, {0.0, 10.0, "m"});
+  line.addNumber("max_distance", "larger offsets count as different objects",
+                 defaults.limits.maximum_distance, {0.05, 50.0, "m"});
+  line.addNumber("cell",
+                 "cell size of the swath separation image; 0: as required by the quality level",
+                 0.0, {0.0, 100.0, "m"});
+  line.addNumber("points", "largest number of points in the areas that are compared", 12.0,
+                 {0.01, 1000.0, "millions"});
   return line;
+}
+
+/// The level that is required, or else that of the report.
+int levelOf(const CommandLine& line) {
+  const auto level = static_cast<int>(line.whole("quality_level"));
+  if (!line.has("require")) return level;
+  const auto required = static_cast<int>(line.choice("require"));
+  if (line.given("quality_level") && level != required)
+    throw UsageError("options -require and -quality_level name different levels: give one of them");
+  return required;
+}
+
+/// Where a level is required, the exit status states whether the delivery keeps it.
+int concludeRequirement(const CommandLine& line, const QualityReport& report) {
+  const DeliveryRequirement requirement = requireLevel(report.block, report.quality_level);
+  if (!line.has("require") || requirement.kept) return app::kDone;
+  std::cerr << line.tool() << ": " << requirement.describe() << std::endl;
+  return app::kNoReliableAnswer;
 }
 
 CheckSettings settingsOf(const CommandLine& line) {
   CheckSettings settings;
-  settings.limits.maximum_distance = line.number("max_distance", 0.05, 50.0, "m");
-  settings.selection.point_budget =
-      static_cast<std::size_t>(1e6 * line.number("points", 0.01, 1000.0, "millions"));
-  settings.control_sigma = line.number("control_sigma", 0.0, 10.0, "m");
+  settings.limits.maximum_distance = line.number("max_distance");
+  settings.selection.point_budget = static_cast<std::size_t>(1e6 * line.number("points"));
+  settings.control_sigma = line.number("control_sigma");
   settings.force = line.has("force");
   settings.threads = line.threads();
   settings.control = app::controlOf(line);
   return settings;
 }
 
-/// Outputs that cannot be written are refused before the computation.
-void checkOutputs(const CommandLine& line) {
-  app::checkWritable(line.text("output"));
-  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
-}
-
 /// The images of a report; none in a build without GDAL.
 std::optional<SeparationImageOptions> separationOf(const CommandLine& line,
                                                    const std::string& name) {
-  const double cell = line.number("cell", 0.0, 100.0, "m");
+  const double cell = line.number("cell");
   if (!line.has("report")) return std::nullopt;
   if (!PCL_ALS_WITH_GDAL) {
     app::remark(line, "built without GDAL: no swath separation image");
     return std::nullopt;
   }
-  return SeparationImageOptions{line.text("report"), name, cell,
-                                line.whole("quality_level", 0, kQualityLevels - 1)};
+  return SeparationImageOptions{line.text("report"), name, cell, levelOf(line)};
 }
 
 /// Checks one set of files; \a image: name of its swath separation image.
@@ -119,22 +143,20 @@ void writeReport(const CommandLine& line, const QualityReport& report,
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
   writeQualityTables(folder, report);
-  if (QualityPage::draws())
-    page.write(app::reportOrigin(line, {"control", "trajectory"}), report, areas);
+  if (QualityPage::draws()) page.write(app::reportOrigin(line), report, areas);
   step.done(QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
                                  : "quality.md, CSV; no report.html: built without VTK");
 }
 
 int check(const CommandLine& line) {
-  const std::vector<std::string>& files = line.inputs(1, 100000);
+  const std::vector<std::string>& files = line.inputs();
   SurveyCheckOptions options;
   options.settings = settingsOf(line);
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);
   options.gps_week = app::gpsWeek(line);
   QualityReport report;
-  report.quality_level = line.whole("quality_level", 0, kQualityLevels - 1);
-  checkOutputs(line);
+  report.quality_level = levelOf(line);
   std::vector<std::string> before;
   if (line.has("before")) {
     before = filesLike(files, splitList(line.text("before")));
@@ -154,7 +176,8 @@ int check(const CommandLine& line) {
   writeFile(line.text("output"), qualityJson(report));
   if (!line.quiet()) std::cout << qualityText(report) << std::endl;
   if (line.has("report")) writeReport(line, report, checked.areas, page);
-  return app::conclude(line, whyUnreliable(report.block));
+  const std::string unreliable = whyUnreliable(report.block);
+  return unreliable.empty() ? concludeRequirement(line, report) : app::conclude(line, unreliable);
 }
 
 }  // namespace

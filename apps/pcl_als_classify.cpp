@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <iostream>
-#include <limits>
 #include <optional>
-#include <set>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
@@ -18,7 +15,6 @@
 #include <pcl_als/report/land_cover_picture.h>
 
 #include "classify_options.h"
-#include "output_check.h"
 #include "processes.h"
 #include "strip_options.h"
 
@@ -27,61 +23,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Outputs that cannot be written are refused before the computation.
-class OptionCheck {
- public:
-  OptionCheck(const CommandLine& line, const std::vector<fs::path>& inputs)
-      : line_(line), inputs_(inputs) {}
+/// What is wrong is told before the long work, not after it.
+void checkOptions(const CommandLine& line) {
+  if (!line.has("output") && !line.has("grids"))
+    throw UsageError("one of the options -output and -grids is needed (see pcl_als_classify -h)");
+  if (line.has("output") && line.has("training") == line.has("model"))
+    throw UsageError("one of the options -training and -model is needed");
+  if (line.has("beside")) requireClassMap(line.text("beside"));
+}
 
-  void checkOptions() const {
-    if (!line_.has("output") && !line_.has("grids"))
-      throw UsageError("option -output is needed (see pcl_als_classify -h)");
-    if (line_.has("output") && line_.has("training") == line_.has("model"))
-      throw UsageError("one of the options -training and -model is needed");
-    for (const char* name : {"posterior", "accuracy", "checked", "save_model", "map", "points"})
-      if (line_.has(name) && !line_.has("output"))
-        throw UsageError(std::string("option -") + name + " needs -output");
-    for (const char* name : {"accuracy", "checked"})
-      if (line_.has(name) && !line_.has("checkpoints"))
-        throw UsageError(std::string("option -") + name + " needs -checkpoints");
-    if (line_.has("beside") && !line_.has("map")) throw UsageError("option -beside needs -map");
-    // What is wrong is told before the long work, not after it.
-    if (line_.has("beside")) requireClassMap(line_.text("beside"));
-    line_.number("reject", 0.0, 0.5, "(probability)");
-    line_.number("training_radius", 0.0, 1000.0, "m");
-    line_.number("tile", 64, 8192, "cells");
-    checkOutputs();
-  }
-
-  void checkOutputs() const {
-    std::set<fs::path> outputs;
-    const auto checkOutput = [&](const char* name, const fs::path& path) {
-      if (!outputs.insert(fs::weakly_canonical(path)).second)
-        throw UsageError("option -" + std::string(name) + ": " + path.string() +
-                         " is also another output");
-    };
-    for (const char* name :
-         {"output", "grids", "posterior", "accuracy", "checked", "save_model", "map"}) {
-      if (!line_.has(name)) continue;
-      if (!fs::is_directory(fs::absolute(line_.text(name)).parent_path()))
-        throw InputError(line_.text(name) + ": cannot be created: the folder does not exist");
-      checkOutput(name, line_.text(name));
-    }
-    if (!line_.has("points")) return;
-    for (const fs::path& path : inputs_) {
-      const fs::path output = fs::path(line_.text("points")) / path.filename();
-      refuseInput("points", output, inputs_);
-      checkOutput("points", output);
-    }
-    makeOutputFolder("points", line_.text("points"));
-  }
-
- private:
-  const CommandLine& line_;
-  const std::vector<fs::path>& inputs_;
-};
-
-std::vector<ClassSite> sitesOf(const CommandLine& line, const char* option) {
+std::vector<ClassSite> sitesOf(const CommandLine& line, const std::string& option) {
   if (!line.has(option)) return {};
   std::vector<ClassSite> sites = readClassSites(line.text(option), unitOption(line, "sites"));
   for (const ClassSite& site : sites) {
@@ -93,12 +44,12 @@ std::vector<ClassSite> sitesOf(const CommandLine& line, const char* option) {
   return sites;
 }
 
-fs::path pathOf(const CommandLine& line, const char* option) {
+fs::path pathOf(const CommandLine& line, const std::string& option) {
   return line.has(option) ? fs::path(line.text(option)) : fs::path();
 }
 
 RasterInput inputOf(const CommandLine& line) {
-  RasterInput files = rasterInput(line.inputs(1, std::numeric_limits<std::size_t>::max()));
+  RasterInput files = rasterInput(line.inputs(), line.threads(), processes());
   if (!choosesStrips(line)) return files;
   StripChoice choice = stripChoice(line);
   choice.keep_timeless = true;  // nothing here needs times
@@ -119,9 +70,9 @@ LandCoverOptions optionsOf(const CommandLine& line, const RasterInput& files) {
   if (line.has("model")) options.model = readClassModel(line.text("model"));
   if (line.has("training")) options.training_name = line.text("training");
   if (line.has("checkpoints")) options.checks_name = line.text("checkpoints");
-  options.reject = line.number("reject", 0.0, 0.5, "(probability)");
-  options.training_radius = line.number("training_radius", 0.0, 1000.0, "m");
-  options.tile = static_cast<int>(line.number("tile", 64, 8192, "cells"));
+  options.reject = line.number("reject");
+  options.training_radius = line.number("training_radius");
+  options.tile = static_cast<int>(line.whole("tile"));
   options.threads = line.threads();
   options.map = pathOf(line, "output");
   options.grids = pathOf(line, "grids");
@@ -161,8 +112,8 @@ void draw(const CommandLine& line) {
 }
 
 int classify(const CommandLine& line) {
+  checkOptions(line);
   const RasterInput files = inputOf(line);
-  OptionCheck(line, files.paths).checkOptions();
   const LandCoverResult result = classifyLandCover(files, optionsOf(line, files), progressOf(line));
   if (!isRoot(processes())) return kDone;
   std::vector<std::string> notes = files.remarks;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <filesystem>
-#include <limits>
+#include <optional>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
@@ -16,12 +16,24 @@ namespace {
 using namespace pcl_als;
 using app::CommandLine;
 
+/// The names of the files where OUT is a folder, as the conversion chooses them. Those of strips
+/// are known when the points are read: the conversion checks them then.
+std::optional<std::vector<std::string>> filesInFolder(const CommandLine& line) {
+  if (!isConversionFolder(line.output())) return std::nullopt;
+  if (line.has("split")) return std::vector<std::string>();
+  std::vector<std::string> names;
+  for (const std::string& input : line.inputs())
+    names.push_back(convertedName(input, line.has("format") ? line.text("format") : ""));
+  return names;
+}
+
 CommandLine commandLine() {
   CommandLine line("pcl_als_convert",
                    "converts point files between .las, .laz and .pcd, or writes parts of them. LAS "
                    "to LAZ to LAS gives the same bytes",
                    "IN OUT | IN... FOLDER [options]",
                    "pcl_als_convert tile.laz part.las -bounds 84900,447500,84950,447600");
+  line.setArguments({{"", 1, app::Arguments::kAnyNumber, {".las", ".laz", ".pcd"}, filesInFolder}});
   app::addWindowOptions(line);
   app::addStripOptions(line, false);
   line.addFlag(
@@ -29,7 +41,8 @@ CommandLine commandLine() {
       "write a file for each strip into the output folder; points are divided into flight "
       "lines at gaps in time, changes of course, turns and hovering; points between lines are "
       "left out");
-  line.addOptional("format", "las, laz or pcd: files in an output folder (default: as the input)");
+  line.addChoice("format", "format of the files in an output folder (default: as the input)",
+                 {"las", "laz", "pcd"});
   return line;
 }
 
@@ -37,20 +50,16 @@ PointConversionOptions optionsOf(const CommandLine& line) {
   PointConversionOptions options;
   options.window = app::windowOf(line);
   options.strips = app::stripChoice(line);
-  if (line.has("format")) {
-    line.choice("format", {"las", "laz", "pcd"});
-    options.format = line.text("format");
-  }
+  if (line.has("format")) options.format = line.text("format");
   options.threads = line.threads();
   return options;
 }
 
 int convert(const CommandLine& line) {
-  const std::vector<std::string>& files = line.inputs(2, std::numeric_limits<std::size_t>::max());
   const PointConversionOptions options = optionsOf(line);
-  const std::vector<std::filesystem::path> inputs(files.begin(), files.end() - 1);
+  const std::vector<std::filesystem::path> inputs(line.inputs().begin(), line.inputs().end());
   const PointConversionResult result =
-      convertPointFiles(inputs, files.back(), options, app::progressOf(line));
+      convertPointFiles(inputs, line.output(), options, app::progressOf(line));
   if (options.strips.split) {
     for (const PointConversionResult::Output& output : result.outputs)
       app::remark(line, output.path.string() + ": " + grouped(output.points) + " points");

@@ -26,33 +26,31 @@ CommandLine commandLine() {
                    "pcl_als_icpatch strip1.las strip2.las -output result.json -transformed "
                    "moved1.las");
   const PatchAlignmentSettings defaults;
-  line.addNeeded("output", "result as JSON");
-  line.addOptional("transformed",
-                   "the source moved onto the target: .las, .laz or .pcd like SOURCE");
-  line.addOptional("pair", "A:B: strip A of the files onto strip B of the files");
+  line.setArguments({{"pair", 1, app::Arguments::kAnyNumber}, {"", 2, 2}});
+  line.addOutputFile("output", "result", {".json"}).needed();
+  line.addOutputFile("transformed", "the source moved onto the target, of the kind of SOURCE",
+                     {".las", ".laz", ".pcd"});
+  line.addText("pair", "A:B: strip A of the files onto strip B of the files");
   app::addStripOptions(line);
   line.addFlag("scale", "also estimate a scale");
-  line.add("search_distance", "largest distance of the surfaces at the start, m, 0.1 to 200",
-           defaults.search_distance);
-  line.add("determined_std",
-           "parameters with a larger standard deviation are reported as not determined, m at the "
-           "radius of the overlap",
-           defaults.determined_std);
-  line.add("points",
-           "approximate number of points of each strip that are triangulated, at least 1000",
-           static_cast<double>(defaults.points));
-  line.add("pairs", "approximate number of candidate points in each direction, at least 1000",
-           static_cast<double>(defaults.pairs));
-  line.add("iterations", "largest number of iterations of the last stage",
-           defaults.maximum_iterations);
+  line.addNumber("search_distance", "largest distance of the surfaces at the start",
+                 defaults.search_distance, {0.1, 200.0, "m"});
+  line.addNumber("determined_std",
+                 "parameters with a larger standard deviation, at the radius of the overlap, are "
+                 "reported as not determined",
+                 defaults.determined_std, {1e-4, 100.0, "m"});
+  line.addNumber("points", "approximate number of points of each strip that are triangulated",
+                 static_cast<double>(defaults.points), {1e3, 1e8});
+  line.addNumber("pairs", "approximate number of candidate points in each direction",
+                 static_cast<double>(defaults.pairs), {1e3, 1e8});
+  line.addWhole("iterations", "largest number of iterations of the last stage",
+                static_cast<std::uint64_t>(defaults.maximum_iterations), {1, 1000, {}});
+  line.exclude({"pair", "transformed"});
   return line;
 }
 
 AlignmentPair pairOf(const CommandLine& line) {
-  if (line.has("pair") && line.has("transformed"))
-    throw UsageError("option -transformed: needs SOURCE and TARGET as files, not -pair");
-  const auto& inputs = line.has("pair") ? line.inputs(1, 100000) : line.inputs(2, 2);
-  const std::vector<std::filesystem::path> files(inputs.begin(), inputs.end());
+  const std::vector<std::filesystem::path> files(line.inputs().begin(), line.inputs().end());
   if (line.has("pair")) {
     return namedPair(files, line.parsed("pair", pairIn), app::stripChoice(line), "option -pair");
   }
@@ -62,11 +60,11 @@ AlignmentPair pairOf(const CommandLine& line) {
 
 PatchAlignmentSettings settingsOf(const CommandLine& line) {
   PatchAlignmentSettings settings;
-  settings.search_distance = line.number("search_distance", 0.1, 200.0, "m");
-  settings.determined_std = line.number("determined_std", 1e-4, 100.0, "m");
-  settings.points = static_cast<std::size_t>(line.number("points", 1e3, 1e8, "points"));
-  settings.pairs = static_cast<std::size_t>(line.number("pairs", 1e3, 1e8, "pairs"));
-  settings.maximum_iterations = line.whole("iterations", 1, 1000);
+  settings.search_distance = line.number("search_distance");
+  settings.determined_std = line.number("determined_std");
+  settings.points = static_cast<std::size_t>(line.number("points"));
+  settings.pairs = static_cast<std::size_t>(line.number("pairs"));
+  settings.maximum_iterations = static_cast<int>(line.whole("iterations"));
   settings.estimate_scale = line.has("scale");
   settings.threads = line.threads();
   return settings;
@@ -87,7 +85,8 @@ int icpatch(const CommandLine& line) {
     Step writing("Writing " + line.text("transformed"), line.quiet());
     const auto moved =
         movePointFile(source, line.text("transformed"), result.motion, line.threads());
-    writing.done(grouped(moved) + " points");
+    writing.done(grouped(moved.points) + " points");
+    app::remarks(line, moved.remarks);
   }
   const bool reliable = result.hasConverged() && result.allDetermined();
   return app::conclude(line, reliable ? "" : unreliability(result));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
-#include <limits>
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
@@ -34,11 +33,15 @@ CommandLine commandLine() {
                    "lists the contents of point files: strips, times, density, returns, overlaps",
                    "FILE… [-trajectory T] [-json FILE]",
                    "pcl_als_info strip1.las strip2.las -json survey.json");
-  line.add<double>("cell", "cell size for density and overlaps, m; 0: by density", 0.0);
-  line.addOptional("json", "also write the facts as JSON");
+  line.setArguments({{"trajectory", 0, Arguments::kAnyNumber},
+                     {"accuracy", 0, Arguments::kAnyNumber},
+                     {"", 1, Arguments::kAnyNumber}});
+  line.addNumber("cell", "cell size for density and overlaps; 0: by density", 0.0,
+                 {0.0, 10000.0, "m"});
+  line.addOutputFile("json", "also write the facts", {".json"});
   addWindowOptions(line);
-  addStripOptions(line);
   addTrajectoryOptions(line, "listed, and used to detect the scanner and by -split");
+  addStripOptions(line);
   addAccuracyOption(line, "listed");
   return line;
 }
@@ -56,9 +59,8 @@ CensusRequest requestOf(const CommandLine& line, const std::vector<std::string>&
 
 int info(const CommandLine& line) {
   const PointWindow window = windowOf(line);
-  const double cell = line.number("cell", 0.0, 10000.0, "m");
-  const bool only_flight = line.has("trajectory") || line.has("accuracy");
-  const auto& inputs = line.inputs(only_flight ? 0 : 1, std::numeric_limits<std::size_t>::max());
+  const double cell = line.number("cell");
+  const auto& inputs = line.inputs();
   ListedFlight flight = flightOf(line);
   if (!line.quiet()) std::cout << flightText(flight);
   if (inputs.empty()) {

@@ -14,7 +14,6 @@
 #include "command_line.h"
 #include "flight_options.h"
 #include "intensity_options.h"
-#include "output_check.h"
 #include "processes.h"
 #include "report_options.h"
 #include "strip_options.h"
@@ -37,6 +36,8 @@ CommandLine commandLine() {
       "IN OUT -trajectory T [options], or STRIP… -corrected DIR -trajectory T [options]",
       "pcl_als_intensity strip*.las -corrected out -trajectory flight.csv -visibility 48.3 "
       "-temperature 29.8 -pressure 101.81 -estimate strip_gains -report report");
+  line.setArguments(
+      {{"corrected", 1, app::Arguments::kAnyNumber}, {"", 1, 1, {".las", ".laz", ".pcd"}}});
   app::addFlightOptions(line);
   app::addForceOption(line);
   app::addStripOptions(line);
@@ -45,24 +46,10 @@ CommandLine commandLine() {
   return line;
 }
 
-/// Input files, and where each goes.
-struct Files {
-  std::vector<std::string> inputs, outputs;
-};
-
-Files filesOf(const CommandLine& line) {
-  Files files;
-  if (!line.has("corrected")) {
-    const std::vector<std::string>& names = line.inputs(2, 2);
-    files.inputs = {names[0]};
-    files.outputs = {names[1]};
-    return files;
-  }
-  files.inputs = line.inputs(1, 100000);
-  app::makeOutputFolder("corrected", line.text("corrected"));
-  files.outputs = line.parsed(
-      "corrected", [&files](const std::string& folder) { return outputsIn(folder, files.inputs); });
-  return files;
+/// Where each input goes.
+std::vector<std::string> outputsOf(const CommandLine& line) {
+  if (!line.has("corrected")) return {line.output()};
+  return outputsIn(line.text("corrected"), line.inputs());
 }
 
 void writeReport(const CommandLine& line, const IntensityReport& report,
@@ -70,8 +57,7 @@ void writeReport(const CommandLine& line, const IntensityReport& report,
   const std::filesystem::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
   writeIntensityReport(folder, report, page == nullptr);
-  if (page != nullptr)
-    page->write(app::reportOrigin(line, {"trajectory", "targets", "radiometry"}), report);
+  if (page != nullptr) page->write(app::reportOrigin(line), report);
   step.done(page != nullptr ? "report.html with pictures, report.md, CSV"
                             : "report.md, CSV; no report.html: built without VTK");
 }
@@ -89,24 +75,21 @@ void print(const IntensityResult& result) {
 int intensity(const CommandLine& line) {
   const ExtinctionChoice extinction = app::extinctionChoice(line);
   IntensityOptions options = app::intensityOptions(line, extinction.per_km);
-  const Files files = filesOf(line);
-  // What can be known to fail should fail before the work, not after it.
-  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
-  if (line.has("json")) app::checkWritable(line.text("json"));
-  const PointReference reference = commonReference(files.inputs);
+  const std::vector<std::string>& files = line.inputs();
+  const std::vector<std::string> outputs = outputsOf(line);
+  const PointReference reference = commonReference(files);
   app::remarks(line, reference.remarks);
-  const auto flight =
-      app::readFlight(line, reference.crs, 0.0, AttitudeUse::where_given, files.inputs);
+  const auto flight = app::readFlight(line, reference.crs, 0.0, AttitudeUse::where_given, files);
   if (!line.has("radiometry")) app::remark(line, extinction.remark);
   const auto page = line.has("report") ? makeIntensityPage() : nullptr;
   if (page) options.observe = [&page](const IntensityRun& run) { return page->observe(run); };
 
   options.batch = app::batchOptions(line);
   const IntensityResult result =
-      correctIntensity(files.inputs, files.outputs, flight, options, app::progressOf(line));
+      correctIntensity(files, outputs, flight, options, app::progressOf(line));
   if (!isRoot(app::processes())) return app::kDone;
   if (!line.quiet()) print(result);
-  const IntensityReport report{&result, extinction, options.output, files.outputs};
+  const IntensityReport report{&result, extinction, options.output, outputs};
   if (line.has("json")) writeIntensityJson(line.text("json"), report);
   if (line.has("report")) writeReport(line, report, page.get());
   return app::conclude(line, result.unreliable);

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
-#include <pcl_als/common/errors.h>
 #include <pcl_als/io/plan_io.h>
 #include <pcl_als/planning/flight_plan.h>
 #include <pcl_als/processing/planned_strips.h>
@@ -14,7 +13,6 @@
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
-#include "output_check.h"
 #include "remedy_options.h"
 
 namespace {
@@ -30,45 +28,46 @@ CommandLine commandLine() {
                    "flight, and which line to add.",
                    "-lines plan.csv [options]",
                    "pcl_als_plan -lines plan.csv -control 5 -density 2 -output plan.json");
-  line.addNeeded("lines",
-                 "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local frame, "
-                 "height above mean ground");
-  line.add("fov", "full field of view, degrees", 40.0);
-  line.add("speed", "speed of lines whose file gives none, m/s", 60.0);
-  line.addOptional("density", "pulses per m2, of lines whose file gives none (default: 1)");
-  line.addOptional("spacing", "point spacing instead of -density, m");
-  line.add("ground_slope", "RMS slope of open ground, degrees; 0: a plane",
-           surface.ground_slope / kRadiansPerDegree);
-  line.add("slope", "slope of steep surfaces (roofs, banks), degrees",
-           surface.steep_slope / kRadiansPerDegree);
-  line.add("sloped", "share of steep surfaces in the usable surface, 0 to 1", surface.steep_share);
-  line.add("usable", "share of the points on solid, smooth surfaces, 0 to 1", surface.usable);
-  line.addOptional("terrain",
-                   "elevations in the frame of the lines: ESRI ASCII grid (.asc), in "
-                   "place of -ground_slope");
-  line.add("control", "number of vertical control points, distributed over the block", 0);
+  line.addInputFile("lines",
+                    "lines: CSV id,x1,y1,x2,y2,height[,speed][,density], metres in any local "
+                    "frame, height above mean ground")
+      .needed();
+  line.addNumber("fov", "full field of view", 40.0, {1.0, 120.0, "degrees"});
+  line.addNumber("speed", "speed of lines whose file gives none", 60.0, {1.0, 400.0, "m/s"});
+  line.addNumber("density", "pulses of lines whose file gives none (default: 1)", {},
+                 {0.01, 400.0, "per m2"});
+  line.addNumber("spacing", "point spacing instead of -density", {}, {0.05, 10.0, "m"});
+  line.exclude({"density", "spacing"});
+  line.addNumber("ground_slope", "RMS slope of open ground; 0: a plane",
+                 surface.ground_slope / kRadiansPerDegree, {0.0, 45.0, "degrees"});
+  line.addNumber("slope", "slope of steep surfaces (roofs, banks)",
+                 surface.steep_slope / kRadiansPerDegree, {0.0, 60.0, "degrees"});
+  line.addNumber("sloped", "share of steep surfaces in the usable surface", surface.steep_share,
+                 {0.0, 1.0});
+  line.addNumber("usable", "share of the points on solid, smooth surfaces", surface.usable,
+                 {0.001, 1.0});
+  line.addInputFile("terrain",
+                    "elevations in the frame of the lines: ESRI ASCII grid (.asc), in "
+                    "place of -ground_slope");
+  line.addWhole("control", "number of vertical control points, distributed over the block", 0,
+                {0, 1000, {}});
   app::addEstimateOption(line, "the flight determines");
-  line.addOptional("output", "plan.json to write");
+  line.addOutputFile("output", "plan.json to write", {".json"});
   app::addErrorOptions(line);
   return line;
 }
 
 double densityOf(const CommandLine& line) {
-  if (line.has("density") && line.has("spacing")) {
-    throw UsageError("options -density and -spacing: give one of them");
-  }
-  if (line.has("spacing"))
-    return std::pow(app::numberIn(line.text("spacing"), "option -spacing, m", 0.05, 10.0), -2.0);
-  if (!line.has("density")) return 1.0;
-  return app::numberIn(line.text("density"), "option -density, per m2", 0.01, 400.0);
+  if (line.has("spacing")) return std::pow(line.number("spacing"), -2.0);
+  return line.has("density") ? line.number("density") : 1.0;
 }
 
 SurfaceModel surfaceOf(const CommandLine& line) {
   SurfaceModel surface;
-  surface.ground_slope = line.number("ground_slope", 0.0, 45.0, "degrees") * kRadiansPerDegree;
-  surface.steep_slope = line.number("slope", 0.0, 60.0, "degrees") * kRadiansPerDegree;
-  surface.steep_share = line.number("sloped", 0.0, 1.0, "of the surface");
-  surface.usable = line.number("usable", 0.001, 1.0, "of the points");
+  surface.ground_slope = line.number("ground_slope") * kRadiansPerDegree;
+  surface.steep_slope = line.number("slope") * kRadiansPerDegree;
+  surface.steep_share = line.number("sloped");
+  surface.usable = line.number("usable");
   if (!line.has("terrain")) return surface;
   Step step("Reading " + line.text("terrain"), line.quiet());
   const auto grid =
@@ -84,16 +83,16 @@ FlightPlan::Settings settingsOf(const CommandLine& line) {
   adjustment.estimate = app::parametersToEstimate(line);
   adjustment.pairs.noise = app::noiseOf(line);
   adjustment.shared_errors = app::sharedErrorsOf(line);
-  adjustment.pairs.control_sigma = line.number("control_sigma", 1e-4, 10.0, "m");
+  adjustment.pairs.control_sigma = line.number("control_sigma");
   adjustment.threads = line.threads();
-  settings.control_points = static_cast<std::size_t>(line.whole("control", 0, 1000));
+  settings.control_points = line.whole("control");
   return settings;
 }
 
 std::vector<StripGeometry> plannedLines(const CommandLine& line) {
   StripGeometry common;
-  common.half_angle = 0.5 * line.number("fov", 1.0, 120.0, "degrees") * kRadiansPerDegree;
-  common.speed = line.number("speed", 1.0, 400.0, "m/s");
+  common.half_angle = 0.5 * line.number("fov") * kRadiansPerDegree;
+  common.speed = line.number("speed");
   common.density = densityOf(line);
   const std::string path = line.text("lines");
   Step step("Reading " + path, line.quiet());
@@ -103,9 +102,7 @@ std::vector<StripGeometry> plannedLines(const CommandLine& line) {
 }
 
 int plan(const CommandLine& line) {
-  line.inputs(0, 0);
   FlightPlan::Settings settings = settingsOf(line);
-  if (line.has("output")) app::checkWritable(line.text("output"));
   std::vector<StripGeometry> lines = plannedLines(line);
   settings.adjustment.pairs.surface = surfaceOf(line);
   const FlightPlan flight(std::move(lines), settings);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <filesystem>
+#include <optional>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/report/picture/result_file_plots.h>
 
 #include "command_line.h"
-#include "output_check.h"
 #include "picture_options.h"
 
 namespace {
@@ -16,16 +16,39 @@ using app::CommandLine;
 using app::Step;
 namespace fs = std::filesystem;
 
+/// The pictures that are asked for. Of a plot that several files hold, all but the first have the
+/// name of their file before it: they are checked when the files are read.
+std::optional<std::vector<std::string>> pictures(const CommandLine& line) {
+  std::vector<std::string> names{"parameters",
+                                 "correlation",
+                                 "pairs",
+                                 "convergence",
+                                 "residuals",
+                                 "strip_errors",
+                                 "heights",
+                                 "offset_against_distance",
+                                 "offset_against_time",
+                                 "offset_against_scan_angle",
+                                 "variance_to_mean",
+                                 "histograms",
+                                 "strip_gains",
+                                 "confusion"};
+  if (line.has("plots")) names = splitList(line.text("plots"));
+  for (std::string& name : names) name += ".png";
+  return names;
+}
+
 CommandLine commandLine() {
   CommandLine line("pcl_als_plot",
                    "draws result files (JSON) as plots: parameters, correlations, residuals, "
                    "convergence, offsets, variance-to-mean, confusion matrices",
                    "RESULT.json... -output FOLDER [-plots NAME,...]",
                    "pcl_als_plot calibration.json -output plots -plots parameters,correlation");
-  line.addNeeded("output", "folder for NAME.png of every plot");
-  line.addOptional("plots",
-                   "only these, e.g. parameters,residuals (default: all that the files "
-                   "hold)");
+  line.setArguments({{"", 1, 1000}});
+  line.addOutputFolder("output", "folder for NAME.png of every plot", pictures).needed();
+  line.addText("plots",
+               "only these, e.g. parameters,residuals (default: all that the files "
+               "hold)");
   app::addSizeOption(line);
   return line;
 }
@@ -45,7 +68,7 @@ Canvas drawn(const NamedPlot& plot, PictureSize size) {
 }
 
 int plot(const CommandLine& line) {
-  const auto& files = line.inputs(1, 1000);
+  const auto& files = line.inputs();
   const PictureSize size = app::sizeOf(line);
   std::vector<NamedPlot> plots = plotsOfAll({files.begin(), files.end()});
   if (line.has("plots")) {
@@ -53,9 +76,13 @@ int plot(const CommandLine& line) {
     if (names.empty()) throw UsageError("option -plots: names no plot");
     plots = plotsNamed(plots, names);
   }
-  app::makeOutputFolder("output", line.text("output"));
-  for (const NamedPlot& each : plots) {
-    const fs::path output = fs::path(line.text("output")) / (each.name + ".png");
+  std::vector<fs::path> outputs;
+  for (const NamedPlot& each : plots)
+    outputs.push_back(fs::path(line.text("output")) / (each.name + ".png"));
+  refuseForeign(outputs);
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const NamedPlot& each = plots[i];
+    const fs::path& output = outputs[i];
     Step step("Drawing " + output.string(), line.quiet());
     writePng(output, drawn(each, size).image());
     step.done(std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
@@ -15,7 +16,6 @@
 #include <pcl_als/visualization/ticks.h>
 
 #include "command_line.h"
-#include "output_check.h"
 #include "picture_options.h"
 #include "strip_options.h"
 #include "window_options.h"
@@ -27,27 +27,43 @@ using app::CommandLine;
 using app::Step;
 namespace fs = std::filesystem;
 
+/// The pictures of -auto, which are written into a folder.
+std::optional<std::vector<std::string>> filesInFolder(const CommandLine& line) {
+  if (!line.has("auto")) return std::nullopt;
+  std::vector<std::string> names;
+  for (std::uint64_t i = 1; i <= line.whole("auto"); ++i)
+    names.push_back("profile" + std::to_string(i) + ".png");
+  return names;
+}
+
 CommandLine commandLine() {
   CommandLine line("pcl_als_profile",
                    "draws sections through overlapping strips, points coloured by strip",
                    "FILE... -from X,Y -to X,Y -output PROFILE.png | FILE... -auto N -output FOLDER",
                    "pcl_als_profile block/strip*.las -after corrected -auto 3 -output profiles");
-  line.addOptional("from", "start of the section: X,Y, m");
-  line.addOptional("to", "end of the section: X,Y, m");
-  line.add("width", "width of the section, m; 0: 2 m, with -auto by the density of the points",
-           0.0);
-  line.addOptional("auto",
-                   "instead of -from and -to: find so many places where a misfit shows best: "
-                   "gable roofs (two planar faces with a sharp ridge, above the ground around), "
-                   "other opposite slopes, slopes");
-  line.addOptional("after",
-                   "the corrected strips, drawn below: a folder with files of the same names, or "
-                   "files separated by commas");
+  line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
+  line.addText("from", "start of the section: X,Y, m");
+  line.addText("to", "end of the section: X,Y, m");
+  line.addNumber("width", "width of the section; 0: 2 m, with -auto by the density of the points",
+                 0.0, {0.0, 1000.0, "m"});
+  line.addWhole("auto",
+                "instead of -from and -to: find so many places where a misfit shows best: "
+                "gable roofs (two planar faces with a sharp ridge, above the ground around), "
+                "other opposite slopes, slopes",
+                {}, {1, 100, {}});
+  line.exclude({"auto", "from"});
+  line.exclude({"auto", "to"});
+  line.addInputFile("after",
+                    "the corrected strips, drawn below: a folder with files of the same names, or "
+                    "files separated by commas",
+                    [](const CommandLine& given) { return app::pointFiles(given, "after"); });
   app::addWindowOptions(line);
   app::addStripOptions(line);
-  line.addNeeded("output", "PNG to write, with -auto a folder for profile1.png, …");
+  app::Option& output = line.addOutputFile(
+      "output", "picture to write, with -auto a folder for profile1.png, …", {".png"});
+  output.needed().files = filesInFolder;
   app::addSizeOption(line);
-  line.addOptional("title", "text above (default: names of the files)");
+  line.addText("title", "text above (default: names of the files)");
   return line;
 }
 
@@ -69,35 +85,21 @@ SectionLine lineOf(const CommandLine& line) {
   }
   const std::vector<double> from = app::numbersOf(line, "from", ',', 2, app::kFarthest);
   const std::vector<double> to = app::numbersOf(line, "to", ',', 2, app::kFarthest);
-  const double width = line.number("width", 0.0, 1000.0, "m");
+  const double width = line.number("width");
   SectionLine section{{from[0], from[1]}, {to[0], to[1]}, width > 0.0 ? 0.5 * width : 1.0};
   if (section.from == section.to) throw UsageError("options -from and -to: are the same point");
   return section;
 }
 
-std::size_t countOf(const CommandLine& line) {
-  if (line.has("from") || line.has("to")) {
-    throw UsageError("option -auto: finds the sections itself, without -from and -to");
-  }
-  const auto count = line.wholeNumber("auto");
-  if (count < 1 || count > 100) throw UsageError("option -auto: must be 1 to 100");
-  return count;
-}
-
 int profile(const CommandLine& line) {
-  const auto& inputs = line.inputs(1, 100000);
+  const auto& inputs = line.inputs();
   const PictureSize size = app::sizeOf(line);
   const PointWindow window = app::windowOf(line);
-  const double width = line.number("width", 0.0, 1000.0, "m");
+  const double width = line.number("width");
   const bool automatic = line.has("auto");
   std::vector<SectionSearch::Place> places(1);
-  const std::size_t count = automatic ? countOf(line) : 1;
+  const std::size_t count = automatic ? line.whole("auto") : 1;
   if (!automatic) places[0].line = lineOf(line);
-  if (automatic) {
-    app::makeOutputFolder("output", line.text("output"));
-  } else {
-    app::pictureFile(line);
-  }
 
   Step step("Reading " + counted(inputs.size(), "file"), line.quiet());
   const PictureSource source(inputs, line.has("split"), window);

@@ -2,13 +2,11 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <string>
 
-#include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/processing/simulated_survey.h>
 #include <pcl_als/simulation/simulation_options.h>
 
 #include "command_line.h"
-#include "output_check.h"
 #include "window_options.h"
 
 namespace {
@@ -22,30 +20,31 @@ void declareScene(CommandLine& line) {
   line.addFlag("images",
                "also images of the block with a frame camera, in the folder images: camera.json, "
                "images.csv, measurements.csv, checkpoints.csv and the truth");
-  line.add<int>("targets", "number of white level circular targets in control.csv, 0 to 1000", 0);
-  line.add<double>("target_diameter", "diameter of the targets, m", 2.0);
-  line.add<double>("relief", "factor on the heights of the terrain, 0 (plane) to 1.5", 1.0);
-  line.add<double>("buildings", "factor on their number, 0 to 1", 1.0);
-  line.add<double>("trees", "factor on their number, 0 to 4", 1.0);
+  line.addWhole("targets", "number of white level circular targets in control.csv", 0,
+                {0, 1000, {}});
+  line.addNumber("target_diameter", "diameter of the targets", 2.0, {0.1, 20.0, "m"});
+  line.addNumber("relief", "factor on the heights of the terrain; 0: a plane", 1.0, {0.0, 1.5});
+  line.addNumber("buildings", "factor on their number", 1.0, {0.0, 1.0});
+  line.addNumber("trees", "factor on their number", 1.0, {0.0, 4.0});
 }
 
 void addNoise(CommandLine& line) {
-  line.add<std::string>(
+  line.addText(
       "noise",
       "none; range: 2 cm; realistic: also encoder, refractive index, footprint, intensity, "
       "control and slowly drifting trajectory errors",
       "none");
-  line.addOptional("ins",
-                   "trajectory errors of a GNSS/INS in place of those of -noise: survey (2 cm, 9\" "
-                   "roll and pitch, 18\" heading), tactical (3 cm, 54\", 126\"), mems (4 cm, 90\", "
-                   "288\")");
-  line.add<std::string>(
+  line.addText("ins",
+               "trajectory errors of a GNSS/INS in place of those of -noise: survey (2 cm, 9\" "
+               "roll and pitch, 18\" heading), tactical (3 cm, 54\", 126\"), mems (4 cm, 90\", "
+               "288\")");
+  line.addText(
       "error_process",
       "process of the trajectory errors: gauss_markov (correlation time 20 s, of -ins 20 to 60 s), "
       "band_limited (smooth, periods of 0.6 to 5 times that), random_walk, drift (a constant and a "
       "linear change in each line), white, jumps",
       "gauss_markov");
-  line.addList(
+  line.addTexts(
       "error",
       "[channelN:|sessionN:|stripN:]NAME=VALUE: further errors (assumed - true): time_offset "
       "(ms), mirror_torsion (arcsec), encoder_quadratic, encoder_cubic (1/rad, 1/rad2), "
@@ -53,7 +52,20 @@ void addNoise(CommandLine& line) {
       "range_incidence (share of the stretched pulse), offset_x/_y/_z, jump_x/_y/_z in the "
       "middle of a strip (m), and every name of -bias of one channel (from 0), session or "
       "strip");
-  line.add<int>("sessions", "number of days on which the lines are flown, 1 to 5", 1);
+  line.addWhole("sessions", "number of days on which the lines are flown", 1, {1, 5, {}});
+}
+
+void addPointOptions(CommandLine& line) {
+  line.addNumber("gain",
+                 "digital number of a white target at 1000 m in vacuum, under 70: 8-bit; 0: the "
+                 "preset's, 10000 and in low flights 100 to 400",
+                 0.0, {0.0, 1e7});
+  line.addText("strip_gains", "ID=FACTOR,…: factors on the gain of single lines, 0.01 to 100");
+  line.addNumber("range_exponent", "power of the range with which intensity decreases", 2.0,
+                 {0.0, 4.0});
+  line.addNumber("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0, {0.0, 4.0});
+  line.addNumber("visibility", "visibility", 48.3, {0.1, 500.0, "km"});
+  line.addChoice("format", "format of the strips", {"las", "laz"}, "las");
 }
 
 CommandLine declare() {
@@ -62,78 +74,76 @@ CommandLine declare() {
                    "-output DIR [-preset NAME] [-noise none|range|realistic] [-bias …] [-error …]",
                    "pcl_als_simulate -output block -preset small -noise range -seed 3 "
                    "-bias boresight_roll=60,range_bias=0.1");
-  line.addNeeded("output",
-                 "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
-                 "checkpoints.csv and truth.json; made if missing");
-  line.add<std::string>(
+  std::vector<std::string> files{"strip*.las",   "strip*.laz",      "trajectory.csv", "control.csv",
+                                 "training.csv", "checkpoints.csv", "truth.json"};
+  for (const char* name : {"camera.json", "images.csv", "measurements.csv", "checkpoints.csv",
+                           "true_images.csv", "true_points.csv", "true_lines.csv"})
+    files.push_back(std::string("images/") + name);
+  line.addOutputFolder("output",
+                       "folder for strip1.las …, trajectory.csv, control.csv, training.csv, "
+                       "checkpoints.csv and truth.json; made if missing",
+                       always(std::move(files)))
+      .needed();
+  line.addText(
       "preset",
       "paper (six lines at 1150 m and 540 m, 11 million points), small (0.9 million), uav (drone "
       "at 75 m), corridor (helicopter at 200 m, strips that overlap at their ends), conical, dual "
       "(looking ahead and back), rosette (drone at 70 m), mountain (relief of 400 m), city (blocks "
       "of 12 to 90 m)",
       "paper");
-  line.addOptional("scanner",
-                   "in place of the preset's: oscillating, polygon, conical, rosette, dual, cross "
-                   "(two channels, crossing lines), multi (spinning, 16 channels; multi:32)");
-  line.add<double>("scale", "factor on the lengths of the lines, 0.05 to 10", 1.0);
-  line.add<double>("density", "factor on the pulses per square metre, 0.01 to 50", 1.0);
-  line.add<double>("height", "factor on the flying heights, 0.1 to 10", 1.0);
-  line.add<std::string>("seed", "seed of scene, flight and noise", "1");
+  line.addText("scanner",
+               "in place of the preset's: oscillating, polygon, conical, rosette, dual, cross "
+               "(two channels, crossing lines), multi (spinning, 16 channels; multi:32)");
+  line.addNumber("scale", "factor on the lengths of the lines", 1.0, {0.05, 10.0});
+  line.addNumber("density", "factor on the pulses per square metre", 1.0, {0.01, 50.0});
+  line.addNumber("height", "factor on the flying heights", 1.0, {0.1, 10.0});
+  line.addWhole("seed", "seed of scene, flight and noise", 1, {0, 18446744073709551615.0, {}});
   addNoise(line);
-  line.addOptional("bias",
-                   "NAME=VALUE,…: assumed - true in m, arcsec or 1, names as in calibration.json; "
-                   "replaces the preset's lever_arm_x=0.05, lever_arm_y=-0.05, "
-                   "boresight_pitch=-30, boresight_roll=-90, boresight_heading=40, "
-                   "range_bias=0.12, scan_angle_scale=1e-4 (conical, rosette: 0); 'none' sets all "
-                   "to zero, also as first entry");
+  line.addText("bias",
+               "NAME=VALUE,…: assumed - true in m, arcsec or 1, names as in calibration.json; "
+               "replaces the preset's lever_arm_x=0.05, lever_arm_y=-0.05, "
+               "boresight_pitch=-30, boresight_roll=-90, boresight_heading=40, "
+               "range_bias=0.12, scan_angle_scale=1e-4 (conical, rosette: 0); 'none' sets all "
+               "to zero, also as first entry");
   line.addFlag("vertical", "flight without attitude motion and crab");
-  line.add<double>("fov", "full field of view, degrees, to 90; 0: the preset's, 40 to 70", 0.0);
-  line.addOptional("origin",
-                   "X,Y,Z: ground coordinates of the block's middle, m (default: "
-                   "700000,5660000,1000)");
-  line.add<std::string>("crs",
-                        "CRS written to the strips, whose coordinates are in its unit; trajectory, "
-                        "control and sites are in metres",
-                        "EPSG:32611");
+  line.addNumber("fov", "full field of view; 0: the preset's, 40 to 70", 0.0,
+                 {0.0, 90.0, "degrees"});
+  line.addText("origin",
+               "X,Y,Z: ground coordinates of the block's middle, m (default: "
+               "700000,5660000,1000)");
+  line.addText("crs",
+               "CRS written to the strips, whose coordinates are in its unit; trajectory, "
+               "control and sites are in metres",
+               "EPSG:32611");
   declareScene(line);
-  line.add<std::string>("time",
-                        "times of the points: week (seconds) or adjusted (standard GPS time); the "
-                        "trajectory has seconds of the week",
-                        "week");
+  line.addChoice("time",
+                 "times of the points: week (seconds) or adjusted (standard GPS time); the "
+                 "trajectory has seconds of the week",
+                 {"week", "adjusted"}, "week");
   line.addFlag("truth_points",
                "extra bytes bias_x, bias_y, bias_z: effect of biases and errors on each point, m");
-  line.add<double>("gain",
-                   "digital number of a white target at 1000 m in vacuum, under 70: 8-bit; 0: the "
-                   "preset's, 10000 and in low flights 100 to 400",
-                   0.0);
-  line.addOptional("strip_gains", "ID=FACTOR,…: factors on the gain of single lines, 0.01 to 100");
-  line.add<double>("range_exponent", "power of the range with which intensity decreases", 2.0);
-  line.add<double>("incidence_exponent", "power of cos(incidence); 1: Lambertian", 1.0);
-  line.add<double>("visibility", "visibility, km", 48.3);
-  line.add<std::string>("format", "format of the strips: las or laz", "las");
+  addPointOptions(line);
   return line;
 }
 
 void setIntensity(const CommandLine& line, SimulationOptions& options) {
-  const double gain = line.number("gain", 0.0, 1e7, "(digital number)");
+  const double gain = line.number("gain");
   if (gain > 0.0) options.scanner.gain = gain;
-  options.scanner.range_exponent = line.number("range_exponent", 0.0, 4.0, "(exponent)");
-  options.scanner.incidence_exponent = line.number("incidence_exponent", 0.0, 4.0, "(exponent)");
-  options.atmosphere.visibility_km = line.number("visibility", 0.1, 500.0, "km");
+  options.scanner.range_exponent = line.number("range_exponent");
+  options.scanner.incidence_exponent = line.number("incidence_exponent");
+  options.atmosphere.visibility_km = line.number("visibility");
   if (line.has("strip_gains")) options.setGains(line.text("strip_gains"));
 }
 
 SimulationOptions optionsFrom(const CommandLine& line) {
   auto options =
-      SimulationOptions::preset(line.text("preset"), line.number("scale", 0.05, 10.0, "(factor)"),
-                                line.number("density", 0.01, 50.0, "(factor)"),
-                                line.number("fov", 0.0, 90.0, "degrees") * kRadiansPerDegree,
-                                line.number("height", 0.1, 10.0, "(factor)"));
+      SimulationOptions::preset(line.text("preset"), line.number("scale"), line.number("density"),
+                                line.number("fov") * kRadiansPerDegree, line.number("height"));
   if (line.has("scanner")) options.setScanner(line.text("scanner"));
-  options.seed = line.wholeNumber("seed");
+  options.seed = line.whole("seed");
   options.noise = NoiseOptions::named(line.text("noise"));
   if (line.has("ins")) options.noise.setTrajectoryGrade(line.text("ins"));
-  options.setSessions(line.get<int>("sessions"));
+  options.setSessions(static_cast<int>(line.whole("sessions")));
   if (line.has("error")) options.errors.add(line.text("error"));
   options.noise.process = simulation::errorProcessNamed(line.text("error_process"));
   if (line.has("bias")) simulation::setBiases(line.text("bias"), options.bias);
@@ -142,26 +152,24 @@ SimulationOptions optionsFrom(const CommandLine& line) {
     options.origin = Eigen::Vector3d(numbersOf(line, "origin", ',', 3, kFarthest).data());
   options.crs = line.text("crs");
   requireProjectedCrs(options.crs, "option -crs");
-  options.scene.relief *= line.number("relief", 0.0, 1.5, "(factor)");
-  options.scene.buildings = line.number("buildings", 0.0, 1.0, "(factor)");
-  options.scene.trees = line.number("trees", 0.0, 4.0, "(factor)");
-  options.targets = static_cast<int>(line.whole("targets", 0, 1000));
-  options.target_diameter = line.number("target_diameter", 0.1, 20.0, "m");
+  options.scene.relief *= line.number("relief");
+  options.scene.buildings = line.number("buildings");
+  options.scene.trees = line.number("trees");
+  options.targets = static_cast<int>(line.whole("targets"));
+  options.target_diameter = line.number("target_diameter");
   setIntensity(line, options);
   options.check();
   return options;
 }
 
 int simulate(const CommandLine& line) {
-  line.inputs(0, 0);
   const SimulationOptions options = optionsFrom(line);
   StripFileOptions files;
-  files.adjusted_time = line.choice("time", {"week", "adjusted"}) == 1;
-  files.compressed = line.choice("format", {"las", "laz"}) == 1;
+  files.adjusted_time = line.choice("time") == 1;
+  files.compressed = line.choice("format") == 1;
   files.bias_columns = line.has("truth_points");
   files.images = line.has("images");
   files.folder = line.text("output");
-  makeOutputFolder("output", files.folder);
   simulateSurvey(options, line.text("noise"), files, line.threads(), progressOf(line));
   return kDone;
 }

@@ -11,7 +11,6 @@
 
 #include "command_line.h"
 #include "flight_options.h"
-#include "output_check.h"
 #include "report_options.h"
 #include "strip_options.h"
 
@@ -30,28 +29,33 @@ CommandLine commandLine() {
                    "STRIP... -output trajectory.csv|.sbet, or -trajectory T [-calibration "
                    "calibration.json] -output corrected.csv|.sbet",
                    "pcl_als_trajectory strip*.las -output trajectory.csv");
-  app::addTrajectoryOptions(line);
+  line.setArguments({{"trajectory", 0, 0}, {"", 1, app::Arguments::kAnyNumber}});
+  app::addTrajectoryOptions(line, "to convert, in place of points");
   app::addAccuracyOption(
       line, "standard deviations to write (default: those of the trajectory's own columns)");
-  line.addOptional("calibration", "calibration.json that is applied");
+  line.addInputFile("calibration", "calibration.json that is applied");
   line.addFlag("lever_arm_only", "do not apply the strip corrections of the calibration");
-  line.addNeeded("output",
-                 "trajectory to write: .csv with columns of standard deviations where "
-                 "they are known; .sbet or .out as SBET in WGS 84, with NAME_smrmsg.out");
+  for (const char* name : {"calibration", "accuracy", "lever_arm_only"})
+    line.makeDependent(name, "trajectory");
+  line.addOutputFile("output",
+                     "trajectory to write: .csv with columns of standard deviations where "
+                     "they are known; .sbet or .out as SBET in WGS 84, with NAME_smrmsg.out",
+                     {".csv", ".sbet", ".out"})
+      .needed();
   app::addForceOption(line, "the calibration's verdict is not \"usable\"");
   app::addStripOptions(line, false);
-  line.addOptional("report", "of points: folder for report.html (pictures inside) and report.md");
+  app::addReportOption(line,
+                       "of points: folder for report.html (pictures inside), report.md and tables "
+                       "as CSV",
+                       {"paths.csv", "rays.csv", "angles.csv"});
   line.addFlag("positions", "of points: positions only, without recovering the attitude");
   return line;
 }
 
 /// The trajectory of the points of files.
 int reconstruct(const CommandLine& line) {
-  if (line.has("report")) app::makeOutputFolder("report", line.text("report"));
-  if (line.has("calibration") || line.has("accuracy") || line.has("lever_arm_only"))
-    throw UsageError("-calibration, -accuracy and -lever_arm_only need -trajectory");
-  app::Step step("Reading " + counted(line.inputs(1, 100000).size(), "point file"), line.quiet());
-  SurveyReader survey(line.inputs(1, 100000), line.threads());
+  app::Step step("Reading " + counted(line.inputs().size(), "point file"), line.quiet());
+  SurveyReader survey(line.inputs(), line.threads());
   step.done(grouped(survey.pointCount()) + " points");
   app::remarks(line, survey.reference().remarks);
   const std::string crs = app::trajectoryReading(line, survey.reference().crs).crs;
@@ -63,16 +67,14 @@ int reconstruct(const CommandLine& line) {
   options.observer = page.observer();
   const ReconstructedFlight flight = reconstructFlight(survey, options, app::progressOf(line));
   writeReconstruction(flight, line.text("output"), crs);
-  if (line.has("report")) page.write(app::reportOrigin(line, {}), flight, line.inputs(1, 100000));
+  if (line.has("report")) page.write(app::reportOrigin(line), flight, line.inputs());
   if (flight.incomplete.empty()) return app::kDone;
   std::cerr << "pcl_als_trajectory: not complete: " << flight.incomplete << std::endl;
   return app::kNoReliableAnswer;
 }
 
 int trajectory(const CommandLine& line) {
-  app::checkWritable(line.text("output"));
   if (!line.has("trajectory")) return reconstruct(line);
-  line.inputs(0, 0);
   TrajectoryConversionOptions options;
   options.reading = app::trajectoryReading(line, {});
   CalibrationResult calibration;

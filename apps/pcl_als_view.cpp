@@ -22,37 +22,42 @@ CommandLine commandLine() {
                    "draws point files to a PNG, from above or obliquely, or shows them in a window",
                    "FILE... -output PICTURE.png [options]",
                    "pcl_als_view strip*.las -output strips.png -color strip -shade edl");
-  line.addOptional("output", "PNG to write (needed unless -window is given)");
+  line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
+  line.addOutputFile("output", "picture to write", {".png"});
   line.addFlag("window", "show the points in a window; needs a display");
-  line.add<std::string>("color",
-                        "elevation, intensity, strip, class, return, scan_angle, time, difference, "
-                        "or an extra-bytes field",
-                        "elevation");
-  line.addOptional("reference", "with -color difference: the strip to which heights refer");
-  line.add(
+  line.exclude({"output", "window"}, true);
+  line.addText("color",
+               "elevation, intensity, strip, class, return, scan_angle, time, difference, "
+               "or an extra-bytes field",
+               "elevation");
+  line.addText("reference", "with -color difference: the strip to which heights refer");
+  line.addNumber(
       "cell",
-      "with -color difference: cell size of the planes of the reference strip, m; 0: by density",
-      0.0);
-  line.addOptional("map", "colour map: viridis, cividis, diverging, gray (default: by attribute)");
-  line.addOptional("range",
-                   "LOW:HIGH of the colours (default: 1st to 99th percentile of the points drawn)");
+      "with -color difference: cell size of the planes of the reference strip; 0: by density", 0.0,
+      {0.0, 1000.0, "m"});
+  line.addText("map", "colour map: viridis, cividis, diverging, gray (default: by attribute)");
+  line.addText("range",
+               "LOW:HIGH of the colours (default: 1st to 99th percentile of the points drawn)");
   app::addWindowOptions(line);
   app::addStripOptions(line);
-  line.add("azimuth", "viewing direction of the camera, degrees clockwise from north", 0.0);
-  line.add("elevation", "height of the camera above the horizon, degrees; 90: top view", 90.0);
-  line.add("zoom", "magnification about the centre", 1.0);
-  line.addOptional("extent", "XMIN,YMIN,XMAX,YMAX: draw this part only, m");
-  line.add<std::string>("shade", "none, edl (eye-dome lighting) or hill", "none");
-  line.add("point_size", "pixels; 0: as large as the gaps between points", 0.0);
+  line.addNumber("azimuth", "viewing direction of the camera, clockwise from north", 0.0,
+                 {-360.0, 360.0, "degrees"});
+  line.addNumber("elevation", "height of the camera above the horizon; 90: top view", 90.0,
+                 {0.0, 90.0, "degrees"});
+  line.addNumber("zoom", "magnification about the centre", 1.0, {1e-3, 1e6});
+  line.addText("extent", "XMIN,YMIN,XMAX,YMAX: draw this part only, m");
+  line.addChoice("shade", "none, edl (eye-dome lighting) or hill", {"none", "edl", "hill"}, "none");
+  line.addNumber("point_size", "size of the points; 0: as large as the gaps between points", 0.0,
+                 {0.0, 64.0, "pixels"});
   app::addSizeOption(line);
-  line.addOptional("title", "text above (default: names of the files)");
+  line.addText("title", "text above (default: names of the files)");
   line.addFlag("bare", "points only, without title, legend and scale");
   return line;
 }
 
 PointShade shadeOf(const CommandLine& line) {
   constexpr PointShade kShades[] = {PointShade::none, PointShade::eye_dome, PointShade::hill};
-  return kShades[line.choice("shade", {"none", "edl", "hill"})];
+  return kShades[line.choice("shade")];
 }
 
 std::pair<double, double> rangeOf(const CommandLine& line) {
@@ -67,17 +72,17 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   options.width = size.width, options.height = size.height;
   options.attribute = line.text("color");
   if (line.has("reference")) options.reference = line.text("reference");
-  options.difference_cell = line.number("cell", 0.0, 1000.0, "m");
+  options.difference_cell = line.number("cell");
   options.window = app::windowOf(line);
   options.strips = app::stripChoice(line);
-  options.azimuth = line.number("azimuth", -360.0, 360.0, "degrees");
-  options.elevation = line.get<double>("elevation");
-  options.zoom = line.number("zoom", 1e-3, 1e6, "times");
+  options.azimuth = line.number("azimuth");
+  options.elevation = line.number("elevation");
+  options.zoom = line.number("zoom");
   if (line.has("extent")) options.extent = app::rectangleOf(line, "extent");
   if (line.has("map")) options.color_map = line.text("map");
   if (line.has("range")) options.range = rangeOf(line);
   options.shade = shadeOf(line);
-  options.point_size = line.number("point_size", 0.0, 64.0, "pixels");
+  options.point_size = line.number("point_size");
   options.title = line.has("title") ? line.text("title") : fileNames(inputs);
   options.bare = line.has("bare");
   return options;
@@ -91,12 +96,8 @@ std::shared_ptr<void> requiredDisplay() {
 }
 
 int view(const CommandLine& line) {
-  const auto& inputs = line.inputs(1, 100000);
+  const auto& inputs = line.inputs();
   const SurveyPictureOptions options = optionsOf(line, inputs);
-  if (line.has("output") == line.has("window")) {
-    throw UsageError("one of -output PICTURE.png and -window is needed");
-  }
-  if (line.has("output")) app::pictureFile(line);
   const SurveyPicture picture(inputs, options, app::progressOf(line));
   if (line.has("window")) {
     const auto connection = requiredDisplay();

@@ -3,16 +3,10 @@
 #include "command_line.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <iostream>
-#include <new>
+#include <limits>
 #include <set>
-#include <sstream>
-#include <type_traits>
-
-#include <boost/program_options.hpp>
+#include <stdexcept>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
@@ -22,342 +16,360 @@
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/common/thread_limit.h>
 
-#include "interruption.h"
+#include "option_text.h"
 #include "output_check.h"
-#include "remedy_options.h"
-#include "standard_streams.h"
-
-namespace po = boost::program_options;
 
 namespace pcl_als::app {
 
 namespace {
 
-/// The arguments of a tool with the name of an option of \a lists before each of its values: those
-/// that follow it up to the next option or point file (.las, .laz, .pcd), which is an input.
-std::vector<std::string> spreadLists(int argc, const char* const* argv,
-                                     const std::vector<std::string>& lists) {
-  static const std::set<std::string> kPoints = {".las", ".laz", ".pcd"};
-  std::vector<std::string> spread;
-  std::string list;  // the option whose values may follow
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const std::size_t name = argument.find_first_not_of('-');
-    if (argument.size() > 1 && argument.front() == '-') {
-      const bool known =
-          name != std::string::npos && i + 1 < argc &&
-          std::find(lists.begin(), lists.end(), argument.substr(name)) != lists.end();
-      spread.push_back(argument);
-      list = known ? argument : std::string();
-      if (known) spread.emplace_back(argv[++i]);
-      continue;
-    }
-    const bool value = !list.empty() && kPoints.count(lowerExtension(argument)) == 0;
-    if (value) spread.push_back(list);
-    if (!value) list.clear();
-    spread.push_back(argument);
+/// "-output" or "--output=x" → "output".
+std::string nameIn(const std::string& word) {
+  const std::size_t start = word.compare(0, 2, "--") == 0 ? 2 : 1;
+  return word.substr(start, word.find('=') - start);
+}
+
+/// UsageError unless an option takes the value.
+void checkValue(const Option& option, const std::string& value) {
+  const auto refuse = [&](const std::string& what) {
+    throw UsageError("option -" + option.name + ": '" + value + "' is " + what);
+  };
+  if (option.role == Role::number) {
+    const auto number = finiteNumber(value);
+    if (!number || *number < option.range.low || *number > option.range.high)
+      refuse("not a number from " + rangeText(option));
+  } else if (option.role == Role::whole) {
+    const auto number = valueIn<std::uint64_t>(value);
+    if (!number || static_cast<double>(*number) < option.range.low ||
+        static_cast<double>(*number) > option.range.high)
+      refuse("not a whole number from " + rangeText(option));
+  } else if (option.role == Role::choice) {
+    if (std::find(option.words.begin(), option.words.end(), value) == option.words.end())
+      refuse("none of " + joined(option.words));
+  } else if (option.role != Role::text && value.empty()) {
+    throw UsageError("option -" + option.name + ": names no file");
   }
-  return spread;
 }
 
 }  // namespace
 
-struct CommandLine::Parser {
-  po::options_description options{"Options (one dash or two)", 100, 60};
-  po::variables_map values;
-};
+bool isPointFile(const std::filesystem::path& file) {
+  static const std::set<std::string> kPoints = {".las", ".laz", ".pcd"};
+  return kPoints.count(lowerExtension(file)) != 0;
+}
+
+FolderFiles always(std::vector<std::string> names) {
+  return [names = std::move(names)](const CommandLine&) { return std::optional(names); };
+}
+
+FolderFiles copiesOfInputs() {
+  return [](const CommandLine& line) {
+    std::vector<std::string> names;
+    for (const std::string& input : line.inputs())
+      names.push_back(std::filesystem::path(input).filename().string());
+    return std::optional(names);
+  };
+}
 
 CommandLine::CommandLine(std::string tool, std::string purpose, std::string synopsis,
                          std::string example)
     : tool_(std::move(tool)),
       purpose_(std::move(purpose)),
       synopsis_(std::move(synopsis)),
-      example_(std::move(example)),
-      parser_(std::make_unique<Parser>()) {}
+      example_(std::move(example)) {}
 
-CommandLine::CommandLine(CommandLine&&) noexcept = default;
-CommandLine::~CommandLine() = default;
-
-template <typename T>
-void CommandLine::add(const char* name, const char* help, const T& default_value) {
-  auto* const value = po::value<T>();
-  if constexpr (std::is_floating_point_v<T>) {
-    value->default_value(default_value, shortText(default_value));
-  } else {
-    value->default_value(default_value);
-    words_.insert(name);
-  }
-  parser_->options.add_options()(name, value, help);
+Option& CommandLine::add(const std::string& name, const std::string& help, Role role) {
+  Option& option = options_.emplace_back();
+  option.name = name, option.help = help, option.role = role;
+  return option;
 }
 
-template <typename T>
-T CommandLine::get(const char* name) const {
-  return parser_->values[name].as<T>();
+Option& CommandLine::addFlag(const std::string& name, const std::string& help) {
+  return add(name, help, Role::flag);
 }
 
-template void CommandLine::add(const char*, const char*, const double&);
-template void CommandLine::add(const char*, const char*, const int&);
-template void CommandLine::add(const char*, const char*, const std::string&);
-template std::vector<std::string> CommandLine::get(const char*) const;
-template double CommandLine::get(const char*) const;
-template int CommandLine::get(const char*) const;
-template std::string CommandLine::get(const char*) const;
-
-void CommandLine::addOptional(const char* name, const char* help) {
-  parser_->options.add_options()(name, po::value<std::string>(), help);
+Option& CommandLine::addText(const std::string& name, const std::string& help,
+                             std::optional<std::string> preset) {
+  Option& option = add(name, help, Role::text);
+  option.preset = std::move(preset);
+  return option;
 }
 
-void CommandLine::addNeeded(const char* name, const char* help) {
-  needed_.emplace_back(name);
-  addOptional(name, (std::string(help) + " (needed)").c_str());
+Option& CommandLine::addTexts(const std::string& name, const std::string& help) {
+  Option& option = add(name, help, Role::text);
+  option.is_list = true;
+  return option;
 }
 
-void CommandLine::addFlag(const char* name, const char* help) {
-  parser_->options.add_options()(name, help);
+Option& CommandLine::addNumber(const std::string& name, const std::string& help,
+                               std::optional<double> preset, Range range) {
+  Option& option = add(name, help, Role::number);
+  if (preset) option.preset = shortText(*preset);
+  option.range = std::move(range);
+  return option;
 }
 
-void CommandLine::addList(const char* name, const char* help) {
-  lists_.emplace_back(name);
-  parser_->options.add_options()(name, po::value<std::vector<std::string>>(), help);
+Option& CommandLine::addWhole(const std::string& name, const std::string& help,
+                              std::optional<std::uint64_t> preset, Range range) {
+  Option& option = add(name, help, Role::whole);
+  if (preset) option.preset = std::to_string(*preset);
+  option.range = std::move(range);
+  return option;
 }
 
-std::vector<std::string> CommandLine::list(const char* name) const {
-  return get<std::vector<std::string>>(name);
+Option& CommandLine::addChoice(const std::string& name, const std::string& help,
+                               std::vector<std::string> words, std::optional<std::string> preset) {
+  Option& option = add(name, help, Role::choice);
+  option.words = std::move(words);
+  option.preset = std::move(preset);
+  return option;
 }
 
-std::string CommandLine::text(const char* name) const {
-  if (!isList(name)) return get<std::string>(name);
-  std::string joined;
-  for (const std::string& value : list(name)) joined += (joined.empty() ? "" : ",") + value;
-  return joined;
+Option& CommandLine::addInputFile(const std::string& name, const std::string& help,
+                                  InputFiles inputs) {
+  Option& option = add(name, help, Role::input);
+  option.inputs = std::move(inputs);
+  return option;
 }
 
-std::string CommandLine::help() const {
-  std::ostringstream text;
-  text << tool_ << ": " << purpose_ << "\n\nUsage: " << tool_ << ' ' << synopsis_ << "\n\n"
-       << parser_->options << "\nExample:\n  " << example_
-       << "\n\nExit status: 0 done, 1 wrong usage, 2 unusable input, 3 no reliable numerical "
-          "answer.\n";
-  return text.str();
+Option& CommandLine::addInputFiles(const std::string& name, const std::string& help,
+                                   InputFiles inputs) {
+  Option& option = addInputFile(name, help, std::move(inputs));
+  option.is_list = true;
+  return option;
+}
+
+Option& CommandLine::addOutputFile(const std::string& name, const std::string& help,
+                                   std::vector<std::string> extensions) {
+  Option& option = add(name, help, Role::output);
+  option.words = std::move(extensions);
+  return option;
+}
+
+Option& CommandLine::addOutputFolder(const std::string& name, const std::string& help,
+                                     FolderFiles files) {
+  Option& option = add(name, help, Role::folder);
+  option.files = std::move(files);
+  return option;
+}
+
+void CommandLine::exclude(std::vector<std::string> names, bool needed) {
+  exclusive_.emplace_back(std::move(names), needed);
+}
+
+void CommandLine::makeDependent(const std::string& name, const std::string& on) {
+  dependent_.emplace_back(name, on);
 }
 
 bool CommandLine::parse(int argc, const char* const* argv) {
-  add<int>("threads", "number of threads; 0: all cores", 0);
+  addWhole("threads", "number of threads; 0: all cores", 0,
+           {0, std::numeric_limits<int>::max(), {}});
   addFlag("quiet", "print nothing but errors");
-  addFlag("help,h", "print this help");
+  addFlag("help", "print this help; -h is the same");
+  addFlag("list_options", "print the options as a table of values separated by tabs");
   addFlag("version", "print the version");
-  po::options_description all;
-  all.add(parser_->options).add_options()("input", po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add("input", -1);
-  const int style =
-      (po::command_line_style::unix_style | po::command_line_style::allow_long_disguise) &
-      ~po::command_line_style::allow_guessing;
-  try {
-    po::store(po::command_line_parser(spreadLists(argc, argv, lists_))
-                  .options(all)
-                  .positional(positional)
-                  .style(style)
-                  .run(),
-              parser_->values);
-    po::notify(parser_->values);
-  } catch (const po::unknown_option& error) {
-    throw UsageError(error.what() + suggestionFor(error.get_option_name()) + " (see " + tool_ +
-                     " -h)");
-  } catch (const po::error& error) {
-    throw UsageError(std::string(error.what()) + " (see " + tool_ + " -h)");
-  }
-  if (has("help")) {
-    std::cout << help();
+  read({argv + 1, argv + argc});
+  const std::pair<const char*, std::function<std::string()>> answers[] = {
+      {"help", [this] { return help(); }},
+      {"version", [this] { return toolAndVersion() + '\n'; }},
+      {"list_options", [this] { return optionTable(*this); }}};
+  for (const auto& [name, text] : answers) {
+    if (!has(name)) continue;
+    std::cout << text();
     return false;
   }
-  if (has("version")) {
-    std::cout << toolAndVersion() << '\n';
-    return false;
-  }
-  if (parser_->values.count("input") != 0)
-    inputs_ = parser_->values["input"].as<std::vector<std::string>>();
-  if (get<int>("threads") < 0) throw UsageError("option -threads: must be 0 or more");
-  limitThreads(get<int>("threads"));
-  refuseToOverwrite();
+  takeArguments();
+  const CommandFiles files = filesOf(*this);
+  refuseLosses(files);
+  checkRelations();
+  checkWritable(files);
+  protect(files);
+  limitThreads(threads());
   return true;
 }
 
-std::string CommandLine::suggestionFor(const std::string& option) const {
-  std::vector<std::string> names;
-  for (const auto& known : parser_->options.options()) names.push_back(known->long_name());
-  const std::size_t start = option.find_first_not_of('-');
-  if (start == std::string::npos) return {};
-  const std::string name = nearestName(option.substr(start, option.find('=') - start), names);
-  return name.empty() ? std::string() : "; did you mean -" + name + "?";
-}
-
-void CommandLine::refuseToOverwrite() const {
-  static const std::set<std::string> outputs{"output", "json",       "accuracy",
-                                             "grids",  "posterior",  "checked",
-                                             "map",    "save_model", "transformed"};
-  std::vector<std::filesystem::path> inputs(inputs_.begin(), inputs_.end());
-  std::vector<std::pair<std::string, std::string>> written;
-  for (const auto& [name, value] : parser_->values) {
-    if (isList(name))
-      for (const std::string& path : list(name.c_str())) inputs.emplace_back(path);
-    const auto* text = boost::any_cast<std::string>(&value.value());
-    if (text == nullptr || words_.count(name) != 0) continue;
-    if (outputs.count(name) != 0)
-      written.emplace_back(name, *text);
+void CommandLine::read(const std::vector<std::string>& words) {
+  for (std::size_t at = 0; at < words.size();) {
+    if (words[at] == "--") {
+      arguments_.insert(arguments_.end(), words.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                        words.end());
+      return;
+    }
+    if (words[at].size() > 1 && words[at].front() == '-')
+      at = readOption(words, at);
     else
-      inputs.emplace_back(*text);
+      arguments_.push_back(words[at++]);
   }
-  for (const auto& [name, path] : written) refuseInput(name, path, inputs);
 }
 
-bool CommandLine::has(const char* name) const {
-  return parser_->values.count(name) != 0;
-}
-
-bool CommandLine::declares(const char* name) const {
-  return parser_->options.find_nothrow(name, false) != nullptr;
-}
-
-bool CommandLine::given(const char* name) const {
-  return has(name) && !parser_->values[name].defaulted();
-}
-
-double CommandLine::number(const char* name, double low, double high, const char* unit) const {
-  const double value = get<double>(name);
-  if (std::isfinite(value) && value >= low && value <= high) return value;
-  std::ostringstream text;
-  text << "option -" << name << ": " << value << ' ' << unit << " is outside [" << low << ", "
-       << high << "]";
-  throw UsageError(text.str());
-}
-
-const std::vector<std::string>& CommandLine::inputs(std::size_t low, std::size_t high) const {
-  if (inputs_.size() >= low && inputs_.size() <= high) {
-    // Of a list; where each input has a part of its own, the tool says what may be the same.
-    if (high > 2) refuseRepeated(inputs_);
-    for (const std::string& name : needed_)
-      if (!has(name.c_str()))
-        throw UsageError("option -" + name + " is needed (see " + tool_ + " -h)");
-    return inputs_;
+/// The option at a word with its values; the position after them.
+std::size_t CommandLine::readOption(const std::vector<std::string>& words, std::size_t at) {
+  const std::string& word = words[at++];
+  const std::string name = nameIn(word) == "h" ? "help" : nameIn(word);
+  const Option* const option = find(name);
+  if (option == nullptr) refuseUnknown(name);
+  const std::size_t equals = word.find('=');
+  if (option->role == Role::flag) {
+    if (equals != std::string::npos) throw UsageError("option -" + name + ": takes no value");
+    take(*option, "yes");
+    return at;
   }
-  throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
+  if (equals != std::string::npos) {
+    take(*option, word.substr(equals + 1));
+  } else {
+    if (at == words.size() || isOption(words[at]))
+      throw UsageError("option -" + name + ": needs a value (see " + tool_ + " -h)");
+    take(*option, words[at++]);
+  }
+  const auto continues = [](const std::string& next) {
+    return (next.size() < 2 || next.front() != '-') && !isPointFile(next);
+  };
+  while (option->is_list && at < words.size() && continues(words[at])) take(*option, words[at++]);
+  return at;
+}
+
+void CommandLine::take(const Option& option, const std::string& value) {
+  std::vector<std::string>& values = values_[option.name];
+  if (!values.empty() && !option.is_list)
+    throw UsageError("option -" + option.name + ": is given twice");
+  checkValue(option, value);
+  values.push_back(value);
+}
+
+bool CommandLine::isOption(const std::string& word) const {
+  return word.size() > 1 && word.front() == '-' && (nameIn(word) == "h" || declares(nameIn(word)));
+}
+
+void CommandLine::refuseUnknown(const std::string& option) const {
+  std::vector<std::string> names;
+  for (const Option& known : options_) names.push_back(known.name);
+  const std::string near = nearestName(option, names);
+  throw UsageError("unrecognised option '-" + option + "'" +
+                   (near.empty() ? "" : "; did you mean -" + near + "?") + " (see " + tool_ +
+                   " -h)");
+}
+
+void CommandLine::takeArguments() {
+  const Arguments& wanted = form();
+  const std::size_t out = wanted.out.empty() ? 0 : 1;
+  if (arguments_.size() < wanted.least + out || arguments_.size() > wanted.most + out)
+    throw UsageError("usage: " + tool_ + ' ' + synopsis_ + " (see " + tool_ + " -h)");
+  inputs_.assign(arguments_.begin(), arguments_.end() - static_cast<std::ptrdiff_t>(out));
+  if (out > 0) output_ = arguments_.back();
+  // Of a list; where each input has a part of its own, the tool says what may be the same.
+  if (wanted.most > 2) refuseRepeated(inputs_);
+}
+
+void CommandLine::checkRelations() const {
+  for (const auto& [names, needed] : exclusive_) {
+    const auto count = std::count_if(names.begin(), names.end(),
+                                     [this](const std::string& name) { return has(name); });
+    std::string options;
+    for (const std::string& name : names)
+      options += (options.empty() ? "-" : name == names.back() ? " and -" : ", -") + name;
+    if (count > 1) throw UsageError("options " + options + " exclude each other");
+    if (count == 0 && needed)
+      throw UsageError("one of the options " + options + " is needed (see " + tool_ + " -h)");
+  }
+  for (const auto& [name, on] : dependent_)
+    if (has(name) && !has(on)) throw UsageError("option -" + name + " needs -" + on);
+  for (const Option& option : options_)
+    if (option.is_needed && !has(option.name))
+      throw UsageError("option -" + option.name + " is needed (see " + tool_ + " -h)");
+}
+
+void CommandLine::protect(const CommandFiles& files) {
+  for (const CommandFiles::Input& input : files.inputs) protection_.keep(input.path);
+  for (const CommandFiles::Output& output : files.outputs) {
+    if (output.is_folder)
+      protection_.guard(output.path);
+    else
+      protection_.allow(output.path);
+  }
+}
+
+const Arguments& CommandLine::form() const {
+  for (const Arguments& form : forms_)
+    if (!form.with.empty() && has(form.with)) return form;
+  const auto usual = std::find_if(forms_.begin(), forms_.end(),
+                                  [](const Arguments& form) { return form.with.empty(); });
+  if (usual == forms_.end()) throw std::logic_error(tool_ + ": has no usual form");
+  return *usual;
+}
+
+std::vector<std::filesystem::path> CommandLine::optionInputs() const {
+  std::vector<std::filesystem::path> files;
+  for (const CommandFiles::Input& input : filesOf(*this).inputs)
+    if (!input.option.empty()) files.push_back(input.path);
+  return files;
+}
+
+const Option* CommandLine::find(const std::string& name) const {
+  const auto found = std::find_if(options_.begin(), options_.end(),
+                                  [&](const Option& option) { return option.name == name; });
+  return found == options_.end() ? nullptr : &*found;
+}
+
+const Option& CommandLine::declared(const std::string& name) const {
+  if (const Option* option = find(name)) return *option;
+  throw std::logic_error(tool_ + ": option -" + name + " is not declared");
+}
+
+bool CommandLine::has(const std::string& name) const {
+  const Option* const option = find(name);
+  return option != nullptr && (option->preset || given(name));
+}
+
+bool CommandLine::given(const std::string& name) const {
+  return values_.count(name) != 0;
+}
+
+std::vector<std::string> CommandLine::list(const std::string& name) const {
+  const Option& option = declared(name);
+  const auto found = values_.find(name);
+  if (found != values_.end()) return found->second;
+  return option.preset ? std::vector<std::string>{*option.preset} : std::vector<std::string>();
+}
+
+std::string CommandLine::text(const std::string& name) const {
+  const std::vector<std::string> values = list(name);
+  if (values.empty()) throw UsageError("option -" + name + " is needed (see " + tool_ + " -h)");
+  std::string text = values.front();
+  for (std::size_t i = 1; i < values.size(); ++i) text += "," + values[i];
+  return text;
+}
+
+double CommandLine::number(const std::string& name) const {
+  return finiteNumber(text(name)).value();
+}
+
+std::uint64_t CommandLine::whole(const std::string& name) const {
+  return valueIn<std::uint64_t>(text(name)).value();
+}
+
+std::size_t CommandLine::choice(const std::string& name) const {
+  const std::vector<std::string>& words = declared(name).words;
+  return static_cast<std::size_t>(std::find(words.begin(), words.end(), text(name)) -
+                                  words.begin());
 }
 
 std::string CommandLine::toolAndVersion() const {
   return tool_ + " " + PCL_ALS_VERSION;
 }
 
+std::string CommandLine::help() const {
+  return tool_ + ": " + purpose_ + "\n\nUsage: " + tool_ + ' ' + synopsis_ +
+         "\n\nOptions (one dash or two):\n" + optionHelp(options_) + "\nExample:\n  " + example_ +
+         "\n\nExit status: 0 done, 1 wrong usage, 2 unusable input, 3 no reliable numerical "
+         "answer.\n";
+}
+
 std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
   std::vector<std::pair<std::string, std::string>> settings;
-  for (const auto& [name, value] : parser_->values) {
-    if (name == "input") continue;
-    std::ostringstream text;
-    if (const auto* number = boost::any_cast<double>(&value.value())) text << *number;
-    if (const auto* whole = boost::any_cast<int>(&value.value())) text << *whole;
-    if (const auto* word = boost::any_cast<std::string>(&value.value()))
-      text << (word->empty() ? "yes" : *word);
-    if (isList(name)) text << this->text(name.c_str());
-    settings.emplace_back(name, text.str());
-  }
+  for (const Option& option : options_)
+    if (has(option.name)) settings.emplace_back(option.name, text(option.name));
+  std::sort(settings.begin(), settings.end());
   return settings;
-}
-
-void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what) {
-  const std::string help =
-      "unit of the coordinates in " + what + ": m, ft (international) or us_ft (US survey foot)";
-  line.add<std::string>((of + "_units").c_str(), help.c_str(), "m");
-}
-
-LengthUnit unitOption(const CommandLine& line, const std::string& of) {
-  return lengthUnitNamed(line.text((of + "_units").c_str()), "option -" + of + "_units");
-}
-
-void remark(const CommandLine& line, const std::string& text) {
-  if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
-}
-
-void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
-  for (const std::string& text : texts) remark(line, text);
-}
-
-int run(int argc, const char* const* argv, CommandLine (*options)(),
-        int (*job)(const CommandLine&)) {
-  CommandLine line = options();
-  return run(line.tool(), [&] { return line.parse(argc, argv) ? job(line) : kDone; });
-}
-
-int conclude(const CommandLine& line, const std::string& why) {
-  if (why.empty()) return kDone;
-  std::cerr << line.tool() << ": no reliable answer: " << why << std::endl;
-  return kNoReliableAnswer;
-}
-
-int reportFailure(const std::string& tool, const std::exception_ptr& failure) {
-  const auto failed = [&tool](std::string message, int status) {
-    // What a file holds in place of text must not reach the terminal.
-    const auto control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-    std::replace_if(message.begin(), message.end(), control, '?');
-    std::cerr << tool << ": " << message << std::endl;
-    return status;
-  };
-  try {
-    std::rethrow_exception(failure);
-  } catch (const UsageError& error) {
-    return failed(withOption(error), kWrongUsage);
-  } catch (const Error& error) {
-    return failed(withOption(error), kUnusableInput);
-  } catch (const std::bad_alloc&) {
-    return failed("not enough memory", kUnusableInput);
-  } catch (const std::exception& error) {
-    return failed(error.what(), kUnusableInput);
-  }
-}
-
-int run(const std::string& tool, const std::function<int()>& body) {
-  openStandardStreams();
-  removeUnfinishedFilesOnSignals();
-  reportAborts(tool.c_str());
-  try {
-    const int status = body();
-    const char* reason = "";
-    if (flushStandardOutput(reason) || status != kDone) return status;
-    throw InputError(std::string("cannot write to standard output: ") + reason);
-  } catch (...) {
-    return reportFailure(tool, std::current_exception());
-  }
-}
-
-double numberIn(const std::string& text, const std::string& what, double low, double high) {
-  const auto value = finiteNumber(text);
-  if (value && *value >= low && *value <= high) return *value;
-  std::ostringstream message;
-  message << what << ": '" << text << "' is not a ";
-  if (std::isfinite(low))
-    message << "number from " << low << " to " << high;
-  else
-    message << "finite number";
-  throw UsageError(message.str());
-}
-
-std::size_t CommandLine::choice(const char* name, const std::vector<std::string>& words) const {
-  const auto found = std::find(words.begin(), words.end(), text(name));
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  throw UsageError(std::string("option -") + name + ": '" + text(name) + "' is none of " +
-                   joined(words));
-}
-
-int CommandLine::whole(const char* name, int low, int high) const {
-  const int value = get<int>(name);
-  if (value >= low && value <= high) return value;
-  throw UsageError(std::string("option -") + name + ": " + std::to_string(value) + " is outside [" +
-                   std::to_string(low) + ", " + std::to_string(high) + "]");
-}
-
-std::uint64_t CommandLine::wholeNumber(const char* name) const {
-  if (const auto value = valueIn<std::uint64_t>(text(name))) return *value;
-  throw UsageError(std::string("option -") + name + ": '" + text(name) +
-                   "' is not a whole number from 0 to 18446744073709551615");
 }
 
 }  // namespace pcl_als::app

@@ -2,106 +2,139 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
-#include <limits>
-#include <memory>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <pcl_als/common/console_progress.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/text_values.h>
 
+#include "option.h"
+
 namespace pcl_als::app {
+
+struct CommandFiles;
 
 /// Exit statuses of every tool.
 enum ExitStatus { kDone = 0, kWrongUsage = 1, kUnusableInput = 2, kNoReliableAnswer = 3 };
 
-/** \brief Options of a tool: positional inputs and `-option value`, with one dash or two.
+/** \brief Options of a tool: positional arguments and `-option value`, with one dash or two.
  *
- * `-h`, `-version`, `-quiet` and `-threads N` are common to all tools. A tool declares its own
- * through options() and reads them with get(). Unknown options, missing values and values out of
- * range are UsageError, naming the option.
+ * A tool declares each option with the role of its value. parse() checks everything that follows
+ * from the roles before the tool reads a file: unknown and missing options, numbers out of range,
+ * and outputs that would replace an input, another output or, in a folder, a file of the user. All
+ * of it is UsageError, naming the option; an output that cannot be written is InputError.
+ *
+ * `-h`, `-version`, `-list_options`, `-quiet` and `-threads N` are common to all tools.
  */
 class CommandLine {
  public:
   /// \param tool "pcl_als_info"; \param purpose one sentence; \param synopsis "FILE…"; \param
   /// example a full command
   CommandLine(std::string tool, std::string purpose, std::string synopsis, std::string example);
-  CommandLine(CommandLine&&) noexcept;
-  ~CommandLine();
 
-  /// Adds an option that takes a value: double, int or std::string.
-  template <typename T>
-  void add(const char* name, const char* help, const T& default_value);
-  void addOptional(const char* name, const char* help);  ///< text value, absent by default
-  void addNeeded(const char* name, const char* help);    ///< the same; inputs() refuses its absence
-  void addFlag(const char* name, const char* help);
-  /// An option with one value or more: those that follow it up to the next option or point file.
-  void addList(const char* name, const char* help);
+  /// The positional arguments; none where this is not called.
+  void setArguments(std::vector<Arguments> forms) { forms_ = std::move(forms); }
 
-  /// Parses; returns false when help or version was printed and the tool is done. Throws
-  /// UsageError.
+  Option& addFlag(const std::string& name, const std::string& help);
+  Option& addText(const std::string& name, const std::string& help,
+                  std::optional<std::string> preset = {});
+  /// Texts: those that follow the option up to the next option or point file.
+  Option& addTexts(const std::string& name, const std::string& help);
+  Option& addNumber(const std::string& name, const std::string& help, std::optional<double> preset,
+                    Range range);
+  /// A whole number that is not negative.
+  Option& addWhole(const std::string& name, const std::string& help,
+                   std::optional<std::uint64_t> preset, Range range);
+  Option& addChoice(const std::string& name, const std::string& help,
+                    std::vector<std::string> words, std::optional<std::string> preset = {});
+  /// A file that is read; \a inputs where the value is not simply its path.
+  Option& addInputFile(const std::string& name, const std::string& help, InputFiles inputs = {});
+  /// The same of several, as addTexts().
+  Option& addInputFiles(const std::string& name, const std::string& help, InputFiles inputs = {});
+  /// A file that is written, with the extensions that the tool writes; the first one is usual.
+  Option& addOutputFile(const std::string& name, const std::string& help,
+                        std::vector<std::string> extensions);
+  /// A folder that is made where it is missing, with the names of the files that are written there.
+  Option& addOutputFolder(const std::string& name, const std::string& help, FolderFiles files);
+
+  /// At most one of the options may be given; with \a needed, one must.
+  void exclude(std::vector<std::string> names, bool needed = false);
+  /// The option makes sense only with another one.
+  void makeDependent(const std::string& name, const std::string& on);
+
+  /// Parses and checks; returns false when help or version was printed and the tool is done.
   bool parse(int argc, const char* const* argv);
 
-  template <typename T>
-  T get(const char* name) const;
-  bool has(const char* name) const;
-  bool given(const char* name) const;        ///< and not the default
-  std::string text(const char* name) const;  ///< of a list: separated by commas
-  std::vector<std::string> list(const char* name) const;
-  /// A finite number in [low, high]; UsageError naming option, value and unit otherwise.
-  double number(const char* name, double low, double high, const char* unit) const;
+  bool has(const std::string& name) const;                       ///< given, or with a default
+  bool given(const std::string& name) const;                     ///< and not the default
+  std::string text(const std::string& name) const;               ///< of a list: separated by commas
+  std::vector<std::string> list(const std::string& name) const;  ///< empty where it is not given
+  double number(const std::string& name) const;
+  std::uint64_t whole(const std::string& name) const;
+  std::size_t choice(const std::string& name) const;  ///< the index of the word
   /// What \a parse makes of the option's text; its UsageErrors name the option.
   template <typename Parse>
-  auto parsed(const char* name, const Parse& parse) const {
+  auto parsed(const std::string& name, const Parse& parse) const {
     try {
       return parse(text(name));
     } catch (const UsageError& error) {
-      throw UsageError(std::string("option -") + name + ": " + error.what());
+      throw UsageError("option -" + name + ": " + error.what());
     }
   }
-  /// The value of an int option in [low, high]; UsageError naming the option otherwise.
-  int whole(const char* name, int low, int high) const;
-  /// The value of a std::string option as a whole number; UsageError for anything else.
-  std::uint64_t wholeNumber(const char* name) const;
 
-  /// Positional arguments; UsageError unless their number is in [low, high], and for one that is
-  /// given twice in a list of any length.
-  const std::vector<std::string>& inputs(std::size_t low, std::size_t high) const;
+  /// The input files among the positional arguments.
+  const std::vector<std::string>& inputs() const { return inputs_; }
+  /// The output among them; empty in a form without.
+  const std::string& output() const { return output_; }
+  /// The files that the options read, in the order of their declaration.
+  std::vector<std::filesystem::path> optionInputs() const;
+
   /// Whether the tool has an option of this name.
-  bool declares(const char* name) const;
+  bool declares(const std::string& name) const { return find(name) != nullptr; }
+  const std::deque<Option>& options() const { return options_; }
+  const std::vector<Arguments>& forms() const { return forms_; }
+  const Arguments& form() const;  ///< of this command
   bool quiet() const { return has("quiet"); }
   const std::string& tool() const { return tool_; }
-  /// The index of the option's value among words; UsageError that lists them for another value.
-  std::size_t choice(const char* name, const std::vector<std::string>& words) const;
-  int threads() const { return get<int>("threads"); }
+  int threads() const { return static_cast<int>(whole("threads")); }
   /// "pcl_als_info 0.1.0"
   std::string toolAndVersion() const;
+  std::string help() const;
   /// All options that have a value, as given or by default, for a report: name, text.
   std::vector<std::pair<std::string, std::string>> settings() const;
 
  private:
-  std::string help() const;
-  bool isList(const std::string& name) const {
-    return std::find(lists_.begin(), lists_.end(), name) != lists_.end();
-  }
-  /// "; did you mean -trajectory?" for a misspelt option; empty where none is near.
-  std::string suggestionFor(const std::string& option) const;
-  /// UsageError where a file to write is one that is read.
-  void refuseToOverwrite() const;
+  Option& add(const std::string& name, const std::string& help, Role role);
+  const Option* find(const std::string& name) const;
+  const Option& declared(const std::string& name) const;
+  void read(const std::vector<std::string>& words);
+  std::size_t readOption(const std::vector<std::string>& words, std::size_t at);
+  void take(const Option& option, const std::string& value);
+  bool isOption(const std::string& word) const;
+  void checkRelations() const;
+  void takeArguments();
+  void protect(const CommandFiles& files);
+  [[noreturn]] void refuseUnknown(const std::string& option) const;
 
   std::string tool_, purpose_, synopsis_, example_;
-  struct Parser;  ///< what Boost keeps of options and values
-  std::unique_ptr<Parser> parser_;
-  std::vector<std::string> inputs_, lists_, needed_;
-  std::set<std::string> words_;  ///< options with a default, whose values are no files
+  std::deque<Option> options_;
+  std::vector<Arguments> forms_{{}};
+  std::vector<std::pair<std::vector<std::string>, bool>> exclusive_;
+  std::vector<std::pair<std::string, std::string>> dependent_;
+  std::map<std::string, std::vector<std::string>> values_;  ///< of the options that are given
+  std::vector<std::string> arguments_, inputs_;
+  std::string output_;
+  FileProtection protection_;
 };
 
 using Step = ConsoleStep;
@@ -113,7 +146,7 @@ inline ProgressCallback progressOf(const CommandLine& line) {
 
 /// Declares -OF_units: the unit of length of a file of coordinates that does not state one.
 void addUnitsOption(CommandLine& line, const std::string& of, const std::string& what);
-/// The unit that -OF_units gives; metre without it. UsageError for another word.
+/// The unit that -OF_units gives; metre without it.
 LengthUnit unitOption(const CommandLine& line, const std::string& of);
 
 /// Prints an indented line of explanation, unless -quiet or empty.
@@ -125,19 +158,14 @@ void remarks(const CommandLine& line, const std::vector<std::string>& texts);
 int run(int argc, const char* const* argv, CommandLine (*options)(),
         int (*job)(const CommandLine& line));
 /// The same of any body.
-int run(const std::string& tool, const std::function<int()>& body);
+int run(const CommandLine& line, const std::function<int()>& body);
 /// Prints an exception; the exit status.
-int reportFailure(const std::string& tool, const std::exception_ptr& failure);
+int reportFailure(const CommandLine& line, const std::exception_ptr& failure);
 
 /// Ends a tool: kDone, or where \a why states why there is no reliable answer, kNoReliableAnswer
 /// with that on stderr.
 int conclude(const CommandLine& line, const std::string& why);
 
-/// The finite number from \a low to \a high that a text is; UsageError that names \a what for
-/// another.
-double numberIn(const std::string& text, const std::string& what,
-                double low = -std::numeric_limits<double>::infinity(),
-                double high = std::numeric_limits<double>::infinity());
 /// The greatest coordinate that options take, metres: beyond any projected CRS.
 constexpr double kFarthest = 1e9;
 

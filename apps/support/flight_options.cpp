@@ -19,97 +19,108 @@ constexpr double kLongestWindow = 60.0;  // seconds, half of it
 
 /// -line_fit; \a otherwise where it is not given.
 double halfWidthOf(const CommandLine& line, double otherwise) {
-  if (!line.has("line_fit")) return otherwise;
-  // The flight is taken as straight within it.
-  return numberIn(line.text("line_fit"), "option -line_fit, seconds", 0.001, kLongestWindow);
+  return line.has("line_fit") ? line.number("line_fit") : otherwise;
 }
 
-/// The value of a word that an option gives; unchanged without the option.
+/// What the word of a choice means; unchanged without the option.
 template <typename T>
-void choose(const CommandLine& line, const char* option, T& value,
-            const std::vector<std::pair<std::string, T>>& words) {
-  if (!line.has(option)) return;
-  std::vector<std::string> names;
-  for (const auto& [word, meaning] : words) names.push_back(word);
-  value = words[line.choice(option, names)].second;
+void choose(const CommandLine& line, const std::string& option, T& value,
+            const std::vector<T>& meanings) {
+  if (line.has(option)) value = meanings.at(line.choice(option));
+}
+
+/// The files of -trajectory, also those in a folder.
+std::vector<std::filesystem::path> trajectoryInputs(const CommandLine& line) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& value : line.list("trajectory")) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(value, error)) {
+      files.emplace_back(value);
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(value, error))
+      if (isTrajectoryFile(entry.path())) files.push_back(entry.path());
+  }
+  return files;
 }
 
 }  // namespace
 
-void addFlightOptions(CommandLine& line, const char* use) {
+void addFlightOptions(CommandLine& line, const std::string& use) {
   addTrajectoryOptions(line, use);
-  line.addOptional(
-      "gps_week",
-      "GPS week of times that are seconds of the week (default: determined from the data)");
-  line.addOptional(
-      "line_fit",
-      "half width of the trajectory window, seconds (default: the calibration's, else 0.5)");
+  line.addWhole("gps_week",
+                "GPS week of times that are seconds of the week, in place of the one determined "
+                "from the data",
+                {}, {0, 9999, {}});
+  // The flight is taken as straight within it.
+  line.addNumber("line_fit",
+                 "half width of the trajectory window, in place of the calibration's, else 0.5", {},
+                 {0.001, kLongestWindow, "s"});
 }
 
-void addTrajectoryOptions(CommandLine& line, const char* use) {
+void addTrajectoryOptions(CommandLine& line, const std::string& use) {
   const std::string help =
-      std::string(
-          "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet), TerraScan (.trj), RIEGL "
-          "(.pof) or Leica (.sol); several files or a folder are joined in order of time; "
-          "\"reconstruct\": from the points (") +
-      use + ")";
-  line.addList("trajectory", help.c_str());
-  line.addOptional("crs",
-                   "CRS of the points, e.g. EPSG:32611, for an SBET or other geographic "
-                   "coordinates (default: the point file's)");
-  line.addOptional("trajectory_crs",
-                   "CRS of the trajectory's coordinates (default: WGS 84 for geographic and "
-                   "geocentric ones, that of the points for map coordinates)");
+      "trajectory: text (.csv, .txt, .pos, ...), SBET (.out, .sbet), TerraScan (.trj), RIEGL "
+      "(.pof) or Leica (.sol); several files or a folder are joined in order of time; "
+      "\"reconstruct\": from the points" +
+      (use.empty() ? "" : " (" + use + ")");
+  line.addInputFiles("trajectory", help, trajectoryInputs).is_needed = use.empty();
+  line.addText("crs",
+               "CRS of the points, e.g. EPSG:32611, for an SBET or other geographic "
+               "coordinates (default: the point file's)");
+  line.addText("trajectory_crs",
+               "CRS of the trajectory's coordinates (default: WGS 84 for geographic and "
+               "geocentric ones, that of the points for map coordinates)");
   addUnitsOption(line, "trajectory", "a trajectory of map coordinates");
-  line.addOptional("columns",
-                   "columns of a trajectory text file in their order, e.g. "
-                   "time,easting,northing,height,roll,pitch,heading; skip: a column that is not "
-                   "used (default: by its header)");
-  line.addOptional("trajectory_angles",
-                   "unit of trajectory angles that state none: deg, rad or gon (default: deg)");
-  line.addOptional("trajectory_axes",
-                   "ned: roll right wing down, pitch nose up, heading clockwise from north; enu: "
-                   "pitch nose down, yaw counter-clockwise from east (default: ned)");
-  line.addOptional("trajectory_north",
-                   "north that headings count from: true or grid (default: grid for map "
-                   "coordinates, else true)");
-  line.addOptional("leap_seconds",
-                   "the trajectory's times are UTC: seconds to be added (18 since 2017)");
-  line.addOptional("geoid",
-                   "geoid undulation that is subtracted from the trajectory's heights: metres, or "
-                   "a grid file that PROJ reads");
+  line.addText("columns",
+               "columns of a trajectory text file in their order, e.g. "
+               "time,easting,northing,height,roll,pitch,heading; skip: a column that is not "
+               "used (default: by its header)");
+  line.addChoice("trajectory_angles", "unit of trajectory angles that state none (default: deg)",
+                 {"deg", "rad", "gon"});
+  line.addChoice("trajectory_axes",
+                 "ned: roll right wing down, pitch nose up, heading clockwise from north; enu: "
+                 "pitch nose down, yaw counter-clockwise from east (default: ned)",
+                 {"ned", "enu"});
+  line.addChoice("trajectory_north",
+                 "north that headings count from (default: grid for map coordinates, else true)",
+                 {"true", "grid"});
+  line.addNumber("leap_seconds",
+                 "the trajectory's times are UTC: seconds to be added (18 since 2017)", {},
+                 {0.0, 60.0, "s"});
+  line.addInputFile("geoid",
+                    "geoid undulation that is subtracted from the trajectory's heights: metres, or "
+                    "a grid file that PROJ reads");
 }
 
 std::optional<int> gpsWeek(const CommandLine& line) {
   if (!line.has("gps_week")) return std::nullopt;
-  const std::uint64_t week = line.wholeNumber("gps_week");
-  if (week > 9999) throw UsageError("option -gps_week: must be 0 to 9999");
-  return static_cast<int>(week);
+  return static_cast<int>(line.whole("gps_week"));
 }
 
 void addForceOption(CommandLine& line, const std::string& reason) {
-  const std::string help = "continue with a warning where " + reason + "; results may be wrong";
-  line.addFlag("force", help.c_str());
+  line.addFlag("force", "continue with a warning where " + reason + "; results may be wrong");
 }
 
 void addModelOption(CommandLine& line) {
-  line.add<std::string>(
+  line.addChoice(
       "model",
       "rigorous: roll, pitch and heading of the trajectory; quasi_rigorous: its positions only, "
       "pitch and crab from the points (linear scanners); nominal: rigorous with a level sensor "
       "whose "
       "heading is the course (conical and multi-plane scanners without attitude); auto: rigorous "
       "where the trajectory has attitude",
+      {"auto", std::string(modelName(AttitudeSource::none)),
+       std::string(modelName(AttitudeSource::trajectory)),
+       std::string(toString(AttitudeSource::nominal))},
       "auto");
 }
 
 AttitudeUse attitudeUse(const CommandLine& line) {
   AttitudeUse use = AttitudeUse::where_given;
-  choose(line, "model", use,
-         {{"auto", AttitudeUse::where_given},
-          {std::string(modelName(AttitudeSource::none)), AttitudeUse::ignore},
-          {std::string(modelName(AttitudeSource::trajectory)), AttitudeUse::needed},
-          {std::string(toString(AttitudeSource::nominal)), AttitudeUse::nominal}});
+  choose(
+      line, "model", use,
+      {AttitudeUse::where_given, AttitudeUse::ignore, AttitudeUse::needed, AttitudeUse::nominal});
   return use;
 }
 
@@ -120,37 +131,29 @@ TrajectoryReading trajectoryReading(const CommandLine& line, const std::string& 
   if (line.has("trajectory_crs")) reading.own_crs = line.text("trajectory_crs");
   reading.unit = unitOption(line, "trajectory");
   if (line.has("columns")) reading.columns = splitList(line.text("columns"));
-  using Angles = AngleUnit;
   choose(line, "trajectory_angles", reading.angles,
-         {{"deg", Angles::degrees}, {"rad", Angles::radians}, {"gon", Angles::gon}});
-  choose(line, "trajectory_axes", reading.axes,
-         {{"ned", AttitudeAxes::ned}, {"enu", AttitudeAxes::enu}});
+         {AngleUnit::degrees, AngleUnit::radians, AngleUnit::gon});
+  choose(line, "trajectory_axes", reading.axes, {AttitudeAxes::ned, AttitudeAxes::enu});
   choose(line, "trajectory_north", reading.north,
-         {{"true", NorthReference::true_north}, {"grid", NorthReference::grid_north}});
-  if (line.has("leap_seconds"))
-    reading.leap_seconds = numberIn(line.text("leap_seconds"), "option -leap_seconds", 0.0, 60.0);
+         {NorthReference::true_north, NorthReference::grid_north});
+  if (line.has("leap_seconds")) reading.leap_seconds = line.number("leap_seconds");
   if (line.has("geoid")) reading.geoid = line.text("geoid");
   return reading;
 }
 
 std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line) {
-  if (!line.has("trajectory")) throw UsageError("option -trajectory is needed");
   const std::vector<std::string> names = line.list("trajectory");
   return {names.begin(), names.end()};
 }
 
 void checkFlightOptions(const CommandLine& line) {
-  gpsWeek(line);
-  halfWidthOf(line, 0.0);
   trajectoryReading(line, {});
 }
 
-void addAccuracyOption(CommandLine& line, const char* use) {
-  const std::string help =
-      std::string(
-          "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: ") +
-      use;
-  line.addOptional("accuracy", help.c_str());
+void addAccuracyOption(CommandLine& line, const std::string& use) {
+  line.addInputFile(
+      "accuracy",
+      "accuracies of the trajectory over time, an Applanix smrmsg or RIEGL .poq file: " + use);
 }
 
 std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line) {

@@ -16,8 +16,8 @@
 namespace pcl_als::app {
 
 /// Declares -trajectory, what is known of its files, -gps_week and -line_fit; \a use: what the
-/// trajectory is for.
-void addFlightOptions(CommandLine& line, const char* use = "needed");
+/// trajectory is for; empty: it is needed.
+void addFlightOptions(CommandLine& line, const std::string& use = {});
 
 /// UsageError for a value of one of these options that no trajectory can be read with, also where
 /// none is read.
@@ -34,13 +34,13 @@ void addModelOption(CommandLine& line);
 AttitudeUse attitudeUse(const CommandLine& line);
 
 /// Those of them that state what is known of the files.
-void addTrajectoryOptions(CommandLine& line, const char* use = "needed");
+void addTrajectoryOptions(CommandLine& line, const std::string& use = {});
 
-/// The values of -trajectory. UsageError without any.
+/// The values of -trajectory.
 std::vector<std::filesystem::path> trajectoryFiles(const CommandLine& line);
 
 /// Declares -accuracy; \a use: what the accuracies are for.
-void addAccuracyOption(CommandLine& line, const char* use);
+void addAccuracyOption(CommandLine& line, const std::string& use);
 /// The records of its file; empty without it.
 std::vector<TrajectoryAccuracy> accuracies(const CommandLine& line);
 

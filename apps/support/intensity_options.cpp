@@ -8,6 +8,7 @@
 #include <pcl_als/io/survey_io.h>
 
 #include "flight_options.h"
+#include "report_options.h"
 #include "strip_options.h"
 
 namespace pcl_als::app {
@@ -15,14 +16,14 @@ namespace {
 
 void addModelOptions(CommandLine& line) {
   const RadiometricModel model;
-  line.add<double>("reference_range", "range that intensities are referred to, m",
-                   model.reference_range);
-  line.add<double>("range_exponent", "power of range, 0 to 6", model.range_exponent);
-  line.add<double>("incidence_exponent", "power of cos(incidence), 0 to 4",
-                   model.incidence_exponent);
-  line.add<double>("largest_incidence",
-                   "largest incidence angle, degrees; larger ones are limited to it and counted",
-                   model.largest_incidence);
+  line.addNumber("reference_range", "range that intensities are referred to", model.reference_range,
+                 {1.0, 20000.0, "m"});
+  line.addNumber("range_exponent", "power of range", model.range_exponent, {0.0, 6.0});
+  line.addNumber("incidence_exponent", "power of cos(incidence)", model.incidence_exponent,
+                 {0.0, 4.0});
+  line.addNumber("largest_incidence",
+                 "largest incidence angle; larger ones are limited to it and counted",
+                 model.largest_incidence, {1.0, 89.0, "degrees"});
   line.addFlag("no_range", "leave the range term out");
   line.addFlag("no_incidence", "leave the incidence term out");
   line.addFlag("no_atmosphere", "leave the atmosphere out");
@@ -30,65 +31,74 @@ void addModelOptions(CommandLine& line) {
 
 void addAirOptions(CommandLine& line) {
   const Atmosphere air;
-  line.add<double>("visibility", "visibility, km (models of Kruse and Kim)", air.visibility_km);
-  line.add<double>("temperature", "air temperature, C", air.temperature_c);
-  line.add<double>("pressure", "air pressure, kPa", air.pressure_kpa);
-  line.add<double>("humidity", "relative humidity, %", air.relative_humidity);
-  line.add<double>("wavelength", "wavelength of the laser, nm, 500 to 1650", air.wavelength_nm);
-  line.addOptional("attenuation", "attenuation, dB/km, one way, instead of the weather");
+  line.addNumber("visibility", "visibility (models of Kruse and Kim)", air.visibility_km,
+                 {0.01, 500.0, "km"});
+  line.addNumber("temperature", "air temperature", air.temperature_c, {-60.0, 60.0, "C"});
+  line.addNumber("pressure", "air pressure", air.pressure_kpa, {20.0, 120.0, "kPa"});
+  line.addNumber("humidity", "relative humidity", air.relative_humidity, {0.0, 100.0, "%"});
+  line.addNumber("wavelength", "wavelength of the laser", air.wavelength_nm, {500.0, 1650.0, "nm"});
+  line.addNumber("attenuation", "attenuation, one way, instead of the weather", {},
+                 {0.0, 1000.0, "dB/km"});
 }
 
 void addGainOptions(CommandLine& line) {
-  line.addOptional("gains",
-                   "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
-  line.addOptional("pulse_rates",
-                   "STRIP=HZ,…: pulse rates of all strips; the pulse energy is inversely "
-                   "proportional (constant power)");
-  line.addOptional("agc_field", "extra field of the LAS points with the value of the gain control");
-  line.addOptional("agc_gain",
-                   "CSV value,gain: the gain at values of -agc_field, interpolated linearly");
-  line.addOptional("saturation",
-                   "digital number at which intensity is saturated (default: 255 where none is "
-                   "greater, else 65535)");
+  line.addText("gains", "STRIP=FACTOR,…: known gains of strips; intensities are divided by them");
+  line.addText("pulse_rates",
+               "STRIP=HZ,…: pulse rates of all strips; the pulse energy is inversely "
+               "proportional (constant power)");
+  line.addText("agc_field", "extra field of the LAS points with the value of the gain control");
+  line.makeDependent("agc_field", "agc_gain");
+  line.makeDependent("agc_gain", "agc_field");
+  line.addInputFile("agc_gain",
+                    "CSV value,gain: the gain at values of -agc_field, interpolated linearly");
+  line.addNumber("saturation",
+                 "digital number at which intensity is saturated, in place of 255 where none is "
+                 "greater, else 65535",
+                 {}, {1.0, 65535.0});
 }
 
 void addSurfaceOptions(CommandLine& line) {
   const LocalSurfaceSettings surfaces;
-  line.add<double>(
-      "surface_radius",
-      "radius of the local planes in plan, m; 0: that of 16 points, at least the footprint",
-      surfaces.radius);
-  line.add<double>("surface_tolerance", "largest distance of points on a local plane, m",
-                   surfaces.tolerance);
-  line.add<double>("divergence", "divergence of the beam, mrad", 0.3);
+  line.addNumber("surface_radius",
+                 "radius of the local planes in plan; 0: that of 16 points, at least the footprint",
+                 surfaces.radius, {0.0, 1000.0, "m"});
+  line.addNumber("surface_tolerance", "largest distance of points on a local plane",
+                 surfaces.tolerance, {0.001, 10.0, "m"});
+  line.addNumber("divergence", "divergence of the beam", 0.3, {0.0, 10.0, "mrad"});
 }
 
 void addOverlapOptions(CommandLine& line) {
-  line.addOptional(
+  line.addText(
       "estimate",
       "terms to estimate from overlaps: a list of range_exponent, incidence_exponent, extinction, "
       "strip_gains, or all; terms that the overlaps do not determine keep their given value");
-  line.add<double>("cell", "cell size for the comparison of strips, m; 0: that of 6 points", 0.0);
-  line.addOptional("radiometry", "JSON of an earlier run: its model, gains and constant are used");
-  line.addOptional(
+  line.addNumber("cell", "cell size for the comparison of strips; 0: that of 6 points", 0.0,
+                 {0.0, 100.0, "m"});
+  line.addInputFile("radiometry", "JSON of an earlier run: its model, gains and constant are used");
+  line.exclude({"radiometry", "estimate"});
+  line.addInputFile(
       "targets",
       "reference targets, CSV x,y,reflectance[,id][,sigma]: reflectance is written as well");
   addUnitsOption(line, "targets", "-targets");
-  line.add<double>("target_radius", "radius within which points belong to a target, m", 1.0);
+  line.addNumber("target_radius", "radius within which points belong to a target", 1.0,
+                 {0.01, 1000.0, "m"});
 }
 
 void addOutputOptions(CommandLine& line) {
-  line.addOptional("corrected", "folder for the corrected files; all files named are then inputs");
-  line.add<double>("scale", "factor on corrected intensities in the 16-bit field", 1.0);
+  line.addOutputFolder("corrected",
+                       "folder for the corrected files; all files named are then inputs",
+                       copiesOfInputs());
+  line.addNumber("scale", "factor on corrected intensities in the 16-bit field", 1.0, {1e-6, 1e6});
   line.addFlag("no_original", "do not keep the original intensity as extra bytes");
   line.addFlag("no_fields", "do not add range, incidence angle and reflectance as extra bytes");
   line.addFlag("keep_uncovered",
                "leave any number of points without a trajectory unchanged (default: up to 1 % of a "
                "file, which are counted; a file with more is refused)");
-  line.addOptional("json", "file for model, uncertainties, counts and statistics");
-  line.addOptional("report",
-                   "folder for report.html (pictures inside), report.md and tables as CSV on the "
-                   "effect of the correction");
+  line.addOutputFile("json", "file for model, uncertainties, counts and statistics", {".json"});
+  addReportOption(line,
+                  "folder for report.html (pictures inside), report.md and tables as CSV on the "
+                  "effect of the correction",
+                  {"slopes.csv", "classes.csv", "strips.csv", "histograms.csv"});
 }
 
 void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {
@@ -108,8 +118,8 @@ void setEstimates(const CommandLine& line, OverlapSettings& overlaps) {
   }
 }
 
-std::map<std::string, double> valuesByStrip(const CommandLine& line, const char* option, double low,
-                                            double high) {
+std::map<std::string, double> valuesByStrip(const CommandLine& line, const std::string& option,
+                                            double low, double high) {
   if (!line.has(option)) return {};
   return line.parsed(option,
                      [=](const std::string& text) { return stripValuesIn(text, low, high); });
@@ -118,28 +128,25 @@ std::map<std::string, double> valuesByStrip(const CommandLine& line, const char*
 IntensitySettings intensitySettings(const CommandLine& line, double extinction_per_km) {
   IntensitySettings settings;
   RadiometricModel& model = settings.model;
-  model.reference_range = line.number("reference_range", 1.0, 20000.0, "m");
-  model.range_exponent = line.number("range_exponent", 0.0, 6.0, "(exponent)");
-  model.incidence_exponent = line.number("incidence_exponent", 0.0, 4.0, "(exponent)");
-  model.largest_incidence = line.number("largest_incidence", 1.0, 89.0, "degrees");
+  model.reference_range = line.number("reference_range");
+  model.range_exponent = line.number("range_exponent");
+  model.incidence_exponent = line.number("incidence_exponent");
+  model.largest_incidence = line.number("largest_incidence");
   model.extinction_per_km = extinction_per_km;
   if (line.has("no_range")) model.range_exponent = 0.0;
   if (line.has("no_incidence")) model.incidence_exponent = 0.0;
-  settings.surfaces.radius = line.number("surface_radius", 0.0, 1000.0, "m");
-  settings.surfaces.tolerance = line.number("surface_tolerance", 0.001, 10.0, "m");
-  settings.footprint_mrad = line.number("divergence", 0.0, 10.0, "mrad");
-  settings.cell = line.number("cell", 0.0, 100.0, "m");
+  settings.surfaces.radius = line.number("surface_radius");
+  settings.surfaces.tolerance = line.number("surface_tolerance");
+  settings.footprint_mrad = line.number("divergence");
+  settings.cell = line.number("cell");
   setEstimates(line, settings.overlaps);
   settings.gains = valuesByStrip(line, "gains", 1e-6, 1e6);
   settings.pulse_rates = valuesByStrip(line, "pulse_rates", 1.0, 1e9);
-  if (line.has("agc_field") != line.has("agc_gain"))
-    throw UsageError("options -agc_field and -agc_gain: give both or none");
   if (line.has("agc_field")) {
     settings.gain_control = line.text("agc_field");
     settings.gain_steps = readGainSteps(line.text("agc_gain"));
   }
-  if (line.has("saturation"))
-    settings.saturation = numberIn(line.text("saturation"), "option -saturation", 1.0, 65535.0);
+  if (line.has("saturation")) settings.saturation = line.number("saturation");
   settings.keep_uncovered = line.has("keep_uncovered");
   settings.strips = stripChoice(line);
   settings.statistics = line.has("json") || line.has("report");
@@ -154,7 +161,7 @@ IntensitySettings intensitySettings(const CommandLine& line, double extinction_p
 
 IntensityOutput intensityOutput(const CommandLine& line) {
   IntensityOutput output;
-  output.scale = line.number("scale", 1e-6, 1e6, "(factor)");
+  output.scale = line.number("scale");
   output.keep_original = !line.has("no_original");
   output.extra_fields = !line.has("no_fields");
   return output;
@@ -178,16 +185,14 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
     return choice;
   }
   if (line.has("attenuation")) {
-    choice.per_km = line.parsed("attenuation", [](const std::string& text) {
-      return extinctionFromDecibel(numberIn(text, "dB/km", 0.0, 1000.0));
-    });
+    choice.per_km = extinctionFromDecibel(line.number("attenuation"));
   } else {
     Atmosphere air;
-    air.visibility_km = line.number("visibility", 0.01, 500.0, "km");
-    air.temperature_c = line.number("temperature", -60.0, 60.0, "C");
-    air.pressure_kpa = line.number("pressure", 20.0, 120.0, "kPa");
-    air.relative_humidity = line.number("humidity", 0.0, 100.0, "%");
-    air.wavelength_nm = line.number("wavelength", 500.0, 1650.0, "nm");
+    air.visibility_km = line.number("visibility");
+    air.temperature_c = line.number("temperature");
+    air.pressure_kpa = line.number("pressure");
+    air.relative_humidity = line.number("humidity");
+    air.wavelength_nm = line.number("wavelength");
     choice.air = air;
     choice.parts = extinctionOf(air);
     choice.per_km = choice.parts.total();
@@ -197,12 +202,10 @@ ExtinctionChoice extinctionChoice(const CommandLine& line) {
 }
 
 IntensityOptions intensityOptions(const CommandLine& line, double extinction_per_km) {
-  if (line.has("radiometry") && line.has("estimate"))
-    throw UsageError("options -radiometry and -estimate exclude each other");
   IntensityOptions options;
   options.settings = intensitySettings(line, extinction_per_km);
   options.output = intensityOutput(line);
-  options.target_radius = line.number("target_radius", 0.01, 1000.0, "m");
+  options.target_radius = line.number("target_radius");
   if (line.has("radiometry")) options.stored = readIntensityJson(line.text("radiometry"));
   if (line.has("targets"))
     options.targets = readReferenceTargets(line.text("targets"), unitOption(line, "targets"));

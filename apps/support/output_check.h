@@ -6,17 +6,38 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
+
 namespace pcl_als::app {
 
-/// Checks an output before the computation: InputError unless the file's folder is
-/// there and can be written to.
-void checkWritable(const std::filesystem::path& file);
+/// The files of a command: those that it reads and those that it writes.
+struct CommandFiles {
+  struct Input {
+    std::string option;  ///< empty: a positional argument
+    std::filesystem::path path;
+  };
+  struct Output {
+    std::string option;  ///< empty: the positional argument
+    std::filesystem::path path;
+    std::vector<std::string> extensions;  ///< of a file
+    bool is_folder = false;
+    std::vector<std::string> files;  ///< in a folder: names, with * for any characters
+  };
+  std::vector<Input> inputs;
+  std::vector<Output> outputs;
+};
+CommandFiles filesOf(const CommandLine& line);
 
-/// Makes the folder that an option names; InputError naming the option where that cannot be.
-void makeOutputFolder(const std::string& option, const std::filesystem::path& folder);
+/** \brief Refuses a command whose outputs would replace files that it must not replace, before it
+ * reads one.
+ *
+ * UsageError where an output has an extension that the tool does not write, is an input (by any
+ * path, symbolic or hard link) or another output, or where a file that is written into a folder
+ * would replace one that the tools did not write there.
+ */
+void refuseLosses(const CommandFiles& files);
 
-/// UsageError naming the option when its file is one that is read.
-void refuseInput(const std::string& option, const std::filesystem::path& output,
-                 const std::vector<std::filesystem::path>& inputs);
+/// InputError where an output cannot be written.
+void checkWritable(const CommandFiles& files);
 
 }  // namespace pcl_als::app

@@ -17,7 +17,4 @@ void addSizeOption(CommandLine& line);
 /// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384, 40 million pixels at most.
 PictureSize sizeOf(const CommandLine& line);
 
-/// The file of -output, which can be written and ends in .png; UsageError or InputError.
-std::string pictureFile(const CommandLine& line);
-
 }  // namespace pcl_als::app

@@ -27,7 +27,7 @@ class NoText : public std::streambuf {
 };
 
 /// The body in one of several processes; what ends one ends all.
-int runAmong(MpiCommunicator& all, const std::string& tool, const std::function<int()>& body) {
+int runAmong(MpiCommunicator& all, const CommandLine& line, const std::function<int()>& body) {
   std::exception_ptr failure;
   int status = kDone;
   try {
@@ -38,25 +38,25 @@ int runAmong(MpiCommunicator& all, const std::string& tool, const std::function<
   try {
     if (!all.conclude(failure)) {
       std::cerr.rdbuf(std::clog.rdbuf());  // this process failed alone
-      all.abort(reportFailure(tool, failure));
+      all.abort(reportFailure(line, failure));
     }
   } catch (...) {
-    status = reportFailure(tool, std::current_exception());
+    status = reportFailure(line, std::current_exception());
   }
   std::cout.flush();
   return all.isRoot() ? status : kDone;
 }
 
-int runJob(const std::string& tool, const std::function<int()>& body) {
-  if (!isStartedByMpi()) return run(tool, body);
+int runJob(const CommandLine& line, const std::function<int()>& body) {
+  if (!isStartedByMpi()) return run(line, body);
   NoText none;
   std::streambuf *const out = std::cout.rdbuf(), *const errors = std::cerr.rdbuf();
-  const int status = run(tool, [&] {
+  const int status = run(line, [&] {
     MpiCommunicator all;
     running = &all;
     if (!all.isRoot()) std::cout.rdbuf(&none);
     if (!all.isRoot()) std::cerr.rdbuf(&none);
-    return runAmong(all, tool, body);
+    return runAmong(all, line, body);
   });
   std::cout.rdbuf(out);
   std::cerr.rdbuf(errors);
@@ -71,8 +71,8 @@ Communicator* processes() {
 #else
 namespace {
 
-int runJob(const std::string& tool, const std::function<int()>& body) {
-  return run(tool, [&body] {
+int runJob(const CommandLine& line, const std::function<int()>& body) {
+  return run(line, [&body] {
     const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
     if (size != nullptr && std::string(size) != "1")
       throw UsageError("this build has no MPI (PCL_ALS_WITH_MPI): start it without mpirun");
@@ -90,7 +90,7 @@ Communicator* processes() {
 int runShared(int argc, const char* const* argv, CommandLine (*options)(),
               int (*job)(const CommandLine&)) {
   CommandLine line = options();
-  return runJob(line.tool(), [&] { return line.parse(argc, argv) ? job(line) : kDone; });
+  return runJob(line, [&] { return line.parse(argc, argv) ? job(line) : kDone; });
 }
 
 void addResumeOption(CommandLine& line) {

@@ -37,28 +37,27 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::channels, "channels", "-channels scanner_channel divides them"},
 };
 
-const RemedyOption* optionFor(Remedy remedy) {
+/// The option of the tool; null where it has none.
+const RemedyOption* optionFor(const CommandLine& line, Remedy remedy) {
   for (const RemedyOption& option : kRemedyOptions) {
-    if (option.remedy == remedy) return &option;
+    if (option.remedy == remedy && line.declares(option.option)) return &option;
   }
   return nullptr;
 }
 
 }  // namespace
 
-std::string withOption(const Error& error) {
+std::string withOption(const CommandLine& line, const Error& error) {
   if (dynamic_cast<const DamagedFile*>(&error) != nullptr)
     return error.what() + std::string("; pcl_als_convert -keep_readable saves what is intact");
-  const RemedyOption* option = optionFor(error.remedy());
+  const RemedyOption* option = optionFor(line, error.remedy());
   return option == nullptr ? error.what() : std::string(error.what()) + "; " + option->text;
 }
 
 void nameOptions(const CommandLine& line, Warnings& warnings) {
   for (Warning& warning : warnings) {
-    const RemedyOption* option = optionFor(warning.remedy);
-    if (option != nullptr && line.declares(option->option)) {
-      warning.text.append("; ").append(option->text);
-    }
+    const RemedyOption* option = optionFor(line, warning.remedy);
+    if (option != nullptr) warning.text.append("; ").append(option->text);
     warning.remedy = Remedy::none;
   }
 }

@@ -11,8 +11,8 @@
 
 namespace pcl_als::app {
 
-/// The message of an error, with the option that serves its remedy.
-std::string withOption(const Error& error);
+/// The message of an error, with the option of the tool that serves its remedy, if it has one.
+std::string withOption(const CommandLine& line, const Error& error);
 
 /// Adds the options of the tool to warnings that have a remedy, for all outputs alike.
 void nameOptions(const CommandLine& line, Warnings& warnings);

@@ -6,21 +6,23 @@
 
 namespace pcl_als::app {
 
-ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*>& inputs) {
+void addReportOption(CommandLine& line, const std::string& help, std::vector<std::string> files) {
+  files.insert(files.begin(), {"report.html", "report.md"});
+  line.addOutputFolder("report", help, always(std::move(files)));
+}
+
+ReportOrigin reportOrigin(const CommandLine& line) {
   ReportOrigin origin;
   origin.folder = line.text("report");
   origin.program = line.toolAndVersion();
   for (const auto& [name, value] : line.settings()) origin.settings.emplace_back(name, value);
-  for (const char* option : inputs) {
-    if (!line.has(option)) continue;
-    origin.inputs.push_back(line.text(option));
-    if (std::string(option) == "control") origin.control = controlOf(line);
-  }
+  for (const auto& file : line.optionInputs()) origin.inputs.push_back(file.string());
+  origin.control = controlOf(line);
   return origin;
 }
 
 void addControlOptions(CommandLine& line) {
-  line.addOptional(
+  line.addInputFile(
       "control",
       "control points: CSV id,x,y,z[,sigma], used vertically; a calibration uses planar "
       "patches, rows with nx,ny,nz[,extent], along their normals, and circular targets, rows with "

@@ -10,9 +10,12 @@
 
 namespace pcl_als::app {
 
-/// Provenance of the report of -report: the tool, its settings, the files of \a inputs (names of
-/// options) that are given, and the points of -control.
-ReportOrigin reportOrigin(const CommandLine& line, const std::vector<const char*>& inputs);
+/// Declares -report, with what \a help says the folder is for, and the names of the files that are
+/// written there besides report.html and report.md.
+void addReportOption(CommandLine& line, const std::string& help, std::vector<std::string> files);
+/// Provenance of the report of -report: the tool, its settings, the files that its options read,
+/// and the points of -control.
+ReportOrigin reportOrigin(const CommandLine& line);
 
 /// Declares -control and -control_units.
 void addControlOptions(CommandLine& line);

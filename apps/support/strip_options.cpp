@@ -9,20 +9,22 @@
 namespace pcl_als::app {
 namespace {
 
-std::vector<std::string> namesOf(const CommandLine& line, const char* option) {
+std::vector<std::string> namesOf(const CommandLine& line, const std::string& option) {
   if (!line.has(option)) return {};
   std::vector<std::string> names = splitList(line.text(option));
-  if (names.empty()) throw UsageError("option -" + std::string(option) + ": names no strip");
+  if (names.empty()) throw UsageError("option -" + option + ": names no strip");
   return names;
 }
 
 }  // namespace
 
 void addStripOptions(CommandLine& line, bool split) {
-  line.addOptional("strips",
-                   "use these strips only, e.g. 1,2 (names as pcl_als_info lists them, with -split "
-                   "and -trajectory as here)");
-  line.addOptional("without", "leave these strips out, e.g. 3,4");
+  std::string names = "use these strips only, e.g. 1,2 (names as pcl_als_info lists them";
+  if (split)
+    names += line.declares("trajectory") ? ", with -split and -trajectory as here"
+                                         : ", with -split as here";
+  line.addText("strips", names + ")");
+  line.addText("without", "leave these strips out, e.g. 3,4");
   if (!split) return;
   line.addFlag(
       "split",
@@ -33,9 +35,9 @@ void addStripOptions(CommandLine& line, bool split) {
 }
 
 void addChannelOption(CommandLine& line) {
-  line.addOptional("channels",
-                   "the channels of the scanner are strips of their own (3.ch0, 3.ch1, ...): "
-                   "scanner_channel (LAS 1.4), user_data or an extra-bytes field");
+  line.addText("channels",
+               "the channels of the scanner are strips of their own (3.ch0, 3.ch1, ...): "
+               "scanner_channel (LAS 1.4), user_data or an extra-bytes field");
 }
 
 bool choosesStrips(const CommandLine& line) {

@@ -12,7 +12,7 @@
 namespace pcl_als::app {
 
 /// Adds -strips, -without and, where \a split, -split, which mean the same in every tool that takes
-/// strips.
+/// strips. -trajectory is declared before, where a tool has it.
 void addStripOptions(CommandLine& line, bool split = true);
 /// Adds -channels, which windowOf() and stripChoice() take into account.
 void addChannelOption(CommandLine& line);

@@ -10,7 +10,7 @@
 
 namespace pcl_als::app {
 
-std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
+std::vector<double> numbersOf(const CommandLine& line, const std::string& option, char separator,
                               std::size_t count, double largest) {
   std::vector<double> numbers = numbersIn(line.text(option), separator);
   const bool small = std::all_of(numbers.begin(), numbers.end(),
@@ -22,22 +22,36 @@ std::vector<double> numbersOf(const CommandLine& line, const char* option, char 
   throw UsageError(message.str());
 }
 
-Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option) {
+Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const std::string& option) {
   const std::vector<double> edges = numbersOf(line, option, ',', 4, kFarthest);
   if (!(edges[0] < edges[2] && edges[1] < edges[3])) {
-    throw UsageError("option -" + std::string(option) +
-                     ": XMIN,YMIN,XMAX,YMAX needs the smaller values first");
+    throw UsageError("option -" + option + ": XMIN,YMIN,XMAX,YMAX needs the smaller values first");
   }
   return {Eigen::Vector2d(edges[0], edges[1]), Eigen::Vector2d(edges[2], edges[3])};
 }
 
+std::vector<std::filesystem::path> pointFiles(const CommandLine& line, const std::string& option) {
+  if (!line.has(option)) return {};
+  const std::string value = line.text(option);
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(value, error)) {
+    for (const auto& entry : std::filesystem::directory_iterator(value, error))
+      if (isPointFile(entry.path())) files.push_back(entry.path());
+  } else {
+    for (const std::string& file : splitList(value)) files.emplace_back(file);
+  }
+  return files;
+}
+
 void addWindowOptions(CommandLine& line) {
-  line.addOptional("bounds",
-                   "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges; "
-                   "of COPC files only this part is read");
-  line.addOptional("resolution",
-                   "of COPC files: read the octree up to the level whose points are so far apart, "
-                   "m (default: all points)");
+  line.addText("bounds",
+               "XMIN,YMIN,XMAX,YMAX, m: use the points in this rectangle only, with its edges; "
+               "of COPC files only this part is read");
+  line.addNumber("resolution",
+                 "of COPC files: read the octree up to the level whose points are so far apart, in "
+                 "place of all points",
+                 {}, {1e-6, 1e6, "m"});
   line.addFlag(
       "keep_readable",
       "read what is intact of damaged or truncated LAS and LAZ files, and report how much");
@@ -48,8 +62,7 @@ PointWindow windowOf(const CommandLine& line) {
   if (line.has("bounds")) window.bounds = rectangleOf(line, "bounds");
   window.keep_readable = line.has("keep_readable");
   if (line.has("channels")) window.channel_field = line.text("channels");
-  if (line.has("resolution"))
-    window.resolution = numberIn(line.text("resolution"), "option -resolution", 1e-6, 1e6);
+  if (line.has("resolution")) window.resolution = line.number("resolution");
   return window;
 }
 

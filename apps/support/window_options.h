@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,14 @@ namespace pcl_als::app {
 
 /// \a count numbers of an option, separated by a character, none beyond \a largest in absolute
 /// value; UsageError otherwise.
-std::vector<double> numbersOf(const CommandLine& line, const char* option, char separator,
+std::vector<double> numbersOf(const CommandLine& line, const std::string& option, char separator,
                               std::size_t count, double largest);
 
 /// XMIN,YMIN,XMAX,YMAX of an option, metres; UsageError otherwise.
-Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const char* option);
+Eigen::AlignedBox2d rectangleOf(const CommandLine& line, const std::string& option);
+
+/// The point files that an option names: a folder with them, or files separated by commas.
+std::vector<std::filesystem::path> pointFiles(const CommandLine& line, const std::string& option);
 
 /// Adds -bounds, -resolution and -keep_readable, which mean the same in every tool that reads parts
 /// of files.

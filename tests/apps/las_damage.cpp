@@ -31,13 +31,24 @@ struct Field {
 };
 
 const std::map<std::string, Field> kFields{
-    {"signature", {0, 4, false}},         {"version_minor", {25, 1, false}},
-    {"header_size", {94, 2, false}},      {"offset_to_points", {96, 4, false}},
-    {"vlr_count", {100, 4, false}},       {"point_format", {104, 1, false}},
-    {"record_length", {105, 2, false}},   {"scale_x", {131, 8, true}},
-    {"offset_x", {155, 8, true}},         {"evlr_start", {235, 8, false}},
-    {"evlr_count", {243, 4, false}},      {"point_count", {247, 8, false}},
-    {"vlr_length", {375 + 20, 2, false}}, {"vlr_record", {375 + 18, 2, false}},
+    {"signature", {0, 4, false}},
+    {"version_minor", {25, 1, false}},
+    {"header_size", {94, 2, false}},
+    {"offset_to_points", {96, 4, false}},
+    {"vlr_count", {100, 4, false}},
+    {"point_format", {104, 1, false}},
+    {"record_length", {105, 2, false}},
+    {"scale_x", {131, 8, true}},
+    {"offset_x", {155, 8, true}},
+    {"max_x", {179, 8, true}},
+    {"min_x", {187, 8, true}},
+    {"max_y", {195, 8, true}},
+    {"min_y", {203, 8, true}},
+    {"evlr_start", {235, 8, false}},
+    {"evlr_count", {243, 4, false}},
+    {"point_count", {247, 8, false}},
+    {"vlr_length", {375 + 20, 2, false}},
+    {"vlr_record", {375 + 18, 2, false}},
 };
 
 template <typename T>

@@ -12,7 +12,7 @@ expect 1 "usage" check -output x.json
 expect 1 "output" check "$one" "$two"
 expect 1 "quality_level" check "$one" "$two" -output x.json -quality_level 4
 expect 1 "max_distance" check "$one" "$two" -output x.json -max_distance 0
-expect 1 "unrecognised" check "$one" "$two" -output x.json -sigma 1
+expect 1 "there is no option -sigma" check "$one" "$two" -output x.json -sigma 1
 expect 1 "given twice" check "$one" "$two" "$block/./strip1.las" -output x.json
 expect 2 "no folder" check "$one" "$two" -output nowhere/x.json
 expect 2 "no folder" check "$one" "$two" -output x.json -report "$one/report"
@@ -54,6 +54,21 @@ awk '/^DATA/ { data = 1; print; next } data { $3 += 50; $6 = 6 } { print }' b.pc
 expect 3 "1 and 6: only 0 places*50 in 3 cells of 25 m are required*strip 1 lies 50.0? m below strip 6" check a.pcd lifted.pcd -output lifted.json
 check "the offset is among the warnings" grep -q 'strips 1 and 6 overlap, but strip 1 lies 50.0. m below strip 6.*; -max_distance compares' lifted.json
 expect 0 "1 & 2" check a.pcd b.pcd lifted.pcd -output lifted.json
+# A required level is kept or not: exit status and a field of the result, for a batch.
+expect 0 "" check a.pcd b.pcd -require QL2 -output kept.json
+check "kept.json says so" grep -q '"kept": true' kept.json
+expect 3 "does not keep QL1: strips 1 and 6: not measured" check a.pcd b.pcd lifted.pcd -require QL1 -output missed.json
+check "missed.json says so" awk '/"requirement"/ { found = 1 } /"required_level": "QL1"/ { level = 1 }
+  found && level && /"kept": false/ { kept = 1 } /"strips 2 and 6: not measured/ { reason = 1 }
+  END { exit !(kept && reason) }' missed.json
+awk '/^DATA/ { data = 1; print; next } data { $3 += 0.12; $6 = 7 } { print }' b.pcd >high.pcd
+expect 3 "does not keep QL2: strips 1 and 7: RMSDz 1*.* cm, more than the 8 cm that are allowed" check a.pcd high.pcd -require QL2 -output high.json
+expect 0 "0 of 1 pairs keep QL2" check a.pcd high.pcd -output high.json
+check "without -require the field states it as well" grep -q '"kept": false' high.json
+expect 0 "" check a.pcd high.pcd -require QL3 -output high.json
+expect 3 "no reliable answer" check a.pcd copy.pcd -require QL3 -output copy.json
+expect 1 "QL0, QL1, QL2" check a.pcd b.pcd -require 2 -output x.json
+expect 1 "different levels" check a.pcd b.pcd -require QL2 -quality_level 1 -output x.json
 # An SBET needs a CRS, which these files do not state: the option that does is named.
 head -c 272 /dev/zero >flight.sbet
 expect 1 'name no CRS*give one with -crs' check a.pcd b.pcd -trajectory flight.sbet -output q.json

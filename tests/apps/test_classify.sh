@@ -120,7 +120,7 @@ expect 2 'elsewhere.csv: no check site lies in the rasters' classify "${strips[@
 expect 0 '2 check sites outside of the rasters' classify "${strips[@]}" -training "$training" -checkpoints some_outside.csv -cell 2 -output some.tif
 
 # Wrong usage and unusable files.
-expect 1 'option -output is needed' classify "${strips[@]}" -training "$training"
+expect 1 'options -output and -grids is needed' classify "${strips[@]}" -training "$training"
 expect 1 '-training and -model' classify "${strips[@]}" -output bad.tif
 expect 1 "no band 'colour'" classify "${strips[@]}" -training "$training" -output bad.tif -bands colour
 expect 1 'option -cell' classify "${strips[@]}" -training "$training" -output bad.tif -cell 0

@@ -15,7 +15,7 @@ check "LAS to LAZ to LAS" cmp "$strip" back.las
 check "LAZ is smaller" test "$(stat -c %s packed.laz)" -lt "$(stat -c %s "$strip")"
 
 # The tools read what comes out.
-expect 0 "does not store user data" convert "$strip" strip.pcd
+expect 0 "points" convert "$strip" strip.pcd
 expect 0 "LAZ 1." info packed.laz
 expect 0 "PCD binary" info strip.pcd
 expect 0 "" convert strip.pcd strip.las
@@ -28,7 +28,7 @@ middle=$(awk -v a="$west" -v b="$east" 'BEGIN { printf "%.3f", (a + b) / 2 }')
 expect 0 "points" convert "$strip" west.laz -bounds "$west,$south,$middle,$north"
 expect 0 "" info west.laz -json west.json
 check "the part is smaller" test "$(stat -c %s west.laz)" -lt "$(stat -c %s packed.laz)"
-expect 2 "no point lies within the bounds; *covers x " convert "$strip" none.laz -bounds 0,0,1,1
+expect 2 "no point lies within the bounds; *covers by its header x " convert "$strip" none.laz -bounds 0,0,1,1
 absent none.laz
 expect 1 "-bounds" convert "$strip" none.laz -bounds 1,2,3
 expect 1 "smaller values first" convert "$strip" none.laz -bounds 3,3,1,1
@@ -44,11 +44,11 @@ expect 1 "several inputs need a folder" convert "$block"/strip1.las "$block"/str
 # Wrong usage; inputs stay as they are.
 expect 1 "usage: pcl_als_convert" convert "$strip"
 expect 1 "none of las, laz, pcd" convert "$strip" folder -format txt
-expect 1 "no point file by its name" convert "$strip" points.txt
+expect 1 "does not end in .las, .laz, .pcd" convert "$strip" points.txt
 expect 1 "COPC" convert "$strip" out.copc.laz
 cp "$strip" own.las
-expect 1 "given twice" convert own.las ./own.las
-expect 1 "same file" convert own.las "$PWD"
+expect 1 "is also an input" convert own.las ./own.las
+expect 1 "is also an input" convert own.las "$PWD"
 check "the input is as it was" cmp "$strip" own.las
 expect 2 "there is no such file" convert missing.las out.las
 head -c 100000 packed.laz >cut.laz

@@ -93,6 +93,15 @@ for size in 0 3 100 227 374 400 600 1000 2000; do
   refused cut.laz ''
 done
 
+# The chunk size of the record asks for no memory.
+for kind in old new; do
+  file=${!kind}
+  vlr=$(uint "$file" 94 v)
+  for size in 1 0x7fffffff 0x80000000 0xfffffffe; do
+    lie ${kind}_chunks_$size '' "$file" $((vlr + 54 + 12)) V $size
+  done
+done
+
 # Other formats of points and trajectories.
 printf 'FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1000000000\nHEIGHT 1\nPOINTS 1000000000\nDATA binary\n0123' >lie.pcd
 expect 2 'lie.pcd: ' info lie.pcd
@@ -104,4 +113,25 @@ perl -e 'print pack("a27vvVvvvq<", "RIEGL POSITION&ORIENTATION", 1, 1, 315, 2020
 expect 2 'lie.pof: its header states 1000000000000000 records' info -trajectory lie.pof
 head -c 135 /dev/zero >lie.sbet
 expect 2 'lie.sbet: its size' info -trajectory lie.sbet
+
+# Kinds and sizes of text are looked at first. A file of 68 GB without contents takes no space on the disk.
+head -c 10 "$trajectory" >sparse.csv && truncate -s 68G sparse.csv
+cp sparse.csv sparse.json
+mkfifo pipe.csv
+mkdir folder
+strip=$block/strip1.las
+for input in /dev/zero sparse.csv pipe.csv folder; do
+  expect 2 "$input: " apply "$strip" out.las -trajectory "$input" -biases range_bias=0.1
+  expect 2 "$input: " check "$strip" -control "$input" -output out.json
+  expect 2 "$input: " accuracy "$input" -output out.json
+done
+for input in /dev/zero sparse.json pipe.csv folder; do
+  expect 2 "$input: " apply "$strip" out.las -trajectory "$trajectory" -calibration "$input"
+  expect 2 "$input: " plot "$input" -output plots
+done
+absent out.las out.json
+# A process substitution is a pipe with a program at its other end.
+expect 0 points apply "$strip" piped.las -trajectory <(cat "$trajectory") -biases range_bias=0.1
+expect 0 points apply "$strip" whole.las -trajectory "$trajectory" -biases range_bias=0.1
+check 'a process substitution is read as a file' cmp piped.las whole.las
 finish

@@ -18,6 +18,41 @@ for tool in "$bin"/pcl_als_*; do
   expect 1 "threads" "$verb" -threads -2
 done
 
+# The text of every option speaks of options that the tool has, and is whole on the manual page.
+texts() {  # VERB: the name and the text of every option, as -h prints them
+  "$bin/pcl_als_$1" -h | awk '/^Options/ { on = 1; next } /^Example/ { on = 0 }
+    on && /^  --/ { if (name != "") print name "\t" text; name = $1; text = ""; sub(/^  --[^ ]+/, "")
+                    if (!sub(/^.*  +/, "")) next }
+    on && NF { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0 }
+    END { print name "\t" text }'
+}
+man_page=$here/../../share/cmake/man_page.awk
+for tool in "$bin"/pcl_als_*; do
+  verb=${tool##*/pcl_als_}
+  texts "$verb" >texts.txt
+  "$tool" -h | awk -v tool="pcl_als_$verb" -v version=1 -v manual=page -f "$man_page" >page.1
+  "$tool" -list_options | awk -F'\t' 'NR > 1 && $1 != "IN" && $1 != "OUT" { print $1 } END { print "h" }' >names.txt
+  checks=$((checks + 1))
+  while IFS=$'\t' read -r name text; do
+    [[ -n $text ]] || failed "pcl_als_$verb -h: $name has no text"
+    for other in $(grep -oE "(^|[ (,;])-[a-z][a-z_]*" <<<"$text" | tr -d ' (,;'); do
+      grep -qx -- "${other#-}" names.txt || failed "pcl_als_$verb -h: $name speaks of $other"
+    done
+    shown=$(awk -v name="\\\\-${name#--}" '$1 == ".B" { on = $2 == name; next } /^\./ { on = 0 } on' page.1 |
+      sed 's/\\&//; s/\\-/-/g; s/\\e/\\/g')
+    [[ $shown == "$text" ]] || failed "pcl_als_$verb: the manual page has '$shown' for $name, not '$text'"
+  done <texts.txt
+  [[ $(($(wc -l <texts.txt) + 1)) == $(wc -l <names.txt) ]] || failed "pcl_als_$verb: -h and -list_options differ"
+done
+
+# Options that are needed are missed before a file is read.
+expect 1 "option -output is needed" trajectory "$block/control.csv"
+expect 1 "option -output is needed" trajectory -trajectory none.csv
+expect 1 "option -output is needed" lines none.las
+expect 1 "option -trajectory is needed" apply none.las x.las -calibration none.json
+expect 1 "options -output and -grids is needed" classify none.las -training none.csv
+expect 1 "options -output and -window is needed" view none.las
+
 for tool in apply calibrate info; do expect 1 "usage: pcl_als_$tool" "$tool"; done
 
 # A misspelt option is answered with the nearest one, where there is one.
@@ -70,7 +105,7 @@ expect 1 "wobble" calibrate "${two[@]}" -output x.json -estimate boresight_roll,
 expect 1 "pairs" calibrate "${two[@]}" -output x.json -pairs 1-2
 expect 1 "model" calibrate "${two[@]}" -output x.json -model perfect
 expect 1 "-vertical exclude each other" calibrate "${two[@]}" -output x.json -model rigorous -vertical
-expect 1 "line_fit, seconds*from 0.001 to 60" calibrate "${two[@]}" -output x.json -line_fit 1e9
+expect 1 "-line_fit: '1e9' is not a number from 0.001 to 60 s" calibrate "${two[@]}" -output x.json -line_fit 1e9
 expect 1 "scan_angle_scale: -1 is not between -0.1 and 0.1" apply "$strip" x.las -trajectory "$block/trajectory.csv" \
   -biases scan_angle_scale=-1
 absent x.json

@@ -38,7 +38,10 @@ mkdir dual
 expect 0 "" simulate -output dual -preset dual -scale 0.1 -density 0.05
 rm -rf dual
 rm -f x.json
-expect 2 "/dev/full" apply "$strip" /dev/full "${biases[@]}"
+expect 1 "/dev/full: the name does not end in .las" apply "$strip" /dev/full "${biases[@]}"
+ln -s /dev/full full.las
+expect 2 "full.las: is not a regular file" apply "$strip" full.las "${biases[@]}"
+rm full.las
 check "nothing else was made" test "$(ls -A | tr '\n' ' ')" = "err.txt file out.txt "
 
 # A file that is there already stays as it was when the new one fails.

@@ -42,7 +42,7 @@ if command -v cpack >/dev/null && command -v dpkg-shlibdeps >/dev/null && comman
   }
   holds libpcl-als0 ' ./usr/lib/.*libpcl_als_io\.so\.0'
   holds pcl-als-tools ' ./usr/bin/pcl_als_calibrate$'
-  holds pcl-als-tools ' ./usr/share/man/man1/pcl_als_calibrate\.1$'
+  holds pcl-als-tools ' ./usr/share/man/man1/pcl_als_calibrate\.1\.gz$'
   holds pcl-als-doc ' ./usr/share/doc/pcl_als/share/doc/first_steps\.md$'
   dpkg-deb -x pcl-als-doc_*.deb documentation
   "$sources/tests/documentation/check_links.sh" documentation/usr/share/doc/pcl_als >links.txt ||
@@ -60,6 +60,23 @@ import pcl_als
 with open("/proc/self/maps") as maps:
     assert not [line for line in maps if "libpcl_als" in line and "/root/usr/lib/" not in line]' ||
       failed "the Python package does not run with the libraries of the package"
+  fi
+  for package in *.deb; do
+    name=${package%%_*}
+    for field in 'Maintainer .+ <[^@]+@[^@]+\..+>' 'Homepage https?://.+' 'Source pcl-als'; do
+      dpkg-deb -f "$package" "${field%% *}" | grep -qE "^${field#* }$" || failed "$name: field ${field%% *}"
+    done
+    # A synopsis of its own and a description.
+    dpkg-deb -f "$package" Description | awk 'NR == 1 && /^[a-z].*\(.*\)$/ { n++ } NR > 1 && /^ / { n++ } END { exit n < 3 }' ||
+      failed "$name: description"
+    holds "$name" " ./usr/share/doc/$name/copyright$"
+    holds "$name" " ./usr/share/doc/$name/changelog\.Debian\.gz$"
+  done
+  if command -v lintian >/dev/null; then
+    lintian --allow-root --no-cfg --fail-on error,warning ./*.deb >lintian.txt 2>&1 ||
+      { cat lintian.txt; failed "lintian"; }
+  else
+    echo "SKIPPED: lintian is not installed"
   fi
   dpkg-deb -c libpcl-als0_*.deb >list.txt
   grep -E 'include/|bin/' list.txt && failed "libpcl-als0 holds headers or tools"

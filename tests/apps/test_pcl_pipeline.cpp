@@ -12,9 +12,15 @@
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/io/pcd_io.h>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/filters/impl/system_bias_correction.hpp>
-#include <pcl_als/filters/system_bias_correction.h>
+#include <pcl_als/filters/incidence_selection.h>
+#include <pcl_als/filters/intensity_correction.h>
+#include <pcl_als/filters/overlap_selection.h>
+#include <pcl_als/filters/surface_selection.h>
+#include <pcl_als/registration/correspondence_estimation_point_to_patch.h>
+#include <pcl_als/registration/iterative_closest_patch.h>
 
 #include "test_files.h"
 
@@ -121,6 +127,25 @@ TEST(PclPipeline, PassThroughKeepsEveryBitAndFiltersByOurFields) {
   ASSERT_EQ(chosen.size(), 100U);
   for (std::size_t i = 0; i < chosen.size(); ++i)
     expectSameAttributes(chosen[i], (*strip)[100 + i]);
+}
+
+template <typename Class>
+void expectAllCores(Class settings) {
+  EXPECT_EQ(settings.getNumberOfThreads(), 0);
+  settings.setNumberOfThreads(3);
+  EXPECT_EQ(settings.getNumberOfThreads(), 3);
+  EXPECT_THROW(settings.setNumberOfThreads(-1), UsageError);
+}
+
+TEST(PclPipeline, EveryClassUsesAllCoresByDefault) {
+  expectAllCores(SystemBiasCorrection<PointLidar>());
+  expectAllCores(IntensityCorrection<PointLidar>());
+  expectAllCores(IncidenceSelection<PointLidar>());
+  expectAllCores(OverlapSelection<PointLidar>());
+  expectAllCores(SurfaceSelection<PointLidar>());
+  expectAllCores(IterativeClosestPatch<PointLidar, PointLidar>());
+  expectAllCores(CorrespondenceEstimationPointToPatch<PointLidar, PointLidar>());
+  EXPECT_EQ(SuitablePointsSettings().threads, 0);
 }
 
 TEST(PclPipeline, NormalsOfAPlane) {

@@ -17,7 +17,7 @@ expect 1 "density" plan -lines two.csv -density many
 expect 1 "density and -spacing" plan -lines two.csv -density 1 -spacing 1
 expect 1 "control" plan -lines two.csv -control -1
 expect 1 "wobble" plan -lines two.csv -estimate wobble
-expect 2 "none.csv: no such file" plan -lines none.csv
+expect 2 "none.csv: *there is no such file" plan -lines none.csv
 expect 2 "no folder" plan -lines two.csv -output nowhere/plan.json
 
 : >empty.csv

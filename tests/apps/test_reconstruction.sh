@@ -68,8 +68,8 @@ done
 expect 0 '' check "${strips[@]}" -trajectory reconstruct -output quality.json
 
 expect 1 'pcl_als_trajectory first' apply "${strips[0]}" out2.las -trajectory reconstruct -biases boresight_roll=10
-expect 1 'need -trajectory' trajectory "${strips[0]}" -calibration word.json -output a.csv
-expect 1 'is written as .csv, .sbet or .out' trajectory "${strips[0]}" -output a.txt
+expect 1 'option -calibration needs -trajectory' trajectory "${strips[0]}" -calibration word.json -output a.csv
+expect 1 'does not end in .csv, .sbet, .out' trajectory "${strips[0]}" -output a.txt
 expect 2 'no such file' trajectory absent.las -output a.csv
 absent a.csv a.txt out2.las
 finish

@@ -33,6 +33,29 @@ done
 
 check "the verdict's numbers are quality.json's" quality_agrees check/report.md
 
+# What a report holds is what its tool declares; it is made anew as long as nobody changed it.
+declared() {  # VERB FOLDER: every file in the folder of -report is among those that the tool names
+  local file words
+  words=$("$bin/pcl_als_$1" -list_options | awk -F'\t' '$1 == "report" { print $8 }')
+  for file in "$2"/*; do
+    [[ ,$words, == *",${file##*/},"* ]] || { echo "$1 -list_options does not name $file"; return 1; }
+  done
+}
+check "the files of a calibration's report" declared calibrate report
+check "the files of a check's report" declared check check
+check "the files of an intensity report" declared intensity intensity_report
+again=(corrected/strip{1,2}.las -control "$block/control.csv" -output again.json)
+mkdir mine
+cp "$block/control.csv" mine/control.csv
+expect 1 "mine/control.csv is also an input (-control); name another folder" check "${again[@]::2}" \
+  -control mine/control.csv -output again.json -report mine
+expect 1 "mine/control.csv: would be replaced" check "${again[@]}" -report mine
+check "the user's control points are still there" cmp "$block/control.csv" mine/control.csv
+for time in first second; do expect 0 "report.html" check "${again[@]}" -report again; done
+cp "$block/control.csv" again/control.csv
+expect 1 "again/control.csv: would be replaced" check "${again[@]}" -report again
+check "the user's control points are still there" cmp "$block/control.csv" again/control.csv
+
 # The medians and ratios of the intensity's JSON.
 value_after() {  # PATTERN… : the value of the first line that matches the last, after the others in turn
   awk -v patterns="$(printf '%s\n' "$@")" 'BEGIN { n = split(patterns, wanted, "\n"); at = 1 }
@@ -70,6 +93,8 @@ for words in "The path of the sensor (black)" "Standard deviations of the positi
   "Distances of the rays from the path over their standard deviations"; do
   check "a picture of: $words" grep -q "$words" trajectory_report/report.html
 done
+
+check "the files of a trajectory's report" declared trajectory trajectory_report
 
 # Plots of these very files.
 expect 0 "heights.png" plot quality.json intensity.json -output plots

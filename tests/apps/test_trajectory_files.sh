@@ -125,7 +125,7 @@ if "$bin/pcl_als_trajectory" -trajectory "$csv" -crs EPSG:32611 -output flight.s
 else
   check "a build without PROJ says so" grep -q 'needs PROJ' err.txt
 fi
-expect 1 'a trajectory is written as' trajectory -trajectory "$csv" -output x.txt
+expect 1 'does not end in .csv, .sbet, .out' trajectory -trajectory "$csv" -output x.txt
 expect 1 'give one with -crs' trajectory -trajectory "$csv" -output x.sbet
 expect 1 'option -output: *' trajectory -trajectory "$csv" -output "$csv"
 absent x.txt x.sbet

@@ -150,7 +150,7 @@ expect 2 'its times are whole seconds' apply whole.las out.las -biases boresight
 expect 0 'warning: the heading' "${apply[@]}" -trajectory tail.csv -force
 # Options of a trajectory are checked where none is read, too.
 expect 1 "option -crs: 'nonsense' is not known to PROJ" check "${strips[@]}" -output q.json -crs nonsense
-expect 1 "option -line_fit, seconds: 'long' is not a number" check "${strips[@]}" -output q.json -line_fit long
+expect 1 "option -line_fit: 'long' is not a number from" check "${strips[@]}" -output q.json -line_fit long
 expect 1 "option -trajectory_units: 'miles'" check "${strips[@]}" -output q.json -trajectory_units miles
 # Warnings with a remedy name the options of the tool in every output.
 expect 0 'is not checked; see -control' calibrate "${strips[@]}" -trajectory "$block/trajectory.csv" -output c.json

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_als::app {
+
+class CommandLine;
+
+/// What the value of an option is.
+enum class Role { flag, text, number, whole, choice, input, output, folder };
+
+/// The numbers that an option takes, with their unit ("" for factors and the like).
+struct Range {
+  double low, high;
+  std::string unit = {};
+};
+
+/// The files that an option reads, also one that is not given and has a default file.
+using InputFiles = std::function<std::vector<std::filesystem::path>(const CommandLine&)>;
+
+/** \brief The names of the files that are written into an output folder, without it; `*` stands for
+ * any characters. Nothing where the output is a file in spite of that.
+ */
+using FolderFiles = std::function<std::optional<std::vector<std::string>>(const CommandLine&)>;
+/// Whether a file is a point file by its name (.las, .laz, .pcd).
+bool isPointFile(const std::filesystem::path& file);
+/// Names that are the same whatever the other options.
+FolderFiles always(std::vector<std::string> names);
+/// The names of the point files that are positional arguments.
+FolderFiles copiesOfInputs();
+
+/** \brief An option of a tool with its role, from which follow the checks of its value, of files
+ * that are read against those that are written, and its line in -h.
+ */
+struct Option {
+  std::string name, help;
+  Role role = Role::text;
+  bool is_needed = false;
+  bool is_list = false;               ///< takes the values that follow it, and may be repeated
+  std::optional<std::string> preset;  ///< the value where none is given
+  Range range{0.0, 0.0, {}};          ///< of numbers
+  std::vector<std::string> words;     ///< of a choice; extensions of an output file
+  InputFiles inputs;                  ///< of role input
+  FolderFiles files;                  ///< of an output that is or may be a folder
+
+  /// The command is refused without it.
+  Option& needed() {
+    is_needed = true;
+    return *this;
+  }
+};
+
+/** \brief The arguments of a tool that are no options: input files and, in some tools, an output.
+ *
+ * A tool has one form for commands with the option \a with and one, whose \a with is empty, for all
+ * others.
+ */
+struct Arguments {
+  static constexpr std::size_t kAnyNumber = 100000;
+
+  std::string with;
+  std::size_t least = 0, most = 0;    ///< number of input files
+  std::vector<std::string> out = {};  ///< extensions of the output that follows; empty: none
+  FolderFiles files = {};             ///< where that output may be a folder
+};
+
+}  // namespace pcl_als::app
