@@ -11,6 +11,8 @@ import subprocess
 import sys
 import unittest
 
+import numpy as np
+
 import pcl_als
 from support import BLOCK, CONTROL, STRIPS, TRAJECTORY, FolderTest
 
@@ -42,13 +44,16 @@ class ReadmeTest(FolderTest):
         self.assertLess(max(pair.normal.rms for pair in after if pair.normal.count > 0), 0.04)
 
     def test_page_of_the_module(self):
-        calibrate, arrays = samples("modules/python/README.md")
+        calibrate, coordinates, arrays = samples("modules/python/README.md")
         exec(compile(calibrate, "README.md", "exec"), {})
         values = {}
         ground = pcl_als.read_strips(["strip1.las"])[0].ground()
-        values.update(pcl_als=pcl_als, x=ground[:, 0], y=ground[:, 1], z=ground[:, 2], time=ground[:, 0] * 0)
-        exec(compile(arrays, "README.md", "exec"), values)
-        self.assertLess(abs(values["strip"].ground() - ground).max(), 1e-3)
+        values.update(np=np, pcl_als=pcl_als, x=ground[:, 0], y=ground[:, 1], z=ground[:, 2], time=ground[:, 0] * 0)
+        os.remove("strip1.las")
+        for code in (coordinates, arrays):
+            exec(compile(code, "README.md", "exec"), values)
+            self.assertLess(abs(values["strip"].ground() - ground).max(), 1e-3)
+        self.assertLess(abs(pcl_als.read_strips("strip1.laz")[0].ground() - ground).max(), 1e-3)
 
     def test_page_of_the_manual(self):
         os.symlink(BLOCK, "block")

@@ -3,6 +3,8 @@
 """The package where cmake --install and pip put it."""
 import importlib.util
 import os
+import re
+import shutil
 import site
 import subprocess
 import sys
@@ -30,6 +32,13 @@ def clean_environment(**more):
     return {**kept, **more}
 
 
+def machine_without_index():
+    """Nothing is downloaded, no setting of this machine's pip is used, and python3 is that of the build."""
+    kept = {name: value for name, value in clean_environment().items() if not name.startswith("PIP_")}
+    return {**kept, "PATH": os.path.dirname(sys.executable) + os.pathsep + os.environ["PATH"], "PIP_NO_INDEX": "1",
+            "PIP_CONFIG_FILE": os.devnull}
+
+
 class InstallTest(FolderTest):
     def folders(self, python, **environment):
         done = subprocess.run([python, "-c", PROGRAM, TRAJECTORY, *STRIPS[:2]], capture_output=True, text=True,
@@ -53,20 +62,29 @@ class InstallTest(FolderTest):
         names = os.listdir(package)
         self.assertTrue({"__init__.py", "__init__.pyi", "py.typed"} <= set(names), names)
 
-    @unittest.skipUnless(importlib.util.find_spec("pip") and importlib.util.find_spec("wheel"),
-                         "SKIPPED: no pip or wheel")
-    def test_pip_in_a_virtual_environment(self):
-        subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "venv"], check=True)
-        done = subprocess.run(["venv/bin/pip", "install", "--no-build-isolation", "--no-index", "--config-settings",
-                               "build-dir=" + BUILD, os.path.join(ROOT, "modules/python")], capture_output=True,
-                              text=True, env=clean_environment())
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        package, libraries = self.folders("venv/bin/python")
-        self.assertTrue(package.startswith("venv/lib/python3"), package)
-        self.assertEqual(libraries, package)
-        shown = subprocess.run(["venv/bin/pip", "show", "pcl_als"], capture_output=True, text=True).stdout
+    @unittest.skipUnless(importlib.util.find_spec("ensurepip"), "SKIPPED: no python3-venv")
+    def test_the_documented_commands_install_into_a_virtual_environment(self):
+        with open(os.path.join(ROOT, "modules/python/README.md"), encoding="utf-8") as page:
+            blocks = re.findall(r"^```sh\n(.*?)^```$", page.read(), re.MULTILINE | re.DOTALL)
+        blocks = [block for block in blocks if "pip install" in block]
+        self.assertEqual(len(blocks), 2)
+        for name in ("CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md"):
+            shutil.copy(os.path.join(ROOT, name), name)
+        for name in ("apps", "modules", "share"):
+            shutil.copytree(os.path.join(ROOT, name), name)
+        os.symlink(BUILD, "build")
+        for block in blocks:
+            done = subprocess.run(["sh", "-e", "-c", block], capture_output=True, text=True, env=machine_without_index())
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("Successfully installed pcl_als", done.stdout.replace("pcl-als", "pcl_als"))
+            package, libraries = self.folders("venv/bin/python")
+            self.assertTrue(package.startswith("venv/lib/python3"), package)
+            self.assertEqual(libraries, package)
+        shown = subprocess.run(["venv/bin/pip", "show", "--files", "pcl_als"], capture_output=True, text=True).stdout
         self.assertIn("License: BSD-3-Clause", shown)
-        self.assertFalse(os.path.exists(os.path.join(ROOT, "modules/python/build")))
+        self.assertIn("pcl_als/__init__.pyi", shown)
+        self.assertEqual([name for name in os.listdir(".") if name.startswith("build-")], [])
+        self.assertFalse(os.path.exists("modules/python/build"))
 
 
 if __name__ == "__main__":

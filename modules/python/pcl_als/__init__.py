@@ -5,8 +5,10 @@
 Lengths are metres, angles radians where nothing else is stated, times seconds; coordinates are
 those of the ground frame of the points (easting, northing, height).
 """
-from . import _pcl_als
-from ._pcl_als import *  # noqa: F401,F403
+from . import _arguments, _results
 from ._pcl_als import __version__
 
-__all__ = sorted(name for name in vars(_pcl_als) if not name.startswith("_"))
+_names = _arguments.check_module()
+_results.add_to_module()
+globals().update(_names)
+__all__ = sorted(_names)

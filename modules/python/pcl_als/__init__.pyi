@@ -3,7 +3,7 @@
 # Made by share/dev/python_stubs.py; not to be edited.
 import os
 import pathlib
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union, overload
+from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike
@@ -46,6 +46,9 @@ class Alignment:
         """their standard deviations; NaN: not determined"""
     def to_dict(self) -> Any:
         """The content of the result file of pcl_als_icpatch as dictionaries and lists."""
+    def to_frame(self) -> Any:
+        """The six parameters as a pandas.DataFrame; as a dictionary of columns where pandas is
+        missing."""
     @property
     def transformation(self) -> numpy.ndarray:
         """4 x 4, from source to target, ground frame"""
@@ -162,6 +165,9 @@ class CalibrationResult:
         """all systems where there are several; parameters are those of the first one"""
     def to_dict(self) -> Any:
         """The content of calibration.json as dictionaries and lists; angles in arc-seconds."""
+    def to_frame(self, table: str = 'parameters') -> Any:
+        """A table as a pandas.DataFrame; as a dictionary of columns where pandas is missing.
+        table: 'parameters', 'pairs', 'control' or 'diagnosis'."""
     @property
     def verdict(self) -> CalibrationVerdict: ...
     @property
@@ -192,12 +198,12 @@ class CalibrationSettings:
     def estimate(self) -> List[str]:
         """names of the parameters to estimate; empty: all that the data determine"""
     @estimate.setter
-    def estimate(self, value: Sequence[str]) -> None: ...
+    def estimate(self, value: Iterable[str]) -> None: ...
     @property
     def fixed(self) -> List[str]:
         """strips that are held fixed: an earlier delivery, which is not corrected"""
     @fixed.setter
-    def fixed(self, value: Sequence[str]) -> None: ...
+    def fixed(self, value: Iterable[str]) -> None: ...
     @property
     def fixed_sigma(self) -> float:
         """standard deviation of the error that fixed strips share, m, each axis"""
@@ -236,7 +242,7 @@ class CalibrationSettings:
         """what systems have of their own: names of parameters, 'boresight', 'lever_arm',
         'offset'"""
     @own.setter
-    def own(self, value: Sequence[str]) -> None: ...
+    def own(self, value: Iterable[str]) -> None: ...
     @property
     def pair_budget(self) -> int:
         """largest number of pairs that are adjusted; 0: all"""
@@ -260,7 +266,7 @@ class CalibrationSettings:
     def systems(self) -> List[Tuple[str, List[str]]]:
         """systems with parameters of their own: name and strips of each; empty: one"""
     @systems.setter
-    def systems(self, value: Sequence[Tuple[str, Sequence[str]]]) -> None: ...
+    def systems(self, value: Iterable[Tuple[str, Iterable[str]]]) -> None: ...
     @property
     def threads(self) -> int:
         """0: all cores; results do not depend on it"""
@@ -290,6 +296,13 @@ class CheckResult:
     def block(self) -> CheckedBlock:
         """the set that was checked"""
     @property
+    def kept(self) -> bool:
+        """whether the delivery keeps the required level: every overlapping pair is measured and
+        within the limit, and so is control where it was given"""
+    @property
+    def not_kept_because(self) -> List[str]:
+        """why the delivery does not keep the required level: every pair and figure"""
+    @property
     def quality_level(self) -> int:
         """that was required"""
     @property
@@ -300,6 +313,9 @@ class CheckResult:
         """whether there is a reliable result: an assessed pair, or a control point"""
     def to_dict(self) -> Any:
         """The content of quality.json as dictionaries and lists."""
+    def to_frame(self) -> Any:
+        """The pairs of strips as a pandas.DataFrame; as a dictionary of columns where pandas is
+        missing."""
 
 class CheckSettings:
     """Settings of a check; attributes may be given as keywords."""
@@ -355,6 +371,9 @@ class CheckedBlock:
     def pairs(self) -> List[CheckedPair]: ...
     @property
     def strips(self) -> List[str]: ...
+    def to_frame(self) -> Any:
+        """The pairs of strips as a pandas.DataFrame; as a dictionary of columns where pandas is
+        missing."""
     @property
     def warnings(self) -> List[str]: ...
 
@@ -398,7 +417,26 @@ class ClassModel:
         """Covariance of a class, bands x bands; a new array."""
     def mean(self, index: int) -> numpy.ndarray:
         """Mean of a class by band, in the units of the bands; a new array."""
+    def statistics(self, index: int) -> ClassStatistics:
+        """Statistics of a class."""
     def write(self, path: _Path) -> None: ...
+
+class ClassStatistics:
+    """A class as a normal distribution over bands."""
+    @property
+    def covariance(self) -> numpy.ndarray:
+        """bands x bands"""
+    @property
+    def mean(self) -> numpy.ndarray:
+        """by band, in the units of the bands"""
+    @property
+    def name(self) -> str: ...
+    @property
+    def prior(self) -> float:
+        """probability"""
+    @property
+    def samples(self) -> int:
+        """from which it was estimated"""
 
 class ControlFit:
     """Heights of a strip above control points; m."""
@@ -530,6 +568,9 @@ class Flight:
     @property
     def start_time(self) -> float:
         """s"""
+    def to_frame(self) -> Any:
+        """The samples as a pandas.DataFrame; as a dictionary of columns where pandas is
+        missing."""
 
 class FlightLine:
     """A planned flight line, straight and level; attributes may be given as keywords."""
@@ -624,6 +665,9 @@ class IntensityResult:
     def reliable(self) -> bool: ...
     def to_dict(self) -> Any:
         """The content of the JSON file of pcl_als_intensity as dictionaries and lists."""
+    def to_frame(self) -> Any:
+        """The gains of the strips as a pandas.DataFrame; as a dictionary of columns where
+        pandas is missing."""
     @property
     def warnings(self) -> List[str]: ...
 
@@ -640,7 +684,7 @@ class IntensitySettings:
         """terms to estimate from overlaps: 'range_exponent', 'incidence_exponent',
         'extinction', 'strip_gains'"""
     @estimate.setter
-    def estimate(self, value: Sequence[str]) -> None: ...
+    def estimate(self, value: Iterable[str]) -> None: ...
     @property
     def footprint_mrad(self) -> float:
         """divergence of the beam"""
@@ -697,7 +741,7 @@ class LandCover:
     def confusion(self) -> Optional[numpy.ndarray]:
         """numbers of check sites, [classified, reference]; None without them"""
     @property
-    def model(self) -> Optional[ClassModel]:
+    def model(self) -> ClassModel:
         """given or trained; None where only rasters were made"""
     @property
     def overall_accuracy(self) -> Optional[float]:
@@ -708,6 +752,9 @@ class LandCover:
     def remarks(self) -> List[str]: ...
     def to_dict(self) -> Any:
         """The content of accuracy.json as dictionaries and lists; empty without check sites."""
+    def to_frame(self) -> Any:
+        """The cells of each class as a pandas.DataFrame; as a dictionary of columns where
+        pandas is missing."""
     @property
     def undetermined(self) -> List[str]:
         """classes whose training samples do not suffice"""
@@ -825,10 +872,14 @@ class Parameter:
     def bias(self) -> float:
         """assumed - true"""
     @property
+    def determined(self) -> bool:
+        """False for an estimate that tells nothing: within two standard deviations of zero, one of
+        which moves points by more than 8 cm"""
+    @property
     def name(self) -> str: ...
     @property
     def reason(self) -> str:
-        """why it is not estimated; else empty"""
+        """why it is not estimated, or not determined; else empty"""
     @property
     def status(self) -> str:
         """'estimated', 'fixed' or 'not_estimable'"""
@@ -861,6 +912,9 @@ class PlanResult:
     def lines(self) -> List[FlightLine]: ...
     def to_dict(self) -> Any:
         """The content of plan.json as dictionaries and lists."""
+    def to_frame(self) -> Any:
+        """The expected parameters as a pandas.DataFrame; as a dictionary of columns where
+        pandas is missing."""
 
 class PointWindow:
     """The part of point files that is read, and how."""
@@ -869,7 +923,7 @@ class PointWindow:
     def bounds(self) -> Optional[List[float]]:
         """rectangle x_min, y_min, x_max, y_max in the ground frame, m; None: all points"""
     @bounds.setter
-    def bounds(self, value: Optional[Sequence[float]]) -> None: ...
+    def bounds(self, value: Optional[Iterable[float]]) -> None: ...
     @property
     def channel_field(self) -> str:
         """field with the channel of the scanner: 'user_data' or an extra field"""
@@ -1056,18 +1110,30 @@ class Strip:
     """One flight line in memory. Points are a structured array of dtype POINT (48 bytes): x, y,
     z in metres relative to origin (float32), gps_time in s, intensity as digital number,
     scan_angle in degrees, point_source_id, return_number, number_of_returns, classification
-    (ASPRS code), flags (bits: synthetic, key point, withheld, overlap; scanner channel)."""
-    def __init__(self, points: ArrayLike, id: str = '1', origin: ArrayLike = ..., crs: str = '') -> None:
+    (ASPRS code), flags (bits: synthetic, key point, withheld, overlap; scanner channel),
+    user_data."""
+    def __init__(self, points: ArrayLike, id: str = '1', origin: Optional[ArrayLike] = None, crs: str = '') -> None:
         """A strip of a structured array. An array of empty_points() or of Strip.points, as a
         whole, is used without a copy; any other array is copied by the names of its fields, of
-        which x, y and z (metres relative to origin) are needed. UsageError for an array without
-        them."""
+        which x, y and z (metres) are needed; fields that POINT lacks become extra. x, y and z
+        are relative to origin. Without an origin, coordinates that are not float32 are those of
+        the ground frame, and where they reach further than 4 km the origin is the multiple of
+        10 m at the middle of the strip; else it is zero. UsageError for an array without x, y
+        and z, and where float32 would round them by more than 1 mm."""
     def __len__(self) -> int: ...
     @property
     def crs(self) -> str:
         """coordinate reference system: WKT or 'EPSG:...'; empty when unknown"""
     @crs.setter
     def crs(self, value: str) -> None: ...
+    @property
+    def extra(self) -> Mapping[str, numpy.ndarray]:
+        """Further fields of the points by name: red, green, blue, nir (16 bits), user_data (8
+        bits), extra bytes. They are read with read_strips(..., extra=True) and written by
+        write_points(). New arrays that cannot be written to; to change fields, assign a new
+        mapping."""
+    @extra.setter
+    def extra(self, value: Mapping[str, ArrayLike]) -> None: ...
     def ground(self) -> numpy.ndarray:
         """Coordinates in the ground frame (easting, northing, height; m): a new array, n x
         3."""
@@ -1085,13 +1151,16 @@ class Strip:
     def points(self) -> numpy.ndarray:
         """The points as an array of dtype POINT on the memory of the strip, without a copy:
         changes of the array change the strip. It stays valid without the strip."""
+    def to_frame(self) -> Any:
+        """The points, in the ground frame, as a pandas.DataFrame; as a dictionary of columns
+        where pandas is missing."""
 
 class StripChoice:
     """Choice of the strips that are used; a list of names does as well."""
     @overload
     def __init__(self, **kwargs) -> None: ...
     @overload
-    def __init__(self, only: Sequence[str]) -> None: ...
+    def __init__(self, only: Iterable[str]) -> None: ...
     @property
     def by_channel(self) -> bool:
         """the channels of the scanner are strips of their own: 3.ch0, 3.ch1"""
@@ -1106,7 +1175,7 @@ class StripChoice:
     def only(self) -> List[str]:
         """names of the strips that are used; empty: all"""
     @only.setter
-    def only(self, value: Sequence[str]) -> None: ...
+    def only(self, value: Iterable[str]) -> None: ...
     @property
     def split(self) -> bool:
         """cut files without source ids into flight lines at gaps and turns"""
@@ -1116,12 +1185,12 @@ class StripChoice:
     def without(self) -> List[str]:
         """names of strips to leave out"""
     @without.setter
-    def without(self, value: Sequence[str]) -> None: ...
+    def without(self, value: Iterable[str]) -> None: ...
 
 class Survey:
     """The points of a survey as strips, from files (.las, .laz, .pcd) that jobs read when they
     need them, in constant memory. One survey serves several jobs, one at a time."""
-    def __init__(self, files: Sequence[_Path], *, window: PointWindow = ..., threads: int = 0) -> None:
+    def __init__(self, files: Union[_Path, Iterable[_Path]], *, window: PointWindow = ..., threads: int = 0) -> None:
         """Reads all files once (ids, times, extents). threads: 0: all cores; results do not
         depend on it. InputError for a file that cannot be read or does not belong to the
         others."""
@@ -1141,6 +1210,9 @@ class Survey:
     @property
     def strips(self) -> List[str]:
         """names of the strips; after a job those that it used"""
+    def to_frame(self) -> Any:
+        """The strips as a pandas.DataFrame; as a dictionary of columns where pandas is
+        missing."""
 
 class SurveyArea:
     """A square of ground in which strips are compared."""
@@ -1169,7 +1241,7 @@ class SystemEstimate:
 class UsageError(Error, ValueError):
     """A wrong argument or an impossible value; also a ValueError."""
 
-def calibrate(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], trajectory: Union[Flight, _Path, Sequence[_Path]], *, control: Union[None, _Path, Sequence[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Sequence[str]] = ..., pairs: Sequence[Tuple[str, str]] = [], references: Sequence[str] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
+def calibrate(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], trajectory: Union[Union[_Path, Iterable[_Path]], Flight], *, control: Union[None, _Path, Iterable[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., pairs: Iterable[Tuple[str, str]] = [], references: Iterable[str] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
     """Estimates boresight angles, lever arm, range bias and scan angle scale from overlapping
     strips (Habib et al. 2011), as pcl_als_calibrate does. points: files, strips in memory or a
     Survey; trajectory: as delivered; control: points or their CSV file; pairs: of strips,
@@ -1177,14 +1249,14 @@ def calibrate(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], tr
     times in seconds of the week. Whether the result may be applied is its verdict. InputError
     for data that cannot be used."""
 
-def check(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], *, before: Union[None, Survey, Sequence[Strip], Sequence[_Path], _Path] = None, control: Union[None, _Path, Sequence[ControlPoint]] = None, trajectory: Union[None, Flight, _Path, Sequence[_Path]] = None, quality_level: int = 2, settings: CheckSettings = ..., strips: Union[StripChoice, Sequence[str]] = ..., progress: Optional[Callable[[Progress], Any]] = None) -> CheckResult:
+def check(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], *, before: Union[None, Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]] = None, control: Union[None, _Path, Iterable[ControlPoint]] = None, trajectory: Union[None, Union[_Path, Iterable[_Path]], Flight] = None, quality_level: int = 2, settings: CheckSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., progress: Optional[Callable[[Progress], Any]] = None) -> CheckResult:
     """Measures how well overlapping strips agree with each other and with control, as
     pcl_als_check does. before: the same strips before a correction, compared in the same areas;
     quality_level: of the USGS Lidar Base Specification that is required, 0 to 3; trajectory:
     for scan angles that are finer than those of the files. Whether there is a reliable answer
     is told by the result. InputError for data that cannot be used."""
 
-def classify(files: Sequence[_Path], output: _Path, *, training: Optional[_Path] = None, model: Optional[ClassModel] = None, checkpoints: Optional[_Path] = None, cell: float = 1.0, bands: Optional[Sequence[str]] = None, grids: Optional[_Path] = None, posterior: Optional[_Path] = None, points: Optional[_Path] = None, reject: float = 0.0, training_radius: float = 0.0, strips: Union[StripChoice, Sequence[str]] = ..., threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> LandCover:
+def classify(files: Union[_Path, Iterable[_Path]], output: _Path, *, training: Optional[_Path] = None, model: Optional[ClassModel] = None, checkpoints: Optional[_Path] = None, cell: float = 1.0, bands: Optional[Iterable[str]] = None, grids: Optional[_Path] = None, posterior: Optional[_Path] = None, points: Optional[_Path] = None, reject: float = 0.0, training_radius: float = 0.0, strips: Union[StripChoice, Iterable[str]] = ..., threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> LandCover:
     """Maps the land cover of point files by Gaussian maximum likelihood, as pcl_als_classify
     does. output: GeoTIFF of classes, an empty path: rasters only; training: CSV or GeoJSON of
     sites, or model; checkpoints: sites for the accuracy; cell: m; bands: names of the rasters
@@ -1192,17 +1264,17 @@ def classify(files: Sequence[_Path], output: _Path, *, training: Optional[_Path]
     files with classes; reject: probability below which a cell has no class; training_radius: m.
     UsageError for impossible options, InputError for input that cannot be used."""
 
-def convert(inputs: Sequence[_Path], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Sequence[str]] = ..., format: str = '', threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> List[ConvertedFile]:
+def convert(inputs: Union[_Path, Iterable[_Path]], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Iterable[str]] = ..., format: str = '', threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> List[ConvertedFile]:
     """Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of
     LAS records stay as they are. output: a file for one input, else a folder, whose files have
     the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one
     file for each strip. Constant memory."""
 
-def convert_trajectory(paths: Sequence[_Path], output: _Path, *, calibration: CalibrationResult = None, crs: str = '', strip_corrections: bool = True, force: bool = False, progress: Optional[Callable[[Progress], Any]] = None) -> List[pathlib.Path]:
+def convert_trajectory(paths: Union[_Path, Iterable[_Path]], output: _Path, *, calibration: Optional[Union[_Path, CalibrationResult]] = None, crs: str = '', strip_corrections: bool = True, force: bool = False, progress: Optional[Callable[[Progress], Any]] = None) -> List[pathlib.Path]:
     """Reads trajectory files, takes lever arm and strip corrections of a calibration out, and
     writes one trajectory: .csv, or .sbet or .out with a crs. Returns the files."""
 
-def correct_file(input: _Path, output: _Path, trajectory: Union[Flight, _Path, Sequence[_Path]], calibration: Union[CalibrationResult, _Path], *, strip_corrections: bool = False, invert: bool = False, keep_uncovered: bool = False, force: bool = False, gps_week: Optional[int] = None, threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> FileCorrection:
+def correct_file(input: _Path, output: _Path, trajectory: Union[Union[_Path, Iterable[_Path]], Flight], calibration: Union[_Path, CalibrationResult], *, strip_corrections: bool = False, invert: bool = False, keep_uncovered: bool = False, force: bool = False, gps_week: Optional[int] = None, threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> FileCorrection:
     """Removes the biases of a calibration from a point file (Habib et al. 2011, Eq. 13), as
     pcl_als_apply does: .las and .laz in constant memory with every other byte kept, .pcd.
     strip_corrections: also the errors of the trajectory that were estimated; invert: applies
@@ -1210,24 +1282,24 @@ def correct_file(input: _Path, output: _Path, trajectory: Union[Flight, _Path, S
     else at most 1 %; force: continue where the verdict or the trajectory is against it.
     UsageError for a calibration that should not be applied."""
 
-def correct_intensity(inputs: Sequence[_Path], outputs: Sequence[_Path], trajectory: Union[Flight, _Path, Sequence[_Path]], *, settings: IntensitySettings = ..., atmosphere: Optional[Atmosphere] = None, output: IntensityOutput = ..., targets: Optional[_Path] = None, target_radius: float = 1.0, progress: Optional[Callable[[Progress], Any]] = None) -> IntensityResult:
+def correct_intensity(inputs: Union[_Path, Iterable[_Path]], outputs: Union[_Path, Iterable[_Path]], trajectory: Union[Union[_Path, Iterable[_Path]], Flight], *, settings: IntensitySettings = ..., atmosphere: Optional[Atmosphere] = None, output: IntensityOutput = ..., targets: Optional[_Path] = None, target_radius: float = 1.0, progress: Optional[Callable[[Progress], Any]] = None) -> IntensityResult:
     """Corrects intensities of point files for range, incidence and atmosphere (radar equation;
     Habib et al. 2011, Eq. 35-36), as pcl_als_intensity does; one output for each input.
     atmosphere: sets the extinction of the model; targets: CSV of places of known reflectance,
     used within target_radius (m). InputError where points have no trajectory."""
 
-def correct_strip(strip: Strip, trajectory: Union[Flight, _Path, Sequence[_Path]], calibration: Union[CalibrationResult, _Path], *, strip_corrections: bool = False, invert: bool = False, keep_uncovered: bool = False, threads: int = 0) -> Strip:
+def correct_strip(strip: Strip, trajectory: Union[Union[_Path, Iterable[_Path]], Flight], calibration: Union[_Path, CalibrationResult], *, strip_corrections: bool = False, invert: bool = False, keep_uncovered: bool = False, threads: int = 0) -> Strip:
     """The same of a strip in memory; returns a new Strip."""
 
 def empty_points(count: int) -> numpy.ndarray:
     """An array of that many points of dtype POINT, all at the origin, to be filled. A Strip
     takes it as it is, without a copy."""
 
-def extract_lines(files: Sequence[_Path], *, settings: RoofLineSettings = ..., strips: Union[StripChoice, Sequence[str]] = ..., output: Optional[_Path] = None, progress: Optional[Callable[[Progress], Any]] = None) -> List[RoofLine]:
+def extract_lines(files: Union[_Path, Iterable[_Path]], *, settings: RoofLineSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., output: Optional[_Path] = None, progress: Optional[Callable[[Progress], Any]] = None) -> List[RoofLine]:
     """Finds roof lines in the strips of files and combines them, as pcl_als_lines does. output:
     .csv or .geojson to write as well."""
 
-def icpatch(source: Union[Strip, _Path], target: Union[Strip, _Path], *, settings: AlignmentSettings = ..., progress: Optional[Callable[[Progress], Any]] = None) -> Alignment:
+def icpatch(source: Union[_Path, Strip], target: Union[_Path, Strip], *, settings: AlignmentSettings = ..., progress: Optional[Callable[[Progress], Any]] = None) -> Alignment:
     """The rigid motion of one strip onto another, by ICPatch (Habib et al. 2011, section 2.3),
     as pcl_als_icpatch does. Both are strips in memory, or both files."""
 
@@ -1245,7 +1317,7 @@ def orient(images: _Path, lines: _Path, camera: _Path, *, measurements: Optional
     assign_distance: lines of other names are assigned by position up to this distance, m;
     image_sigma: standard deviation of image coordinates without one, their unit."""
 
-def plan(lines: Union[_Path, Sequence[FlightLine]], *, control: int = 0, settings: CalibrationSettings = ...) -> PlanResult:
+def plan(lines: Union[_Path, Iterable[FlightLine]], *, control: int = 0, settings: CalibrationSettings = ...) -> PlanResult:
     """Predicts the standard deviations of the parameters from a planned calibration flight, as
     pcl_als_plan does. lines: FlightLines, or a CSV id,x1,y1,x2,y2,height[,speed][,density];
     control: number of control points, distributed over the block; settings: estimate, noise,
@@ -1260,12 +1332,15 @@ def read_class_model(path: _Path) -> ClassModel:
 def read_control(path: _Path) -> List[ControlPoint]:
     """Reads control points from CSV with columns id, x, y, z and optionally sigma, m."""
 
-def read_strips(files: Sequence[_Path]) -> List[Strip]:
+def read_strips(files: Union[_Path, Iterable[_Path]], *, extra: Union[bool, Iterable[str]] = False, bounds: Optional[Iterable[float]] = None, window: PointWindow = ...) -> List[Strip]:
     """Reads .las, .laz and .pcd files whole, as strips: 48 bytes a point. A strip that reaches
-    further than 4 km from its centre comes in parts of the same id. InputError for files that
-    cannot be read or that do not belong together."""
+    further than 4 km from its centre comes in parts of the same id. extra: True or names, for
+    colours (red, green, blue, nir), user_data and extra bytes of LAS files as Strip.extra;
+    bounds: x_min, y_min, x_max, y_max in the ground frame, m, of the points that are read;
+    window: more of that kind. InputError for files that cannot be read or that do not belong
+    together."""
 
-def read_trajectory(paths: Union[_Path, Sequence[_Path]], *, crs: str = '', own_crs: str = '', attitude: str = 'where_given', columns: Sequence[str] = [], leap_seconds: Optional[float] = None, geoid: str = '') -> Flight:
+def read_trajectory(paths: Union[_Path, Iterable[_Path]], *, crs: str = '', own_crs: str = '', attitude: str = 'where_given', columns: Iterable[str] = [], leap_seconds: Optional[float] = None, geoid: str = '') -> Flight:
     """Reads a trajectory from a file, several files or a folder: text with named columns, SBET,
     TerraScan .trj, RIEGL .pof, Leica .sol. crs: of the points, needed for geographic and
     geocentric coordinates; own_crs: of the files; attitude: 'where_given', 'needed', 'ignore'
@@ -1273,7 +1348,7 @@ def read_trajectory(paths: Union[_Path, Sequence[_Path]], *, crs: str = '', own_
     leap_seconds: added to times in UTC, s; geoid: undulation in m or path of a grid. InputError
     names the file and line."""
 
-def reconstruct_trajectory(points: Union[Survey, Sequence[Strip], Sequence[_Path], _Path], *, output: Optional[_Path] = None, attitude: bool = False, strips: Union[StripChoice, Sequence[str]] = ..., threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> Flight:
+def reconstruct_trajectory(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], *, output: Optional[_Path] = None, attitude: bool = False, strips: Union[StripChoice, Iterable[str]] = ..., threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> Flight:
     """Reconstructs the trajectory from the points, as pcl_als_trajectory does: from rays
     through several returns of a pulse and from scan angles. output: .csv or .sbet to write as
     well, with standard deviations; attitude: reads the points again for pitch and heading.
@@ -1286,4 +1361,13 @@ def simulate(folder: _Path, simulation: Simulation, *, compressed: bool = False,
     truth_points: extra bytes with the effect of the biases. Equal options give equal points."""
 
 def write_pcd(path: _Path, strip: Strip) -> None:
-    """Writes a strip as a binary PCD with every field; the file appears when it is complete."""
+    """Writes a strip as a binary PCD with every field; the file appears when it is complete.
+    UsageError for another extension than .pcd."""
+
+def write_points(path: _Path, strips: Union[Iterable[Strip], Strip]) -> None:
+    """Writes a strip, or several, into one file by its extension: .las and .laz (version 1.4;
+    point format 6, with colours 7, with near infrared 8; steps of 1 mm; Strip.extra as colours
+    and extra bytes; CRS; times below two weeks as seconds of the week), or .pcd (one strip).
+    Where points have no point_source_id, a number as id of the strip is written as theirs. The
+    file appears when it is complete. UsageError for another extension and for strips that could
+    not be told apart."""

@@ -16,39 +16,43 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-std::shared_ptr<Survey> surveyOfStrips(const Strips& strips, int threads) {
+std::unique_ptr<Survey> surveyOfStrips(const Strips& strips, int threads) {
   if (strips.empty()) throw UsageError("no points are given");
   std::vector<SurveyInput> inputs;
-  for (const auto& strip : strips) {
-    if (strip->id.empty()) throw UsageError("a strip needs an id");
-    inputs.push_back(makeCloudInput<PointLidar>(strip->cloud, strip->frame, strip->id, {}));
+  for (const LidarStrip& strip : strips) {
+    if (strip.id.empty()) throw UsageError("a strip needs an id");
+    inputs.push_back(makeCloudInput<PointLidar>(strip.cloud, strip.frame, strip.id, {}));
   }
-  return std::make_shared<Survey>(SurveyReader::ofInputs(std::move(inputs), threads));
+  return std::make_unique<Survey>(SurveyReader::ofInputs(std::move(inputs), threads));
 }
 
-std::shared_ptr<Survey> surveyOf(const PointsArgument& points, int threads) {
+/// A survey of the points; null where they are one already.
+std::unique_ptr<Survey> openSurvey(const PointsArgument& points, int threads) {
   return std::visit(
-      Overloaded{[](const std::shared_ptr<Survey>& survey) { return survey; },
+      Overloaded{[](const std::reference_wrapper<Survey>&) { return std::unique_ptr<Survey>(); },
                  [&](const Strips& strips) { return surveyOfStrips(strips, threads); },
-                 [&](const Paths& paths) {
-                   return std::make_shared<Survey>(SurveyReader(textsOfPaths(paths), threads));
-                 },
-                 [&](const std::filesystem::path& path) {
-                   return std::make_shared<Survey>(SurveyReader({path.string()}, threads));
+                 [&](const Files& files) {
+                   return std::make_unique<Survey>(files.texts(), PointWindow(), threads);
                  }},
       points);
 }
 
 }  // namespace
 
+std::vector<std::string> Files::texts() const {
+  std::vector<std::string> texts;
+  for (const auto& path : paths) texts.push_back(path.string());
+  return texts;
+}
+
 UsedSurvey::UsedSurvey(const PointsArgument& points, int threads)
-    : survey_(surveyOf(points, threads)), lock_(survey_->busy) {}
+    : opened_(openSurvey(points, threads)),
+      survey_(opened_ ? opened_.get() : &std::get<std::reference_wrapper<Survey>>(points).get()),
+      lock_(survey_->busy) {}
 
 FlightFile flightOf(const FlightArgument& argument, const FlightFileOptions& options) {
-  if (const auto* flight = std::get_if<std::shared_ptr<FlightFile>>(&argument)) return **flight;
-  if (const auto* path = std::get_if<std::filesystem::path>(&argument))
-    return readFlight(*path, options);
-  return readFlight(std::get<Paths>(argument), options);
+  if (const auto* files = std::get_if<Files>(&argument)) return readFlight(files->paths, options);
+  return std::get<std::reference_wrapper<FlightFile>>(argument).get();
 }
 
 std::vector<ControlPoint> controlOf(const ControlArgument& argument) {
@@ -57,20 +61,18 @@ std::vector<ControlPoint> controlOf(const ControlArgument& argument) {
   return {};
 }
 
-void addInputs(const FlightArgument& flight, const ControlArgument& control,
-               std::vector<std::string>& inputs) {
-  if (const auto* path = std::get_if<std::filesystem::path>(&flight))
-    inputs.push_back(path->string());
-  if (const auto* paths = std::get_if<Paths>(&flight))
-    for (const auto& path : *paths) inputs.push_back(path.string());
-  if (const auto* path = std::get_if<std::filesystem::path>(&control))
-    inputs.push_back(path->string());
+CalibrationResult calibrationOf(const CalibrationArgument& argument) {
+  if (const auto* path = std::get_if<std::filesystem::path>(&argument))
+    return readCalibration(*path);
+  return std::get<std::reference_wrapper<CalibrationResult>>(argument).get();
 }
 
-std::vector<std::string> textsOfPaths(const Paths& paths) {
-  std::vector<std::string> texts;
-  for (const auto& path : paths) texts.push_back(path.string());
-  return texts;
+void addInputs(const FlightArgument& flight, const ControlArgument& control,
+               std::vector<std::string>& inputs) {
+  if (const auto* files = std::get_if<Files>(&flight))
+    for (const std::string& path : files->texts()) inputs.push_back(path);
+  if (const auto* path = std::get_if<std::filesystem::path>(&control))
+    inputs.push_back(path->string());
 }
 
 pybind11::object parsedJson(const std::string& text) {

@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,32 +16,54 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <pcl_als/common/strip.h>
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/io/strip_columns.h>
 #include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/survey_reader.h>
 
-// What the jobs take from Python, and its conversion, which needs no GIL.
+// What the jobs take from Python, and its conversion, which needs no GIL. Arguments of bound
+// classes are references or values: pybind11 converts None to a null pointer, also inside lists and
+// alternatives, and refuses it for a reference. The caller keeps the objects alive.
 namespace pcl_als::python {
 
 /// A survey that several threads may hand to jobs; one job at a time uses it.
 struct Survey {
+  Survey(const std::vector<std::string>& files, const PointWindow& part, int threads)
+      : paths(files), window(part), reader(files, threads, part) {}
   explicit Survey(SurveyReader opened) : reader(std::move(opened)) {}
+
+  std::vector<std::string> paths;  ///< from which it was opened; empty: from points in memory
+  PointWindow window;
   SurveyReader reader;
   std::mutex busy;
 };
 
 using Paths = std::vector<std::filesystem::path>;
-using LidarStrip = Strip<PointLidar>;
-using Strips = std::vector<std::shared_ptr<LidarStrip>>;
+using LidarStrip = StripWithColumns;
+using Strips = std::vector<LidarStrip>;  ///< they share the points of those in Python
 
-/// Points: an opened survey, clouds in memory, files, or one file.
-using PointsArgument = std::variant<std::shared_ptr<Survey>, Strips, Paths, std::filesystem::path>;
-/// A trajectory: one that was read, or its files or folder.
-using FlightArgument = std::variant<std::shared_ptr<FlightFile>, std::filesystem::path, Paths>;
+/// x_min, y_min, x_max, y_max in the ground frame, m.
+using Rectangle = std::array<double, 4>;
+/// UsageError where the minima are not the smaller values.
+void setBounds(PointWindow& window, const std::optional<Rectangle>& bounds);
+
+/// One file or several.
+struct Files {
+  Paths paths;
+
+  std::vector<std::string> texts() const;
+};
+
+/// Points: files, an opened survey, or clouds in memory.
+using PointsArgument = std::variant<Files, std::reference_wrapper<Survey>, Strips>;
+/// A trajectory: its files or folder, or one that was read.
+using FlightArgument = std::variant<Files, std::reference_wrapper<FlightFile>>;
 /// Control points or their CSV file; none.
 using ControlArgument =
     std::variant<std::monostate, std::filesystem::path, std::vector<ControlPoint>>;
+/// A calibration or its file.
+using CalibrationArgument =
+    std::variant<std::filesystem::path, std::reference_wrapper<CalibrationResult>>;
 
 /// A survey in use by a job.
 class UsedSurvey {
@@ -47,19 +72,41 @@ class UsedSurvey {
   SurveyReader& operator*() { return survey_->reader; }
 
  private:
-  std::shared_ptr<Survey> survey_;
+  std::unique_ptr<Survey> opened_;  ///< where the argument is none itself
+  Survey* survey_;
   std::unique_lock<std::mutex> lock_;
 };
 
 /// The flight as the options say; one that was read already is taken as it is.
 FlightFile flightOf(const FlightArgument& argument, const FlightFileOptions& options);
 std::vector<ControlPoint> controlOf(const ControlArgument& argument);
+CalibrationResult calibrationOf(const CalibrationArgument& argument);
 /// The names of the files of arguments, for lists of inputs.
 void addInputs(const FlightArgument& flight, const ControlArgument& control,
                std::vector<std::string>& inputs);
-std::vector<std::string> textsOfPaths(const Paths& paths);
 
 /// The text of a JSON document as a Python object.
 pybind11::object parsedJson(const std::string& text);
 
 }  // namespace pcl_als::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<pcl_als::python::Files> {
+  PYBIND11_TYPE_CASTER(pcl_als::python::Files, const_name("Union[os.PathLike, List[os.PathLike]]"));
+
+  bool load(handle source, bool convert) {
+    make_caster<std::filesystem::path> one;
+    if (one.load(source, convert)) {
+      value.paths = {cast_op<std::filesystem::path&&>(std::move(one))};
+      return true;
+    }
+    make_caster<pcl_als::python::Paths> several;
+    if (!several.load(source, convert)) return false;
+    value.paths = cast_op<pcl_als::python::Paths&&>(std::move(several));
+    return true;
+  }
+};
+
+}  // namespace pybind11::detail

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <pybind11/eigen.h>
+
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/survey_io.h>
@@ -9,6 +11,7 @@
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
@@ -123,9 +126,25 @@ void bindSettings(py::module_& m) {
 }
 
 void bindControl(py::module_& m) {
-  py::class_<ControlPoint>(
-      m, "ControlPoint",
-      "A surveyed point on the ground, used vertically, or the centre of a target.")
+  Record<ControlPoint>(m, "ControlPoint",
+                       "A surveyed point on the ground, used vertically, or the centre of a "
+                       "target.")
+      .field("id", &ControlPoint::id)
+      .state(&ControlPoint::position)
+      .state(&ControlPoint::kind)
+      .property(
+          "x", [](const ControlPoint& p) { return p.position.x(); }, "m")
+      .property(
+          "y", [](const ControlPoint& p) { return p.position.y(); }, "m")
+      .property(
+          "z", [](const ControlPoint& p) { return p.position.z(); }, "m")
+      .field("sigma", &ControlPoint::sigma, "standard deviation of the height, m; 0: not stated")
+      .field("diameter", &ControlPoint::diameter, "of a level circular target, m; 0: not a target")
+      .field("sigma_plan", &ControlPoint::sigma_plan,
+             "standard deviation of x and of y of a target, m; 0: that of the height")
+      .state(&ControlPoint::normal)
+      .state(&ControlPoint::extent)
+      .bind()
       .def(py::init([](const std::string& id, double x, double y, double z, double sigma,
                        double diameter, double sigma_plan) {
              ControlPoint point{id, Eigen::Vector3d(x, y, z), sigma};
@@ -135,20 +154,7 @@ void bindControl(py::module_& m) {
              return point;
            }),
            py::arg("id"), py::arg("x"), py::arg("y"), py::arg("z"), py::arg("sigma") = 0.0,
-           py::arg("diameter") = 0.0, py::arg("sigma_plan") = 0.0)
-      .def_readonly("id", &ControlPoint::id)
-      .def_property_readonly(
-          "x", [](const ControlPoint& p) { return p.position.x(); }, "m")
-      .def_property_readonly(
-          "y", [](const ControlPoint& p) { return p.position.y(); }, "m")
-      .def_property_readonly(
-          "z", [](const ControlPoint& p) { return p.position.z(); }, "m")
-      .def_readonly("sigma", &ControlPoint::sigma,
-                    "standard deviation of the height, m; 0: not stated")
-      .def_readonly("diameter", &ControlPoint::diameter,
-                    "of a level circular target, m; 0: not a target")
-      .def_readonly("sigma_plan", &ControlPoint::sigma_plan,
-                    "standard deviation of x and of y of a target, m; 0: that of the height");
+           py::arg("diameter") = 0.0, py::arg("sigma_plan") = 0.0);
   m.def(
       "read_control", [](const std::filesystem::path& path) { return readControl(path); },
       py::arg("path"),

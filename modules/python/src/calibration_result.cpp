@@ -11,6 +11,8 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "messages.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
@@ -37,25 +39,49 @@ namespace {
 struct Parameter {
   std::string name, unit, status, reason;
   double bias = 0.0, std = 0.0, std_formal = 0.0;
+  bool determined = true;
+};
+
+/// One of several systems.
+struct System {
+  std::string name;
+  std::vector<std::string> strips;
+  std::vector<Parameter> parameters;
+  Eigen::Vector3d offset, offset_std;
 };
 
 using Estimates = std::array<ParameterEstimate, kSystemParameterCount>;
 
-/// By name, in the order of SystemParameter.
-ParameterDict parametersOf(const Estimates& estimates) {
-  ParameterDict parameters;
+/// In the order of SystemParameter.
+std::vector<Parameter> parametersOf(const Estimates& estimates) {
+  std::vector<Parameter> parameters;
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate =
         estimates[static_cast<std::size_t>(indexOf(info.parameter))];
     Parameter parameter;
     parameter.name = info.name, parameter.unit = info.unit;
     parameter.status = toString(estimate.status), parameter.reason = estimate.reason;
+    parameter.determined = estimate.determined;
     parameter.bias = estimate.bias / info.internal_per_unit;
     parameter.std = estimate.std / info.internal_per_unit;
     parameter.std_formal = estimate.std_formal / info.internal_per_unit;
-    parameters[py::str(parameter.name)] = parameter;
+    parameters.push_back(parameter);
   }
   return parameters;
+}
+
+ParameterDict byName(const std::vector<Parameter>& parameters) {
+  ParameterDict result;
+  for (const Parameter& parameter : parameters) result[py::str(parameter.name)] = parameter;
+  return result;
+}
+
+std::vector<System> systemsOf(const CalibrationResult& result) {
+  std::vector<System> systems;
+  for (const SystemEstimate& system : result.systems)
+    systems.push_back({system.group.name, system.group.strips, parametersOf(system.parameters),
+                       system.offset, system.offset_std});
+  return systems;
 }
 
 std::vector<std::string> correlationOrder(const CalibrationResult& result) {
@@ -66,15 +92,20 @@ std::vector<std::string> correlationOrder(const CalibrationResult& result) {
 }
 
 void bindParameter(py::module_& m) {
-  py::class_<Parameter>(m, "Parameter", "A system parameter of a calibration.")
-      .def_readonly("name", &Parameter::name)
-      .def_readonly("unit", &Parameter::unit, "of bias, std and std_formal: 'm', 'arcsec' or '1'")
-      .def_readonly("bias", &Parameter::bias, "assumed - true")
-      .def_readonly("std", &Parameter::std, "standard deviation, with the errors that pairs share")
-      .def_readonly("std_formal", &Parameter::std_formal,
-                    "standard deviation from the noise of points alone (Habib et al. 2011, Eq. 26)")
-      .def_readonly("status", &Parameter::status, "'estimated', 'fixed' or 'not_estimable'")
-      .def_readonly("reason", &Parameter::reason, "why it is not estimated; else empty")
+  Record<Parameter>(m, "Parameter", "A system parameter of a calibration.")
+      .field("name", &Parameter::name)
+      .field("unit", &Parameter::unit, "of bias, std and std_formal: 'm', 'arcsec' or '1'")
+      .field("bias", &Parameter::bias, "assumed - true")
+      .field("std", &Parameter::std, "standard deviation, with the errors that pairs share")
+      .field("std_formal", &Parameter::std_formal,
+             "standard deviation from the noise of points alone (Habib et al. 2011, Eq. 26)")
+      .field("status", &Parameter::status, "'estimated', 'fixed' or 'not_estimable'")
+      .field("reason", &Parameter::reason, "why it is not estimated, or not determined; else empty")
+      .field(
+          "determined", &Parameter::determined,
+          "False for an estimate that tells nothing: within two standard deviations of zero, one "
+          "of which moves points by more than 8 cm")
+      .bind()
       .def("__repr__", [](const Parameter& p) {
         return py::str("<pcl_als.Parameter {} {:.6g} {} (std {:.2g}, {})>")
             .format(p.name, p.bias, p.unit, p.std, p.status);
@@ -82,67 +113,84 @@ void bindParameter(py::module_& m) {
 }
 
 void bindVerdict(py::module_& m) {
-  py::class_<CalibrationVerdict>(m, "CalibrationVerdict", "Whether a calibration may be applied.")
-      .def_property_readonly(
+  Record<CalibrationVerdict>(m, "CalibrationVerdict", "Whether a calibration may be applied.")
+      .state(&CalibrationVerdict::status)
+      .property(
           "status",
           [](const CalibrationVerdict& verdict) { return std::string(toString(verdict.status)); },
           "'usable', 'parameters_affected', 'no_improvement', 'not_determined' or 'not_converged'")
-      .def_readonly("reason", &CalibrationVerdict::reason)
-      .def_property_readonly("usable", &CalibrationVerdict::usable)
-      .def("__str__", &CalibrationVerdict::text);
-  py::class_<MisfitChange>(m, "MisfitChange",
-                           "Misfit of overlapping strips before and after, at the same points, "
-                           "along the normals; m.")
-      .def_readonly("points", &MisfitChange::points)
-      .def_readonly("rms_before", &MisfitChange::rms_before)
-      .def_readonly("rms_after", &MisfitChange::rms_after)
-      .def_readonly("change_std", &MisfitChange::change_std,
-                    "standard deviation of the change of the RMS");
+      .field("reason", &CalibrationVerdict::reason)
+      .property("usable", [](const CalibrationVerdict& v) { return v.usable(); })
+      .bind()
+      .def("__str__", [](const CalibrationVerdict& v) { return v.text(); });
+  Record<MisfitChange>(m, "MisfitChange",
+                       "Misfit of overlapping strips before and after, at the same points, along "
+                       "the normals; m.")
+      .field("points", &MisfitChange::points)
+      .field("rms_before", &MisfitChange::rms_before)
+      .field("rms_after", &MisfitChange::rms_after)
+      .field("change_std", &MisfitChange::change_std, "standard deviation of the change of the RMS")
+      .state(&MisfitChange::areas)
+      .state(&MisfitChange::limit)
+      .bind();
 }
 
 void bindFits(py::module_& m) {
-  py::class_<PairFit>(m, "PairFit",
-                      "Normal distances of the points of a pair of strips to the patches of the "
-                      "other strip; m.")
-      .def_readonly("a", &PairFit::a)
-      .def_readonly("b", &PairFit::b)
-      .def_readonly("correspondences", &PairFit::correspondences)
-      .def_readonly("rms_before", &PairFit::rms_before)
-      .def_readonly("rms_after", &PairFit::rms_after)
-      .def_readonly("mean_before", &PairFit::mean_before)
-      .def_readonly("mean_after", &PairFit::mean_after);
-  py::class_<ControlFit>(m, "ControlFit", "Heights of a strip above control points; m.")
-      .def_readonly("strip", &ControlFit::strip)
-      .def_readonly("points", &ControlFit::points)
-      .def_readonly("mean_before", &ControlFit::mean_before)
-      .def_readonly("rms_before", &ControlFit::rms_before)
-      .def_readonly("mean_after", &ControlFit::mean_after)
-      .def_readonly("rms_after", &ControlFit::rms_after);
-  py::class_<ErrorFinding>(m, "ErrorFinding", "A possible cause of the misfit of strips.")
-      .def_readonly("source", &ErrorFinding::source)
-      .def_readonly("title", &ErrorFinding::title)
-      .def_readonly("unit", &ErrorFinding::unit, "of value and std")
-      .def_readonly("probability", &ErrorFinding::probability, "that the error is present")
-      .def_readonly("value", &ErrorFinding::value, "assumed - true, where it is present")
-      .def_readonly("std", &ErrorFinding::std)
-      .def_readonly("effect", &ErrorFinding::effect, "on the ground at the edge of the swath, m")
-      .def_readonly("determined", &ErrorFinding::determined)
-      .def_readonly("corrected", &ErrorFinding::corrected)
-      .def_readonly("evidence", &ErrorFinding::evidence)
-      .def_readonly("remedy", &ErrorFinding::remedy);
+  Record<PairFit>(m, "PairFit",
+                  "Normal distances of the points of a pair of strips to the patches of the other "
+                  "strip; m.")
+      .field("a", &PairFit::a)
+      .field("b", &PairFit::b)
+      .field("correspondences", &PairFit::correspondences)
+      .field("rms_before", &PairFit::rms_before)
+      .field("rms_after", &PairFit::rms_after)
+      .field("mean_before", &PairFit::mean_before)
+      .field("mean_after", &PairFit::mean_after)
+      .bind();
+  Record<ControlFit>(m, "ControlFit", "Heights of a strip above control points; m.")
+      .field("strip", &ControlFit::strip)
+      .field("points", &ControlFit::points)
+      .field("mean_before", &ControlFit::mean_before)
+      .field("rms_before", &ControlFit::rms_before)
+      .field("mean_after", &ControlFit::mean_after)
+      .field("rms_after", &ControlFit::rms_after)
+      .bind();
+  Record<ErrorFinding>(m, "ErrorFinding", "A possible cause of the misfit of strips.")
+      .field("source", &ErrorFinding::source)
+      .field("title", &ErrorFinding::title)
+      .field("unit", &ErrorFinding::unit, "of value and std")
+      .field("probability", &ErrorFinding::probability, "that the error is present")
+      .field("value", &ErrorFinding::value, "assumed - true, where it is present")
+      .field("std", &ErrorFinding::std)
+      .field("effect", &ErrorFinding::effect, "on the ground at the edge of the swath, m")
+      .field("determined", &ErrorFinding::determined)
+      .field("corrected", &ErrorFinding::corrected)
+      .field("evidence", &ErrorFinding::evidence)
+      .field("remedy", &ErrorFinding::remedy)
+      .bind();
 }
 
 void bindSystem(py::module_& m) {
-  py::class_<SystemEstimate>(m, "SystemEstimate", "One of several systems of a calibration.")
-      .def_property_readonly("name", [](const SystemEstimate& s) { return s.group.name; })
-      .def_property_readonly("strips", [](const SystemEstimate& s) { return s.group.strips; })
-      .def_property_readonly("parameters",
-                             [](const SystemEstimate& s) { return parametersOf(s.parameters); })
-      .def_property_readonly(
-          "offset", [](const SystemEstimate& s) { return Eigen::Vector3d(s.offset); },
-          "of its coordinates, assumed - true, to the first system: east, north, up, m")
-      .def_property_readonly(
-          "offset_std", [](const SystemEstimate& s) { return Eigen::Vector3d(s.offset_std); }, "m");
+  Record<System>(m, "SystemEstimate", "One of several systems of a calibration.")
+      .field("name", &System::name)
+      .field("strips", &System::strips)
+      .state(&System::parameters)
+      .property("parameters", [](const System& s) { return byName(s.parameters); })
+      .field("offset", &System::offset,
+             "of its coordinates, assumed - true, to the first system: east, north, up, m")
+      .field("offset_std", &System::offset_std, "m")
+      .bind();
+}
+
+py::tuple stateOf(const CalibrationResult& result) {
+  return py::make_tuple(calibrationJson(result), result.left_out);
+}
+
+std::shared_ptr<CalibrationResult> resultOf(const py::tuple& state) {
+  auto result = std::make_shared<CalibrationResult>(
+      parseCalibration(state[0].cast<std::string>(), "pickled calibration"));
+  result->left_out = state[1].cast<std::vector<LeftOutPoints>>();
+  return result;
 }
 
 void bindResult(py::module_& m) {
@@ -151,7 +199,7 @@ void bindResult(py::module_& m) {
                                               "The content of a calibration.json.")
       .def_readonly("verdict", &Result::verdict)
       .def_property_readonly(
-          "parameters", [](const Result& r) { return parametersOf(r.parameters); },
+          "parameters", [](const Result& r) { return byName(parametersOf(r.parameters)); },
           "the eight system parameters by name, such as 'boresight_roll'")
       .def_property_readonly(
           "attitude", [](const Result& r) { return std::string(toString(r.attitude)); },
@@ -161,8 +209,9 @@ void bindResult(py::module_& m) {
       .def_property_readonly(
           "correlation", [](const Result& r) { return Eigen::MatrixXd(r.correlation); },
           "of the estimated parameters; a new array")
-      .def_readonly("systems", &Result::systems,
-                    "all systems where there are several; parameters are those of the first one")
+      .def_property_readonly(
+          "systems", &systemsOf,
+          "all systems where there are several; parameters are those of the first one")
       .def_readonly("sigma0", &Result::sigma0, "standard deviation of unit weight, 1")
       .def_readonly("redundancy", &Result::redundancy)
       .def_readonly("converged", &Result::converged)
@@ -172,7 +221,9 @@ void bindResult(py::module_& m) {
       .def_readonly("diagnosis", &Result::diagnosis, "possible causes of the misfit")
       .def_readonly("observability", &Result::observability,
                     "what is weakly determined, why, and what would help")
-      .def_property_readonly("warnings", [](const Result& r) { return textsOf(r.warnings); })
+      .def_property_readonly(
+          "warnings",
+          [](const Result& r) { return hintedTexts("calibrate", warningTexts(r.warnings)); })
       .def_readonly("left_out", &Result::left_out)
       .def_readonly("inputs", &Result::inputs, "names of files")
       .def(
@@ -182,6 +233,7 @@ void bindResult(py::module_& m) {
           "write",
           [](const Result& r, const std::filesystem::path& path) { writeCalibration(path, r); },
           py::arg("path"), "Writes calibration.json; the file appears when it is complete.")
+      .def(py::pickle(&stateOf, &resultOf))
       .def("__str__", &calibrationTables);
 }
 

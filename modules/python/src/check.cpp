@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pybind11/eigen.h>
 
+#include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/report/quality_report.h>
@@ -10,104 +11,151 @@
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "messages.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
 
 namespace py = pybind11;
 
-void bindSummary(py::module_& m) {
-  py::class_<OffsetSummary>(m, "OffsetSummary", "Statistics of offsets, m.")
-      .def_readonly("count", &OffsetSummary::count)
-      .def_readonly("mean", &OffsetSummary::mean)
-      .def_readonly("std", &OffsetSummary::std)
-      .def_readonly("rms", &OffsetSummary::rms)
-      .def_readonly("median", &OffsetSummary::median)
-      .def_readonly("nmad", &OffsetSummary::nmad, "1.4826 times the median absolute deviation")
-      .def_readonly("percentile_95", &OffsetSummary::percentile_95, "of the absolute values")
-      .def_readonly("largest", &OffsetSummary::largest, "absolute value")
-      .def_readonly("std_of_mean", &OffsetSummary::std_of_mean,
-                    "with correlated errors of places; NaN: unknown");
-  py::class_<HorizontalShift>(m, "HorizontalShift", "Movement of strip a onto strip b, m.")
-      .def_readonly("determined", &HorizontalShift::determined)
-      .def_readonly("reason", &HorizontalShift::reason, "why it is not determined")
-      .def_property_readonly(
-          "shift", [](const HorizontalShift& s) { return Eigen::Vector3d(s.shift); },
-          "east, north, up")
-      .def_property_readonly("std",
-                             [](const HorizontalShift& s) { return Eigen::Vector3d(s.std); });
+/// Agreement of two strips.
+struct PairCheck {
+  std::string a, b, status, reason;
+  double overlap_area = 0.0;
+  OffsetSummary vertical, normal;
+  std::optional<int> quality_level;
+  HorizontalShift horizontal;
+  std::vector<double> sampled_offsets;  ///< at the places that are kept for plots
+};
+
+/// One set of strips.
+struct BlockSummary {
+  std::vector<std::string> files, strips;
+  std::vector<PairCheck> pairs;
+  std::optional<OffsetSummary> control;
+  WarningTexts warnings;
+  std::vector<LeftOutPoints> left_out;
+};
+
+struct CheckResult {
+  BlockSummary block;
+  std::optional<BlockSummary> before;
+  int quality_level = 2;
+  bool kept = false;
+  std::vector<std::string> not_kept_because;
+  bool reliable = false;
+  std::string reason, json, text;
+};
+
+PairCheck pairOf(const CheckedPair& pair) {
+  PairCheck result;
+  result.a = pair.a, result.b = pair.b, result.overlap_area = pair.overlap_area;
+  result.status = toString(pair.assessment.status), result.reason = pair.assessment.reason;
+  result.vertical = pair.assessment.vertical, result.normal = pair.assessment.normal;
+  result.quality_level = pair.assessment.quality_level;
+  result.horizontal = pair.assessment.horizontal;
+  for (const OffsetSample& sample : pair.samples)
+    if (sample.level) result.sampled_offsets.push_back(sample.vertical);
+  return result;
 }
 
-/// Distances a - b at the places that are kept for plots.
-std::vector<double> sampledOffsets(const CheckedPair& pair) {
-  std::vector<double> offsets;
-  for (const OffsetSample& sample : pair.samples)
-    if (sample.level) offsets.push_back(sample.vertical);
-  return offsets;
+BlockSummary summaryOf(const CheckedBlock& block) {
+  BlockSummary result;
+  result.files = block.files, result.left_out = block.left_out;
+  for (const CheckedStrip& strip : block.strips) result.strips.push_back(strip.id);
+  for (const CheckedPair& pair : block.pairs) result.pairs.push_back(pairOf(pair));
+  if (block.control) result.control = block.control->all;
+  result.warnings = warningTexts(block.warnings);
+  return result;
+}
+
+std::shared_ptr<CheckResult> resultOf(const QualityReport& report) {
+  auto result = std::make_shared<CheckResult>();
+  result->block = summaryOf(report.block);
+  if (report.before) result->before = summaryOf(*report.before);
+  result->quality_level = report.quality_level;
+  DeliveryRequirement required = requireLevel(report.block, report.quality_level);
+  result->kept = required.kept, result->not_kept_because = std::move(required.reasons);
+  result->reliable = hasAnswer(report.block), result->reason = whyUnreliable(report.block);
+  result->json = qualityJson(report), result->text = qualityText(report);
+  return result;
+}
+
+void bindSummary(py::module_& m) {
+  Record<OffsetSummary>(m, "OffsetSummary", "Statistics of offsets, m.")
+      .field("count", &OffsetSummary::count)
+      .field("mean", &OffsetSummary::mean)
+      .field("std", &OffsetSummary::std)
+      .field("rms", &OffsetSummary::rms)
+      .field("median", &OffsetSummary::median)
+      .field("nmad", &OffsetSummary::nmad, "1.4826 times the median absolute deviation")
+      .field("percentile_95", &OffsetSummary::percentile_95, "of the absolute values")
+      .field("largest", &OffsetSummary::largest, "absolute value")
+      .field("std_of_mean", &OffsetSummary::std_of_mean,
+             "with correlated errors of places; NaN: unknown")
+      .state(&OffsetSummary::std_of_mean_formal)
+      .bind();
+  Record<HorizontalShift>(m, "HorizontalShift", "Movement of strip a onto strip b, m.")
+      .field("determined", &HorizontalShift::determined)
+      .field("reason", &HorizontalShift::reason, "why it is not determined")
+      .field("shift", &HorizontalShift::shift, "east, north, up")
+      .field("std", &HorizontalShift::std)
+      .state(&HorizontalShift::std_formal)
+      .state(&HorizontalShift::count)
+      .state(&HorizontalShift::rms)
+      .bind();
 }
 
 void bindPair(py::module_& m) {
-  py::class_<CheckedPair>(m, "CheckedPair",
-                          "Agreement of two overlapping strips; signs are those of a - b.")
-      .def_readonly("a", &CheckedPair::a)
-      .def_readonly("b", &CheckedPair::b)
-      .def_readonly("overlap_area", &CheckedPair::overlap_area, "m^2")
-      .def_property_readonly(
-          "status", [](const CheckedPair& p) { return std::string(toString(p.assessment.status)); },
-          "'judged', or why not")
-      .def_property_readonly("reason", [](const CheckedPair& p) { return p.assessment.reason; })
-      .def_property_readonly(
-          "vertical", [](const CheckedPair& p) { return p.assessment.vertical; },
-          "height differences on smooth ground below 10 degrees")
-      .def_property_readonly(
-          "normal", [](const CheckedPair& p) { return p.assessment.normal; },
-          "distances along the normals of all smooth surfaces")
-      .def_property_readonly(
-          "quality_level", [](const CheckedPair& p) { return p.assessment.quality_level; },
-          "of the USGS Lidar Base Specification by vertical.rms; None: none")
-      .def_property_readonly("horizontal",
-                             [](const CheckedPair& p) { return p.assessment.horizontal; })
-      .def_property_readonly("sampled_offsets", &sampledOffsets,
-                             "vertical offsets at up to 5000 places, for plots; m");
+  Record<PairCheck>(m, "CheckedPair",
+                    "Agreement of two overlapping strips; signs are those of a - b.")
+      .field("a", &PairCheck::a)
+      .field("b", &PairCheck::b)
+      .field("overlap_area", &PairCheck::overlap_area, "m^2")
+      .field("status", &PairCheck::status, "'judged', or why not")
+      .field("reason", &PairCheck::reason)
+      .field("vertical", &PairCheck::vertical,
+             "height differences on smooth ground below 10 degrees")
+      .field("normal", &PairCheck::normal, "distances along the normals of all smooth surfaces")
+      .field("quality_level", &PairCheck::quality_level,
+             "of the USGS Lidar Base Specification by vertical.rms; None: none")
+      .field("horizontal", &PairCheck::horizontal)
+      .field("sampled_offsets", &PairCheck::sampled_offsets,
+             "vertical offsets at up to 5000 places, for plots; m")
+      .bind();
 }
 
 void bindBlock(py::module_& m) {
-  py::class_<CheckedBlock, std::shared_ptr<CheckedBlock>>(m, "CheckedBlock",
-                                                          "One set of strips in a check.")
-      .def_readonly("files", &CheckedBlock::files)
-      .def_readonly("pairs", &CheckedBlock::pairs)
-      .def_property_readonly("strips",
-                             [](const CheckedBlock& block) {
-                               std::vector<std::string> names;
-                               for (const CheckedStrip& strip : block.strips)
-                                 names.push_back(strip.id);
-                               return names;
-                             })
-      .def_property_readonly(
-          "control",
-          [](const CheckedBlock& block) -> std::optional<OffsetSummary> {
-            if (!block.control) return std::nullopt;
-            return block.control->all;
-          },
-          "strips minus control points; None without control")
-      .def_property_readonly("warnings",
-                             [](const CheckedBlock& block) { return textsOf(block.warnings); })
-      .def_readonly("left_out", &CheckedBlock::left_out);
-  py::class_<QualityReport, std::shared_ptr<QualityReport>>(m, "CheckResult",
-                                                            "The result of a delivery check.")
-      .def_readonly("block", &QualityReport::block, "the set that was checked")
-      .def_readonly("before", &QualityReport::before, "the same strips before; None without")
-      .def_readonly("quality_level", &QualityReport::quality_level, "that was required")
-      .def_property_readonly(
-          "reliable", [](const QualityReport& r) { return hasAnswer(r.block); },
-          "whether there is a reliable result: an assessed pair, or a control point")
-      .def_property_readonly(
-          "reason", [](const QualityReport& r) { return whyUnreliable(r.block); },
-          "why there is none; empty where there is one")
+  Record<BlockSummary>(m, "CheckedBlock", "One set of strips in a check.")
+      .field("files", &BlockSummary::files)
+      .field("pairs", &BlockSummary::pairs)
+      .field("strips", &BlockSummary::strips)
+      .field("control", &BlockSummary::control, "strips minus control points; None without control")
+      .state(&BlockSummary::warnings)
+      .property("warnings", [](const BlockSummary& b) { return hintedTexts("check", b.warnings); })
+      .field("left_out", &BlockSummary::left_out)
+      .bind();
+  Record<CheckResult>(m, "CheckResult", "The result of a delivery check.")
+      .field("block", &CheckResult::block, "the set that was checked")
+      .field("before", &CheckResult::before, "the same strips before; None without")
+      .field("quality_level", &CheckResult::quality_level, "that was required")
+      .field(
+          "kept", &CheckResult::kept,
+          "whether the delivery keeps the required level: every overlapping pair is measured and "
+          "within the limit, and so is control where it was given")
+      .field("not_kept_because", &CheckResult::not_kept_because,
+             "why the delivery does not keep the required level: every pair and figure")
+      .field("reliable", &CheckResult::reliable,
+             "whether there is a reliable result: an assessed pair, or a control point")
+      .field("reason", &CheckResult::reason, "why there is none; empty where there is one")
+      .state(&CheckResult::json)
+      .state(&CheckResult::text)
+      .bind()
       .def(
-          "to_dict", [](const QualityReport& r) { return parsedJson(qualityJson(r)); },
+          "to_dict", [](const CheckResult& r) { return parsedJson(r.json); },
           "The content of quality.json as dictionaries and lists.")
-      .def("__str__", &qualityText);
+      .def("__str__", [](const CheckResult& r) { return r.text; });
 }
 
 void bindSettings(py::module_& m) {
@@ -131,10 +179,8 @@ void bindSettings(py::module_& m) {
       .def_readwrite("threads", &CheckSettings::threads);
 }
 
-using BeforeArgument =
-    std::variant<std::monostate, std::shared_ptr<Survey>, Strips, Paths, std::filesystem::path>;
-using OptionalFlight =
-    std::variant<std::monostate, std::shared_ptr<FlightFile>, std::filesystem::path, Paths>;
+using BeforeArgument = std::variant<std::monostate, Files, std::reference_wrapper<Survey>, Strips>;
+using OptionalFlight = std::variant<std::monostate, Files, std::reference_wrapper<FlightFile>>;
 
 /// An optional argument as the argument that it holds.
 template <typename Argument, typename Optional>
@@ -158,11 +204,10 @@ SurveyCheck checkPoints(const PointsArgument& points, const std::optional<Flight
   return checkSurvey(*survey, trajectory, options, report);
 }
 
-std::shared_ptr<QualityReport> check(const PointsArgument& points, const BeforeArgument& before,
-                                     const ControlArgument& control,
-                                     const OptionalFlight& trajectory, int quality_level,
-                                     const CheckSettings& settings, const StripChoice& strips,
-                                     const PythonProgress& progress) {
+std::shared_ptr<CheckResult> check(const PointsArgument& points, const BeforeArgument& before,
+                                   const ControlArgument& control, const OptionalFlight& trajectory,
+                                   int quality_level, const CheckSettings& settings,
+                                   const StripChoice& strips, const PythonProgress& progress) {
   return runJob(progress, [&](const ProgressCallback& report) {
     if (quality_level < 0 || quality_level >= kQualityLevels)
       throw UsageError("quality_level: must be 0, 1, 2 or 3");
@@ -171,14 +216,14 @@ std::shared_ptr<QualityReport> check(const PointsArgument& points, const BeforeA
     options.settings.control = controlOf(control);
     const auto flight = given<FlightArgument>(trajectory);
     SurveyCheck checked = checkPoints(points, flight, options, report);
-    auto result = std::make_shared<QualityReport>();
-    result->quality_level = quality_level;
-    result->block = std::move(checked.block);
+    QualityReport quality;
+    quality.quality_level = quality_level;
+    quality.block = std::move(checked.block);
     if (const auto others = given<PointsArgument>(before)) {
       options.areas = checked.areas;
-      result->before = checkPoints(*others, flight, options, report).block;
+      quality.before = checkPoints(*others, flight, options, report).block;
     }
-    return result;
+    return resultOf(quality);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "job.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
@@ -17,10 +18,14 @@ namespace {
 namespace py = pybind11;
 using OptionalPath = std::optional<std::filesystem::path>;
 
-/// A result, and its accuracy where there are check sites.
+/// A map of land cover, and its accuracy where there are check sites.
 struct LandCover {
-  LandCoverResult result;
-  std::optional<AccuracyReport> accuracy;
+  std::shared_ptr<GaussianModel> model;
+  std::vector<std::uint64_t> cells;
+  std::vector<std::string> undetermined, remarks;
+  std::optional<double> overall_accuracy;
+  std::optional<Eigen::MatrixXd> confusion;
+  std::string json;
 };
 
 std::vector<std::string> classesOf(const GaussianModel& model) {
@@ -44,10 +49,24 @@ AccuracyReport assess(const LandCoverResult& result, const RasterInput& files) {
 
 void bindModel(py::module_& m) {
   using Model = GaussianModel;
-  py::class_<Model, std::shared_ptr<Model>>(
-      m, "ClassModel", "Statistics of classes: normal distributions over the bands of rasters.")
-      .def_readonly("bands", &Model::bands)
-      .def_property_readonly("classes", &classesOf, "names")
+  Record<GaussianClass>(m, "ClassStatistics", "A class as a normal distribution over bands.")
+      .field("name", &GaussianClass::name)
+      .field("mean", &GaussianClass::mean, "by band, in the units of the bands")
+      .field("covariance", &GaussianClass::covariance, "bands x bands")
+      .field("prior", &GaussianClass::prior, "probability")
+      .field("samples", &GaussianClass::samples, "from which it was estimated")
+      .state(&GaussianClass::shrinkage)
+      .bind();
+  Record<Model>(m, "ClassModel",
+                "Statistics of classes: normal distributions over the bands of rasters.")
+      .field("bands", &Model::bands)
+      .state(&Model::classes)
+      .property("classes", &classesOf, "names")
+      .bind()
+      .def(
+          "statistics",
+          [](const Model& model, std::size_t i) { return GaussianClass(model.classes.at(i)); },
+          py::arg("index"), "Statistics of a class.")
       .def(
           "mean",
           [](const Model& model, std::size_t i) {
@@ -71,38 +90,24 @@ void bindModel(py::module_& m) {
 }
 
 void bindResult(py::module_& m) {
-  py::class_<LandCover, std::shared_ptr<LandCover>>(m, "LandCover", "The result of classify().")
-      .def_property_readonly(
-          "model", [](const LandCover& c) { return c.result.model; },
-          "given or trained; None where only rasters were made")
-      .def_property_readonly(
-          "cells", [](const LandCover& c) { return c.result.cover.cells; },
-          "cells of the map by class, in the order of model.classes")
-      .def_property_readonly(
-          "undetermined", [](const LandCover& c) { return c.result.undetermined; },
-          "classes whose training samples do not suffice")
-      .def_property_readonly("reliable",
-                             [](const LandCover& c) { return c.result.undetermined.empty(); })
-      .def_property_readonly("remarks", [](const LandCover& c) { return c.result.remarks; })
-      .def_property_readonly(
-          "overall_accuracy",
-          [](const LandCover& c) -> std::optional<double> {
-            if (!c.accuracy) return std::nullopt;
-            return c.accuracy->result.overall.value;
-          },
-          "share of the check sites that are classified correctly; None without them")
-      .def_property_readonly(
-          "confusion",
-          [](const LandCover& c) -> std::optional<Eigen::MatrixXd> {
-            if (!c.accuracy) return std::nullopt;
-            return c.accuracy->matrix.counts.cast<double>();
-          },
-          "numbers of check sites, [classified, reference]; None without them")
+  Record<LandCover>(m, "LandCover", "The result of classify().")
+      .field("model", &LandCover::model, "given or trained; None where only rasters were made")
+      .field("cells", &LandCover::cells, "cells of the map by class, in the order of model.classes")
+      .field("undetermined", &LandCover::undetermined,
+             "classes whose training samples do not suffice")
+      .property("reliable", [](const LandCover& c) { return c.undetermined.empty(); })
+      .field("remarks", &LandCover::remarks)
+      .field("overall_accuracy", &LandCover::overall_accuracy,
+             "share of the check sites that are classified correctly; None without them")
+      .field("confusion", &LandCover::confusion,
+             "numbers of check sites, [classified, reference]; None without them")
+      .state(&LandCover::json)
+      .bind()
       .def(
           "to_dict",
           [](const LandCover& c) -> py::object {
-            if (!c.accuracy) return py::dict();
-            return parsedJson(accuracyJson(*c.accuracy));
+            if (c.json.empty()) return py::dict();
+            return parsedJson(c.json);
           },
           "The content of accuracy.json as dictionaries and lists; empty without check sites.");
 }
@@ -111,17 +116,24 @@ std::vector<ClassSite> sitesOf(const OptionalPath& path) {
   return path ? readClassSites(*path) : std::vector<ClassSite>();
 }
 
-std::shared_ptr<LandCover> classify(const Paths& inputs, LandCoverOptions options,
+std::shared_ptr<LandCover> classify(const Files& inputs, LandCoverOptions options,
                                     const OptionalPath& training, const OptionalPath& checks,
                                     const StripChoice& strips, const ProgressCallback& report) {
-  RasterInput files = rasterInput(textsOfPaths(inputs));
+  RasterInput files = rasterInput(inputs.texts());
   if (!strips.only.empty() || !strips.without.empty() || strips.split) chooseStrips(strips, files);
   options.training = sitesOf(training), options.checks = sitesOf(checks);
   if (training) options.training_name = training->string();
   if (checks) options.checks_name = checks->string();
+  const LandCoverResult result = classifyLandCover(files, options, report);
   auto made = std::make_shared<LandCover>();
-  made->result = classifyLandCover(files, options, report);
-  if (!made->result.checks.sites.empty()) made->accuracy = assess(made->result, files);
+  if (result.model) made->model = std::make_shared<GaussianModel>(*result.model);
+  made->cells.assign(result.cover.cells.begin(), result.cover.cells.end());
+  made->undetermined = result.undetermined, made->remarks = result.remarks;
+  if (result.checks.sites.empty()) return made;
+  const AccuracyReport accuracy = assess(result, files);
+  made->overall_accuracy = accuracy.result.overall.value;
+  made->confusion = accuracy.matrix.counts.cast<double>();
+  made->json = accuracyJson(accuracy);
   return made;
 }
 
@@ -132,7 +144,7 @@ void bindClassification(py::module_& m) {
   bindResult(m);
   m.def(
       "classify",
-      [](const Paths& files, const std::filesystem::path& output, const OptionalPath& training,
+      [](const Files& files, const std::filesystem::path& output, const OptionalPath& training,
          const std::optional<GaussianModel>& model, const OptionalPath& checkpoints, double cell,
          const std::optional<std::vector<std::string>>& bands, const OptionalPath& grids,
          const OptionalPath& posterior, const OptionalPath& points, double reject,

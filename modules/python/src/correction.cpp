@@ -8,18 +8,13 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "job.h"
+#include "messages.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
 
 namespace py = pybind11;
-using CalibrationArgument = std::variant<std::shared_ptr<CalibrationResult>, std::filesystem::path>;
-
-CalibrationResult calibrationOf(const CalibrationArgument& argument) {
-  if (const auto* path = std::get_if<std::filesystem::path>(&argument))
-    return readCalibration(*path);
-  return *std::get<std::shared_ptr<CalibrationResult>>(argument);
-}
 
 FlightFile flightFor(const FlightArgument& trajectory, const CalibrationResult& calibration,
                      const std::string& crs) {
@@ -28,31 +23,39 @@ FlightFile flightFor(const FlightArgument& trajectory, const CalibrationResult& 
   return flightOf(trajectory, reading);
 }
 
+/// What was done to a file.
+struct FileCorrection {
+  std::uint64_t points = 0, uncovered = 0;
+  std::string time_remark, attitude_remark;
+  WarningTexts warnings;
+};
+
 void bindCorrectedFile(py::module_& m) {
-  using Result = FileCorrectionResult;
-  py::class_<Result>(m, "FileCorrection", "What correct_file() did.")
-      .def_readonly("points", &Result::points, "number of points")
-      .def_property_readonly(
-          "uncovered", [](const Result& r) { return r.coverage.missed(); },
-          "points without trajectory, which are unchanged")
-      .def_readonly("time_remark", &Result::time_remark,
-                    "how the times of the points were reconciled with those of the trajectory")
-      .def_readonly("attitude_remark", &Result::attitude_remark,
-                    "recovery of pitch and crab from this file, where the calibration has none")
-      .def_property_readonly("warnings", [](const Result& r) { return textsOf(r.warnings); });
+  Record<FileCorrection>(m, "FileCorrection", "What correct_file() did.")
+      .field("points", &FileCorrection::points, "number of points")
+      .field("uncovered", &FileCorrection::uncovered,
+             "points without trajectory, which are unchanged")
+      .field("time_remark", &FileCorrection::time_remark,
+             "how the times of the points were reconciled with those of the trajectory")
+      .field("attitude_remark", &FileCorrection::attitude_remark,
+             "recovery of pitch and crab from this file, where the calibration has none")
+      .state(&FileCorrection::warnings)
+      .property("warnings",
+                [](const FileCorrection& f) { return hintedTexts("correct_file", f.warnings); })
+      .bind();
 }
 
-FileCorrectionResult correctFile(const std::filesystem::path& input,
-                                 const std::filesystem::path& output,
-                                 const FlightArgument& trajectory,
-                                 const CalibrationArgument& calibration,
-                                 const FileCorrectionOptions& options,
-                                 const PythonProgress& progress) {
+FileCorrection correctFile(const std::filesystem::path& input, const std::filesystem::path& output,
+                           const FlightArgument& trajectory, const CalibrationArgument& calibration,
+                           const FileCorrectionOptions& options, const PythonProgress& progress) {
   return runJob(progress, [&](const ProgressCallback& report) {
     const CalibrationResult biases = calibrationOf(calibration);
     const std::string crs = commonReference(std::vector<std::string>{input.string()}).crs;
     const FlightFile flight = flightFor(trajectory, biases, crs);
-    return correctPointFile(input, output, biases, flight.trajectory, options, report);
+    const FileCorrectionResult result =
+        correctPointFile(input, output, biases, flight.trajectory, options, report);
+    return FileCorrection{result.points, result.coverage.missed(), result.time_remark,
+                          result.attitude_remark, warningTexts(result.warnings)};
   });
 }
 
@@ -72,7 +75,7 @@ std::shared_ptr<LidarStrip> correctStrip(const LidarStrip& strip, const FlightAr
     correction.setNumberOfThreads(threads);
     correction.setInputCloud(strip.cloud);
     auto corrected = std::make_shared<LidarStrip>();
-    corrected->id = strip.id, corrected->frame = strip.frame;
+    corrected->id = strip.id, corrected->frame = strip.frame, corrected->columns = strip.columns;
     correction.filter(*corrected->cloud);
     return corrected;
   });

@@ -3,43 +3,48 @@
 #include <filesystem>
 #include <string>
 
+#include <pybind11/stl.h>
+
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/progress.h>
 
 #include "bindings.h"
+#include "messages.h"
 
 namespace pcl_als::python {
 namespace {
 
 namespace py = pybind11;
 
-/// What a caller from Python may set about an error.
-struct PythonRemedy {
+/// The remedies that arguments of functions serve, by the names of _arguments.py.
+struct RemedyName {
   Remedy remedy;
   const char* name;
-  const char* text;
 };
-constexpr PythonRemedy kRemedies[] = {
-    {Remedy::force, "force", "force=True continues"},
-    {Remedy::force_level, "force", "force=True takes the sensor as level"},
-    {Remedy::keep_uncovered, "keep_uncovered", "keep_uncovered=True leaves them as they are"},
-    {Remedy::nominal_model, "attitude",
-     "attitude='nominal' takes the sensor as level with its heading along the course"},
-    {Remedy::positions_only, "attitude", "attitude='ignore' needs no attitude"},
-    {Remedy::recover_attitude, "recover_attitude",
-     "recover_attitude=True recovers them from the points"},
-    {Remedy::crs, "crs", "state it with crs="},
-    {Remedy::columns, "columns", "or name the columns with columns="},
-    {Remedy::leap_seconds, "leap_seconds", "state them with leap_seconds="},
-    {Remedy::max_distance, "max_distance", "a larger maximum distance compares them"},
-    {Remedy::extent, "extent", "choose another extent"},
-    {Remedy::ground, "ground", "choose other points as ground"},
-    {Remedy::control, "control", "give control="},
-    {Remedy::control_sigma, "control_sigma", "state it with control_sigma="},
-    {Remedy::channels, "strips", "set their by_channel"},
-    {Remedy::flight_sigmas, "shared_errors", "state them in the settings"},
-    {Remedy::strips, "strips", "choose strips with strips="},
+constexpr RemedyName kRemedies[] = {
+    {Remedy::force, "force"},
+    {Remedy::force_level, "force_level"},
+    {Remedy::keep_uncovered, "keep_uncovered"},
+    {Remedy::nominal_model, "nominal_model"},
+    {Remedy::positions_only, "positions_only"},
+    {Remedy::recover_attitude, "recover_attitude"},
+    {Remedy::crs, "crs"},
+    {Remedy::columns, "columns"},
+    {Remedy::leap_seconds, "leap_seconds"},
+    {Remedy::geoid, "geoid"},
+    {Remedy::max_distance, "max_distance"},
+    {Remedy::control, "control"},
+    {Remedy::control_sigma, "control_sigma"},
+    {Remedy::flight_sigmas, "flight_sigmas"},
+    {Remedy::strips, "strips"},
+    {Remedy::channels, "channels"},
 };
+
+const char* nameOf(Remedy remedy) {
+  for (const RemedyName& each : kRemedies)
+    if (each.remedy == remedy) return each.name;
+  return "";
+}
 
 /// The exception classes; they exist as long as the interpreter.
 PyObject* error_class = nullptr;
@@ -47,16 +52,11 @@ PyObject* usage_error_class = nullptr;
 PyObject* input_error_class = nullptr;
 PyObject* cancelled_class = nullptr;
 
+/// The function that was called adds the argument which serves the remedy (_arguments.py).
 void raise(PyObject* type, const Error& error) {
-  std::string message = error.what();
-  py::object remedy = py::none();
-  for (const PythonRemedy& each : kRemedies) {
-    if (each.remedy != error.remedy()) continue;
-    message.append("; ").append(each.text);
-    remedy = py::str(each.name);
-  }
-  py::object instance = py::handle(type)(py::str(message));
-  instance.attr("remedy") = remedy;
+  py::object instance = py::handle(type)(py::str(error.what()));
+  const std::string remedy = nameOf(error.remedy());
+  if (!remedy.empty()) instance.attr("remedy") = remedy;
   PyErr_SetObject(type, instance.ptr());
 }
 
@@ -85,6 +85,20 @@ PyObject* declare(py::module_& m, const char* name, const char* text, const py::
 }
 
 }  // namespace
+
+WarningTexts warningTexts(const Warnings& warnings) {
+  WarningTexts texts;
+  for (const Warning& warning : warnings) texts.emplace_back(warning.text, nameOf(warning.remedy));
+  return texts;
+}
+
+std::vector<std::string> hintedTexts(const char* function, const WarningTexts& warnings) {
+  const py::object hinted = py::module_::import("pcl_als._arguments").attr("hinted");
+  std::vector<std::string> lines;
+  for (const auto& [text, remedy] : warnings)
+    lines.push_back(hinted(function, text, remedy).cast<std::string>());
+  return lines;
+}
 
 void bindErrors(py::module_& m) {
   const py::handle exception(PyExc_Exception), value_error(PyExc_ValueError),

@@ -14,20 +14,22 @@
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "messages.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
 
 namespace py = pybind11;
 
-/// A result with what its report needs.
+/// What a correction of intensities found.
 struct Radiometry {
-  IntensityResult result;
-  ExtinctionChoice extinction;
-  IntensityOutput output;
-  std::vector<std::string> outputs;
-
-  IntensityReport report() const { return {&result, extinction, output, outputs}; }
+  RadiometricModel model;
+  std::map<std::string, double> gains;
+  std::map<std::string, std::uint64_t> points_by_status;
+  std::string reason, json;
+  WarningTexts warnings;
+  std::vector<LeftOutPoints> left_out;
 };
 
 void bindAtmosphere(py::module_& m) {
@@ -50,9 +52,14 @@ void bindAtmosphere(py::module_& m) {
       .def_readwrite("reference_range", &RadiometricModel::reference_range, "r0, m")
       .def_readwrite("largest_incidence", &RadiometricModel::largest_incidence,
                      "degrees; larger angles are limited to it")
-      .def("factor", &RadiometricModel::factor, py::arg("range"), py::arg("cosine"),
-           "Corrected over given intensity at a range (m) and cosine of the incidence angle (NaN: "
-           "no incidence term).");
+      .def(
+          "factor",
+          [](const RadiometricModel& model, double range, double cosine) {
+            return model.factor(range, cosine);
+          },
+          py::arg("range"), py::arg("cosine"),
+          "Corrected over given intensity at a range (m) and cosine of the incidence angle (NaN: "
+          "no incidence term).");
 }
 
 /// The terms that are estimated, by name.
@@ -110,66 +117,71 @@ void bindSettings(py::module_& m) {
                      "range, incidence_angle, and reflectance where it is known");
 }
 
-std::map<std::string, double> gainsOf(const Radiometry& radiometry) {
+std::map<std::string, double> gainsOf(const IntensityRun& run) {
   std::map<std::string, double> gains;
-  const IntensityRun& run = *radiometry.result.run;
   for (std::size_t i = 0; i < run.strips().size(); ++i)
     gains[run.strips()[i]] = run.gain(static_cast<int>(i));
   return gains;
 }
 
-std::map<std::string, std::uint64_t> pointsByStatus(const Radiometry& radiometry) {
+std::map<std::string, std::uint64_t> pointsByStatus(const IntensityCounts& counts) {
   std::map<std::string, std::uint64_t> points;
-  const IntensityCounts counts = radiometry.result.counts();
   for (std::size_t i = 0; i < kRadiometryStatusCount; ++i)
     points[nameOf(static_cast<RadiometryStatus>(i))] = counts.status[i];
   return points;
 }
 
 void bindResult(py::module_& m) {
-  py::class_<Radiometry, std::shared_ptr<Radiometry>>(m, "IntensityResult",
-                                                      "The result of a radiometric correction.")
-      .def_property_readonly(
-          "model", [](const Radiometry& r) { return r.result.run->model(); },
-          "as it was used, with the estimated terms")
-      .def_property_readonly("gains", &gainsOf, "divisor of the intensities of each strip")
-      .def_property_readonly("points_by_status", &pointsByStatus)
-      .def_property_readonly(
-          "reason", [](const Radiometry& r) { return r.result.unreliable; },
-          "why the result is not reliable; empty where it is")
-      .def_property_readonly("reliable",
-                             [](const Radiometry& r) { return r.result.unreliable.empty(); })
-      .def_property_readonly("warnings",
-                             [](const Radiometry& r) { return textsOf(r.result.warnings); })
-      .def_property_readonly("left_out", [](const Radiometry& r) { return r.result.left_out; })
+  Record<Radiometry>(m, "IntensityResult", "The result of a radiometric correction.")
+      .field("model", &Radiometry::model, "as it was used, with the estimated terms")
+      .field("gains", &Radiometry::gains, "divisor of the intensities of each strip")
+      .field("points_by_status", &Radiometry::points_by_status)
+      .field("reason", &Radiometry::reason, "why the result is not reliable; empty where it is")
+      .property("reliable", [](const Radiometry& r) { return r.reason.empty(); })
+      .state(&Radiometry::warnings)
+      .property("warnings",
+                [](const Radiometry& r) { return hintedTexts("correct_intensity", r.warnings); })
+      .field("left_out", &Radiometry::left_out)
+      .state(&Radiometry::json)
+      .bind()
       .def(
-          "to_dict", [](const Radiometry& r) { return parsedJson(intensityJson(r.report())); },
+          "to_dict", [](const Radiometry& r) { return parsedJson(r.json); },
           "The content of the JSON file of pcl_als_intensity as dictionaries and lists.");
 }
 
-std::shared_ptr<Radiometry> correctIntensities(const Paths& inputs, const Paths& outputs,
+std::shared_ptr<Radiometry> resultOf(const IntensityReport& report) {
+  const IntensityResult& result = *report.result;
+  auto radiometry = std::make_shared<Radiometry>();
+  radiometry->model = result.run->model(), radiometry->gains = gainsOf(*result.run);
+  radiometry->points_by_status = pointsByStatus(result.counts());
+  radiometry->reason = result.unreliable, radiometry->json = intensityJson(report);
+  radiometry->warnings = warningTexts(result.warnings);
+  radiometry->left_out = result.left_out;
+  return radiometry;
+}
+
+std::shared_ptr<Radiometry> correctIntensities(const Files& inputs, const Files& outputs,
                                                const FlightArgument& trajectory,
                                                const IntensityOptions& options,
                                                const std::optional<Atmosphere>& air,
                                                const ProgressCallback& report) {
-  if (inputs.size() != outputs.size()) throw UsageError("outputs: not as many as inputs");
-  auto made = std::make_shared<Radiometry>();
+  if (inputs.paths.size() != outputs.paths.size())
+    throw UsageError("outputs: not as many as inputs");
   IntensityOptions used = options;
   used.settings.statistics = true;
-  made->extinction.air = air;
+  ExtinctionChoice extinction;
+  extinction.air = air;
   if (air) {
-    made->extinction.parts = extinctionOf(*air);
-    used.settings.model.extinction_per_km = made->extinction.parts.total();
+    extinction.parts = extinctionOf(*air);
+    used.settings.model.extinction_per_km = extinction.parts.total();
   }
-  made->extinction.per_km = used.settings.model.extinction_per_km;
-  made->output = options.output;
-  made->outputs = textsOfPaths(outputs);
+  extinction.per_km = used.settings.model.extinction_per_km;
   FlightFileOptions reading;
-  reading.crs = commonReference(textsOfPaths(inputs)).crs;
+  reading.crs = commonReference(inputs.texts()).crs;
   const FlightFile flight = flightOf(trajectory, reading);
-  made->result =
-      correctIntensity(textsOfPaths(inputs), made->outputs, flight.trajectory, used, report);
-  return made;
+  const IntensityResult result =
+      correctIntensity(inputs.texts(), outputs.texts(), flight.trajectory, used, report);
+  return resultOf({&result, extinction, options.output, outputs.texts()});
 }
 
 }  // namespace
@@ -180,7 +192,7 @@ void bindIntensity(py::module_& m) {
   bindResult(m);
   m.def(
       "correct_intensity",
-      [](const Paths& inputs, const Paths& outputs, const FlightArgument& trajectory,
+      [](const Files& inputs, const Files& outputs, const FlightArgument& trajectory,
          const IntensitySettings& settings, const std::optional<Atmosphere>& atmosphere,
          const IntensityOutput& output, const std::optional<std::filesystem::path>& targets,
          double target_radius, const PythonProgress& progress) {

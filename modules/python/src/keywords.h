@@ -6,21 +6,14 @@
 
 namespace pcl_als::python {
 
-/// A constructor that takes the attributes of an object as keywords: Settings(threads=2). TypeError
-/// for a name that is no attribute.
+/// A constructor that takes the attributes of an object as keywords: Settings(threads=2). Names are
+/// checked in _arguments.py.
 template <typename T>
 auto fromKeywords() {
   return pybind11::init([](const pybind11::kwargs& values) {
     T made;
     const pybind11::object self = pybind11::cast(&made, pybind11::return_value_policy::reference);
-    for (const auto& [name, value] : values) {
-      if (!pybind11::hasattr(self, name)) {
-        throw pybind11::type_error(
-            pybind11::str(self.get_type().attr("__name__")).cast<std::string>() +
-            " has no attribute " + pybind11::str(name).cast<std::string>());
-      }
-      pybind11::setattr(self, name, value);
-    }
+    for (const auto& [name, value] : values) pybind11::setattr(self, name, value);
     return made;
   });
 }

@@ -13,6 +13,7 @@
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "record.h"
 #include "words.h"
 
 namespace pcl_als::python {
@@ -26,19 +27,18 @@ constexpr Word<ObjectLine::Kind> kKinds[] = {{"ridge", ObjectLine::Kind::ridge},
                                              {"unknown", ObjectLine::Kind::unknown}};
 
 void bindLines(py::module_& m) {
-  py::class_<ObjectLine>(m, "RoofLine", "A straight line of a roof, ground frame.")
-      .def_readonly("id", &ObjectLine::id)
-      .def_property_readonly(
+  Record<ObjectLine>(m, "RoofLine", "A straight line of a roof, ground frame.")
+      .field("id", &ObjectLine::id)
+      .state(&ObjectLine::kind)
+      .property(
           "kind", [](const ObjectLine& l) { return nameOf(kKinds, l.kind); },
           "'ridge', 'valley', 'eave' or 'unknown'")
-      .def_property_readonly(
-          "start", [](const ObjectLine& l) { return Eigen::Vector3d(l.start); }, "m")
-      .def_property_readonly(
-          "end", [](const ObjectLine& l) { return Eigen::Vector3d(l.end); }, "m")
-      .def_property_readonly(
-          "covariance", [](const ObjectLine& l) { return Eigen::Matrix4d(l.covariance); },
-          "of the offsets of start to the left and upwards, then of end; m^2")
-      .def_readonly("strips", &ObjectLine::strips, "in which it was seen");
+      .field("start", &ObjectLine::start, "m")
+      .field("end", &ObjectLine::end, "m")
+      .field("covariance", &ObjectLine::covariance,
+             "of the offsets of start to the left and upwards, then of end; m^2")
+      .field("strips", &ObjectLine::strips, "in which it was seen")
+      .bind();
   py::class_<RoofLineSettings>(m, "RoofLineSettings", "Settings of the extraction of roof lines.")
       .def(fromKeywords<RoofLineSettings>())
       .def_readwrite("noise", &RoofLineSettings::noise, "of points about planes, m; 0: estimated")
@@ -50,12 +50,12 @@ void bindLines(py::module_& m) {
       .def_readwrite("threads", &RoofLineSettings::threads);
   m.def(
       "extract_lines",
-      [](const Paths& files, const RoofLineSettings& settings, const StripChoice& strips,
+      [](const Files& files, const RoofLineSettings& settings, const StripChoice& strips,
          const std::optional<std::filesystem::path>& output, const PythonProgress& progress) {
         LineExtractionOptions options;
         options.settings = settings, options.strips = strips;
         return runJob(progress, [&](const ProgressCallback& report) {
-          const ExtractedLines found = extractLines(files, options, report);
+          const ExtractedLines found = extractLines(files.paths, options, report);
           if (output) writeLines(*output, found.lines, found.crs);
           return found.lines;
         });
@@ -69,17 +69,33 @@ void bindLines(py::module_& m) {
 }
 
 #if PCL_ALS_WITH_CERES
-using Orientation = ImageOrientationResult;
+/// What an orientation found.
+struct Orientation {
+  bool reliable = false;
+  std::string reason, json, text;
+  double sigma0 = 0.0;
+};
+
+std::shared_ptr<Orientation> resultOf(const ImageOrientationResult& result) {
+  auto orientation = std::make_shared<Orientation>();
+  orientation->reliable = result.bundle.reliable(), orientation->reason = result.bundle.message;
+  orientation->sigma0 = result.bundle.sigma0;
+  orientation->json = orientationJson(result), orientation->text = orientationText(result);
+  return orientation;
+}
 
 void bindOrientation(py::module_& m) {
-  py::class_<Orientation, std::shared_ptr<Orientation>>(m, "Orientation", "The result of orient().")
-      .def_property_readonly("reliable", [](const Orientation& o) { return o.bundle.reliable(); })
-      .def_property_readonly("reason", [](const Orientation& o) { return o.bundle.message; })
-      .def_property_readonly("sigma0", [](const Orientation& o) { return o.bundle.sigma0; })
+  Record<Orientation>(m, "Orientation", "The result of orient().")
+      .field("reliable", &Orientation::reliable)
+      .field("reason", &Orientation::reason)
+      .field("sigma0", &Orientation::sigma0)
+      .state(&Orientation::json)
+      .state(&Orientation::text)
+      .bind()
       .def(
-          "to_dict", [](const Orientation& o) { return parsedJson(orientationJson(o)); },
+          "to_dict", [](const Orientation& o) { return parsedJson(o.json); },
           "The content of orientation.json as dictionaries and lists.")
-      .def("__str__", &orientationText);
+      .def("__str__", [](const Orientation& o) { return o.text; });
   m.def(
       "orient",
       [](const std::filesystem::path& images, const std::filesystem::path& lines,
@@ -94,7 +110,7 @@ void bindOrientation(py::module_& m) {
         ImageOrientationOptions options;
         options.assign_distance = assign_distance, options.image_sigma = image_sigma;
         return runJob(progress, [&](const ProgressCallback& report) {
-          return std::make_shared<Orientation>(orientImages(files, options, report));
+          return resultOf(orientImages(files, options, report));
         });
       },
       py::arg("images"), py::arg("lines"), py::arg("camera"), py::kw_only(),

@@ -10,6 +10,7 @@
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
@@ -37,24 +38,42 @@ void bindLine(py::module_& m) {
       .def_readwrite("density", &Line::density, "pulses per square metre");
 }
 
+/// What a planned flight will give.
+struct Plan {
+  std::vector<StripGeometry> lines;
+  std::shared_ptr<CalibrationResult> expected;
+  std::size_t control_points = 0;
+  std::vector<std::string> advice;
+  std::string json, text;
+};
+
+std::shared_ptr<Plan> resultOf(const FlightPlanResult& result) {
+  auto plan = std::make_shared<Plan>();
+  plan->lines = result.lines, plan->control_points = result.control_points;
+  plan->expected = std::make_shared<CalibrationResult>(result.expected);
+  plan->advice = result.observability.text();
+  plan->json = planJson(result, {}), plan->text = planTables(result);
+  return plan;
+}
+
 void bindResult(py::module_& m) {
-  using Result = FlightPlanResult;
-  py::class_<Result, std::shared_ptr<Result>>(m, "PlanResult", "What a planned flight will give.")
-      .def_readonly("lines", &Result::lines)
-      .def_readonly("expected", &Result::expected,
-                    "standard deviations, correlations and statuses as of a calibration; biases "
-                    "are zero")
-      .def_readonly("control_points", &Result::control_points, "covered by a line")
-      .def_property_readonly(
-          "determined", [](const Result& r) { return r.expected.converged; },
+  Record<Plan>(m, "PlanResult", "What a planned flight will give.")
+      .field("lines", &Plan::lines)
+      .field("expected", &Plan::expected,
+             "standard deviations, correlations and statuses as of a calibration; biases are zero")
+      .field("control_points", &Plan::control_points, "covered by a line")
+      .property(
+          "determined", [](const Plan& p) { return p.expected->converged; },
           "whether all requested parameters are determined")
-      .def_property_readonly(
-          "advice", [](const Result& r) { return r.observability.text(); },
-          "weak combinations of parameters, why, and which line would help")
+      .field("advice", &Plan::advice,
+             "weak combinations of parameters, why, and which line would help")
+      .state(&Plan::json)
+      .state(&Plan::text)
+      .bind()
       .def(
-          "to_dict", [](const Result& r) { return parsedJson(planJson(r, {})); },
+          "to_dict", [](const Plan& p) { return parsedJson(p.json); },
           "The content of plan.json as dictionaries and lists.")
-      .def("__str__", &planTables);
+      .def("__str__", [](const Plan& p) { return p.text; });
 }
 
 StripGeometry lineOf(const FlightLineRecord& record) {
@@ -90,7 +109,7 @@ void bindPlanning(py::module_& m) {
         plan.adjustment.pairs.noise = settings.noise;
         plan.adjustment.pairs.control_sigma = settings.control_sigma;
         return runJob({}, [&](const ProgressCallback&) {
-          return std::make_shared<FlightPlanResult>(FlightPlan(linesOf(lines), plan).evaluate());
+          return resultOf(FlightPlan(linesOf(lines), plan).evaluate());
         });
       },
       py::arg("lines"), py::kw_only(), py::arg("control") = 0,

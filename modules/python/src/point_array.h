@@ -2,11 +2,17 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <pcl/point_cloud.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <pcl_als/common/point_types.h>
+#include <pcl_als/io/strip_columns.h>
 
 namespace pcl_als::python {
 
@@ -19,9 +25,26 @@ pybind11::dtype pointType();
 /// of the array keeps the cloud alive.
 pybind11::array viewOf(const std::shared_ptr<Cloud>& cloud);
 
-/// The cloud whose points an array of viewOf() is, unchanged in shape; otherwise a new cloud with a
-/// copy of the fields that the array and PointLidar have in common. UsageError for an array that
-/// has more than one dimension or lacks x, y or z.
-std::shared_ptr<Cloud> cloudOf(const pybind11::array& points);
+/** \brief The points of a structured array, with its further fields as columns.
+ *
+ * The whole array of viewOf() gives its own cloud; of any other one the fields are copied. x, y and
+ * z are relative to \a origin. Without an origin they are coordinates of the ground frame if they
+ * are not 32-bit floats, and get a frame around their centre where they reach further than
+ * LocalFrame::kReach; otherwise the origin is zero.
+ *
+ * UsageError for an array that has more than one dimension, lacks x, y or z or has a field of
+ * another kind than numbers, and for coordinates that 32-bit floats relative to the origin would
+ * round to steps of more than 1 mm.
+ */
+void setPoints(const pybind11::array& points, const std::optional<Eigen::Vector3d>& origin,
+               StripWithColumns& strip);
+
+/// A column of values; the type in files is that of the array. UsageError for other values than
+/// numbers, for another number of them than \a points, and for the name of a field of PointLidar.
+PointColumn columnOf(const std::string& name, const pybind11::array& values, std::size_t points);
+
+/// The values of a column in the type that they have in files, or as doubles where they are scaled:
+/// a new array that cannot be written to.
+pybind11::array valuesOf(const PointColumn& column);
 
 }  // namespace pcl_als::python

@@ -11,24 +11,31 @@
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
 
 namespace py = pybind11;
-using StripArgument = std::variant<std::shared_ptr<LidarStrip>, std::filesystem::path>;
+using StripArgument = std::variant<std::filesystem::path, std::reference_wrapper<LidarStrip>>;
 
-/// A result with the names of its strips.
+/// What an alignment found.
 struct Alignment {
-  PatchAlignmentResult result;
-  AlignedStrips strips;
-};
+  bool converged = false, reliable = false;
+  std::string reason, json, text;
+  Eigen::VectorXd values, std;  ///< XT, YT, ZT, omega, phi, kappa
+  Eigen::MatrixXd covariance;
+  Eigen::Vector3d centroid;
+  double scale = 1.0, sigma0 = 0.0, rms_before = 0.0, rms_after = 0.0;
+  std::size_t pairs = 0;
 
-Eigen::VectorXd valuesOf(const PatchAlignmentResult& result) {
-  Eigen::VectorXd values(6);
-  values << result.motion.shift, result.motion.rotation;
-  return values;
-}
+  RigidMotion motion() const {
+    RigidMotion motion;
+    motion.centroid = centroid, motion.scale = scale;
+    motion.shift = values.head<3>(), motion.rotation = values.tail<3>();
+    return motion;
+  }
+};
 
 Eigen::VectorXd deviationsOf(const PatchAlignmentResult& result) {
   Eigen::VectorXd values(6);
@@ -38,49 +45,48 @@ Eigen::VectorXd deviationsOf(const PatchAlignmentResult& result) {
   return values;
 }
 
+Alignment alignmentOf(const PatchAlignmentResult& result, const AlignedStrips& strips) {
+  Alignment alignment;
+  alignment.converged = result.hasConverged();
+  alignment.reliable = result.hasConverged() && result.allDetermined();
+  alignment.reason = unreliability(result);
+  alignment.json = alignmentJson(result, strips), alignment.text = alignmentTable(result);
+  alignment.values.resize(6);
+  alignment.values << result.motion.shift, result.motion.rotation;
+  alignment.std = deviationsOf(result), alignment.covariance = result.covariance;
+  alignment.centroid = result.motion.centroid, alignment.scale = result.motion.scale;
+  alignment.sigma0 = result.sigma0, alignment.pairs = result.pairs;
+  alignment.rms_before = result.normal_before.rms, alignment.rms_after = result.normal_after.rms;
+  return alignment;
+}
+
 void bindAlignment(py::module_& m) {
-  py::class_<Alignment, std::shared_ptr<Alignment>>(
-      m, "Alignment",
-      "The rigid motion of a source onto a target, about the centroid of their overlap. Order of "
-      "parameters: XT, YT, ZT (m), omega, phi, kappa (rad).")
-      .def_property_readonly("converged",
-                             [](const Alignment& a) { return a.result.hasConverged(); })
-      .def_property_readonly(
-          "reliable",
-          [](const Alignment& a) { return a.result.hasConverged() && a.result.allDetermined(); },
-          "converged, and every parameter is determined")
-      .def_property_readonly(
-          "reason", [](const Alignment& a) { return unreliability(a.result); },
-          "why the result is not reliable; empty where it is")
-      .def_property_readonly(
-          "values", [](const Alignment& a) { return valuesOf(a.result); }, "the six parameters")
-      .def_property_readonly(
-          "std", [](const Alignment& a) { return deviationsOf(a.result); },
-          "their standard deviations; NaN: not determined")
-      .def_property_readonly(
-          "covariance", [](const Alignment& a) { return Eigen::MatrixXd(a.result.covariance); },
-          "6 x 6; m^2, m rad, rad^2")
-      .def_property_readonly(
+  Record<Alignment>(m, "Alignment",
+                    "The rigid motion of a source onto a target, about the centroid of their "
+                    "overlap. Order of parameters: XT, YT, ZT (m), omega, phi, kappa (rad).")
+      .field("converged", &Alignment::converged)
+      .field("reliable", &Alignment::reliable, "converged, and every parameter is determined")
+      .field("reason", &Alignment::reason, "why the result is not reliable; empty where it is")
+      .field("values", &Alignment::values, "the six parameters")
+      .field("std", &Alignment::std, "their standard deviations; NaN: not determined")
+      .field("covariance", &Alignment::covariance, "6 x 6; m^2, m rad, rad^2")
+      .state(&Alignment::centroid)
+      .property(
           "transformation",
-          [](const Alignment& a) {
-            return Eigen::Matrix4d(a.result.motion.transformation().matrix());
-          },
+          [](const Alignment& a) { return Eigen::Matrix4d(a.motion().transformation().matrix()); },
           "4 x 4, from source to target, ground frame")
-      .def_property_readonly("scale", [](const Alignment& a) { return a.result.motion.scale; })
-      .def_property_readonly(
-          "sigma0", [](const Alignment& a) { return a.result.sigma0; }, "m")
-      .def_property_readonly("pairs", [](const Alignment& a) { return a.result.pairs; })
-      .def_property_readonly(
-          "rms_before", [](const Alignment& a) { return a.result.normal_before.rms; },
-          "normal distances with the initial motion, m")
-      .def_property_readonly(
-          "rms_after", [](const Alignment& a) { return a.result.normal_after.rms; },
-          "normal distances with the estimated motion, m")
+      .field("scale", &Alignment::scale)
+      .field("sigma0", &Alignment::sigma0, "m")
+      .field("pairs", &Alignment::pairs)
+      .field("rms_before", &Alignment::rms_before, "normal distances with the initial motion, m")
+      .field("rms_after", &Alignment::rms_after, "normal distances with the estimated motion, m")
+      .state(&Alignment::json)
+      .state(&Alignment::text)
+      .bind()
       .def(
-          "to_dict",
-          [](const Alignment& a) { return parsedJson(alignmentJson(a.result, a.strips)); },
+          "to_dict", [](const Alignment& a) { return parsedJson(a.json); },
           "The content of the result file of pcl_als_icpatch as dictionaries and lists.")
-      .def("__str__", [](const Alignment& a) { return alignmentTable(a.result); });
+      .def("__str__", [](const Alignment& a) { return a.text; });
 }
 
 void bindSettings(py::module_& m) {
@@ -114,17 +120,16 @@ Alignment alignStrips(const LidarStrip& source, const LidarStrip& target,
   icpatch.setNumberOfThreads(settings.threads);
   pcl::PointCloud<PointLidar> aligned;
   icpatch.align(aligned);
-  return {icpatch.getResult(),
-          {source.id, target.id, source.cloud->size(), target.cloud->size(), {}}};
+  return alignmentOf(icpatch.getResult(),
+                     {source.id, target.id, source.cloud->size(), target.cloud->size(), {}});
 }
 
 Alignment alignFiles(const std::filesystem::path& source, const std::filesystem::path& target,
                      const PatchAlignmentSettings& settings, const ProgressCallback& report) {
   const AlignmentPair pair = filePair({source, target}, std::nullopt);
   const PairAlignment made = alignPair(pair, settings, report);
-  return {made.result,
-          {pair.source.name(), pair.target.name(), made.source_points, made.target_points,
-           pair.use.left_out}};
+  return alignmentOf(made.result, {pair.source.name(), pair.target.name(), made.source_points,
+                                   made.target_points, pair.use.left_out});
 }
 
 std::shared_ptr<Alignment> icpatch(const StripArgument& source, const StripArgument& target,
@@ -133,9 +138,9 @@ std::shared_ptr<Alignment> icpatch(const StripArgument& source, const StripArgum
   return runJob(progress, [&](const ProgressCallback& report) {
     if (source.index() != target.index())
       throw UsageError("source and target: not both strips in memory, nor both files");
-    if (const auto* strip = std::get_if<std::shared_ptr<LidarStrip>>(&source))
-      return std::make_shared<Alignment>(
-          alignStrips(**strip, *std::get<std::shared_ptr<LidarStrip>>(target), settings));
+    if (const auto* strip = std::get_if<std::reference_wrapper<LidarStrip>>(&source))
+      return std::make_shared<Alignment>(alignStrips(
+          strip->get(), std::get<std::reference_wrapper<LidarStrip>>(target).get(), settings));
     return std::make_shared<Alignment>(alignFiles(std::get<std::filesystem::path>(source),
                                                   std::get<std::filesystem::path>(target), settings,
                                                   report));
@@ -157,7 +162,7 @@ void bindRegistration(py::module_& m) {
       [](const std::filesystem::path& input, const std::filesystem::path& output,
          const Alignment& motion, int threads) {
         return runJob({}, [&](const ProgressCallback&) {
-          return movePointFile(input, output, motion.result.motion, threads);
+          return movePointFile(input, output, motion.motion(), threads).points;
         });
       },
       py::arg("input"), py::arg("output"), py::arg("motion"), py::kw_only(), py::arg("threads") = 0,

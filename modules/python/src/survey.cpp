@@ -6,30 +6,24 @@
 
 #include <pybind11/eigen.h>
 
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/left_out.h>
 
 #include "arguments.h"
 #include "bindings.h"
 #include "job.h"
 #include "keywords.h"
+#include "record.h"
 
 namespace pcl_als::python {
 namespace {
 
 namespace py = pybind11;
-using Rectangle = std::array<double, 4>;
 
 std::optional<Rectangle> boundsOf(const PointWindow& window) {
   if (!window.bounds) return std::nullopt;
   const auto &low = window.bounds->min(), &high = window.bounds->max();
   return Rectangle{low.x(), low.y(), high.x(), high.y()};
-}
-
-void setBounds(PointWindow& window, const std::optional<Rectangle>& bounds) {
-  window.bounds.reset();
-  if (!bounds) return;
-  const auto [west, south, east, north] = *bounds;
-  window.bounds.emplace(Eigen::Vector2d(west, south), Eigen::Vector2d(east, north));
 }
 
 void bindChoices(py::module_& m) {
@@ -60,23 +54,25 @@ void bindChoices(py::module_& m) {
                      "keep points of GPS time 0 in files that have times")
       .def_readwrite("by_channel", &StripChoice::by_channel,
                      "the channels of the scanner are strips of their own: 3.ch0, 3.ch1");
-  py::implicitly_convertible<py::list, StripChoice>();
+  py::implicitly_convertible<py::sequence, StripChoice>();
 }
 
 void bindLeftOut(py::module_& m) {
-  py::class_<LeftOutPoints>(m, "LeftOutPoints", "Points of a strip that took no part, and why.")
-      .def_readonly("strip", &LeftOutPoints::strip)
-      .def_property_readonly(
+  Record<LeftOutPoints>(m, "LeftOutPoints", "Points of a strip that took no part, and why.")
+      .field("strip", &LeftOutPoints::strip)
+      .state(&LeftOutPoints::reason)
+      .property(
           "reason", [](const LeftOutPoints& part) { return std::string(toString(part.reason)); },
           "'excluded', 'before_trajectory', 'too_few_points', ...")
-      .def_readonly("points", &LeftOutPoints::points, "number of points that were left out")
-      .def_readonly("of", &LeftOutPoints::of, "points of the strip")
+      .field("points", &LeftOutPoints::points, "number of points that were left out")
+      .field("of", &LeftOutPoints::of, "points of the strip")
+      .bind()
       .def("__str__", [](const LeftOutPoints& part) { return describe(part); });
-  py::class_<SurveyArea>(m, "SurveyArea", "A square of ground in which strips are compared.")
-      .def_property_readonly(
-          "minimum", [](const SurveyArea& area) { return Eigen::Vector2d(area.minimum); },
-          "south-west corner, m, ground frame")
-      .def_readonly("size", &SurveyArea::size, "side, m");
+  Record<SurveyArea>(m, "SurveyArea", "A square of ground in which strips are compared.")
+      .field("minimum", &SurveyArea::minimum, "south-west corner, m, ground frame")
+      .field("size", &SurveyArea::size, "side, m")
+      .state(&SurveyArea::margin)
+      .bind();
 }
 
 std::map<std::string, std::uint64_t> pointsByStrip(const Survey& survey) {
@@ -87,7 +83,22 @@ std::map<std::string, std::uint64_t> pointsByStrip(const Survey& survey) {
   return points;
 }
 
+std::shared_ptr<Survey> openSurvey(const Files& files, const PointWindow& window, int threads) {
+  return runJob({}, [&](const ProgressCallback&) {
+    return std::make_shared<Survey>(files.texts(), window, threads);
+  });
+}
+
 }  // namespace
+
+void setBounds(PointWindow& window, const std::optional<Rectangle>& bounds) {
+  window.bounds.reset();
+  if (!bounds) return;
+  const auto [west, south, east, north] = *bounds;
+  // The negation also refuses NaN.
+  if (!(west <= east && south <= north)) throw UsageError("bounds: not x_min, y_min, x_max, y_max");
+  window.bounds.emplace(Eigen::Vector2d(west, south), Eigen::Vector2d(east, north));
+}
 
 void bindSurvey(py::module_& m) {
   bindChoices(m);
@@ -96,16 +107,8 @@ void bindSurvey(py::module_& m) {
       m, "Survey",
       "The points of a survey as strips, from files (.las, .laz, .pcd) that jobs read when they "
       "need them, in constant memory. One survey serves several jobs, one at a time.")
-      .def(py::init([](const Paths& files, const PointWindow& window, int threads) {
-             std::shared_ptr<Survey> survey;
-             runInThread({}, [&](const ProgressCallback&) {
-               survey =
-                   std::make_shared<Survey>(SurveyReader(textsOfPaths(files), threads, window));
-             });
-             return survey;
-           }),
-           py::arg("files"), py::kw_only(), py::arg_v("window", PointWindow(), "PointWindow()"),
-           py::arg("threads") = 0,
+      .def(py::init(&openSurvey), py::arg("files"), py::kw_only(),
+           py::arg_v("window", PointWindow(), "PointWindow()"), py::arg("threads") = 0,
            "Reads all files once (ids, times, extents). threads: 0: all cores; results do not "
            "depend on it. InputError for a file that cannot be read or does not belong to the "
            "others.")
@@ -126,7 +129,12 @@ void bindSurvey(py::module_& m) {
             return Rectangle{low.x(), low.y(), high.x(), high.y()};
           },
           "x_min, y_min, x_max, y_max of all points, m, ground frame")
-      .def("__len__", [](const Survey& survey) { return survey.reader.pointCount(); });
+      .def("__len__", [](const Survey& survey) { return survey.reader.pointCount(); })
+      .def(py::pickle(
+          [](const Survey& survey) { return py::make_tuple(survey.paths, survey.window); },
+          [](const py::tuple& state) {
+            return openSurvey({state[0].cast<Paths>()}, state[1].cast<PointWindow>(), 0);
+          }));
 }
 
 }  // namespace pcl_als::python

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <array>
 #include <optional>
 
 #include <pybind11/eigen.h>
@@ -8,6 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>
+#include <pcl_als/trajectory/trajectory_screening.h>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -60,18 +62,45 @@ std::shared_ptr<FlightFile> makeFlight(const Columns& values) {
   Trajectory::Options options;
   options.use_attitude = values.shape(1) == 7;
   flight->trajectory = std::make_shared<const Trajectory>(flight->samples, options);
+  removeAt(flight->samples, screenTrajectory(flight->samples).indices());
+  flight->remarks = flight->trajectory->repairs();
   flight->format = "array";
   return flight;
 }
 
-std::shared_ptr<FlightFile> readFlightFiles(const std::variant<std::filesystem::path, Paths>& paths,
-                                            const FlightFileOptions& options) {
-  std::shared_ptr<FlightFile> flight;
-  runInThread({}, [&](const ProgressCallback&) {
-    const auto* one = std::get_if<std::filesystem::path>(&paths);
-    flight = std::make_shared<FlightFile>(
-        one != nullptr ? readFlight(*one, options) : readFlight(std::get<Paths>(paths), options));
+std::shared_ptr<FlightFile> readFlightFiles(const Files& files, const FlightFileOptions& options) {
+  return runJob({}, [&](const ProgressCallback&) {
+    return std::make_shared<FlightFile>(readFlight(files.paths, options));
   });
+}
+
+py::tuple stateOf(const FlightFile& flight) {
+  const Trajectory& path = *flight.trajectory;
+  std::vector<std::vector<double>> accuracy;
+  for (const TrajectoryAccuracy& at : flight.accuracy)
+    accuracy.push_back({at.time, at.position.x(), at.position.y(), at.position.z(), at.angles.x(),
+                        at.angles.y(), at.angles.z()});
+  return py::make_tuple(samplesOf(flight), path.hasAttitude() && !path.attitudeIsNominal(),
+                        path.attitudeIsNominal(), path.lineFitHalfWidth(), flight.format,
+                        flight.frame, flight.remarks, accuracy);
+}
+
+std::shared_ptr<FlightFile> flightOfState(const py::tuple& state) {
+  auto flight = std::make_shared<FlightFile>();
+  flight->samples = samplesFrom(state[0].cast<Columns>());
+  Trajectory::Options options;
+  options.use_attitude = state[1].cast<bool>();
+  options.nominal_attitude = state[2].cast<bool>();
+  options.line_fit_half_width = state[3].cast<double>();
+  flight->trajectory = std::make_shared<const Trajectory>(flight->samples, options);
+  flight->format = state[4].cast<std::string>(), flight->frame = state[5].cast<std::string>();
+  flight->remarks = state[6].cast<std::vector<std::string>>();
+  for (const auto& row : state[7].cast<std::vector<std::array<double, 7>>>()) {
+    TrajectoryAccuracy at;
+    at.time = row[0];
+    at.position = {row[1], row[2], row[3]}, at.angles = {row[4], row[5], row[6]};
+    flight->accuracy.push_back(at);
+  }
   return flight;
 }
 
@@ -94,12 +123,14 @@ void bindFlight(py::module_& m) {
       .def_property_readonly(
           "has_attitude", [](const FlightFile& f) { return f.trajectory->hasAttitude(); },
           "whether roll, pitch and heading are used")
-      .def_property_readonly("reconstructed", &FlightFile::reconstructed,
-                             "whether it was reconstructed from points")
+      .def_property_readonly(
+          "reconstructed", [](const FlightFile& f) { return f.reconstructed(); },
+          "whether it was reconstructed from points")
       .def_readonly("format", &FlightFile::format, "'SBET', 'text', ...")
       .def_readonly("frame", &FlightFile::frame, "coordinates and datum of the file")
       .def_readonly("remarks", &FlightFile::remarks, "conversions and repairs")
-      .def("__len__", [](const FlightFile& f) { return f.trajectory->size(); });
+      .def("__len__", [](const FlightFile& f) { return f.trajectory->size(); })
+      .def(py::pickle(&stateOf, &flightOfState));
 }
 
 /// The flight of points; only positions where \a attitude is false.
@@ -140,14 +171,17 @@ void bindReconstruction(py::module_& m) {
       "determined.");
   m.def(
       "convert_trajectory",
-      [](const Paths& paths, const std::filesystem::path& output,
-         const std::shared_ptr<CalibrationResult>& calibration, const std::string& crs,
+      [](const Files& paths, const std::filesystem::path& output,
+         const std::optional<CalibrationArgument>& calibration, const std::string& crs,
          bool strip_corrections, bool force, const PythonProgress& progress) {
         TrajectoryConversionOptions options;
-        options.calibration = calibration.get(), options.reading.crs = crs;
+        options.reading.crs = crs;
         options.strip_corrections = strip_corrections, options.force = force;
         return runJob(progress, [&](const ProgressCallback& report) {
-          return convertTrajectory(paths, output, options, report).written;
+          std::optional<CalibrationResult> biases;
+          if (calibration) biases = calibrationOf(*calibration);
+          options.calibration = biases ? &*biases : nullptr;
+          return convertTrajectory(paths.paths, output, options, report).written;
         });
       },
       py::arg("paths"), py::arg("output"), py::kw_only(), py::arg("calibration") = py::none(),
@@ -164,10 +198,9 @@ void bindTrajectory(py::module_& m) {
   bindReconstruction(m);
   m.def(
       "read_trajectory",
-      [](const std::variant<std::filesystem::path, Paths>& paths, const std::string& crs,
-         const std::string& own_crs, const std::string& attitude,
-         const std::vector<std::string>& columns, std::optional<double> leap_seconds,
-         const std::string& geoid) {
+      [](const Files& paths, const std::string& crs, const std::string& own_crs,
+         const std::string& attitude, const std::vector<std::string>& columns,
+         std::optional<double> leap_seconds, const std::string& geoid) {
         FlightFileOptions options;
         options.crs = crs, options.own_crs = own_crs, options.columns = columns;
         options.leap_seconds = leap_seconds, options.geoid = geoid;
