@@ -18,7 +18,7 @@ expect 1 "density and -spacing" plan -lines two.csv -density 1 -spacing 1
 expect 1 "control" plan -lines two.csv -control -1
 expect 1 "wobble" plan -lines two.csv -estimate wobble
 expect 2 "none.csv: *there is no such file" plan -lines none.csv
-expect 2 "no folder" plan -lines two.csv -output nowhere/plan.json
+expect 2 "the folder does not exist" plan -lines two.csv -output nowhere/plan.json
 
 : >empty.csv
 expect 2 "empty.csv: is empty" plan -lines empty.csv
