@@ -873,8 +873,8 @@ class Parameter:
         """assumed - true"""
     @property
     def determined(self) -> bool:
-        """False for an estimate that tells nothing: within two standard deviations of zero, one of
-        which moves points by more than 8 cm"""
+        """False for an estimate that tells nothing: within two standard deviations of zero, one
+        of which moves points by more than 8 cm"""
     @property
     def name(self) -> str: ...
     @property
