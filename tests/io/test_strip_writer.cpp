@@ -81,7 +81,7 @@ TEST_P(StripWriter, KeepsEveryField) {
   StripWithColumns strip = makeStrip();
   strip.columns.push_back(columnOf("red", LasExtraType::u16, {1, 2, 65535}));
   strip.columns.push_back(columnOf("nir", LasExtraType::u16, {7, 8, 9}));
-  strip.columns.push_back(columnOf("user_data", LasExtraType::u8, {4, 5, 6}));
+  (*strip.cloud)[1].user_data = 5;
   strip.columns.push_back(columnOf("reflectance", LasExtraType::f32, {0.5, std::nan(""), -1.25}));
   PointColumn scaled = columnOf("height above ground", LasExtraType::i16, {1.23, 0.0, 3.21});
   scaled.field.scale = 0.01;
@@ -103,7 +103,7 @@ TEST_P(StripWriter, KeepsEveryField) {
   EXPECT_EQ(valueOf(loaded[0], "red", 2), 65535);
   EXPECT_EQ(valueOf(loaded[0], "green", 2), 0);
   EXPECT_EQ(valueOf(loaded[0], "nir", 1), 8);
-  EXPECT_EQ(valueOf(loaded[0], "user_data", 1), 5);
+  EXPECT_EQ((*loaded[0].cloud)[1].user_data, 5);
   EXPECT_TRUE(std::isnan(valueOf(loaded[0], "reflectance", 1)));
   EXPECT_EQ(valueOf(loaded[0], "reflectance", 2), -1.25);
   EXPECT_NEAR(valueOf(loaded[0], "height above ground", 0), 1.23, 1e-9);

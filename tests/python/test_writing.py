@@ -89,7 +89,7 @@ class WritingTest(FolderTest):
             self.assertEqual(again.extra[name].dtype, expected.dtype)
             self.assertTrue(np.array_equal(again.extra[name], expected), name)
         self.assertEqual(list(pcl_als.read_strips("o.laz", extra=["red", "echo id"])[0].extra), ["red", "echo id"])
-        with self.assertRaisesRegex(OSError, "has no field 'width'; it has red, green, blue, nir, user_data, refl"):
+        with self.assertRaisesRegex(OSError, "has no field 'width'; it has red, green, blue, nir, refl"):
             pcl_als.read_strips("o.laz", extra=["width"])
 
     def test_extra_cannot_be_changed_in_place(self):

@@ -26,7 +26,6 @@ std::vector<LasExtraField> standardColumns(const LasRecordLayout& layout) {
     fields.push_back(standardField("blue", LasExtraType::u16, layout.rgb + 4));
   }
   if (layout.nir >= 0) fields.push_back(standardField("nir", LasExtraType::u16, layout.nir));
-  fields.push_back(standardField("user_data", LasExtraType::u8, layout.user_data));
   return fields;
 }
 

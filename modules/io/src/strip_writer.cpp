@@ -80,7 +80,7 @@ int pointFormatOf(const Strips& strips) {
   int format = 6;
   for (const StripWithColumns& strip : strips) {
     for (const PointColumn& column : strip.columns) {
-      if (!detail::isStandardColumn(column.field) || column.field.name == "user_data") continue;
+      if (!detail::isStandardColumn(column.field)) continue;
       format = std::max(format, column.field.name == "nir" ? 8 : 7);
     }
   }

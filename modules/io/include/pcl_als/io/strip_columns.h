@@ -11,7 +11,7 @@ namespace pcl_als {
 
 /** \brief A field of points besides those of PointLidar.
  *
- * Fields of LAS records are called red, green, blue and nir (16 bits each) and user_data (8 bits);
+ * Fields of LAS records are called red, green, blue and nir (16 bits each);
  * a field of another name or type is stored as extra bytes.
  */
 struct PointColumn {
