@@ -95,7 +95,10 @@ void inject(const Samples& samples, const Error& error, int seeds, unsigned firs
     Samples part(samples.begin() + static_cast<std::ptrdiff_t>(from),
                  samples.begin() + static_cast<std::ptrdiff_t>(from + length));
     const std::size_t wrong = random() % length;
+    const double end = part.back().time;
     error.apply(part[wrong], error.size, random);
+    // Alone outside the flight it is no part of the path.
+    if (part[wrong].time > end + 1.0) continue;
     const pcl_als::TrajectoryScreening screening = pcl_als::screenTrajectory(part);
     ++rate.tried;
     bool found = false;
