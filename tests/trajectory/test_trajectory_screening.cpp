@@ -7,6 +7,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/correction_sizes.h>
+#include <pcl_als/trajectory/system_correction.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_screening.h>
 
@@ -216,6 +217,34 @@ TEST(CorrectionSizes, ZeroAndNoneAreNoObjection) {
   sizes.add(0.0, 0.0, 0.0, 1.0);
   EXPECT_EQ(sizes.count(), 0U);
   EXPECT_EQ(sizes.typical(), 0.0);
+}
+
+/// The offset of a session is no sign of a wrong trajectory, however few points it has.
+TEST(CorrectionSizes, LeaveOutTheOffsetsOfSystems) {
+  CalibrationResult calibration;
+  calibration.converged = true;
+  calibration.systems.resize(2);
+  for (SystemEstimate& system : calibration.systems)
+    system.parameters[indexOf(SystemParameter::lever_arm_x)].bias = 0.01;
+  calibration.systems[0].group.strips = {"1"};
+  calibration.systems[1].group.strips = {"2"};
+  calibration.systems[1].offset = {0.0, 0.0, 2.0};
+  const SystemCorrection correction(calibration, std::make_shared<const Trajectory>(flight()));
+
+  constexpr std::size_t kCount = 100;
+  const std::vector<double> time(kCount, 50.0), x(kCount, 500000.0), y(kCount, 5403000.0),
+      z(kCount, 100.0);
+  std::vector<double> dx(kCount), dy(kCount), dz(kCount);
+  std::vector<std::uint8_t> system(kCount, 0);
+  system[7] = 1;
+  PointColumns points{time.data(), x.data(), y.data(), z.data()};
+  points.system = system.data();
+  CoverageCount coverage;
+  correction.change(points, kCount, {dx.data(), dy.data(), dz.data()}, coverage);
+  EXPECT_NEAR(dz[7], -2.0, 0.02);
+  EXPECT_NEAR(dz[8], 0.0, 0.02);
+  EXPECT_EQ(coverage.sizes.count(), kCount);
+  EXPECT_EQ(coverage.sizes.objection(), "");
 }
 
 }  // namespace

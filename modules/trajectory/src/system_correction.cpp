@@ -190,14 +190,15 @@ void SystemCorrection::changeOf(const System& system, const PointColumns& points
   for (int axis = 0; axis < 3 && sources_ != nullptr; ++axis) {
     for (std::size_t i = 0; i < count; ++i) columns[axis][i] += by_sources[axis][i];
   }
+  // Without the offset, which is not in proportion to the range and may be that of few points.
+  for (std::size_t i = 0; i < count; ++i)
+    coverage.sizes.add(change.x[i], change.y[i], change.z[i], points.time[i]);
   for (std::size_t i = 0; i < count && !system.offset.isZero(0.0); ++i) {
     if (flight_->coverage(points.time[i]) != Trajectory::Coverage::covered) continue;
     for (int axis = 0; axis < 3; ++axis)
       columns[axis][i] += invert_ ? system.offset[axis] : -system.offset[axis];
   }
   if (needs_recovered_) keepUnknown(points, count, change, coverage);
-  for (std::size_t i = 0; i < count; ++i)
-    coverage.sizes.add(change.x[i], change.y[i], change.z[i], points.time[i]);
 }
 
 void SystemCorrection::keepUnknown(const PointColumns& points, std::size_t count,

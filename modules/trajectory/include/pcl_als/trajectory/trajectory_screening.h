@@ -58,7 +58,7 @@ struct TrajectoryScreening {
  * A sample, or a run of at most ten that the gap threshold of Trajectory covers, is an outlier if a
  * cubic through the four samples before and the four behind agrees with all of these, but not with
  * its first and its last sample. The limit is the largest of six times the residuals of the
- * neighbours, of five times the residuals of nine tenths of the flight, and of what an aircraft can
+ * neighbours, of six times the residuals of most samples of the flight, and of what an aircraft can
  * move or turn within a step and back. The change must happen within one step. A wrong time is a
  * wrong position at that time. Rounded values, noise, turns, stops, spins, gaps, and paths that
  * consist of pieces are no outliers. At the end of a piece the step has to exceed the speed (rate
