@@ -97,8 +97,8 @@ void inject(const Samples& samples, const Error& error, int seeds, unsigned firs
     const std::size_t wrong = random() % length;
     const double end = part.back().time;
     error.apply(part[wrong], error.size, random);
-    // Alone outside the flight it is no part of the path.
-    if (part[wrong].time > end + 1.0) continue;
+    // Behind the end of the part there is nothing to compare it with.
+    if (part[wrong].time > end) continue;
     const pcl_als::TrajectoryScreening screening = pcl_als::screenTrajectory(part);
     ++rate.tried;
     bool found = false;
