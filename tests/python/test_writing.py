@@ -147,7 +147,7 @@ class PathTest(FolderTest):
         settings = pcl_als.CalibrationSettings(estimate=(name for name in ["boresight_roll"]))
         settings.fixed = {"1"}
         self.assertEqual((settings.estimate, settings.fixed), (["boresight_roll"], ["1"]))
-        for strips in (["1", "2"], ("1", "2"), np.array(["1", "2"]), pcl_als.StripChoice(only=["1", "2"])):
+        for strips in (["1", "2"], ("1", "2"), iter(["1", "2"]), np.array(["1", "2"]), pcl_als.StripChoice(only=["1", "2"])):
             self.assertEqual(len(pcl_als.check(STRIPS, strips=strips).block.pairs), 1)
         strips = pcl_als.read_strips(STRIPS[:2])
         self.assertEqual(len(pcl_als.check(strip for strip in strips).block.pairs), 1)

@@ -29,9 +29,9 @@ class _Parameter:
 
 
 def _takes_lists(node):
-    """Whether a type is one of a list, or has one among alternatives."""
+    """Whether a type is one of a list, or has one among alternatives; ids are a StripChoice as well."""
     names = {getattr(each, "id", getattr(each, "attr", None)) for each in ast.walk(node)}
-    return not names.isdisjoint(_LISTS)
+    return "StripChoice" in names or not names.isdisjoint(_LISTS)
 
 
 def _signature(text):

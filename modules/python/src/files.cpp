@@ -69,7 +69,7 @@ void bindStripFiles(py::module_& m) {
         py::arg_v("window", PointWindow(), "PointWindow()"),
         "Reads .las, .laz and .pcd files whole, as strips: 48 bytes a point. A strip that reaches "
         "further than 4 km from its centre comes in parts of the same id. extra: True or names, "
-        "for colours (red, green, blue, nir), user_data and extra bytes of LAS files as "
+        "for colours (red, green, blue, nir) and extra bytes of LAS files as "
         "Strip.extra; bounds: x_min, y_min, x_max, y_max in the ground frame, m, of the points "
         "that are read; window: more of that kind. InputError for files that cannot be read or "
         "that do not belong together.");

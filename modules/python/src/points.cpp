@@ -149,11 +149,12 @@ void bindStrip(py::module_& m) {
           "crs", [](const LidarStrip& strip) { return strip.frame.crs; },
           [](LidarStrip& strip, const std::string& crs) { strip.frame.crs = crs; },
           "coordinate reference system: WKT or 'EPSG:...'; empty when unknown")
-      .def_property("extra", &extraOf, &setExtra,
-                    "Further fields of the points by name: red, green, blue, nir (16 bits), "
-                    "user_data (8 bits), extra bytes. They are read with read_strips(..., "
-                    "extra=True) and written by write_points(). New arrays that cannot be written "
-                    "to; to change fields, assign a new mapping.")
+      .def_property(
+          "extra", &extraOf, &setExtra,
+          "Further fields of the points by name: red, green, blue, nir (16 bits) and extra "
+          "bytes. They are read with read_strips(..., extra=True) and written by "
+          "write_points(). New arrays that cannot be written to; to change fields, assign "
+          "a new mapping.")
       .def("ground", &groundOf,
            "Coordinates in the ground frame (easting, northing, height; m): a new array, n x 3.")
       .def("__len__", [](const LidarStrip& strip) { return strip.cloud->size(); })
