@@ -1128,10 +1128,9 @@ class Strip:
     def crs(self, value: str) -> None: ...
     @property
     def extra(self) -> Mapping[str, numpy.ndarray]:
-        """Further fields of the points by name: red, green, blue, nir (16 bits), user_data (8
-        bits), extra bytes. They are read with read_strips(..., extra=True) and written by
-        write_points(). New arrays that cannot be written to; to change fields, assign a new
-        mapping."""
+        """Further fields of the points by name: red, green, blue, nir (16 bits) and extra
+        bytes. They are read with read_strips(..., extra=True) and written by write_points().
+        New arrays that cannot be written to; to change fields, assign a new mapping."""
     @extra.setter
     def extra(self, value: Mapping[str, ArrayLike]) -> None: ...
     def ground(self) -> numpy.ndarray:
@@ -1335,10 +1334,9 @@ def read_control(path: _Path) -> List[ControlPoint]:
 def read_strips(files: Union[_Path, Iterable[_Path]], *, extra: Union[bool, Iterable[str]] = False, bounds: Optional[Iterable[float]] = None, window: PointWindow = ...) -> List[Strip]:
     """Reads .las, .laz and .pcd files whole, as strips: 48 bytes a point. A strip that reaches
     further than 4 km from its centre comes in parts of the same id. extra: True or names, for
-    colours (red, green, blue, nir), user_data and extra bytes of LAS files as Strip.extra;
-    bounds: x_min, y_min, x_max, y_max in the ground frame, m, of the points that are read;
-    window: more of that kind. InputError for files that cannot be read or that do not belong
-    together."""
+    colours (red, green, blue, nir) and extra bytes of LAS files as Strip.extra; bounds: x_min,
+    y_min, x_max, y_max in the ground frame, m, of the points that are read; window: more of
+    that kind. InputError for files that cannot be read or that do not belong together."""
 
 def read_trajectory(paths: Union[_Path, Iterable[_Path]], *, crs: str = '', own_crs: str = '', attitude: str = 'where_given', columns: Iterable[str] = [], leap_seconds: Optional[float] = None, geoid: str = '') -> Flight:
     """Reads a trajectory from a file, several files or a folder: text with named columns, SBET,
