@@ -81,7 +81,7 @@ mkfifo pipe.las
 checks=$((checks + 1))
 status=0
 timeout 10 "$bin/pcl_als_info" pipe.las >out.txt 2>err.txt || status=$?
-[[ $status == 2 && $(<err.txt) == *"pipe.las: is not a regular file"* ]] || failed "a FIFO: status $status"
+[[ $status == 2 && $(<err.txt) == *"pipe.las: is a pipe"* ]] || failed "a FIFO: status $status"
 expect 1 "given twice" info "$block/strip1.las" "$block/../block/strip1.las"
 expect 1 "output" simulate
 expect 1 "preset" simulate -output x -preset huge

@@ -107,6 +107,7 @@ for tool in "$bin"/pcl_als_*; do
   verb=${tool##*/pcl_als_}
   all=$(table "$verb")
   tools=$((tools + 1))
+  check "pcl_als_$verb has an output" test -n "$(rows '^(output|folder)$')"
   # The positional inputs of any form are one input.
   inputs=$(rows '^inputs?$' | awk -F'|' '!seen[$1]++ && !($1 == "IN" && $4 == 0 && $3 == "") { print $1 }')
   while IFS='|' read -r output role _ _ words; do
@@ -130,7 +131,7 @@ for tool in "$bin"/pcl_als_*; do
     while IFS='|' read -r other other_role _ _ other_words; do
       [[ -n $other && $other != "$one" && $one != OUT ]] || continue
       path=spare$(first_word "$words")
-      [[ $other_role != folder ]] || path=spare/$(first_word "$other_words")
+      [[ $other_role != folder ]] || path=spare/$(first_word "${other_words:-points1.las}")
       file=in/points1.las
       give "$verb" "$other" "$([[ $other_role == folder ]] && echo spare || echo "$path")" IN
       text=""
