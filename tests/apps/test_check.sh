@@ -12,7 +12,7 @@ expect 1 "usage" check -output x.json
 expect 1 "output" check "$one" "$two"
 expect 1 "quality_level" check "$one" "$two" -output x.json -quality_level 4
 expect 1 "max_distance" check "$one" "$two" -output x.json -max_distance 0
-expect 1 "unrecognised option .-sigma" check "$one" "$two" -output x.json -sigma 1
+expect 1 "unrecognised option '-sigma'" check "$one" "$two" -output x.json -sigma 1
 expect 1 "given twice" check "$one" "$two" "$block/./strip1.las" -output x.json
 expect 2 "the folder does not exist" check "$one" "$two" -output nowhere/x.json
 expect 2 "no folder" check "$one" "$two" -output x.json -report "$one/report"

@@ -142,7 +142,7 @@ for tag in 0 1; do
     dd of=lie.tif bs=1 seek=$((directory + 2 + 12 * tag + 2)) conv=notrunc status=none
 done
 expect 2 'lie.tif: its header declares 300000 x 300000 cells' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside lie.tif
-expect 2 'none.tif: does not exist' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside none.tif
+expect 2 'none.tif: *there is no such file' classify "${strips[@]}" -training "$training" -output bad.tif -map bad.png -beside none.tif
 printf 'x,y,class\n1,2,unclassified\n' >reserved.csv
 expect 2 "named 'unclassified'" classify "${strips[@]}" -training reserved.csv -output bad.tif
 sed 's/"samples": [0-9]*/"samples": -3/' model.json >negative.json

@@ -57,7 +57,7 @@ struct LasExtension {
   bool keeps_coordinates = false;     ///< the edit leaves X, Y and Z alone
   /// Record of applied corrections (PointFileInfo::corrections) in place of that of the input; an
   /// empty text removes it. By default it is kept.
-  std::optional<std::string> corrections;
+  std::optional<std::string> corrections{};
 };
 
 /** \brief Where the fields will lie in the records of the output: behind all that is there.
