@@ -88,22 +88,22 @@ printf 'time,x,y,z\n0,0,0,500\n5,250,0,500\n10,500,0,500\n' >line.csv
 printf '%s\n' 'VERSION 0.7' 'FIELDS x y z intensity gps_time' 'SIZE 4 4 4 4 8' 'TYPE F F F F F' 'COUNT 1 1 1 1 1' 'WIDTH 1' \
   'HEIGHT 1' 'VIEWPOINT 0 0 0 1 0 0 0' 'POINTS 1' 'DATA ascii' '250 0 0 400 5' >point.pcd
 expect 0 '1 without a surface' intensity point.pcd corrected.pcd -trajectory line.csv -no_atmosphere
-floats() { tail -c 46 corrected.pcd | od -An -tf4 -j"$1" -N4 | tr -d ' '; }
+floats() { tail -c 47 corrected.pcd | od -An -tf4 -j"$1" -N4 | tr -d ' '; }
 check "PCD: intensity $(floats 20)" test "$(floats 20)" = 100
-check "PCD: original intensity $(floats 34)" test "$(floats 34)" = 400
-check "PCD: range $(floats 38)" test "$(floats 38)" = 500
-check "PCD: no incidence $(floats 42)" test "$(floats 42)" = nan
+check "PCD: original intensity $(floats 35)" test "$(floats 35)" = 400
+check "PCD: range $(floats 39)" test "$(floats 39)" = 500
+check "PCD: no incidence $(floats 43)" test "$(floats 43)" = nan
 
 # What it refuses, in one line, leaving nothing.
 expect 1 'option -trajectory is needed' intensity block/strip1.las x.las
-expect 1 'option -visibility: 0 km' intensity block/strip1.las x.las "${flight[@]}" -visibility 0
+expect 1 "option -visibility: '0' is not a number from 0.01 to 500 km" intensity block/strip1.las x.las "${flight[@]}" -visibility 0
 expect 1 'option -humidity' intensity block/strip1.las x.las "${flight[@]}" -humidity 120
 expect 1 'option -attenuation' intensity block/strip1.las x.las "${flight[@]}" -attenuation -1
 expect 1 'option -range_exponent' intensity block/strip1.las x.las "${flight[@]}" -range_exponent -2
 expect 1 "'gains' is none of" intensity block/strip1.las x.las "${flight[@]}" -estimate gains
-expect 1 'same file' intensity block/strip1.las block/strip1.las "${flight[@]}"
+expect 1 'is also an input' intensity block/strip1.las block/strip1.las "${flight[@]}"
 expect 1 'of one kind' intensity block/strip1.las x.pcd "${flight[@]}"
-expect 1 'give both' intensity block/strip1.las x.las "${flight[@]}" -agc_field agc
+expect 1 'option -agc_field needs -agc_gain' intensity block/strip1.las x.las "${flight[@]}" -agc_field agc
 expect 2 'has no extra field agc' intensity block/strip1.las x.las "${flight[@]}" -agc_field agc \
   -agc_gain <(printf 'value,gain\n0,1\n255,2\n')
 expect 2 'lies outside the table' intensity block/strip1.las x.las "${flight[@]}" -agc_field reflectance \

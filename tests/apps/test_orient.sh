@@ -35,7 +35,7 @@ check "names of lines need no -assign" grep -q '"status": "converged"' t.json
 
 # Input that cannot be used.
 expect 1 "-output" lines flown/strip3.las
-expect 1 "neither .csv nor .geojson" lines flown/strip3.las -output x.txt
+expect 1 "does not end in .csv, .geojson" lines flown/strip3.las -output x.txt
 expect 2 "missing.las" lines missing.las -output x.csv
 expect 1 "-lines is needed" "${orient[@]}" -output x.json
 expect 1 "formulation" "${orient[@]}" -lines lines.csv -output x.json -formulation exact

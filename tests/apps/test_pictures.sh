@@ -105,7 +105,7 @@ expect 1 "shade" view "${strips[0]}" -output none.png -shade moon
 expect 1 "extent" view "${strips[0]}" -output none.png -extent 1,2,3
 expect 2 "no point to draw" view "${strips[0]}" -output none.png -extent 1,1,2,2
 expect 2 "missing.las" view missing.las -output none.png
-expect 2 "cannot write" view "${strips[0]}" -output nowhere/none.png
+expect 2 "cannot be created: the folder does not exist" view "${strips[0]}" -output nowhere/none.png
 expect 1 "does not end in .png" view "${strips[0]}" -output none.jpg
 expect 1 "second strip" view "${strips[0]}" -output none.png -color difference -reference 1
 absent none.png

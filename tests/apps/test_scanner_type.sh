@@ -23,8 +23,8 @@ grep -q '"attitude": *"nominal"' nominal.json || failed "nominal.json does not s
 run apply stbarth.las out.las "${flight[@]}" -calibration nominal.json -force
 checks=$((checks + 1))
 [[ $status == 0 && $(<out.txt) == *'nominal attitude'* ]] || failed "apply -force of nominal.json: status $status"
-expect 0 'taken as level' apply stbarth.las forced.las "${flight[@]}" -biases boresight_roll=100 -force
-expect 0 'nominal attitude' apply stbarth.las level.las "${flight[@]}" -biases boresight_roll=100 -model nominal
+expect 0 'taken as level' apply stbarth.las forced.las "${flight[@]}" -biases boresight_roll=100 -force -no_record
+expect 0 'nominal attitude' apply stbarth.las level.las "${flight[@]}" -biases boresight_roll=100 -model nominal -no_record
 check "forced is nominal" cmp forced.las level.las
 rm -f stbarth.las out.las forced.las level.las
 finish

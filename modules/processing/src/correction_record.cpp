@@ -2,7 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "correction_record.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_lookup.h>
+#include <pcl_als/io/strip_naming.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -14,9 +19,9 @@ bool isInverse(const AppliedCorrection& a, const AppliedCorrection& b) {
   return kinds && a.id == b.id && a.strip_corrections == b.strip_corrections;
 }
 
-/// Whether the second correction would be made twice: the same biases, or intensities again.
+/// Whether the second correction would be made twice.
 bool isRepeated(const AppliedCorrection& a, const AppliedCorrection& b) {
-  return a.kind == b.kind && (a.kind == CorrectionKind::intensity || a.id == b.id);
+  return a.kind == b.kind && a.id == b.id;
 }
 
 bool changesIntensity(const AppliedCorrection& correction) {
@@ -42,6 +47,16 @@ std::string recordWith(const std::string& record, const AppliedCorrection& corre
   }
   corrections.push_back(correction);
   return correctionsRecord(corrections);
+}
+
+bool isHeldFixed(const std::filesystem::path& file, const CalibrationResult& calibration) {
+  SystemLookup systems(calibration);
+  if (calibration.held.empty() || systems.single()) return false;
+  systems.setStrip(file.stem().string());
+  const std::vector<PointSource> sources = surveySources(file).sources;
+  return std::all_of(sources.begin(), sources.end(), [&](const PointSource& source) {
+    return systems.of(source.id, 0) == systems.fixed();
+  });
 }
 
 }  // namespace pcl_als::detail

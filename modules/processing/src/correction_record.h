@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <pcl_als/common/warning.h>
@@ -21,5 +22,9 @@ namespace pcl_als::detail {
  */
 std::string recordWith(const std::string& record, const AppliedCorrection& correction,
                        const std::string& file, bool force, Warnings& warnings);
+
+/// Whether all points of a file are of strips that the calibration held fixed, so that it changes
+/// none. The file is read only if there are such strips.
+bool isHeldFixed(const std::filesystem::path& file, const CalibrationResult& calibration);
 
 }  // namespace pcl_als::detail

@@ -221,6 +221,7 @@ AppliedCorrection correctionMade(const Job& job) {
 /// Whether the job can change any point.
 bool changesPoints(const Job& job) {
   const CalibrationResult& calibration = job.calibration;
+  if (detail::isHeldFixed(job.input, calibration)) return false;
   const auto differs = [](const SystemEstimate& system) { return !system.values().isZero(0.0); };
   return job.options.strip_corrections || !calibration.biases().isZero(0.0) ||
          !calibration.sources.isZero(0.0) ||

@@ -214,10 +214,30 @@ struct FieldPlaces {
   }
 };
 
-/// The record of corrections of the output. InputError for intensities that were corrected before.
+/// What the run corrects: the terms of the radar equation, gains, both or nothing.
+std::string correctedBy(const IntensityRun& run) {
+  const IntensitySettings& settings = run.settings();
+  const RadiometricModel& model = run.model();
+  std::string text;
+  if (model.range_exponent != 0.0 || model.incidence_exponent != 0.0 ||
+      model.extinction_per_km != 0.0)
+    text = "range, incidence, atmosphere";
+  const std::vector<double>& estimated = run.estimatedGains();
+  const bool gains =
+      !settings.gains.empty() || !settings.pulse_rates.empty() || !settings.gain_steps.empty() ||
+      std::any_of(estimated.begin(), estimated.end(), [](double gain) { return gain != 1.0; });
+  if (gains) text += text.empty() ? "gains" : ", gains";
+  return text;
+}
+
+/// The record of corrections of the output. InputError where the same was corrected before.
 std::string recordOf(const IntensityRun& run, const std::string& before, const std::string& name) {
   AppliedCorrection correction;
   correction.kind = CorrectionKind::intensity;
+  correction.values = correctedBy(run);
+  if (correction.values.empty()) return before;
+  // Gains may follow the terms.
+  correction.id = correction.values == "gains" ? "gains" : "terms";
   Warnings ignored;
   return detail::recordWith(before, correction, name, run.settings().force, ignored);
 }

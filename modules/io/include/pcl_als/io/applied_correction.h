@@ -29,7 +29,9 @@ enum class CorrectionKind {
  */
 struct AppliedCorrection {
   CorrectionKind kind = CorrectionKind::biases_removed;
-  std::string id;                  ///< of the values: calibrationId() for biases; may be empty
+  /// What must not be corrected twice: calibrationId() for biases; of intensities "terms" (of the
+  /// radar equation) or "gains".
+  std::string id;
   bool strip_corrections = false;  ///< trajectory errors of the strip were corrected as well
   std::string values;              ///< in words, for messages
 
