@@ -84,6 +84,7 @@ printf 'value,gain\n-1,1\n9,1\n' >ones.csv
 poke values.las 3 8 '\xff\xff\xff\x7f'
 singly=(-agc_field reflectance -agc_gain ones.csv)
 counts_of() { grep -v 'Writing\|Looking\|Reading\|gain control' "$1"; }
+points_of() { tail -c +$(($(od -An -tu4 -j96 -N4 "$1") + 1)) "$1"; }
 compare() {  # WHAT OPTION…: both ways
   local what=$1 different
   shift
@@ -92,7 +93,8 @@ compare() {  # WHAT OPTION…: both ways
   expect 0 'points without a trajectory' intensity values.las columns.las "${flight[@]}" -keep_uncovered -no_fields -no_incidence "$@"
   counts_of out.txt >columns.txt
   check "$what: counts" diff singly.txt columns.txt
-  different=$(cmp -l singly.las columns.las | wc -l)
+  # The heads differ: one of them records gains.
+  different=$(cmp -l <(points_of singly.las) <(points_of columns.las) | wc -l)
   check "$what: $different bytes differ" test "$different" -le 3
   expect 0 '' intensity values.las threads.las "${flight[@]}" -keep_uncovered -no_fields -no_incidence "$@" -threads 1
   check "$what: one thread as all" cmp threads.las columns.las
