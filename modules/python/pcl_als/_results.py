@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 """How objects show themselves, their tables, and copies of settings."""
+import functools
 import html
 import inspect
 from typing import Any
@@ -233,6 +234,18 @@ def _reduced(self):
     return make_settings, (type(self), {name: getattr(self, name) for name in settings_of(_base_of(type(self)))})
 
 
+def _method_of(cls, function):
+    """The function as to_frame() of the class, which refuses objects of other classes as the compiled methods do."""
+    @functools.wraps(function)
+    def to_frame(self, *args, **kwargs):
+        if not isinstance(self, cls):
+            raise TypeError(f"{cls.__name__}.to_frame(): self must be {cls.__name__}, not {type(self).__name__}")
+        return function(self, *args, **kwargs)
+
+    to_frame.__name__, to_frame.__qualname__ = "to_frame", f"{cls.__name__}.to_frame"
+    return to_frame
+
+
 def add_methods(cls):
     """Texts, tables and copies of a class."""
     name = cls.__name__
@@ -246,11 +259,9 @@ def add_methods(cls):
     elif "__repr__" not in vars(cls):
         cls.__repr__ = _plain
     if name == "CalibrationResult":
-        cls.to_frame = _calibration_frame
+        cls.to_frame = _method_of(cls, _calibration_frame)
     elif name in _COLUMNS:
-        cls.to_frame = _frame_method(*_COLUMNS[name])
-    if "to_frame" in vars(cls):
-        cls.to_frame.__name__, cls.to_frame.__qualname__ = "to_frame", f"{name}.to_frame"
+        cls.to_frame = _method_of(cls, _frame_method(*_COLUMNS[name]))
 
 
 def add_to_module():
