@@ -15,6 +15,8 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(folder ${root}/usr/share/doc/${name})
   file(MAKE_DIRECTORY ${folder})
   file(COPY_FILE ${CPACK_RESOURCE_FILE_LICENSE} ${folder}/copyright)
+  # The permissions of the sources are those of the umask with which they were checked out.
+  file(CHMOD ${folder}/copyright PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
   file(WRITE ${folder}/changelog.Debian
 "${CPACK_PACKAGE_NAME} (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) UNRELEASED; urgency=medium
 

@@ -17,7 +17,7 @@ HEADER = '''# SPDX-License-Identifier: BSD-3-Clause
 # Made by share/dev/python_stubs.py; not to be edited.
 import os
 import pathlib
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Union
 
 import numpy
 from numpy.typing import ArrayLike
@@ -32,6 +32,9 @@ def types_of(text):
     text = re.sub(r"\bpcl_als\.", "", text)
     text = re.sub(r"numpy\.ndarray\[numpy\.\w+(\[[^]]*\])?\]", "numpy.ndarray", text)
     text = re.sub(r"(float|int)\[\d+\]", r"\1", text)
+    # pybind11 writes List or list, by its version.
+    text = re.sub(r"\b(List|Dict|Tuple|Set)\[", lambda found: found.group(0).lower(), text)
+    text = re.sub(r"Annotated\[((?:list|Iterable)\[\w+\]), FixedSize\(\d+\)\]", r"\1", text)
     text = text.replace("os.PathLike", "_Path").replace("handle", "Any")
     return re.sub(r"\bobject\b", "Any", text)
 
@@ -48,7 +51,7 @@ def signature_of(docstring):
     # What is returned is a path itself, not a text.
     returned = types_of(result).replace("_Path", "pathlib.Path")
     # What is taken is more than what is returned.
-    taken = types_of(arguments).replace("numpy.ndarray", "ArrayLike").replace("List[", "Iterable[")
+    taken = types_of(arguments).replace("numpy.ndarray", "ArrayLike").replace("list[", "Iterable[")
     taken = taken.replace("strips: StripChoice", "strips: Union[StripChoice, Iterable[str]]")
     return taken, returned, text.strip()
 
@@ -127,7 +130,7 @@ def stubs():
             parts.append(function_stub(name, value.__doc__))
         else:
             parts.append(f"{name}: {type(value).__module__.split('.')[0]}.dtype")
-    text = "\n\n".join(["__version__: str", "__all__: List[str]"] + parts) + "\n"
+    text = "\n\n".join(["__version__: str", "__all__: list[str]"] + parts) + "\n"
     header = HEADER.replace("Union\n", "Union, overload\n") if "@overload" in text else HEADER
     return header + "\n" + text
 

@@ -3,7 +3,8 @@
 # Copyright (c) 2026, the pcl_als authors
 #
 # programs.sh SOURCE_DIR: every program that the scripts of the demo and of the tests call is part of
-# every Debian (packages marked essential), listed in share/packages.sh, or looked for with command -v
+# every Debian (packages marked essential), of a package that is listed in share/packages.sh or that one
+# of these depends on, or looked for with command -v
 # in the script (tests/mpi is run only where MPI is asked for). A machine with many packages finds here what a bare one lacks; a program that this
 # machine lacks is not seen here, but its script fails.
 set -euo pipefail
@@ -21,7 +22,20 @@ called() {
     print "$ARGV\t$1\n" while /$begin[ \t]*(?:-[^ ]+[ \t]+|\w+=\S*[ \t]+)*([a-z][\w.+-]*)(?=[\s;|&)]|$)/mg' "$@" | sort -u
 }
 
-listed=" $(printf '%s ' "${pcl_als_packages_build[@]%%:*}" "${pcl_als_packages_test[@]%%:*}")"
+# with_dependencies PACKAGE…: the packages and what they depend on, of those that are installed.
+with_dependencies() {
+  local -A seen=()
+  local package queue=("$@")
+  while ((${#queue[@]})); do
+    for package in "${queue[@]}"; do seen[$package]=1; done
+    mapfile -t queue < <(dpkg-query -W -f '${Depends},${Pre-Depends}\n' "${queue[@]}" 2>/dev/null |
+      tr ',|' '\n\n' | sed 's/^ *//; s/[ (:].*//; /^$/d' | sort -u |
+      while read -r package; do [[ -v "seen[$package]" ]] || echo "$package"; done)
+  done
+  printf '%s ' "${!seen[@]}"
+}
+
+listed=" $(with_dependencies "${pcl_als_packages_build[@]%%:*}" "${pcl_als_packages_test[@]%%:*}")"
 declare -A verdict  # by program: the package that lacks in the lists, or nothing
 missing_package() {
   local path package

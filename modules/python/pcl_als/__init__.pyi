@@ -3,7 +3,7 @@
 # Made by share/dev/python_stubs.py; not to be edited.
 import os
 import pathlib
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Tuple, Union, overload
+from typing import Any, Callable, Iterable, Mapping, Optional, Union, overload
 
 import numpy
 from numpy.typing import ArrayLike
@@ -12,7 +12,7 @@ _Path = Union[str, os.PathLike]
 
 __version__: str
 
-__all__: List[str]
+__all__: list[str]
 
 class Alignment:
     """The rigid motion of a source onto a target, about the centroid of their overlap. Order of
@@ -127,7 +127,7 @@ class CalibrationResult:
     def attitude(self) -> str:
         """source of the attitude of the model: 'none', 'points', 'trajectory' or 'nominal'"""
     @property
-    def control(self) -> List[ControlFit]:
+    def control(self) -> list[ControlFit]:
         """fit of each strip to control"""
     @property
     def converged(self) -> bool: ...
@@ -135,25 +135,25 @@ class CalibrationResult:
     def correlation(self) -> numpy.ndarray:
         """of the estimated parameters; a new array"""
     @property
-    def correlation_order(self) -> List[str]:
+    def correlation_order(self) -> list[str]:
         """names of the rows and columns of correlation"""
     @property
-    def diagnosis(self) -> List[ErrorFinding]:
+    def diagnosis(self) -> list[ErrorFinding]:
         """possible causes of the misfit"""
     @property
-    def inputs(self) -> List[str]:
+    def inputs(self) -> list[str]:
         """names of files"""
     @property
-    def left_out(self) -> List[LeftOutPoints]: ...
+    def left_out(self) -> list[LeftOutPoints]: ...
     @property
     def misfit(self) -> MisfitChange: ...
     @property
-    def observability(self) -> List[str]:
+    def observability(self) -> list[str]:
         """what is weakly determined, why, and what would help"""
     @property
-    def pairs(self) -> List[PairFit]: ...
+    def pairs(self) -> list[PairFit]: ...
     @property
-    def parameters(self) -> Dict[str, Parameter]:
+    def parameters(self) -> dict[str, Parameter]:
         """the eight system parameters by name, such as 'boresight_roll'"""
     @property
     def redundancy(self) -> int: ...
@@ -161,7 +161,7 @@ class CalibrationResult:
     def sigma0(self) -> float:
         """standard deviation of unit weight, 1"""
     @property
-    def systems(self) -> List[SystemEstimate]:
+    def systems(self) -> list[SystemEstimate]:
         """all systems where there are several; parameters are those of the first one"""
     def to_dict(self) -> Any:
         """The content of calibration.json as dictionaries and lists; angles in arc-seconds."""
@@ -171,7 +171,7 @@ class CalibrationResult:
     @property
     def verdict(self) -> CalibrationVerdict: ...
     @property
-    def warnings(self) -> List[str]: ...
+    def warnings(self) -> list[str]: ...
     def write(self, path: _Path) -> None:
         """Writes calibration.json; the file appears when it is complete."""
 
@@ -195,12 +195,12 @@ class CalibrationSettings:
     @diagnose.setter
     def diagnose(self, value: bool) -> None: ...
     @property
-    def estimate(self) -> List[str]:
+    def estimate(self) -> list[str]:
         """names of the parameters to estimate; empty: all that the data determine"""
     @estimate.setter
     def estimate(self, value: Iterable[str]) -> None: ...
     @property
-    def fixed(self) -> List[str]:
+    def fixed(self) -> list[str]:
         """strips that are held fixed: an earlier delivery, which is not corrected"""
     @fixed.setter
     def fixed(self, value: Iterable[str]) -> None: ...
@@ -238,7 +238,7 @@ class CalibrationSettings:
     @noise.setter
     def noise(self, value: NoiseModel) -> None: ...
     @property
-    def own(self) -> List[str]:
+    def own(self) -> list[str]:
         """what systems have of their own: names of parameters, 'boresight', 'lever_arm',
         'offset'"""
     @own.setter
@@ -263,10 +263,10 @@ class CalibrationSettings:
     @shared_errors.setter
     def shared_errors(self, value: SharedErrorModel) -> None: ...
     @property
-    def systems(self) -> List[Tuple[str, List[str]]]:
+    def systems(self) -> list[tuple[str, list[str]]]:
         """systems with parameters of their own: name and strips of each; empty: one"""
     @systems.setter
-    def systems(self, value: Iterable[Tuple[str, Iterable[str]]]) -> None: ...
+    def systems(self, value: Iterable[tuple[str, Iterable[str]]]) -> None: ...
     @property
     def threads(self) -> int:
         """0: all cores; results do not depend on it"""
@@ -300,7 +300,7 @@ class CheckResult:
         """whether the delivery keeps the required level: every overlapping pair is measured and
         within the limit, and so is control where it was given"""
     @property
-    def not_kept_because(self) -> List[str]:
+    def not_kept_because(self) -> list[str]:
         """why the delivery does not keep the required level: every pair and figure"""
     @property
     def quality_level(self) -> int:
@@ -364,18 +364,18 @@ class CheckedBlock:
     def control(self) -> Optional[OffsetSummary]:
         """strips minus control points; None without control"""
     @property
-    def files(self) -> List[str]: ...
+    def files(self) -> list[str]: ...
     @property
-    def left_out(self) -> List[LeftOutPoints]: ...
+    def left_out(self) -> list[LeftOutPoints]: ...
     @property
-    def pairs(self) -> List[CheckedPair]: ...
+    def pairs(self) -> list[CheckedPair]: ...
     @property
-    def strips(self) -> List[str]: ...
+    def strips(self) -> list[str]: ...
     def to_frame(self) -> Any:
         """The pairs of strips as a pandas.DataFrame; as a dictionary of columns where pandas is
         missing."""
     @property
-    def warnings(self) -> List[str]: ...
+    def warnings(self) -> list[str]: ...
 
 class CheckedPair:
     """Agreement of two overlapping strips; signs are those of a - b."""
@@ -397,7 +397,7 @@ class CheckedPair:
     @property
     def reason(self) -> str: ...
     @property
-    def sampled_offsets(self) -> List[float]:
+    def sampled_offsets(self) -> list[float]:
         """vertical offsets at up to 5000 places, for plots; m"""
     @property
     def status(self) -> str:
@@ -409,9 +409,9 @@ class CheckedPair:
 class ClassModel:
     """Statistics of classes: normal distributions over the bands of rasters."""
     @property
-    def bands(self) -> List[str]: ...
+    def bands(self) -> list[str]: ...
     @property
-    def classes(self) -> List[str]:
+    def classes(self) -> list[str]:
         """names"""
     def covariance(self, index: int) -> numpy.ndarray:
         """Covariance of a class, bands x bands; a new array."""
@@ -534,7 +534,7 @@ class FileCorrection:
     def uncovered(self) -> int:
         """points without trajectory, which are unchanged"""
     @property
-    def warnings(self) -> List[str]: ...
+    def warnings(self) -> list[str]: ...
 
 class Flight:
     """A trajectory in the ground frame of the points. Times are seconds on its own clock; jobs
@@ -560,7 +560,7 @@ class Flight:
     def reconstructed(self) -> bool:
         """whether it was reconstructed from points"""
     @property
-    def remarks(self) -> List[str]:
+    def remarks(self) -> list[str]:
         """conversions and repairs"""
     @property
     def samples(self) -> numpy.ndarray:
@@ -649,15 +649,15 @@ class IntensityOutput:
 class IntensityResult:
     """The result of a radiometric correction."""
     @property
-    def gains(self) -> Dict[str, float]:
+    def gains(self) -> dict[str, float]:
         """divisor of the intensities of each strip"""
     @property
-    def left_out(self) -> List[LeftOutPoints]: ...
+    def left_out(self) -> list[LeftOutPoints]: ...
     @property
     def model(self) -> RadiometricModel:
         """as it was used, with the estimated terms"""
     @property
-    def points_by_status(self) -> Dict[str, int]: ...
+    def points_by_status(self) -> dict[str, int]: ...
     @property
     def reason(self) -> str:
         """why the result is not reliable; empty where it is"""
@@ -669,7 +669,7 @@ class IntensityResult:
         """The gains of the strips as a pandas.DataFrame; as a dictionary of columns where
         pandas is missing."""
     @property
-    def warnings(self) -> List[str]: ...
+    def warnings(self) -> list[str]: ...
 
 class IntensitySettings:
     """Settings of a radiometric correction; attributes may be given as keywords."""
@@ -680,7 +680,7 @@ class IntensitySettings:
     @cell.setter
     def cell(self, value: float) -> None: ...
     @property
-    def estimate(self) -> List[str]:
+    def estimate(self) -> list[str]:
         """terms to estimate from overlaps: 'range_exponent', 'incidence_exponent',
         'extinction', 'strip_gains'"""
     @estimate.setter
@@ -695,10 +695,10 @@ class IntensitySettings:
     @force.setter
     def force(self, value: bool) -> None: ...
     @property
-    def gains(self) -> Dict[str, float]:
+    def gains(self) -> dict[str, float]:
         """known gains by strip; intensities are divided by them"""
     @gains.setter
-    def gains(self, value: Dict[str, float]) -> None: ...
+    def gains(self, value: dict[str, float]) -> None: ...
     @property
     def gps_week(self) -> Optional[int]: ...
     @gps_week.setter
@@ -713,10 +713,10 @@ class IntensitySettings:
     @model.setter
     def model(self, value: RadiometricModel) -> None: ...
     @property
-    def pulse_rates(self) -> Dict[str, float]:
+    def pulse_rates(self) -> dict[str, float]:
         """by strip, Hz"""
     @pulse_rates.setter
-    def pulse_rates(self, value: Dict[str, float]) -> None: ...
+    def pulse_rates(self, value: dict[str, float]) -> None: ...
     @property
     def saturation(self) -> float:
         """digital number; 0: 255 or 65535"""
@@ -735,7 +735,7 @@ class IntensitySettings:
 class LandCover:
     """The result of classify()."""
     @property
-    def cells(self) -> List[int]:
+    def cells(self) -> list[int]:
         """cells of the map by class, in the order of model.classes"""
     @property
     def confusion(self) -> Optional[numpy.ndarray]:
@@ -749,14 +749,14 @@ class LandCover:
     @property
     def reliable(self) -> bool: ...
     @property
-    def remarks(self) -> List[str]: ...
+    def remarks(self) -> list[str]: ...
     def to_dict(self) -> Any:
         """The content of accuracy.json as dictionaries and lists; empty without check sites."""
     def to_frame(self) -> Any:
         """The cells of each class as a pandas.DataFrame; as a dictionary of columns where
         pandas is missing."""
     @property
-    def undetermined(self) -> List[str]:
+    def undetermined(self) -> list[str]:
         """classes whose training samples do not suffice"""
 
 class LeftOutPoints:
@@ -896,7 +896,7 @@ class Parameter:
 class PlanResult:
     """What a planned flight will give."""
     @property
-    def advice(self) -> List[str]:
+    def advice(self) -> list[str]:
         """weak combinations of parameters, why, and which line would help"""
     @property
     def control_points(self) -> int:
@@ -909,7 +909,7 @@ class PlanResult:
         """standard deviations, correlations and statuses as of a calibration; biases are
         zero"""
     @property
-    def lines(self) -> List[FlightLine]: ...
+    def lines(self) -> list[FlightLine]: ...
     def to_dict(self) -> Any:
         """The content of plan.json as dictionaries and lists."""
     def to_frame(self) -> Any:
@@ -920,7 +920,7 @@ class PointWindow:
     """The part of point files that is read, and how."""
     def __init__(self, **kwargs) -> None: ...
     @property
-    def bounds(self) -> Optional[List[float]]:
+    def bounds(self) -> Optional[list[float]]:
         """rectangle x_min, y_min, x_max, y_max in the ground frame, m; None: all points"""
     @bounds.setter
     def bounds(self, value: Optional[Iterable[float]]) -> None: ...
@@ -1006,7 +1006,7 @@ class RoofLine:
     def start(self) -> numpy.ndarray:
         """m"""
     @property
-    def strips(self) -> List[str]:
+    def strips(self) -> list[str]:
         """in which it was seen"""
 
 class RoofLineSettings:
@@ -1171,7 +1171,7 @@ class StripChoice:
     @keep_timeless.setter
     def keep_timeless(self, value: bool) -> None: ...
     @property
-    def only(self) -> List[str]:
+    def only(self) -> list[str]:
         """names of the strips that are used; empty: all"""
     @only.setter
     def only(self, value: Iterable[str]) -> None: ...
@@ -1181,7 +1181,7 @@ class StripChoice:
     @split.setter
     def split(self, value: bool) -> None: ...
     @property
-    def without(self) -> List[str]:
+    def without(self) -> list[str]:
         """names of strips to leave out"""
     @without.setter
     def without(self, value: Iterable[str]) -> None: ...
@@ -1198,16 +1198,16 @@ class Survey:
     def crs(self) -> str:
         """common coordinate reference system of the files (WKT or 'EPSG:...'); may be empty"""
     @property
-    def extent(self) -> List[float]:
+    def extent(self) -> list[float]:
         """x_min, y_min, x_max, y_max of all points, m, ground frame"""
     @property
-    def points_by_strip(self) -> Dict[str, int]:
+    def points_by_strip(self) -> dict[str, int]:
         """number of points of each strip"""
     @property
-    def remarks(self) -> List[str]:
+    def remarks(self) -> list[str]:
         """conversions of units, and assumptions"""
     @property
-    def strips(self) -> List[str]:
+    def strips(self) -> list[str]:
         """names of the strips; after a job those that it used"""
     def to_frame(self) -> Any:
         """The strips as a pandas.DataFrame; as a dictionary of columns where pandas is
@@ -1233,14 +1233,14 @@ class SystemEstimate:
     def offset_std(self) -> numpy.ndarray:
         """m"""
     @property
-    def parameters(self) -> Dict[str, Parameter]: ...
+    def parameters(self) -> dict[str, Parameter]: ...
     @property
-    def strips(self) -> List[str]: ...
+    def strips(self) -> list[str]: ...
 
 class UsageError(Error, ValueError):
     """A wrong argument or an impossible value; also a ValueError."""
 
-def calibrate(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], trajectory: Union[Union[_Path, Iterable[_Path]], Flight], *, control: Union[None, _Path, Iterable[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., pairs: Iterable[Tuple[str, str]] = [], references: Iterable[str] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
+def calibrate(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], trajectory: Union[Union[_Path, Iterable[_Path]], Flight], *, control: Union[None, _Path, Iterable[ControlPoint]] = None, settings: CalibrationSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., pairs: Iterable[tuple[str, str]] = [], references: Iterable[str] = [], gps_week: Optional[int] = None, progress: Optional[Callable[[Progress], Any]] = None) -> CalibrationResult:
     """Estimates boresight angles, lever arm, range bias and scan angle scale from overlapping
     strips (Habib et al. 2011), as pcl_als_calibrate does. points: files, strips in memory or a
     Survey; trajectory: as delivered; control: points or their CSV file; pairs: of strips,
@@ -1263,13 +1263,13 @@ def classify(files: Union[_Path, Iterable[_Path]], output: _Path, *, training: O
     files with classes; reject: probability below which a cell has no class; training_radius: m.
     UsageError for impossible options, InputError for input that cannot be used."""
 
-def convert(inputs: Union[_Path, Iterable[_Path]], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Iterable[str]] = ..., format: str = '', threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> List[ConvertedFile]:
+def convert(inputs: Union[_Path, Iterable[_Path]], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Iterable[str]] = ..., format: str = '', threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> list[ConvertedFile]:
     """Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of
     LAS records stay as they are. output: a file for one input, else a folder, whose files have
     the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one
     file for each strip. Constant memory."""
 
-def convert_trajectory(paths: Union[_Path, Iterable[_Path]], output: _Path, *, calibration: Optional[Union[_Path, CalibrationResult]] = None, crs: str = '', strip_corrections: bool = True, force: bool = False, progress: Optional[Callable[[Progress], Any]] = None) -> List[pathlib.Path]:
+def convert_trajectory(paths: Union[_Path, Iterable[_Path]], output: _Path, *, calibration: Optional[Union[_Path, CalibrationResult]] = None, crs: str = '', strip_corrections: bool = True, force: bool = False, progress: Optional[Callable[[Progress], Any]] = None) -> list[pathlib.Path]:
     """Reads trajectory files, takes lever arm and strip corrections of a calibration out, and
     writes one trajectory: .csv, or .sbet or .out with a crs. Returns the files."""
 
@@ -1294,7 +1294,7 @@ def empty_points(count: int) -> numpy.ndarray:
     """An array of that many points of dtype POINT, all at the origin, to be filled. A Strip
     takes it as it is, without a copy."""
 
-def extract_lines(files: Union[_Path, Iterable[_Path]], *, settings: RoofLineSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., output: Optional[_Path] = None, progress: Optional[Callable[[Progress], Any]] = None) -> List[RoofLine]:
+def extract_lines(files: Union[_Path, Iterable[_Path]], *, settings: RoofLineSettings = ..., strips: Union[StripChoice, Iterable[str]] = ..., output: Optional[_Path] = None, progress: Optional[Callable[[Progress], Any]] = None) -> list[RoofLine]:
     """Finds roof lines in the strips of files and combines them, as pcl_als_lines does. output:
     .csv or .geojson to write as well."""
 
@@ -1328,10 +1328,10 @@ def read_calibration(path: _Path) -> CalibrationResult:
 def read_class_model(path: _Path) -> ClassModel:
     """Reads a model that was written. InputError names the file and what is wrong with it."""
 
-def read_control(path: _Path) -> List[ControlPoint]:
+def read_control(path: _Path) -> list[ControlPoint]:
     """Reads control points from CSV with columns id, x, y, z and optionally sigma, m."""
 
-def read_strips(files: Union[_Path, Iterable[_Path]], *, extra: Union[bool, Iterable[str]] = False, bounds: Optional[Iterable[float]] = None, window: PointWindow = ...) -> List[Strip]:
+def read_strips(files: Union[_Path, Iterable[_Path]], *, extra: Union[bool, Iterable[str]] = False, bounds: Optional[Iterable[float]] = None, window: PointWindow = ...) -> list[Strip]:
     """Reads .las, .laz and .pcd files whole, as strips: 48 bytes a point. A strip that reaches
     further than 4 km from its centre comes in parts of the same id. extra: True or names, for
     colours (red, green, blue, nir) and extra bytes of LAS files as Strip.extra; bounds: x_min,

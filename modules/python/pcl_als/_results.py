@@ -9,7 +9,7 @@ from typing import Any
 import numpy
 
 from . import _pcl_als
-from ._arguments import settings_of
+from ._arguments import _shown, settings_of
 
 _LONGEST = 100  # characters of what the text of an object lists
 _SCALARS = (str, bool, int, float, type(None))
@@ -239,7 +239,7 @@ def _method_of(cls, function):
     @functools.wraps(function)
     def to_frame(self, *args, **kwargs):
         if not isinstance(self, cls):
-            raise TypeError(f"{cls.__name__}.to_frame(): self must be {cls.__name__}, not {type(self).__name__}")
+            raise TypeError(f"{cls.__name__}.to_frame(): self must be {cls.__name__}, not {_shown(self)}")
         return function(self, *args, **kwargs)
 
     to_frame.__name__, to_frame.__qualname__ = "to_frame", f"{cls.__name__}.to_frame"
