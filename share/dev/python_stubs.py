@@ -11,6 +11,7 @@ import re
 import textwrap
 
 import pcl_als
+from pcl_als._arguments import uniform_types
 
 HEADER = '''# SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
@@ -31,10 +32,7 @@ def types_of(text):
     """Types of pybind11 as those of Python's annotations."""
     text = re.sub(r"\bpcl_als\.", "", text)
     text = re.sub(r"numpy\.ndarray\[numpy\.\w+(\[[^]]*\])?\]", "numpy.ndarray", text)
-    text = re.sub(r"(float|int)\[\d+\]", r"\1", text)
-    # pybind11 writes List or list, by its version.
-    text = re.sub(r"\b(List|Dict|Tuple|Set)\[", lambda found: found.group(0).lower(), text)
-    text = re.sub(r"Annotated\[((?:list|Iterable)\[\w+\]), FixedSize\(\d+\)\]", r"\1", text)
+    text = re.sub(r"list\[(\w+), \d+\]", r"list[\1]", uniform_types(text))
     text = text.replace("os.PathLike", "_Path").replace("handle", "Any")
     return re.sub(r"\bobject\b", "Any", text)
 

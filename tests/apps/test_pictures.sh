@@ -53,23 +53,24 @@ if command -v Xvfb >/dev/null; then
 
   # Closed standard streams, and too little memory: a picture, or status 2, a message and nothing
   # half written. Libraries of the display may print lines of their own before. The tool and its
-  # libraries take 100 to 200 MB of addresses before main() begins: with less there is no answer.
+  # libraries take 100 to 300 MB of addresses before main() begins: with less there is no answer.
   check "closed standard streams" eval '"$bin/pcl_als_view" "${strips[@]}" -output top_closed.png \
     -size 800x600 <&- >&- 2>&-'
   check "the picture is the same with closed streams" cmp top.png top_closed.png
-  for kilobytes in 120000 200000 400000; do
-    (ulimit -v "$kilobytes"; exec "$bin/pcl_als_view" -h) >/dev/null 2>&1 || {
-      check "view starts with 400 MB" test "$kilobytes" -lt 400000
-      continue
-    }
+  starts_with() { (ulimit -v "$1"; exec "$bin/pcl_als_view" -h) >/dev/null 2>&1; }
+  least=120000
+  until starts_with "$least" || ((least > 300000)); do least=$((least + 10000)); done
+  for kilobytes in "$least" $((least + 80000)) 400000; do
     checks=$((checks + 1))
     status=0
     (ulimit -v "$kilobytes"; exec "$bin/pcl_als_view" "${strips[@]}" -output small.png) >out.txt \
       2>err.txt || status=$?
-    [[ $status == 2 && $(tail -n 1 err.txt) == "pcl_als_view: "* ]] ||
+    message=$(tail -n 1 err.txt)
+    [[ $status == 2 && $message == "pcl_als_view: "* ]] ||
       failed "view with $kilobytes kB of memory: status $status"
     absent small.png
   done
+  check "the limit is named" eval '[[ $message == *"drawing needs 1000 MB of addresses"* ]]'
 
   # Few points, and points without use.
   expect 0 "1 points" view one.pcd -output one.png

@@ -142,7 +142,8 @@ for page in modules/*/README.md; do
 done
 while IFS= read -r place; do
   breach "$place" "has 100 characters or more"
-done < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' -not -path './pcl_als_demo/*' -exec \
+done < <(find . -name '*.md' -not -path './.git/*' -not -path './build*' \
+  -not -path './pcl_als_demo/*' -exec \
   awk '{ gsub(/[\200-\277]/, "") } length($0) > 99 && !/^\|/ { print FILENAME ":" FNR }' {} +)
 
 # A file that no CMakeLists.txt lists is not built.

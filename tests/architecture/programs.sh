@@ -3,10 +3,10 @@
 # Copyright (c) 2026, the pcl_als authors
 #
 # programs.sh SOURCE_DIR: every program that the scripts of the demo and of the tests call is part of
-# every Debian (packages marked essential), of a package that is listed in share/packages.sh or that one
-# of these depends on, or looked for with command -v
-# in the script (tests/mpi is run only where MPI is asked for). A machine with many packages finds here what a bare one lacks; a program that this
-# machine lacks is not seen here, but its script fails.
+# every Debian (packages marked essential), of a package that is listed in share/packages.sh or that
+# one of these depends on, or looked for with command -v in the script (tests/mpi is run only where
+# MPI is asked for). A machine with many packages finds here what a bare one lacks; a program that
+# this machine lacks is not seen here, but its script fails.
 set -euo pipefail
 export LC_ALL=C
 cd -- "$1"

@@ -52,6 +52,10 @@ class MessageTest(FolderTest):
                             pcl_als.calibrate, STRIPS, None)
         self.assert_message(TypeError, "CalibrationSettings.threads must be int, not 'two'",
                             setattr, pcl_als.CalibrationSettings(), "threads", "two")
+        self.assert_message(TypeError, "PointWindow.bounds must be list of 4 float or None, not 3",
+                            setattr, pcl_als.PointWindow(), "bounds", 3)
+        self.assert_message(TypeError, "read_strips(): bounds must be list of 4 float or None, not list of int",
+                            pcl_als.read_strips, STRIPS, bounds=[1, 2, 3])
         self.assert_message(TypeError, "empty_points(): count is out of range: -1", pcl_als.empty_points, -1)
         self.assert_message(TypeError, "this object was made without its __init__",
                             lambda: pcl_als.Strip.__new__(pcl_als.Strip).id)

@@ -10,12 +10,13 @@ import ast
 import functools
 import inspect
 import os
+import re
 
 import numpy
 
 from . import _pcl_als
 
-_LISTS = ("List", "list", "Sequence")
+_LISTS = ("list", "Sequence")
 
 
 class _Parameter:
@@ -34,9 +35,17 @@ def _takes_lists(node):
     return "StripChoice" in names or not names.isdisjoint(_LISTS)
 
 
+def uniform_types(text):
+    """A signature with types in one spelling. That of pybind11 depends on its version: List[str] or list[str]; of
+    a list of a fixed size List[float[4]] or Annotated[list[float], FixedSize(4)], here list[float, 4]."""
+    text = re.sub(r"\b(List|Dict|Tuple|Set)\[", lambda found: found.group().lower(), text)
+    text = re.sub(r"Annotated\[list\[(\w+)\], FixedSize\((\d+)\)\]", r"list[\1, \2]", text)
+    return re.sub(r"list\[(\w+)\[(\d+)\]\]", r"list[\1, \2]", text)
+
+
 def _signature(text):
     """The parameters in a line '(self: Strip, count: int = 0) -> None', and whether keywords are free."""
-    arguments = ast.parse(f"def f{text}: pass").body[0].args
+    arguments = ast.parse(f"def f{uniform_types(text)}: pass").body[0].args
     plain = arguments.args
     defaults = [None] * (len(plain) - len(arguments.defaults)) + arguments.defaults
     found = [_Parameter(each, default, False) for each, default in zip(plain, defaults)]
@@ -101,7 +110,7 @@ _PLAIN = {
 
 
 def _fits_parts(value, outer, parts):
-    """Whether a value fits a type with others inside, such as List[str]."""
+    """Whether a value fits a type with others inside, such as list[str]."""
     if outer == "Union":
         return any(_fits(value, part) for part in parts)
     if outer == "Optional":
@@ -110,9 +119,9 @@ def _fits_parts(value, outer, parts):
         count = ast.unparse(parts[1]) if len(parts) > 1 else None
         return (_is_list(value) and (count is None or len(value) == int(count))
                 and all(_fits(each, parts[0]) for each in value))
-    if outer in ("Tuple", "tuple"):
+    if outer == "tuple":
         return _is_list(value) and len(value) == len(parts) and all(map(_fits, value, parts))
-    if outer in ("Dict", "dict"):
+    if outer == "dict":
         return (isinstance(value, dict) and all(_fits(each, parts[0]) for each in value)
                 and all(_fits(each, parts[1]) for each in value.values()))
     if outer == "Mapping":
@@ -135,8 +144,6 @@ def _outer(node):
 def _fits(value, node):
     outer, parts = _outer(node)
     if parts:
-        if outer in ("float", "int"):  # float[4]: as many in a list
-            return _is_list(value) and len(value) == int(ast.unparse(parts[0]))
         return _fits_parts(value, outer, parts)
     if outer.startswith("pcl_als."):
         return _fits_class(value, outer.rpartition(".")[2])
@@ -159,15 +166,14 @@ def _named(node):
         names = [name for name in names if name != "None"] + ["None"] * ("None" in names)
         return ", ".join(names[:-1]) + " or " + names[-1] if len(names) > 1 else names[0]
     if outer in _LISTS:
-        return "list of " + _named(parts[0]) + "s" * (_named(parts[0]) == "path")
-    if outer in ("Tuple", "tuple") and parts:
+        count = ast.unparse(parts[1]) + " " if len(parts) > 1 else ""
+        return f"list of {count}" + _named(parts[0]) + "s" * (_named(parts[0]) == "path")
+    if outer == "tuple" and parts:
         return "tuple of " + " and ".join(_named(part) for part in parts)
-    if outer in ("float", "int") and parts:
-        return f"list of {ast.unparse(parts[0])} {outer}"
     if outer == "numpy.ndarray":
         text = ast.unparse(parts[0]) if parts else ""
         return "array" + (" of shape " + text.partition("[")[2].rstrip("]") if "[" in text else "")
-    plain = {"os.PathLike": "path", "Callable": "callable", "Mapping": "mapping", "Dict": "dict"}
+    plain = {"os.PathLike": "path", "Callable": "callable", "Mapping": "mapping"}
     return plain.get(outer, outer.rpartition(".")[2])
 
 

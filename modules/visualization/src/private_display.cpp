@@ -73,6 +73,15 @@ std::string readNumber(int descriptor) {
   _exit(127);
 }
 
+/// Mesa's software renderer ends the process where it gets no memory (LLVM 19, limit of 400 MB).
+void requireAddressSpace() {
+  constexpr rlim_t kNeeded = 1'000'000'000;  // bytes, with the libraries of the process
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur >= kNeeded) return;  // or unlimited
+  throw InputError("drawing needs 1000 MB of addresses, and this process may use " +
+                   std::to_string(limit.rlim_cur / 1'000'000) + " MB: raise the limit (ulimit -v)");
+}
+
 }  // namespace
 
 std::shared_ptr<void> PrivateDisplay::connect(const std::string& name) {
@@ -94,25 +103,8 @@ std::shared_ptr<void> PrivateDisplay::connectToCurrent() {
   return connect(displayVariable());
 }
 
-namespace {
-
-/// Mesa's software renderer ends the process where it gets no memory (LLVM 19, limit of 400 MB).
-void requireAddressSpace() {
-  constexpr rlim_t kNeeded = 1'000'000'000;  // bytes, with the libraries of the process
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
-      limit.rlim_cur >= kNeeded)
-    return;
-  throw InputError("drawing needs 1000 MB of addresses, and this process may use " +
-                   std::to_string(limit.rlim_cur / 1'000'000) + " MB: raise the limit (ulimit -v)");
-}
-
-}  // namespace
-
-PrivateDisplay::PrivateDisplay() {
+PrivateDisplay::PrivateDisplay() : name_(displayVariable()), connection_(connect(name_)) {
   requireAddressSpace();
-  name_ = displayVariable();
-  connection_ = connect(name_);
   if (connection_ == nullptr) start();
 }
 
