@@ -103,8 +103,10 @@ std::shared_ptr<void> PrivateDisplay::connectToCurrent() {
   return connect(displayVariable());
 }
 
-PrivateDisplay::PrivateDisplay() : name_(displayVariable()), connection_(connect(name_)) {
-  requireAddressSpace();
+PrivateDisplay::PrivateDisplay() {
+  requireAddressSpace();  // before the libraries of a display take a part of it
+  name_ = displayVariable();
+  connection_ = connect(name_);
   if (connection_ == nullptr) start();
 }
 
