@@ -66,6 +66,33 @@ expect 3 "does not keep QL2: strips 1 and 7: RMSDz 1*.* cm, more than the 8 cm t
 expect 0 "0 of 1 pairs keep QL2" check a.pcd high.pcd -output high.json
 check "without -require the field states it as well" grep -q '"kept": false' high.json
 expect 0 "" check a.pcd high.pcd -require QL3 -output high.json
+# Two flights, 2.3 m apart: each agrees in itself, and every overlapping pair is counted.
+for k in a:8 b:9; do
+  awk -v id="${k#*:}" '/^DATA/ { data = 1; print; next } data { $3 += 2.3; $6 = id } { print }' \
+    "${k%:*}.pcd" >"flight${k#*:}.pcd"
+done
+expect 0 "2 of 6 pairs keep QL2*4 overlapping pairs lie too far apart in height*1 and 8 (2.30 m)" \
+  check a.pcd b.pcd flight8.pcd flight9.pcd -output flights.json
+check "the JSON counts them" grep -q '"too_far": 4' flights.json
+expect 3 "does not keep QL2: strips 1 and 8: too far apart" check a.pcd b.pcd flight8.pcd \
+  flight9.pcd -require QL2 -output flights.json
+# Control: far from all strips it is a figure and not a class; a figure of no points is none.
+plane() { awk -v up="$1" 'BEGIN { print "id,x,y,z"; for (i = 0; i < 18; i++) {
+  x = 8 + 8 * (i % 6); y = 8 + 16 * int(i / 6)
+  printf "G%d,%.3f,%.3f,%.3f\n", i, 690000 + x, 5330000 + y, 0.2 * sin(x / 9) + 0.01 + up } }'; }
+plane 1.5 >control_high.csv; plane 0 >control_good.csv
+plane 0 | awk -F, -v OFS=, 'NR > 1 { $2 += 40000 } { print }' >control_aside.csv
+plane 0 | awk -F, -v OFS=, 'NR == 5 { $4 += 4 } { print }' >control_blunder.csv
+expect 0 "RMSE_V 0.0* m (class * cm)" check a.pcd b.pcd -control control_good.csv -output good.json
+expect 0 "18 points, 0 of no strip, 18 more than 1 m*RMSE_V 1.*no class: 18 of 18 control points lie more than 1 m*the strips lie 1.50 ± 0.01 m below all 18 control points: check the antenna height" \
+  check a.pcd b.pcd -control control_high.csv -output high.json
+check "there is no class in the JSON" grep -q '"class_cm": null' high.json
+expect 3 "does not keep QL3*18 of 18 control points" check a.pcd b.pcd -control control_high.csv \
+  -require QL3 -output high.json
+expect 0 "17 points, 0 of no strip, 1 more than 1 m*class*G3 (-*blunders" check a.pcd b.pcd \
+  -control control_blunder.csv -output blunder.json
+expect 0 "0 points, 18 of no strip: no figures*no strip covers any of 18 control points, which lie 3*km beside" \
+  check a.pcd b.pcd -control control_aside.csv -output aside.json
 expect 3 "no reliable answer" check a.pcd copy.pcd -require QL3 -output copy.json
 expect 1 "QL0, QL1, QL2" check a.pcd b.pcd -require 2 -output x.json
 expect 1 "different levels" check a.pcd b.pcd -require QL2 -quality_level 1 -output x.json

@@ -30,6 +30,7 @@ CheckedPair unmeasured(const char* a, const char* b, bool too_small) {
 ControlAssessment controlOf(std::size_t points, double rmse) {
   ControlAssessment control;
   control.points = points;
+  if (points == 0) return control;
   control.accuracy = verticalAccuracy(rmse, 0.02, points);
   control.quality_level = absoluteQualityLevel(rmse);
   return control;
@@ -88,6 +89,45 @@ TEST(DeliveryRequirement, ALineNamesThreeReasonsAndCountsTheOthers) {
   EXPECT_NE(requirement.describe().find("; and 2 more reasons"), std::string::npos);
   EXPECT_THROW(requireLevel(block, 4), UsageError);
   EXPECT_THROW(requireLevel(block, -1), UsageError);
+}
+
+// Two flights of two strips that are 2.3 m apart, one pair under forest and one edge in common.
+TEST(DeliveryRequirement, EveryOverlappingPairIsCounted) {
+  CheckedBlock block;
+  block.pairs = {pairOf("1", "2", 0.03), pairOf("3", "4", 0.03), unmeasured("2", "4", false),
+                 unmeasured("1", "4", true)};
+  for (const char* a : {"1", "2"}) {
+    CheckedPair& pair = block.pairs.emplace_back(unmeasured(a, "3", false));
+    pair.assessment.status = PairAssessment::Status::too_far;
+    pair.assessment.apart = -2.304;
+  }
+  const PairCounts counts = countPairs(block.pairs);
+  EXPECT_EQ(counts.measured, 2U);
+  EXPECT_EQ(counts.too_far, 2U);
+  EXPECT_EQ(counts.unmeasurable, 1U);
+  EXPECT_EQ(counts.too_small, 1U);
+  EXPECT_EQ(counts.all(), 5U);
+  const auto sentences = unmeasuredPairs(block.pairs);
+  ASSERT_EQ(sentences.size(), 2U);
+  EXPECT_EQ(sentences[0],
+            "2 overlapping pairs lie too far apart in height to be compared: strips 1 and 3 "
+            "(2.30 m), 2 and 3 (2.30 m)");
+  EXPECT_EQ(sentences[1],
+            "1 overlapping pair could not be measured: strips 2 and 4 (only 3 places)");
+  const DeliveryRequirement requirement = requireLevel(block, 3);
+  EXPECT_FALSE(requirement.kept);
+  ASSERT_EQ(requirement.reasons.size(), 3U);
+  EXPECT_EQ(requirement.reasons[1],
+            "strips 1 and 3: too far apart in height to be compared (2.30 m)");
+}
+
+TEST(DeliveryRequirement, ControlThatIsFarOffIsAReason) {
+  CheckedBlock block;
+  block.control = controlOf(12, 0.03);
+  block.control->no_class = "4 of 12 control points lie more than 1 m above or below the strips";
+  EXPECT_EQ(requireLevel(block, 3).describe(),
+            "the delivery does not keep QL3: 4 of 12 control points lie more than 1 m above or "
+            "below the strips");
 }
 
 }  // namespace

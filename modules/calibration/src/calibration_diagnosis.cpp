@@ -7,44 +7,26 @@
 #include <map>
 
 #include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/shared_vectors.h>
 
 #include "calibration_state.h"
 #include "control_consistency.h"
+#include "pair_coverage.h"
 #include "part_consistency.h"
 #include "strip_consistency.h"
 
 namespace pcl_als {
 
-bool SystemCalibrationEngine::hasPairs(int strip, const CalibrationResult& result) const {
-  const std::string& id = ids_[static_cast<std::size_t>(strip)];
-  return std::any_of(result.pairs.begin(), result.pairs.end(), [&](const PairFit& fit) {
-    return fit.correspondences > 0 && (fit.a == id || fit.b == id);
-  });
-}
-
-std::string SystemCalibrationEngine::reasonWithoutPairs(int strip) const {
-  SurveyMap::HeightOffset best;
-  int partner = -1;
+std::vector<OverlappingPair> SystemCalibrationEngine::overlappingPairs() const {
+  std::vector<OverlappingPair> found;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const StripPair& pair = pairs_[i];
-    if (pair.first != strip && pair.second != strip) continue;
-    SurveyMap::HeightOffset found = pair_heights_[i];
-    if (found.cells <= best.cells) continue;
-    partner = pair.first == strip ? pair.second : pair.first;
-    if (pair.second == strip) found.offset = -found.offset;
-    best = found;
+    const auto [a, b] = pairs_[i];
+    if (!isReference(a) && !isReference(b))  // their heights are checked before
+      found.push_back(
+          {ids_[static_cast<std::size_t>(a)], ids_[static_cast<std::size_t>(b)], pair_heights_[i]});
   }
-  if (partner < 0) return {};
-  const std::string start = "strip " + ids_[static_cast<std::size_t>(strip)] +
-                            " has no pairs with any strip although it overlaps others: ";
-  if (std::abs(best.offset) < settings_.max_normal_distance) {
-    return start + "no smooth surface in common was found";
-  }
-  return start +
-         describe(best, ids_[static_cast<std::size_t>(strip)],
-                  ids_[static_cast<std::size_t>(partner)]) +
-         "; check its heights (unit, height reference, trajectory)";
+  return found;
 }
 
 void SystemCalibrationEngine::warnOfTargets(CalibrationResult& result) const {
@@ -102,12 +84,7 @@ void SystemCalibrationEngine::diagnose(CalibrationResult& result) const {
   std::vector<StripFacts> strips;
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const int strip = static_cast<int>(i);
-    if (!used_[i] || isReference(strip)) continue;
-    if (!hasPairs(strip, result)) {
-      const std::string reason = reasonWithoutPairs(strip);
-      if (!reason.empty()) result.warnings.push_back({reason, Remedy::strips});
-    }
-    if (isHeld(strip)) continue;
+    if (!used_[i] || isHeld(strip)) continue;
     strips.push_back(
         {ids_[i], map_.startTime(strip), map_.endTime(strip), plausibility_.meanHeight(strip)});
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
@@ -17,7 +18,6 @@ constexpr double kScatter = 2.5;
 constexpr double kSeparate = 4.5;          // standard deviations of the groups
 constexpr double kSeparateExpected = 5.0;  // expected standard deviations
 constexpr double kSmallestGroup = 0.2;     // share of the points
-constexpr std::size_t kNamed = 8;          // points that a sentence names
 
 std::string inMetres(double value, const char* format = "%+.3f m") {
   char text[32];
@@ -52,15 +52,6 @@ Split bestSplit(const std::vector<double>& values) {
 }
 
 }  // namespace
-
-std::string listedNames(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i) {
-    text += (i == 0 ? "" : ", ") + names[i];
-  }
-  if (names.size() > kNamed) text += " and " + std::to_string(names.size() - kNamed) + " more";
-  return text;
-}
 
 ControlConsistency::ControlConsistency(const std::vector<ControlPointFit>& points) {
   std::vector<double> standardised, expected, plan;

@@ -55,9 +55,6 @@ struct ControlledAdjustment {
 SystemVector controlSpread(const ControlConsistency& control,
                            const ControlledAdjustment& adjustment);
 
-/// The first names of a list and the number of the others, for a sentence.
-std::string listedNames(const std::vector<std::string>& names);
-
 /// Adds the assessment of control to a result: warnings that name rejected points and state where
 /// control is less accurate than given; for two groups an objection in the verdict, and standard
 /// deviations that include both groups, from controlSpread().

@@ -19,6 +19,7 @@
 #include "control_consistency.h"
 #include "error_diagnosis.h"
 #include "misfit_comparison.h"
+#include "pair_coverage.h"
 #include "pair_weights.h"
 #include "strip_error_check.h"
 #include "system_groups.h"
@@ -348,6 +349,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   assessHeight(height_error_, result);
   judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
   assessParts(state, result);  // larger standard deviations must not make a result usable
+  judgePairCoverage(overlappingPairs(), settings_.max_normal_distance, result);
   nameUndetermined(swathEdge(state.observations), settings_.limits.on_points, result);
   return result;
 }

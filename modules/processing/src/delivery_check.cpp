@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <pcl_als/common/count_text.h>
@@ -9,6 +8,7 @@
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/processing/delivery_check.h>
 #include <pcl_als/survey/area_index.h>
+#include <pcl_als/survey/place_in_block.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 #include "delivery_messages.h"
@@ -21,29 +21,14 @@ constexpr std::size_t kRoughnessAreas = 24;  // that show what smooth is
 constexpr double kRoughnessFactor = 2.0;     // of the median on gentle slopes is still smooth
 constexpr double kLeastRoughness = 0.02;     // metres
 constexpr double kControlArea = 4.0;         // metres: the patch around a point is enough
-// Points that ICPatch uses of each strip of a pair: sufficient for its standard deviations, seconds
-// for a pair.
-constexpr std::size_t kAlignmentPoints = 400'000, kAlignmentPairs = 60'000;
-constexpr double kRepeated = 0.2;  // share of repeated points worth a warning
-constexpr double kBytesPerPoint = sizeof(LidarReturn) + 73.0;  // including its part of the TIN
+constexpr double kRepeated = 0.2;            // share of repeated points worth a warning
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+using detail::Clock;
+using detail::millisecondsSince;
 
 /// Scan angles of LAS: positive to the right of flight.
 float lookAngle(const ScanGeometry& geometry) {
   return static_cast<float>(-geometry.beta / kRadiansPerDegree);
-}
-
-/// At most \a most, evenly.
-std::vector<OffsetSample> thinned(std::vector<OffsetSample> samples, std::size_t most) {
-  if (samples.size() <= most) return samples;
-  std::vector<OffsetSample> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(samples[i * samples.size() / most]);
-  return some;
 }
 
 }  // namespace
@@ -291,76 +276,22 @@ void BlockCheck::measureControl(CheckedBlock& block) {
   detail::shareDifferences(survey_.processes(), target_shares_, found);
   std::vector<ControlDifference> all;
   for (const auto& of_point : found) all.insert(all.end(), of_point.begin(), of_point.end());
-  block.control =
-      assessControl(std::move(all), settings_.control, survey_.strips(), settings_.control_sigma);
+  block.control = assessControl(std::move(all), settings_.control, survey_.strips(),
+                                settings_.control_sigma, settings_.limits.maximum_distance);
+  for (const Warning& warning : warningsOf(*block.control)) warnings_.push_back(warning);
+  if (block.control->unseen.size() == count) warnings_.push_back(placeOfControl());
 }
 
-CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
-  const Clock::time_point start = Clock::now();
-  const auto& [a, b] = overlaps_[k].strips;
-  CheckedPair pair;
-  pair.a = survey_.strips()[a];
-  pair.b = survey_.strips()[b];
-  pair.overlap_area = overlaps_[k].area;
-  pair.too_small = pair.overlap_area < settings_.minimum_overlap;
-  std::vector<OffsetSample> samples;
-  for (std::size_t i = 0; i < areas_.size(); ++i) {
-    const auto& found = samples_[i][k];
-    samples.insert(samples.end(), found.begin(), found.end());
-    samples_[i][k] = {};
-    pair.milliseconds += milliseconds_[i][k];
-    const std::size_t of_a = counts_[i][static_cast<std::size_t>(a)],
-                      of_b = counts_[i][static_cast<std::size_t>(b)];
-    if (of_a == 0 || of_b == 0) continue;
-    ++pair.areas;
-    pair.points_a += of_a;
-    pair.points_b += of_b;
-  }
-  pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
-                               courses_[static_cast<std::size_t>(b)].direction());
-  const SurveyMap::HeightOffset height = map_.heightOffset(overlaps_[k].strips);
-  if (std::abs(height.offset) > settings_.limits.maximum_distance) {
-    const std::string text =
-        describe(height, pair.a, pair.b) +
-        ", further than surfaces are compared: a height offset of one strip (unit or vertical "
-        "datum of its heights, trajectory)";
-    warnings_.push_back(
-        {"strips " + pair.a + " and " + pair.b + " overlap, but " + text, Remedy::max_distance});
-    if (pair.assessment.status == PairAssessment::Status::too_little)
-      pair.assessment.reason += "; " + text;
-  }
-  cells = cellMeans(samples);
-  pair.samples = thinned(std::move(samples), CheckedPair::kScatter);
-  pair.memory_mb = 1e-6 * kBytesPerPoint * static_cast<double>(pair.points_a + pair.points_b);
-  pair.milliseconds += millisecondsSince(start);
-  return pair;
-}
-
-void BlockCheck::alignPairs(std::vector<CheckedPair>& pairs,
-                            const std::function<void(double)>& progress) {
-  PatchAlignmentSettings settings;
-  settings.points = kAlignmentPoints;
-  settings.pairs = kAlignmentPairs;
-  settings.resolution = survey_.resolution();
-  settings.threads = settings_.threads;
-  std::vector<double> costs;
-  for (const CheckedPair& pair : pairs)
-    costs.push_back(isAligned(pair) ? static_cast<double>(pair.points_a + pair.points_b) : 0.0);
-  const SharedItems shares(survey_.processes(), costs);
-  sharePairPoints(pairs, shares);
-  doTogether(survey_.processes(), [&] {
-    std::size_t done = 0;
-    for (const std::size_t k : shares.ownItems()) {
-      const Clock::time_point start = Clock::now();
-      const auto& [a, b] = overlaps_[k].strips;
-      if (isAligned(pairs[k])) pairs[k].alignment = alignStrips(offsets_, a, b, settings);
-      pairs[k].milliseconds += millisecondsSince(start);
-      ++done;
-      if (progress)
-        progress(static_cast<double>(done) / static_cast<double>(shares.ownItems().size()));
-    }
-  });
-  detail::shareAlignments(survey_.processes(), shares, pairs);
+/// Where control lies that no strip covers.
+std::string BlockCheck::placeOfControl() const {
+  Eigen::AlignedBox2d block, box;
+  for (std::size_t strip = 0; strip < used_.size(); ++strip)
+    if (used_[strip]) block.extend(map_.boxOf(static_cast<int>(strip)));
+  for (const ControlPoint& point : settings_.control)
+    box.extend(Eigen::Vector2d(point.position.head<2>()));
+  const PlaceInBlock place(box, block);
+  return "no strip covers any of " + counted(settings_.control.size(), "control point") +
+         (place.distance > 0.0 ? ", which lie " + place.text() : std::string());
 }
 
 CheckedBlock BlockCheck::assess(const std::function<void(double)>& progress) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include <pcl_als/common/shared_vectors.h>
@@ -10,6 +11,12 @@
 namespace pcl_als {
 
 namespace detail {
+
+using Clock = std::chrono::steady_clock;
+
+inline double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 /// Collective: the differences at all control points.
 void shareDifferences(Communicator* processes, const SharedItems& items,

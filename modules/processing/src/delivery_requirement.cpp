@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <pcl_als/common/count_text.h>
@@ -28,6 +29,11 @@ bool isWithin(const std::optional<int>& reached, int level) {
 std::string objection(const CheckedPair& pair, const QualityLevelLimits& limits) {
   const PairAssessment& found = pair.assessment;
   const std::string strips = "strips " + pair.a + " and " + pair.b + ": ";
+  if (found.status == PairAssessment::Status::too_far) {
+    char height[32];
+    std::snprintf(height, sizeof height, "%.2f m", std::abs(found.apart));
+    return strips + "too far apart in height to be compared (" + height + ")";
+  }
   if (found.status != PairAssessment::Status::judged)
     return pair.too_small ? std::string() : strips + "not measured (" + found.reason + ")";
   if (isWithin(found.quality_level, limits.level)) return {};
@@ -35,9 +41,12 @@ std::string objection(const CheckedPair& pair, const QualityLevelLimits& limits)
 }
 
 std::string objection(const ControlAssessment& control, const QualityLevelLimits& limits) {
-  if (control.points == 0) return "no strip covers a control point";
+  if (!control.no_class.empty()) return control.no_class;
+  if (!control.accuracy)
+    return control.differences.empty() ? "no strip covers a control point"
+                                       : "no strip has a surface at a control point";
   if (isWithin(control.quality_level, limits.level)) return {};
-  return "control: " + exceeds("RMSE", control.accuracy.fit, limits.absolute_rmsez);
+  return "control: " + exceeds("RMSE", control.accuracy->fit, limits.absolute_rmsez);
 }
 
 }  // namespace

@@ -51,14 +51,14 @@ void shareDifferences(Communicator* processes, const SharedItems& items,
         out.put(found.size());
         for (const ControlDifference& d : found) {
           out.put(d.point).put(d.strip).put(d.position).put(d.above).put(d.slope);
-          out.put(d.roughness).put(d.unfit);
+          out.put(d.roughness).put(d.unfit).put(d.normal).put(d.slope_std);
         }
       },
       [](ByteReader& in, std::vector<ControlDifference>& found) {
         found.resize(in.take<std::size_t>());
         for (ControlDifference& d : found) {
           in.get(d.point).get(d.strip).get(d.position).get(d.above).get(d.slope);
-          in.get(d.roughness).get(d.unfit);
+          in.get(d.roughness).get(d.unfit).get(d.normal).get(d.slope_std);
         }
       });
 }

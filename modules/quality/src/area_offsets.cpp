@@ -198,12 +198,12 @@ std::optional<AreaOffsets::Height> AreaOffsets::heightAt(int strip,
   height.above = -match->signed_normal_distance / match->normal.z();
   height.slope = static_cast<float>(std::acos(std::min(1.0, quality.plane_normal.z())));
   height.roughness = quality.roughness;
+  height.normal = quality.plane_normal;
+  height.slope_std = quality.spread > 0.0F ? quality.roughness / quality.spread : kSteepest;
   if (quality.on_hull || quality.longest_edge > limits_.edge_factor * one.median_edge) {
     height.unfit = "at the edge of the strip or of a void";
   } else if (height.slope > kSteepest) {
     height.unfit = "on a wall";
-  } else if (std::abs(height.above) > limits_.maximum_distance) {
-    height.unfit = "too far off: another surface, or a blunder";
   }
   return height;
 }

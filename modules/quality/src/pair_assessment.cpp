@@ -155,7 +155,7 @@ const char* aspectName(int aspect) {
 }
 
 const char* toString(PairAssessment::Status status) {
-  static const char* const names[] = {"judged", "too_little", "copy"};
+  static const char* const names[] = {"judged", "too_little", "copy", "too_far"};
   return names[static_cast<int>(status)];
 }
 

@@ -138,6 +138,7 @@ Json pairJson(const CheckedPair& pair) {
   const PairAssessment& p = pair.assessment;
   Json json = {{"a", pair.a}, {"b", pair.b}, {"status", toString(p.status)}};
   if (!p.reason.empty()) json["reason"] = p.reason;
+  if (p.status == PairAssessment::Status::too_far) json["apart_m"] = p.apart;
   json["overlap_m2"] = pair.overlap_area;
   if (pair.alignment) json["icpatch"] = alignmentJson(*pair.alignment);
   json["vertical"] = summaryJson(p.vertical);
@@ -154,13 +155,39 @@ Json pairJson(const CheckedPair& pair) {
   return json;
 }
 
+/// The ASPRS figures of control; none without a point.
+void addAccuracy(const ControlAssessment& control, Json& json) {
+  if (!control.accuracy) return;
+  const VerticalAccuracy& v = *control.accuracy;
+  const bool classed = control.no_class.empty();
+  json["asprs"] = {{"standard", kPositionalStandard},
+                   {"rmse_v_m", v.rmse_v},
+                   {"fit_m", v.fit},
+                   {"survey_m", v.survey},
+                   {"survey_known", control.survey_known},
+                   {"class_cm", number(v.class_cm, classed)},
+                   {"enough_points", v.enough_points}};
+  if (!classed) json["asprs"]["no_class_because"] = control.no_class;
+  json["asprs_older"] = {{"standard", kOlderPositionalStandard}, {"nva_95_m", v.nva_95}};
+  json["quality_level"] = levelJson(control.quality_level);
+}
+
 Json controlJson(const ControlAssessment& control) {
-  const VerticalAccuracy& v = control.accuracy;
   Json json = {{"points", control.points},
                {"unseen", control.unseen},
+               {"far", control.far},
+               {"offsets", Json::array()},
+               {"shift_onto_control", horizontalJson(control.shift)},
                {"all", summaryJson(control.all)},
                {"strips", Json::array()},
                {"differences", Json::array()}};
+  json["shift_onto_control"]["significant"] = isSignificantInPlan(control.shift);
+  for (const CommonOffset& common : control.offsets)
+    json["offsets"].push_back({{"strip", common.strip.empty() ? Json(nullptr) : Json(common.strip)},
+                               {"offset_m", common.offset},
+                               {"std_m", common.std},
+                               {"points", common.points},
+                               {"covered", common.covered}});
   for (const auto& strip : control.strips) {
     Json entry = summaryJson(strip.offsets);
     entry["strip"] = strip.strip;
@@ -175,16 +202,7 @@ Json controlJson(const ControlAssessment& control) {
     if (!d.unfit.empty()) entry["left_out_because"] = d.unfit;
     json["differences"].push_back(entry);
   }
-  if (control.points == 0) return json;
-  json["asprs"] = {{"standard", kPositionalStandard},
-                   {"rmse_v_m", v.rmse_v},
-                   {"fit_m", v.fit},
-                   {"survey_m", v.survey},
-                   {"survey_known", control.survey_known},
-                   {"class_cm", v.class_cm},
-                   {"enough_points", v.enough_points}};
-  json["asprs_older"] = {{"standard", kOlderPositionalStandard}, {"nva_95_m", v.nva_95}};
-  json["quality_level"] = levelJson(control.quality_level);
+  addAccuracy(control, json);
   return json;
 }
 
@@ -196,6 +214,11 @@ Json blockJson(const CheckedBlock& block) {
     json["strips"].push_back(entry);
   }
   for (const CheckedPair& pair : block.pairs) json["pairs"].push_back(pairJson(pair));
+  const PairCounts counts = countPairs(block.pairs);
+  json["pair_counts"] = {{"measured", counts.measured},
+                         {"too_far", counts.too_far},
+                         {"unmeasurable", counts.unmeasurable},
+                         {"too_small", counts.too_small}};
   json["triangles"] = Json::array();
   for (const TriangleClosure& t : block.triangles)
     json["triangles"].push_back({{"strips", {t.a, t.b, t.c}},

@@ -199,26 +199,57 @@ std::optional<QualityTable> controlTable(const QualityReport& report) {
   return table;
 }
 
-/// Assessment of control by the standards.
+/// Assessment of control by the standards; without a point there are no figures.
+std::string figuresOf(const ControlAssessment& control) {
+  std::string text =
+      formatted("%zu points, %zu of no strip", control.points, control.unseen.size());
+  if (!control.far.empty())
+    text += formatted(", %zu more than %s m above or below the strips", control.far.size(),
+                      shortText(control.distance_limit).c_str());
+  if (!control.accuracy) return text + ": no figures\n";
+  const VerticalAccuracy& accuracy = *control.accuracy;
+  const std::string of_class = control.no_class.empty()
+                                   ? formatted("class %.0f cm", accuracy.class_cm)
+                                   : "no class: " + control.no_class;
+  text += formatted(
+      ". RMSE_V %.4f m (%s) with %.4f m for the survey of the points%s\n  [%s]\n  older: NVA at "
+      "95 %% = 1.96 RMSEz = %.4f m [%s]\n  absolute accuracy %s [%s]\n",
+      accuracy.rmse_v, of_class.c_str(), accuracy.survey,
+      control.survey_known ? "" : " (assumed: the file gives none)", kPositionalStandard,
+      accuracy.nva_95, kOlderPositionalStandard, levelName(control.quality_level).c_str(),
+      kAbsoluteSpecification);
+  if (!accuracy.enough_points)
+    text += formatted("  fewer than the %zu check points that the standard asks for\n",
+                      kFewestCheckPoints);
+  const HorizontalShift& shift = control.shift;
+  return text + "  movement of the strips onto control that slopes show: " +
+         (shift.determined ? "east " + withStd(shift.shift.x(), shift.std.x(), 3) + " m, north " +
+                                 withStd(shift.shift.y(), shift.std.y(), 3) + " m\n"
+                           : "not determined (" + shift.reason + ")\n");
+}
+
 std::string controlFigures(const QualityReport& report) {
   if (!report.block.control) return {};
-  std::string text;
-  const auto figures = [&](const char* label, const ControlAssessment& control) {
-    const VerticalAccuracy& accuracy = control.accuracy;
-    text += formatted(
-        "\n%s%zu points, %zu of no strip. RMSE_V %.4f m (class %.0f cm) with %.4f m for the "
-        "survey of the points%s\n  [%s]\n  older: NVA at 95 %% = 1.96 RMSEz = %.4f m [%s]\n  "
-        "absolute accuracy %s [%s]\n",
-        label, control.points, control.unseen.size(), accuracy.rmse_v, accuracy.class_cm,
-        accuracy.survey, control.survey_known ? "" : " (assumed: the file gives none)",
-        kPositionalStandard, accuracy.nva_95, kOlderPositionalStandard,
-        levelName(control.quality_level).c_str(), kAbsoluteSpecification);
-    if (!accuracy.enough_points)
-      text += formatted("  fewer than the %zu check points that the standard asks for\n",
-                        kFewestCheckPoints);
-  };
-  if (report.before && report.before->control) figures("Before: ", *report.before->control);
-  figures(report.before ? "After: " : "", *report.block.control);
+  const bool both = report.before && report.before->control;
+  return (both ? "\nBefore: " + figuresOf(*report.before->control) : std::string()) +
+         (report.before ? "\nAfter: " : "\n") + figuresOf(*report.block.control);
+}
+
+/// How many of all overlapping pairs keep the level, and what is known of the others.
+std::string pairsText(const QualityReport& report) {
+  const QualityLevelLimits& limits =
+      qualityLevels()[static_cast<std::size_t>(report.quality_level)];
+  const auto& pairs = report.block.pairs;
+  const auto kept = std::count_if(pairs.begin(), pairs.end(), [&](const CheckedPair& pair) {
+    return judged(pair) && pair.assessment.vertical.rms <= limits.swath_overlap_rmsdz;
+  });
+  const PairCounts counts = countPairs(pairs);
+  std::string text = formatted("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n",
+                               static_cast<std::size_t>(kept), counts.all(), report.quality_level,
+                               limits.swath_overlap_rmsdz, kSwathSpecification);
+  for (const std::string& sentence : unmeasuredPairs(pairs)) text += "  " + sentence + '\n';
+  if (counts.too_small > 0)
+    text += "  " + counted(counts.too_small, "overlap") + " too small to be measured\n";
   return text;
 }
 
@@ -265,16 +296,7 @@ std::string qualityText(const QualityReport& report) {
                      textOf(shiftTable(report)) + textOf(trendTable(report)) + triangleText(report);
   if (const auto control = controlTable(report)) text += textOf(*control);
   text += controlFigures(report);
-  const QualityLevelLimits& limits =
-      qualityLevels()[static_cast<std::size_t>(report.quality_level)];
-  std::size_t kept = 0, all = 0;
-  for (const CheckedPair& pair : report.block.pairs) {
-    if (!judged(pair)) continue;
-    ++all;
-    kept += pair.assessment.vertical.rms <= limits.swath_overlap_rmsdz ? 1 : 0;
-  }
-  text += formatted("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n", kept, all,
-                    report.quality_level, limits.swath_overlap_rmsdz, kSwathSpecification);
+  text += pairsText(report);
   for (const Warning& warning : report.block.warnings) text += "\nwarning: " + warning.text + '\n';
   return text;
 }

@@ -80,7 +80,9 @@ class VerdictOnStrips {
   void say(const std::string& sentence) { verdict_.sentences.push_back(sentence); }
 
   void judgePairs() {
+    const PairCounts counts = countPairs(report_.block.pairs);
     unjudged_ = report_.block.pairs.size() - pairs_.size();
+    failed_ = counts.too_far > 0;
     if (pairs_.empty()) return;
     const double limit = limits_.swath_overlap_rmsdz;
     const auto beyond = std::count_if(pairs_.begin(), pairs_.end(), [&](const CheckedPair* pair) {
@@ -89,12 +91,16 @@ class VerdictOnStrips {
     const CheckedPair& worst = worstOf(pairs_);
     const std::string figures =
         "an RMSDz of " + centimetres(rmsOf(worst)) + ", " + centimetres(limit) + " are allowed.";
-    const std::string all = std::to_string(pairs_.size());
+    const std::string all = std::to_string(counts.all());
     if (beyond > 0) {
       failed_ = true;
       pair_headline_ = std::to_string(beyond) + " of " + all + " pairs of strips " +
                        (beyond == 1 ? "does" : "do") + " not keep " + level() + ": strips " +
                        nameOf(worst) + " differ by " + figures;
+    } else if (counts.all() > counts.measured) {
+      pair_headline_ = std::to_string(counts.measured) + " of " + all + " pairs of strips keep " +
+                       level() + ", the others could not be compared: " + "the worst that was, " +
+                       nameOf(worst) + ", has " + figures;
     } else {
       pair_headline_ = (pairs_.size() == 1
                             ? "The pair of strips keeps " + level() + ": strips "
@@ -105,8 +111,10 @@ class VerdictOnStrips {
 
   void judgeControl() {
     const auto& control = report_.block.control;
-    if (!control || control->points == 0) return;
-    const bool kept = control->accuracy.fit <= limits_.absolute_rmsez + kSlackOfLimit;
+    if (!control) return;
+    failed_ = failed_ || !control->no_class.empty();
+    if (!control->accuracy) return;
+    const bool kept = control->accuracy->fit <= limits_.absolute_rmsez + kSlackOfLimit;
     failed_ = failed_ || !kept;
     control_headline_ = std::string(pair_headline_.empty() ? "" : " ") + "Heights fit control " +
                         "with an RMSE of " + centimetres(control->all.rms) + ", " +
@@ -199,8 +207,8 @@ class VerdictOnStrips {
 
   void sayControl() {
     const auto& control = report_.block.control;
-    if (!control || control->points == 0) return;
-    const VerticalAccuracy& accuracy = control->accuracy;
+    if (!control || !control->accuracy) return;
+    const VerticalAccuracy& accuracy = *control->accuracy;
     const double mean = control->all.mean;
     std::string text = "Control: the strips lie " + centimetres(std::abs(mean)) +
                        (mean < 0.0 ? " below" : " above") + " it on average, RMSE " +
@@ -208,7 +216,10 @@ class VerdictOnStrips {
                        " points";
     if (report_.before && report_.before->control && report_.before->control->points > 0)
       text += " (before: " + centimetres(report_.before->control->all.rms) + ")";
-    text += "; vertical accuracy class " + numberText(accuracy.class_cm, 0) + " cm (ASPRS 2023)";
+    if (control->no_class.empty())
+      text += "; vertical accuracy class " + numberText(accuracy.class_cm, 0) + " cm (ASPRS 2023)";
+    else
+      text += "; no vertical accuracy class, because " + control->no_class;
     if (!accuracy.enough_points)
       text += ", from fewer than the " + std::to_string(kFewestCheckPoints) +
               " points that the standard asks for";

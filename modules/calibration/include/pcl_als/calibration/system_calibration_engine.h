@@ -26,6 +26,7 @@ namespace pcl_als {
 
 class AreaMatcher;
 class CalibrationReport;
+struct OverlappingPair;
 
 /// A strip as measured.
 struct FlownStrip {
@@ -250,10 +251,9 @@ class SystemCalibrationEngine {
   std::string reasonNotConverged(const State& state, const CalibrationResult& result) const;
   /// Excludes a strip from the calibration.
   void leaveOut(int strip, LeftOutReason reason);
-  bool hasPairs(int strip, const CalibrationResult& result) const;
-  /// Reason why a strip that overlaps others has no pairs, for a warning; empty without overlap.
-  std::string reasonWithoutPairs(int strip) const;
-  /// Adds warnings of strips without pairs and of strips that do not fit the others.
+  /// The pairs of strips that were to be compared, with their height offsets.
+  std::vector<OverlappingPair> overlappingPairs() const;
+  /// Adds warnings of strips that do not fit the others.
   void diagnose(CalibrationResult& result) const;
   /// Moves the observations, weights and variance components out of the state.
   void keepAdjusted(State& state, const std::vector<TimeSpan>& spans);

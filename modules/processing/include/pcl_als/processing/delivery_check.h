@@ -62,6 +62,20 @@ struct CheckedStrip {
   double repeated = 0.0;  ///< share of points with the coordinates of another point of the strip
 };
 
+/// How many overlapping pairs were measured, and why the others were not.
+struct PairCounts {
+  std::size_t measured = 0;
+  std::size_t too_far = 0;       ///< further apart than surfaces are compared
+  std::size_t unmeasurable = 0;  ///< too little in common, or the same points twice
+  std::size_t too_small = 0;     ///< overlaps below CheckSettings::minimum_overlap, not measured
+
+  std::size_t all() const { return measured + too_far + unmeasurable; }
+};
+PairCounts countPairs(const std::vector<CheckedPair>& pairs);
+/// Pairs of strips that overlap and were not measured, with the reason or the distance, in one
+/// sentence for each of both; at most five are named in each. Empty where all were measured.
+std::vector<std::string> unmeasuredPairs(const std::vector<CheckedPair>& pairs);
+
 /// Result of a check of one set of strips.
 struct CheckedBlock {
   std::vector<std::string> files;
@@ -114,6 +128,8 @@ class BlockCheck {
   void findRoughness();
   void measureAreas();
   void measureControl(CheckedBlock& block);
+  std::string placeOfControl() const;
+  void findDistance(std::size_t overlap, CheckedPair& pair);
   CheckedPair assessOverlap(std::size_t overlap, CellMeans& cells);
   void alignPairs(std::vector<CheckedPair>& pairs, const std::function<void(double)>& progress);
   static bool isAligned(const CheckedPair& pair) {

@@ -70,11 +70,13 @@ class AreaOffsets {
    */
   std::vector<OffsetSample> offsets(int a, int b) const;
 
-  /// Height of a strip above a point of known height.
+  /// Height of a strip above a point of known height, at any distance.
   struct Height {
     double above = 0.0;                    ///< strip - point, metres, vertical
     float slope = 0.0F, roughness = 0.0F;  ///< of the surface around, radians, metres
     std::string unfit;                     ///< reason for which it is not used; empty: it is
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the surface around, unit, upward
+    double slope_std = 0.0;                             ///< of the normal, radians
   };
   /// Empty where the strip has no surface above or below the point.
   std::optional<Height> heightAt(int strip, const Eigen::Vector3d& point) const;

@@ -8,21 +8,13 @@
 #include <vector>
 
 #include <pcl_als/common/survey_types.h>
+#include <pcl_als/common/warning.h>
 #include <pcl_als/quality/accuracy_standards.h>
 #include <pcl_als/quality/area_offsets.h>
+#include <pcl_als/quality/control_offsets.h>
 #include <pcl_als/quality/offset_sample.h>
 
 namespace pcl_als {
-
-/// One strip at one control point.
-struct ControlDifference {
-  std::string point, strip;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the point, metres, ground frame
-  double above = 0.0;                                  ///< strip - control, metres
-  double slope = 0.0;                                  ///< of the surface, radians
-  double roughness = 0.0;                              ///< metres
-  std::string unfit;  ///< reason for which it is left out of the statistics; empty: it is used
-};
 
 /// Comparison of the strips with control.
 struct ControlAssessment {
@@ -36,7 +28,14 @@ struct ControlAssessment {
   OffsetSummary all;                           ///< all strips at all points that they cover
   std::size_t points = 0;                      ///< points that are used, of at least one strip
   std::vector<std::string> unseen;             ///< points that no strip covers
-  VerticalAccuracy accuracy;                   ///< of all
+  /// Points that strips cover, but at more than distance_limit above or below them.
+  std::vector<std::string> far;
+  double distance_limit = 0.0;               ///< metres: SurfaceLimits::maximum_distance
+  std::vector<CommonOffset> offsets;         ///< offsets that points have in common, of any size
+  HorizontalShift shift;                     ///< movement of the strips onto control
+  std::optional<VerticalAccuracy> accuracy;  ///< of all; empty without a point
+  /// Why the figures are not those of the block, hence neither class nor level; empty: they are.
+  std::string no_class;
   bool survey_known = false;         ///< the file gives the standard deviations of the heights
   std::optional<int> quality_level;  ///< by the fit alone; empty: none
 };
@@ -46,9 +45,20 @@ std::vector<ControlDifference> controlDifferences(const AreaOffsets& area,
                                                   const ControlPoint& point,
                                                   const std::vector<std::string>& strips);
 
-/// \param default_sigma metres: of the heights of points whose file gives none
+/** \brief Statistics of the differences, and what they have in common.
+ *
+ * A difference beyond \a distance_limit is of another surface or a blunder and is not used, unless
+ * it agrees to that distance with an offset that the points have in common (commonOffsets()). More
+ * than a tenth of such points, and more than one, are no blunders: there is no accuracy class then.
+ *
+ * \param default_sigma metres: of the heights of points whose file gives none
+ */
 ControlAssessment assessControl(std::vector<ControlDifference> differences,
                                 const std::vector<ControlPoint>& control,
-                                const std::vector<std::string>& strips, double default_sigma);
+                                const std::vector<std::string>& strips, double default_sigma,
+                                double distance_limit = SurfaceLimits().maximum_distance);
+
+/// What a user should know of the comparison: offsets in common, a shift in plan, points far off.
+Warnings warningsOf(const ControlAssessment& control);
 
 }  // namespace pcl_als

@@ -44,9 +44,11 @@ struct PairAssessment {
     judged,
     too_little,  ///< too few places of comparison
     copy,        ///< both strips contain the same points
+    too_far,     ///< further apart than surfaces are compared
   };
   Status status = Status::too_little;
   std::string reason;  ///< why it is not judged
+  double apart = 0.0;  ///< too_far: height of a above b, metres, to decimetres
 
   OffsetSummary vertical;            ///< smooth ground of single returns below 10 degrees
   OffsetSummary vertical_cells;      ///< of the means of cells of OffsetSample::kCluster metres
