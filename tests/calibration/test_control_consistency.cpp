@@ -90,5 +90,19 @@ TEST(ControlConsistency, RejectedPointsAreNamedWithTheirResiduals) {
   EXPECT_TRUE(result.verdict.usable());
 }
 
+/// A calibration was usable, with "control fits with an RMS of 0.000 m".
+TEST(ControlConsistency, MostPointsRejectedIsAnObjection) {
+  std::vector<ControlPointFit> fits = points(10, 0.02, 0.02, 4);
+  for (std::size_t i = 0; i < 8; ++i) fits[i].after -= 1.5, fits[i].used = false;
+  for (std::size_t i = 8; i < 10; ++i) fits[i].after -= 1.5;
+  const CalibrationResult result = resultWith(fits);
+  EXPECT_EQ(result.verdict.status, CalibrationStatus::parameters_affected);
+  EXPECT_NE(result.verdict.reason.find("below 8 of 10 control points"), std::string::npos)
+      << result.verdict.reason;
+  for (ControlPointFit& fit : fits) fit.used = false;
+  for (const Warning& warning : resultWith(fits).warnings)
+    EXPECT_EQ(warning.text.find("RMS of 0.000 m"), std::string::npos) << warning.text;
+}
+
 }  // namespace
 }  // namespace pcl_als

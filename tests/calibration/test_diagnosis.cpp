@@ -165,5 +165,18 @@ TEST(Diagnosis, CanBeLeftOut) {
   EXPECT_TRUE(result.diagnosis.empty());
 }
 
+/// A range error that depends on the intensity makes range_bias that of one intensity, which is
+/// stated. The simulator's error is zero at its reference intensity.
+TEST(Diagnosis, StatesTheIntensityOfTheRangeBias) {
+  const CalibrationResult result = calibrated("range_walk=0.03", 3);
+  const double walk = result.sources[indexOf(ErrorSource::intensity_ranging)];
+  ASSERT_NE(walk, 0.0);
+  const ParameterEstimate& range = result[SystemParameter::range_bias];
+  char intensity[32];
+  std::snprintf(intensity, sizeof intensity, "%.4g", result.source_scale.median_intensity);
+  EXPECT_NE(range.reason.find("at an intensity of " + std::string(intensity)), std::string::npos)
+      << range.reason;
+}
+
 }  // namespace
 }  // namespace pcl_als

@@ -9,6 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/trajectory/source_effect.h>
 #include <pcl_als/trajectory/system_correction.h>
+#include <pcl_als/trajectory/trajectory_correction.h>
 
 namespace pcl_als {
 namespace {
@@ -71,6 +72,9 @@ TEST(SourceEffect, HasTheSignsOfHandComputedExamples) {
   EXPECT_TRUE(near(column(effects, ErrorSource::encoder_quadratic), turned));  // P2(1) = 1
   EXPECT_TRUE(near(column(effects, ErrorSource::intensity_ranging), std::log(10.0) * beam));
   EXPECT_TRUE(column(effects, ErrorSource::slope_ranging).isZero(0.0));
+  EXPECT_TRUE(near(column(effects, ErrorSource::east_offset), {1.0, 0.0, 0.0}));
+  EXPECT_TRUE(near(column(effects, ErrorSource::north_offset), {0.0, 1.0, 0.0}));
+  EXPECT_TRUE(near(column(effects, ErrorSource::height_offset), {0.0, 0.0, 1.0}));
   const SourceEffects back = effectsAt(*flight, {10.0, 1000.0F, -1}, point, scale);
   EXPECT_TRUE(near(column(back, ErrorSource::mirror_torsion), -turned));
 }
@@ -134,6 +138,30 @@ TEST(SystemCorrection, RemovesATimeOffset) {
   // Second order: half the acceleration of a point, 0.043 rad/s^2 at 1000 m, times the squared
   // offset, and the step of 5 ms of the velocity.
   EXPECT_LT(largest, 1e-3);
+}
+
+/// An offset of the block moves points and trajectory alike: assumed - true is taken away.
+TEST(SystemCorrection, RemovesTheOffsetOfTheBlock) {
+  const auto flight = rollingFlight(kRadiansPerDegree);
+  CalibrationResult calibration;
+  calibration.attitude = AttitudeSource::trajectory;
+  calibration.sources[indexOf(ErrorSource::east_offset)] = 0.6;
+  calibration.sources[indexOf(ErrorSource::north_offset)] = -0.4;
+  calibration.sources[indexOf(ErrorSource::height_offset)] = -0.3;
+  const Eigen::Vector3d wanted(-0.6, 0.4, 0.3);
+  const SystemCorrection correction(calibration, flight);
+  const double time = 10.0, x = 700.0, y = 600.0, z = 0.0;
+  Eigen::Vector3d change;
+  CoverageCount coverage;
+  correction.change({&time, &x, &y, &z}, 1, {&change.x(), &change.y(), &change.z()}, coverage);
+  EXPECT_LT((change - wanted).norm(), 1e-12);
+  TrajectorySample sample;
+  sample.time = time;
+  sample.position = {500.0, kSpeed * time, kHeight};
+  sample.roll = sample.pitch = sample.heading = 0.0;
+  const auto corrected = correctTrajectory({sample}, calibration, flight, {});
+  ASSERT_EQ(corrected.samples.size(), 1U);
+  EXPECT_LT((corrected.samples[0].position - sample.position - wanted).norm(), 1e-12);
 }
 
 /// What a correction needs of the points is asked for and not left out silently.

@@ -193,7 +193,8 @@ std::vector<Eigen::Vector3d> AreaMatcher::reconstructed(const StripPart& part,
 
 void AreaMatcher::removeSourceEffects(const StripPart& part, const Trajectory& trajectory,
                                       std::vector<Eigen::Vector3d>& points) const {
-  if (corrected_sources_.isZero(0.0) || !source_scale_) return;
+  if (corrected_sources_.isZero(0.0)) return;
+  const ErrorSourceScale scale = source_scale_.value_or(ErrorSourceScale());
   SourceEffect effect(trajectory);
   SensorPose pose;
   std::size_t cursor = 0;
@@ -201,7 +202,7 @@ void AreaMatcher::removeSourceEffects(const StripPart& part, const Trajectory& t
     if (!trajectory.poseAt(part.times[i], pose, cursor)) continue;
     points[i] -=
         effect.displacement({part.times[i], part.intensity[i], static_cast<float>(part.turning[i])},
-                            pose, points[i], *source_scale_, corrected_sources_);
+                            pose, points[i], scale, corrected_sources_);
   }
 }
 

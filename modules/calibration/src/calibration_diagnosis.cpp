@@ -67,6 +67,7 @@ void SystemCalibrationEngine::assessControl(State& state, const SharedErrors& er
     for (const ControlPoint& point : control_) adjustment.control.push_back(point.id);
     spread = controlSpread(control, adjustment);
   }
+  warnOfBlockOffset(result);
   judgeControl(control, spread, result);
 }
 

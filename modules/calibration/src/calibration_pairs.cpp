@@ -20,7 +20,7 @@ void SystemCalibrationEngine::correctPoints(State& state) {
   const bool unchanged = state.corrected == state.choice.solution.biases &&
                          state.corrected_differences == state.differences &&
                          state.corrected_sources == sources;
-  if (!state.solved() || unchanged) return;
+  if (unchanged || (!state.solved() && sources.isZero(0.0))) return;
   state.corrected = state.choice.solution.biases;
   state.corrected_differences = state.differences;
   state.corrected_sources = sources;

@@ -18,24 +18,33 @@
 namespace pcl_als {
 namespace {
 
+// metres: standard deviation of the range bias of a mounted system, where an offset of the block
+// may take its place
+constexpr double kRangeBias = 0.25;
+
 /// A parameter that the block does not determine, or that was not asked for, must not appear as an
-/// error with a similar effect: it has a wide prior.
+/// error with a similar effect: it has a wide prior. With control, where an offset of the block is
+/// a hypothesis, the range bias has one as well, and lever_arm_z, which has the effect of such an
+/// offset, is left to it.
 AdjustmentSolution solveForAllParameters(const Adjustment& adjustment,
-                                         const std::vector<SystemParameter>& estimated) {
+                                         const std::vector<SystemParameter>& estimated,
+                                         bool to_control) {
+  SystemVector std = widePriorStd();
+  for (const SystemParameter p : estimated) std[indexOf(p)] = HUGE_VAL;
+  if (to_control) std[indexOf(SystemParameter::range_bias)] = kRangeBias;
   std::vector<SystemParameter> parameters;
-  SystemVector information = SystemVector::Zero();
   for (const SystemParameterInfo& info : systemParameters()) {
-    parameters.push_back(info.parameter);
-    if (std::find(estimated.begin(), estimated.end(), info.parameter) != estimated.end()) continue;
-    const double std = widePriorStd()[indexOf(info.parameter)];
-    information[indexOf(info.parameter)] = 1.0 / (std * std);
+    const bool is_offset = info.parameter == SystemParameter::lever_arm_z && to_control;
+    if (!is_offset || std::isinf(std[indexOf(info.parameter)]))
+      parameters.push_back(info.parameter);
   }
-  return adjustment.solve(parameters, SystemVector::Zero(), information);
+  return adjustment.solve(parameters, SystemVector::Zero(), std.cwiseAbs2().cwiseInverse());
 }
 
-std::vector<ErrorSource> allSources() {
+std::vector<ErrorSource> concernedSources(const ErrorSourceScale& scale) {
   std::vector<ErrorSource> sources;
-  for (const ErrorSourceInfo& info : errorSources()) sources.push_back(info.source);
+  for (const ErrorSourceInfo& info : errorSources())
+    if (scale.concerns(info.source)) sources.push_back(info.source);
   return sources;
 }
 
@@ -57,6 +66,7 @@ void SystemCalibrationEngine::considerSources() {
     source_scale_.largest_angle = std::max(source_scale_.largest_angle, found[i].front());
     intensities.insert(intensities.end(), found[i].begin() + 1, found[i].end());
   }
+  source_scale_.to_control = control_covered_;
   if (!intensities.empty()) source_scale_.median_intensity = medianInPlace(intensities);
   for (AreaMatcher& matcher : matchers_) matcher.considerSources(source_scale_);
 }
@@ -67,12 +77,13 @@ bool SystemCalibrationEngine::selectSources(State& state) {
     return false;
   pairAllCandidates(state);  // with the effects of all sources, since the coarse phase
   const std::vector<ErrorSource> before = state.errors.consideredSources();
-  state.errors.considerSources(allSources());
+  state.errors.considerSources(concernedSources(source_scale_));
   if (!state.weighed) weigh(state);
   state.adjustment.accumulate(state.observations, state.weights.weights());
-  state.diagnosed = solveForAllParameters(state.adjustment, state.choice.estimate);
+  state.diagnosed =
+      solveForAllParameters(state.adjustment, state.choice.estimate, source_scale_.to_control);
   std::vector<ErrorSource> supported{ErrorSource::slope_ranging};
-  for (const ErrorSource source : allSources()) {
+  for (const ErrorSource source : concernedSources(source_scale_)) {
     if (isCorrected(source, state.diagnosed, settings_.shared_errors)) supported.push_back(source);
   }
   if (settings_.pair_budget > 0) {
@@ -93,7 +104,7 @@ bool SystemCalibrationEngine::selectSources(State& state) {
 
 void SystemCalibrationEngine::allowForUndecidedSources(State& state) const {
   if (!state.diagnosed.solved || !state.choice.solution.solved) return;
-  for (const ErrorSource source : allSources()) {
+  for (const ErrorSource source : concernedSources(source_scale_)) {
     const int i = indexOf(source);
     if (state.errors.isConsidered(source) || state.held_sources[i] != 0.0 ||
         !isPossible(source, state.diagnosed, settings_.shared_errors))
@@ -109,7 +120,6 @@ void SystemCalibrationEngine::allowForUndecidedSources(State& state) const {
 
 ErrorSourceVector SystemCalibrationEngine::sourcesOf(const State& state) {
   ErrorSourceVector values = state.held_sources;
-  if (!state.choice.solution.solved) return values;
   for (const ErrorSource source : state.errors.consideredSources()) {
     if (source != ErrorSource::slope_ranging)
       values[indexOf(source)] += state.choice.solution.shared[state.errors.sourceUnknown(source)];
@@ -126,8 +136,10 @@ void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
     const int strip = static_cast<int>(i);
     if (used_[i] && !isHeld(strip) && systems_.pass[i] == strip) strips.push_back({strip, ids_[i]});
   }
-  const JumpSearch jumps(errors, state.adjustment,
-                         solveForAllParameters(state.adjustment, state.choice.estimate), strips);
+  const JumpSearch jumps(
+      errors, state.adjustment,
+      solveForAllParameters(state.adjustment, state.choice.estimate, source_scale_.to_control),
+      strips);
   const ErrorFinding& jump = jumps.finding();
   result.diagnosis.push_back(jump);
   if (jump.determined && jump.probability > kSupported)

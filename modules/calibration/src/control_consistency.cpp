@@ -18,6 +18,7 @@ constexpr double kScatter = 2.5;
 constexpr double kSeparate = 4.5;          // standard deviations of the groups
 constexpr double kSeparateExpected = 5.0;  // expected standard deviations
 constexpr double kSmallestGroup = 0.2;     // share of the points
+constexpr double kMostRejected = 0.5;      // share of the points: the others are outliers
 
 std::string inMetres(double value, const char* format = "%+.3f m") {
   char text[32];
@@ -161,11 +162,33 @@ void warnOfRejected(CalibrationResult& result) {
   }
 }
 
+/// Control of which most points are rejected: it is not the points that are wrong.
+void objectToRejection(CalibrationResult& result) {
+  std::vector<double> heights;
+  double all = 0.0;
+  for (const ControlPointFit& point : result.control_points) {
+    if (point.isInPlan()) continue;
+    all += 1.0;
+    if (!point.used) heights.push_back(point.after);
+  }
+  const std::size_t rejected = heights.size();
+  if (rejected < 2 || !(static_cast<double>(rejected) > kMostRejected * all)) return;
+  const double median = medianInPlace(heights);
+  result.verdict.object(
+      CalibrationStatus::parameters_affected,
+      "control contradicts the strips: they lie " + inMetres(std::abs(median), "%.3f m") +
+          (median > 0.0 ? " above " : " below ") + std::to_string(rejected) + " of " +
+          std::to_string(static_cast<std::size_t>(all)) +
+          " control points (median), which are rejected; check the height of the antenna, the "
+          "geoid, the datum and the unit of either");
+}
+
 }  // namespace
 
 void judgeControl(const ControlConsistency& control, const SystemVector& spread,
                   CalibrationResult& result) {
   warnOfRejected(result);
+  objectToRejection(result);
   if (control.plan_scatter > kScatter) {
     result.warnings.push_back(scatterWarning(
         "targets fit in plan", control.plan_rms, control.plan_scatter, "their",
@@ -185,7 +208,7 @@ void judgeControl(const ControlConsistency& control, const SystemVector& spread,
                          : "; the standard deviations of " + affected + " allow for either";
     result.warnings.push_back(what + effect);
     result.verdict.object(CalibrationStatus::parameters_affected, what + effect);
-  } else if (control.scatter > kScatter) {
+  } else if (control.scatter > kScatter && control.rms > 0.0) {
     result.warnings.push_back(
         scatterWarning("control fits", control.rms, control.scatter, "its",
                        "check the control points and state a realistic sigma"));

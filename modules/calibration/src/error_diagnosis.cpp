@@ -63,6 +63,10 @@ double effectOf(ErrorSource source, const ScanGeometry& edge, double speed) {
       return kIntensities;
     case ErrorSource::deflection_scale:
       return range * std::abs(edge.beta);
+    case ErrorSource::height_offset:
+    case ErrorSource::east_offset:
+    case ErrorSource::north_offset:
+      return 1.0;
     default:
       return range;
   }
@@ -127,7 +131,11 @@ ScanGeometry swathEdge(const std::vector<AreaObservations>& observations) {
 bool isCorrected(ErrorSource source, const AdjustmentSolution& diagnosed,
                  const SharedErrorModel& model) {
   const int i = indexOf(source);
-  return source != ErrorSource::slope_ranging && diagnosed.source_probability[i] > kSupported &&
+  // A height offset with which a range bias is zero, and a range bias without one, are hypotheses
+  // of equal rank: the more probable one is estimated.
+  constexpr double kMoreProbable = 0.5;
+  const double supported = source == ErrorSource::height_offset ? kMoreProbable : kSupported;
+  return source != ErrorSource::slope_ranging && diagnosed.source_probability[i] > supported &&
          isDetermined(source, diagnosed, model);
 }
 
@@ -159,6 +167,20 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
       result.sources[i] = choice.solution.shared[errors.sourceUnknown(info.source)];
     result.diagnosis.push_back(std::move(finding));
   }
+}
+
+void stateReferenceIntensity(CalibrationResult& result) {
+  ParameterEstimate& range = result[SystemParameter::range_bias];
+  if (result.sources[indexOf(ErrorSource::intensity_ranging)] == 0.0 ||
+      range.status != ParameterStatus::estimated)
+    return;
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "at an intensity of %.4g, the median of the block; the correction of points depends "
+      "on their intensity",
+      result.source_scale.median_intensity);
+  range.reason += (range.reason.empty() ? "" : "; ") + std::string(text);
 }
 
 void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result) {

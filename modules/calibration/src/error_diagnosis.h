@@ -48,6 +48,13 @@ void addErrorSources(const SharedErrors& errors, const ParameterChoice& choice,
 /// Marks sources as corrected with these values, where they are not zero.
 void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result);
 
+/// Where a range error that depends on the intensity is corrected: the intensity to which the range
+/// bias refers.
+void stateReferenceIntensity(CalibrationResult& result);
+
+/// Names the offsets of the block that are corrected.
+void warnOfBlockOffset(CalibrationResult& result);
+
 /// Adds the effects of sources with these values to PairObservation::further.
 void addSourceEffects(const ErrorSourceVector& values, AreaObservations& observations);
 /// Takes the effects of sources with these values out of the observations.

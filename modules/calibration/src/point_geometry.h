@@ -108,6 +108,7 @@ class AreaMatcher::PointGeometry {
     height = std::abs(geometry.z);
     sources.setZero();
     sources.col(indexOf(ErrorSource::range_scale)) = range * beam;
+    SourceEffect::addOffsets(sources);
     if (scale_ != nullptr) effects_.add(reading, pose_, geometry, *scale_, sources);
     return true;
   }

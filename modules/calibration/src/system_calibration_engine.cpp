@@ -309,6 +309,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   CalibrationResult result;
   state.sampling = std::max<std::size_t>(1, pairs / kEnoughForMisfit);
   formPairs(state);
+  startWithBlockOffset(state);
   warnOfUncoveredControl(state);
   const CalibrationReport report(ids_, !control_covered_);
   report.addFit(state.observations, SystemVector::Zero(), false, result);
@@ -332,6 +333,8 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   addErrorSources(errors, state.choice, state.diagnosed, swathEdge(state.observations),
                   source_scale_, meanSpeed(spans), result);
   addHeldSources(state.held_sources, result);
+  judgeBlockOffset(state, result);
+  stateReferenceIntensity(result);
   const std::vector<PriorEffect> effects = priorEffects(
       largeStripErrors(result.strip_errors, settings_.shared_errors, kNoticeableCorrection), ids_,
       errors, state.adjustment, state.choice);

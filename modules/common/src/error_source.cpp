@@ -36,6 +36,15 @@ const std::array<ErrorSourceInfo, kErrorSourceCount>& errorSources() {
        "ppm", 1e-6,
        "have the deflection angle of the prisms or of the tilted mirror calibrated by the "
        "manufacturer"},
+      {ErrorSource::height_offset, "height_offset", "height offset of the block", "m", 1.0,
+       "check the height of the base station's antenna, the geoid model, the vertical datum and "
+       "the unit of the trajectory and of the control, and lever_arm_z, which moves points alike"},
+      {ErrorSource::east_offset, "east_offset", "offset of the block to the east", "m", 1.0,
+       "check the position of the base station and the datum of the trajectory and of the "
+       "control"},
+      {ErrorSource::north_offset, "north_offset", "offset of the block to the north", "m", 1.0,
+       "check the position of the base station and the datum of the trajectory and of the "
+       "control"},
   }};
   return kSources;
 }

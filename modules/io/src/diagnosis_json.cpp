@@ -27,6 +27,9 @@ double largestOf(ErrorSource source) {
     case ErrorSource::intensity_ranging:
       return 1.0;
     case ErrorSource::time_offset:
+    case ErrorSource::height_offset:
+    case ErrorSource::east_offset:
+    case ErrorSource::north_offset:
       return 10.0;
     case ErrorSource::range_scale:
     case ErrorSource::deflection_scale:

@@ -62,7 +62,7 @@ void addParameters(const CalibrationResult& result, std::vector<std::string>& se
     if (estimate.status == ParameterStatus::estimated) {
       sentences.push_back(plainName(info.parameter) + ": " +
                           estimateText(info.parameter, estimate) +
-                          (estimate.determined ? "." : ", " + estimate.reason + "."));
+                          (estimate.reason.empty() ? "." : ", " + estimate.reason + "."));
     } else if (estimate.status == ParameterStatus::not_estimable) {
       sentences.push_back(plainName(info.parameter) + ": not determined (" +
                           (estimate.reason.empty() ? "the data do not show it" : estimate.reason) +

@@ -64,10 +64,17 @@ double SourceEffect::logIntensity(double intensity, const ErrorSourceScale& scal
   return std::log(std::clamp(intensity / scale.median_intensity, 1.0 / kMost, kMost));
 }
 
+void SourceEffect::addOffsets(SourceEffects& effects) {
+  effects.col(indexOf(ErrorSource::east_offset)) = Eigen::Vector3d::UnitX();
+  effects.col(indexOf(ErrorSource::north_offset)) = Eigen::Vector3d::UnitY();
+  effects.col(indexOf(ErrorSource::height_offset)) = Eigen::Vector3d::UnitZ();
+}
+
 void SourceEffect::add(const SourceReading& reading, const SensorPose& pose,
                        const ScanGeometry& geometry, const ErrorSourceScale& scale,
                        SourceEffects& effects) {
   const Eigen::Vector3d beam = geometry.beam();
+  addOffsets(effects);
   effects.col(indexOf(ErrorSource::range_scale)) = geometry.range() * beam;
   effects.col(indexOf(ErrorSource::time_offset)) = velocity(reading.time, pose, geometry);
   if (scale.about_axis)

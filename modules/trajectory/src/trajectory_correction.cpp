@@ -77,7 +77,8 @@ CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& sampl
     }
     TrajectoryErrorKnot error;
     errors.at(sample.time, error);
-    sample.position -= error.position + pose.rotation * biases.head<3>();
+    sample.position -=
+        error.position + pose.rotation * biases.head<3>() + blockOffset(calibration.sources);
     if (!error.angles.isZero(0.0) && sample.hasAttitude()) {
       SystemVector both = biases;
       both.segment<3>(indexOf(SystemParameter::boresight_pitch)) += error.angles;

@@ -70,6 +70,9 @@ struct SharedErrorModel {
       {0.01, 0.9},                      // intensity_ranging
       {30.0 * kRadiansPerArcsec, 0.9},  // encoder_quadratic
       {5e-4, 0.9},                      // deflection_scale
+      {0.5, 0.5},                       // height_offset; absent as often as a range bias
+      {0.5, 0.9},                       // east_offset
+      {0.5, 0.9},                       // north_offset
   }};
 
   BiasPrior biases;  ///< what is known of the system parameters

@@ -205,6 +205,14 @@ class SystemCalibrationEngine {
   /// positive evidence, and that are not corrected because they are not supported: their mean
   /// square if present times the probability that they are.
   void allowForUndecidedSources(State& state) const;
+  /// Heights of the strips, as delivered, above control points; above surfaces that are held fixed
+  /// where there is no control.
+  std::vector<double> heightsAboveKnown(const State& state) const;
+  /// Lets the iteration begin with an offset of the block that is larger than any error of a
+  /// system.
+  void startWithBlockOffset(State& state);
+  /// Marks the parameters that cannot be told from a height offset of the block.
+  void judgeBlockOffset(const State& state, CalibrationResult& result) const;
   /// Lets the iteration continue after a change of the error sources that are estimated.
   static void continueWithSources(State& state, CalibrationResult& result);
   void formPairs(State& state);

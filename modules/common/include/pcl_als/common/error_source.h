@@ -27,6 +27,8 @@ namespace pcl_als {
  * - deflection_scale: scale of the angle between pulse and axis - 1, of conical and rosette
  *   scanners; that angle times the derivative of X with respect to it. These scanners have no
  *   mirror angle, and no error of its encoder.
+ * - height_offset, east_offset, north_offset: offset of the coordinates of the block (points and
+ *   trajectory alike), metres; a unit vector. Control and surfaces that are held fixed show it.
  *
  * P2 and P3 are the Legendre polynomials (3 u^2 - 1) / 2 and (5 u^3 - 3 u) / 2, orthogonal to a
  * boresight roll and to a scan angle scale. The scan angle is positive to the left, as in Habib et
@@ -41,14 +43,17 @@ enum class ErrorSource {
   intensity_ranging,
   encoder_quadratic,
   deflection_scale,
+  height_offset,
+  east_offset,
+  north_offset,
 };
 
-inline constexpr int kErrorSourceCount = 8;
+inline constexpr int kErrorSourceCount = 11;
 using ErrorSourceRow = Eigen::Matrix<double, 1, kErrorSourceCount>;
 using ErrorSourceVector = Eigen::Matrix<double, kErrorSourceCount, 1>;
 using ErrorSourceMatrix = Eigen::Matrix<double, kErrorSourceCount, kErrorSourceCount>;
 
-inline int indexOf(ErrorSource source) {
+constexpr int indexOf(ErrorSource source) {
   return static_cast<int>(source);
 }
 
@@ -69,6 +74,17 @@ inline const ErrorSourceInfo& infoOf(ErrorSource source) {
   return errorSources()[static_cast<std::size_t>(indexOf(source))];
 }
 
+/// Whether a source is an offset of the coordinates, which the correction of a trajectory contains.
+inline bool isOffset(ErrorSource source) {
+  return indexOf(source) >= indexOf(ErrorSource::height_offset);
+}
+
+/// The offset of the coordinates of a block: east, north, up, metres.
+inline Eigen::Vector3d blockOffset(const ErrorSourceVector& values) {
+  return {values[indexOf(ErrorSource::east_offset)], values[indexOf(ErrorSource::north_offset)],
+          values[indexOf(ErrorSource::height_offset)]};
+}
+
 /// What the correction of points for the sources needs besides their values.
 struct ErrorSourceScale {
   double largest_angle = 0.0;     ///< radians, the largest scan angle; 0: unknown
@@ -76,9 +92,12 @@ struct ErrorSourceScale {
   /// Whether the pulses are deflected about an axis (conical and rosette scanners) and not by the
   /// angle of a mirror.
   bool about_axis = false;
+  /// Whether heights or positions on the ground are known (control, surfaces that are held fixed).
+  bool to_control = false;
 
-  /// Whether a scanner of this kind can have the error.
+  /// Whether a scanner of this kind can have the error, and the data can show it.
   bool concerns(ErrorSource source) const {
+    if (isOffset(source)) return to_control;
     const bool of_mirror = source == ErrorSource::mirror_torsion ||
                            source == ErrorSource::encoder_cubic ||
                            source == ErrorSource::encoder_quadratic;

@@ -42,6 +42,9 @@ class SourceEffect {
   /// ln(I / I0), with I / I0 between 1/100 and 100; 0 where I0 is unknown.
   static double logIntensity(double intensity, const ErrorSourceScale& scale);
 
+  /// Sets the columns of the offsets of the block, which depend on nothing.
+  static void addOffsets(SourceEffects& effects);
+
   /// Sets the columns of all sources but slope_ranging. An effect that is not defined (unknown
   /// scale, turning or velocity) is zero. Faster for times that are nearly in order.
   void add(const SourceReading& reading, const SensorPose& pose, const ScanGeometry& geometry,

@@ -31,10 +31,10 @@ struct CorrectedTrajectory {
 /** \brief Corrects the samples of a trajectory by a calibration.
  *
  * With the lever arm bias l, the boresight B(b), the errors of the trajectory s (position) and a
- * (angles, TrajectoryErrors), and the rotation R and position X_0 of a sample, Habib et al. 2011,
- * Eq. (1) gives
+ * (angles, TrajectoryErrors), the offset o of the block (blockOffset()), and the rotation R and
+ * position X_0 of a sample, Habib et al. 2011, Eq. (1) gives
  *
- *   X_0' = X_0 - s - R l,   R' = R B(b + a)^T B(b).
+ *   X_0' = X_0 - s - o - R l,   R' = R B(b + a)^T B(b).
  *
  * A point measured in the direction v of the body frame, with the assumed lever arm, lies at
  * X_0' + R' (l + f(B(b)^T (v - l))), where f removes range bias and scan angle scale: the position
