@@ -35,6 +35,7 @@ constexpr RemedyOption kRemedyOptions[] = {
      "see -ins, -position_sigma, -roll_pitch_sigma and -heading_sigma"},
     {Remedy::strips, "without", "-strips and -without choose strips"},
     {Remedy::channels, "channels", "-channels scanner_channel divides them"},
+    {Remedy::user_data, "channels", "-channels user_data divides them"},
 };
 
 /// The option of the tool; null where it has none.

@@ -38,10 +38,11 @@ read -r first second < <(awk '/"boresight_roll"/ { getline; gsub(/[^-0-9.e]/, ""
   awk '{ print $2, $3 }')
 check "roll of the first channel, $first" awk -v v="$first" 'BEGIN { exit !(v > -4 && v < 4) }'
 check "roll of the second channel, $second" awk -v v="$second" 'BEGIN { exit !(v > 116 && v < 124) }'
-# Not compared, the channels are the first warning where corrections of the trajectory are large,
-# else a note.
-run calibrate "${strips[@]}" "${flight[@]}" -output one.json
-check "the channels are the first warning" awk '/"warnings": \[/ { getline; exit !/2 channels of the scanner.*-channels/ }' one.json
+# Not divided, the channels are compared within the strips all the same.
+value_of() { awk -v s="\"$1\"" '/"source":/ { found = index($0, s) } found && /"value":/ { gsub(/[^-0-9.e]/, "", $2); print $2 }' "$2"; }
+expect 3 "boresight roll of channel 1 against channel 0 differ by 1[12].*-channels scanner_channel divides them" \
+  calibrate "${strips[@]}" "${flight[@]}" -output one.json
+check "difference of the roll" awk -v v="$(value_of channel1_boresight_roll one.json)" 'BEGIN { exit !(v > 116 && v < 124) }'
 expect 0 "" apply cross/strip3.las by_apply.las "${flight[@]}" -calibration systems.json
 check "apply equals -corrected" cmp by_apply.las corrected/strip3.las
 expect 0 "" check corrected/strip3.las "${flight[@]}" -channels scanner_channel -output after.json
@@ -59,6 +60,9 @@ absent no.json
 # More than four channels are in the user data; the scanner channel is 0 for all of them.
 run simulate -output multi -preset small -scale 0.3 -density 0.5 -scanner multi:6 -noise range
 run check multi/strip3.las multi/strip4.las -channels scanner_channel -output one.json
+expect 0 "" calibrate multi/strip*.las -trajectory multi/trajectory.csv -output multi.json
+check "channels in the user data do not differ" test -z "$(awk '/"warnings"/,/\]/' multi.json | grep 'user data')"
+check "channels in the user data are compared" test -n "$(value_of user_data5_boresight_roll multi.json)"
 check "one channel" test "$(grep -c '"a":' one.json)" = 1
 run check multi/strip3.las multi/strip4.las -channels user_data -output six.json
 checks=$((checks + 1))

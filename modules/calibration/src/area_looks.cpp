@@ -46,6 +46,8 @@ void AreaMatcher::StripPart::add(const StripPart& other, std::size_t i) {
   single.push_back(other.single[i]);
   intensity.push_back(other.intensity[i]);
   turning.push_back(other.turning[i]);
+  channel.push_back(other.channel[i]);
+  user_data.push_back(other.user_data[i]);
 }
 
 void AreaMatcher::evenOut() {

@@ -26,13 +26,15 @@ void AreaMatcher::add(int strip, const LidarReturn& point) {
   part.single.push_back(point.isSingle());
   part.intensity.push_back(point.intensity);
   part.turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
+  part.channel.push_back(point.channel);
+  part.user_data.push_back(point.user_data);
 }
 
 void AreaMatcher::put(int strip, ByteWriter& out) const {
   const StripPart& part = surfaces_[static_cast<std::size_t>(strip)];
   out.putPlain(part.biased).put(part.times);
   out.put(std::vector<char>(part.single.begin(), part.single.end()));
-  out.put(part.intensity).put(part.turning);
+  out.put(part.intensity).put(part.turning).put(part.channel).put(part.user_data);
 }
 
 void AreaMatcher::get(int strip, ByteReader& in) {
@@ -40,7 +42,7 @@ void AreaMatcher::get(int strip, ByteReader& in) {
   in.getPlain(part.biased).get(part.times);
   const auto single = in.take<std::vector<char>>();
   part.single.assign(single.begin(), single.end());
-  in.get(part.intensity).get(part.turning);
+  in.get(part.intensity).get(part.turning).get(part.channel).get(part.user_data);
 }
 
 void AreaMatcher::clear() {
@@ -78,6 +80,17 @@ void AreaMatcher::buildSurface(StripPart& part, double resolution) const {
 void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candidates,
                           double resolution, const Trajectory& trajectory) {
   criterion_ = criterion;
+  for (StripPart& part : surfaces_) {
+    // A polygon turns one way, and many files do not say which: a constant sign says nothing.
+    const auto constant = [&](std::int8_t sign) { return sign == part.turning.front(); };
+    if (std::all_of(part.turning.begin(), part.turning.end(), constant))
+      std::fill(part.turning.begin(), part.turning.end(), std::int8_t{0});
+  }
+  buildSurfaces(candidates, resolution, trajectory);
+}
+
+void AreaMatcher::buildSurfaces(std::size_t candidates, double resolution,
+                                const Trajectory& trajectory) {
   for (std::size_t strip = 0; strip < corrected_for_.size(); ++strip) {
     StripPart& part = surfaces_[strip];
     if (part.biased.size() < kTooFew) {
@@ -85,10 +98,6 @@ void AreaMatcher::prepare(const SurfaceCriterion& criterion, std::size_t candida
       part.strip = static_cast<int>(strip);
       continue;
     }
-    // A polygon turns one way, and many files do not say which: a constant sign says nothing.
-    const auto constant = [&](std::int8_t sign) { return sign == part.turning.front(); };
-    if (std::all_of(part.turning.begin(), part.turning.end(), constant))
-      std::fill(part.turning.begin(), part.turning.end(), std::int8_t{0});
     buildSurface(part, resolution);
     if (!divideByLook(strip, resolution, trajectory)) {
       chooseCandidates(part, candidates);

@@ -28,6 +28,9 @@
 
 namespace pcl_als {
 
+/// What the points of one strip may differ in although one instrument measured them.
+enum class PointField { scanner_channel, user_data, scan_direction };
+
 /// Whether a target was located in a strip.
 struct TargetInStrip {
   int strip = 0;
@@ -101,6 +104,16 @@ class AreaMatcher {
   /// From now on pairs have the effects of all error sources.
   void considerSources(const ErrorSourceScale& scale) { source_scale_ = scale; }
 
+  /// The numbers of points of a strip by the value of a field. The scan direction is 1 to the left,
+  /// -1 to the right, 0 unknown.
+  std::map<int, std::size_t> valuesOf(int strip, PointField field) const;
+  /// The points of a strip by the value of a field: a matcher whose strips are the points of each
+  /// of these values, with surfaces by the criterion of this one, see prepare(). Scan directions
+  /// that are not recorded are found from the angles of successive pulses.
+  AreaMatcher divided(int strip, PointField field, const std::vector<int>& values,
+                      std::size_t candidates, double resolution,
+                      const Trajectory& trajectory) const;
+
   /// Which points are paired with patches: all candidates, or those of the observations last kept.
   enum class Points { candidates, kept };
   /// Keeps the points of these observations (of match()) for further pairs with the same strips;
@@ -170,6 +183,7 @@ class AreaMatcher {
     std::vector<bool> single;
     std::vector<float> intensity;
     std::vector<std::int8_t> turning;  ///< of the mirror: 1 to the left, -1 to the right
+    std::vector<std::uint8_t> channel, user_data;
     PatchSurface surface;
     std::vector<std::int32_t> candidates;
     std::vector<double> roughness;  ///< metres, of the neighbourhoods examined on gentle slopes
@@ -178,6 +192,7 @@ class AreaMatcher {
     bool flown = true;              ///< false: the points of a surface, without times
 
     bool held() const { return held_std > 0.0; }
+    std::vector<int> values(PointField field) const;      ///< by point
     void add(const StripPart& other, std::size_t point);  ///< a point of another part
   };
   class PointGeometry;
@@ -194,6 +209,7 @@ class AreaMatcher {
   void removeSourceEffects(const StripPart& part, const Trajectory& trajectory,
                            std::vector<Eigen::Vector3d>& points) const;
   void buildSurface(StripPart& part, double resolution) const;
+  void buildSurfaces(std::size_t candidates, double resolution, const Trajectory& trajectory);
   /// Divides the points of a strip by look where that separates times which its TIN mixes.
   bool divideByLook(std::size_t strip, double resolution, const Trajectory& trajectory);
   /// The surfaces of the point and of the patch, one entry for each direction: of all looks of

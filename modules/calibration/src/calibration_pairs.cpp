@@ -15,6 +15,23 @@
 
 namespace pcl_als {
 
+SystemCalibrationEngine::StripCorrections SystemCalibrationEngine::correctionsOf(
+    const State& state) const {
+  StripCorrections corrections;
+  corrections.sources = sourcesOf(state);
+  for (const SystemUnknowns& difference : state.differences) {
+    const SystemVector biases =
+        state.choice.solution.biases + difference.head<kSystemParameterCount>();
+    corrections.of_systems.emplace_back(trajectory_, biases);
+  }
+  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+    const auto system = static_cast<std::size_t>(systems_.of(static_cast<int>(strip)));
+    corrections.strips.push_back(
+        {&corrections.of_systems[system], state.differences[system].tail<3>()});
+  }
+  return corrections;
+}
+
 void SystemCalibrationEngine::correctPoints(State& state) {
   const ErrorSourceVector sources = sourcesOf(state);
   const bool unchanged = state.corrected == state.choice.solution.biases &&
@@ -24,18 +41,9 @@ void SystemCalibrationEngine::correctPoints(State& state) {
   state.corrected = state.choice.solution.biases;
   state.corrected_differences = state.differences;
   state.corrected_sources = sources;
-  std::vector<BiasEvaluator> evaluators;
-  for (const SystemUnknowns& difference : state.differences) {
-    const SystemVector biases =
-        state.choice.solution.biases + difference.head<kSystemParameterCount>();
-    evaluators.emplace_back(trajectory_, biases);
-  }
-  std::vector<AreaMatcher::StripCorrection> corrections;
-  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
-    const auto system = static_cast<std::size_t>(systems_.of(static_cast<int>(strip)));
-    corrections.push_back({&evaluators[system], state.differences[system].tail<3>()});
-  }
-  forOwnAreas([&](std::size_t i) { matchers_[i].correct(corrections, sources, *trajectory_); });
+  const StripCorrections corrections = correctionsOf(state);
+  forOwnAreas(
+      [&](std::size_t i) { matchers_[i].correct(corrections.strips, sources, *trajectory_); });
 }
 
 void SystemCalibrationEngine::selectPairs(State& state) {

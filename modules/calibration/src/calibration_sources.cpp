@@ -148,7 +148,8 @@ void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
   if (!compared_.empty())
     addGroupDifferences(compared_, strips.size(), edge, state.choice, errors, state.adjustment,
                         result.diagnosis);
-  judgeDifferences(before, settings_.shared_errors.position, result);
+  judgeDifferences(before, settings_.shared_errors.position, Remedy::none, result);
+  diagnoseFields(state, edge, result);
 }
 
 void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {

@@ -16,6 +16,13 @@
 
 namespace pcl_als {
 
+/// Corrections of points, by strip.
+struct SystemCalibrationEngine::StripCorrections {
+  std::vector<BiasEvaluator> of_systems;
+  std::vector<AreaMatcher::StripCorrection> strips;
+  ErrorSourceVector sources = ErrorSourceVector::Zero();
+};
+
 /// Variables of the iteration.
 struct SystemCalibrationEngine::State {
   State(SharedErrors& shared, int threads) : errors(shared), adjustment(shared, threads) {}

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "error_diagnosis.h"
-#include "spike_and_slab.h"
 
 namespace pcl_als {
 namespace {
@@ -19,7 +18,6 @@ using P = SystemParameter;
 
 constexpr double kSession = 3.0 * 3600.0;  // seconds without a strip between two sessions
 constexpr double kOffset = 0.1;            // metres: standard deviation of an offset, each axis
-constexpr double kAbsent = 0.9;            // prior probability that a difference is absent
 constexpr double kPriorFreedom = 4.0;      // degrees of freedom that the prior contributes
 
 /// By strip, its session from 1; 0 where it is not used.
@@ -40,32 +38,7 @@ std::vector<int> sessionsOf(const std::vector<TimeSpan>& times) {
   return sessions;
 }
 
-/// What may differ between groups, as index of SystemUnknowns.
-struct Unknown {
-  int index;
-  std::string name, title, unit;
-  double per_unit, slab;
-};
-
-std::vector<Unknown> unknownsOf(bool sessions) {
-  std::vector<Unknown> unknowns;
-  for (const P p : {P::boresight_pitch, P::boresight_roll, P::boresight_heading, P::range_bias,
-                    P::scan_angle_scale}) {
-    const SystemParameterInfo& info = infoOf(p);
-    std::string title(info.name);
-    std::replace(title.begin(), title.end(), '_', ' ');
-    unknowns.push_back({indexOf(p), std::string(info.name), title, std::string(info.unit),
-                        info.internal_per_unit, slabOf(p)});
-  }
-  if (!sessions) return unknowns;
-  const char* const names[] = {"east", "north", "up"};
-  for (int i = 0; i < 3; ++i)
-    unknowns.push_back({kSystemParameterCount + i, std::string("offset_") + names[i],
-                        std::string("coordinates (") + names[i] + ")", "m", 1.0, kOffset});
-  return unknowns;
-}
-
-std::string remedyOf(const Unknown& unknown, bool session) {
+std::string remedyOf(const DifferenceUnknown& unknown, bool session) {
   if (unknown.index >= kSystemParameterCount)
     return "check base station, antenna height, datum and geoid of this session; or calibrate it "
            "as a system of its own, with an offset of the coordinates";
@@ -83,7 +56,7 @@ std::string readable(std::string name) {
   return name;
 }
 
-SpikeAndSlab mixtureOf(const std::vector<Unknown>& unknowns,
+SpikeAndSlab mixtureOf(const std::vector<DifferenceUnknown>& unknowns,
                        const Adjustment::SystemPosterior& posterior, double freedom) {
   const auto n = static_cast<Eigen::Index>(unknowns.size());
   Eigen::VectorXd mean(n);
@@ -91,12 +64,12 @@ SpikeAndSlab mixtureOf(const std::vector<Unknown>& unknowns,
   std::vector<SpikeAndSlab::Prior> priors;
   SpikeAndSlab::Certainty certainty{1.0, freedom};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Unknown& row = unknowns[static_cast<std::size_t>(i)];
+    const DifferenceUnknown& row = unknowns[static_cast<std::size_t>(i)];
     mean[i] = posterior.mean[row.index];
     for (Eigen::Index j = 0; j < n; ++j)
       covariance(i, j) =
           posterior.covariance(row.index, unknowns[static_cast<std::size_t>(j)].index);
-    priors.push_back({kAbsent, 0.0, row.slab * row.slab});
+    priors.push_back({kDifferenceAbsent, 0.0, row.slab * row.slab});
     if (std::sqrt(covariance(i, i)) < SharedErrorModel::kDetermined * row.slab)
       certainty.overdispersion =
           std::max(certainty.overdispersion, posterior.scatter[row.index] / covariance(i, i));
@@ -105,6 +78,40 @@ SpikeAndSlab mixtureOf(const std::vector<Unknown>& unknowns,
 }
 
 }  // namespace
+
+std::vector<DifferenceUnknown> differenceUnknowns(bool offsets) {
+  std::vector<DifferenceUnknown> unknowns;
+  for (const P p : {P::boresight_pitch, P::boresight_roll, P::boresight_heading, P::range_bias,
+                    P::scan_angle_scale}) {
+    const SystemParameterInfo& info = infoOf(p);
+    std::string title(info.name);
+    std::replace(title.begin(), title.end(), '_', ' ');
+    unknowns.push_back({indexOf(p), std::string(info.name), title, std::string(info.unit),
+                        info.internal_per_unit, slabOf(p)});
+  }
+  if (!offsets) return unknowns;
+  const char* const names[] = {"east", "north", "up"};
+  for (int i = 0; i < 3; ++i)
+    unknowns.push_back({kSystemParameterCount + i, std::string("offset_") + names[i],
+                        std::string("coordinates (") + names[i] + ")", "m", 1.0, kOffset});
+  return unknowns;
+}
+
+ErrorFinding differenceFinding(const DifferenceUnknown& unknown, const SpikeAndSlab& mixture,
+                               Eigen::Index at, const ScanGeometry& edge) {
+  const double value = mixture.valueIfPresent()[at], std = mixture.stdIfPresent()[at];
+  ErrorFinding finding;
+  finding.unit = unknown.unit;
+  finding.probability = mixture.presence()[at];
+  finding.value = value / unknown.per_unit;
+  finding.std = std / unknown.per_unit;
+  finding.effect = unknown.index < kSystemParameterCount
+                       ? (designBlock(edge).col(unknown.index) * value).norm()
+                       : std::abs(value);
+  finding.determined = SharedErrorModel::isDetermined(value, std, unknown.slab);
+  finding.evidence = evidenceOf(finding);
+  return finding;
+}
 
 std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
                                        const std::vector<TimeSpan>& times) {
@@ -134,47 +141,41 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
       1.0, kPriorFreedom + static_cast<double>(strips) - static_cast<double>(groups.size()));
   for (std::size_t k = 1; k < groups.size(); ++k) {
     const bool session = groups[k].name.find("session") != std::string::npos;
-    const std::vector<Unknown> unknowns = unknownsOf(session);
+    const std::vector<DifferenceUnknown> unknowns = differenceUnknowns(session);
     const int system = static_cast<int>(k);
-    for (const Unknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
+    for (const DifferenceUnknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
     adjustment.setLevels(levels);
     estimateLevels(adjustment, choice.estimate, levels);
     const AdjustmentSolution solution = adjustment.solve(choice.estimate, choice.solution.biases);
     const SpikeAndSlab mixture =
         mixtureOf(unknowns, adjustment.systemPosterior(system, choice.estimate, solution), freedom);
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
-      const Unknown& u = unknowns[i];
-      const auto at = static_cast<Eigen::Index>(i);
+      const DifferenceUnknown& u = unknowns[i];
       errors.share(system, u.index);
-      const double value = mixture.valueIfPresent()[at], std = mixture.stdIfPresent()[at];
-      ErrorFinding finding;
+      ErrorFinding finding = differenceFinding(u, mixture, static_cast<Eigen::Index>(i), edge);
       finding.source = groups[k].name + "_" + u.name;
       finding.title =
           u.title + " of " + readable(groups[k].name) + " against " + readable(groups.front().name);
-      finding.unit = u.unit;
-      finding.probability = mixture.presence()[at];
-      finding.value = value / u.per_unit;
-      finding.std = std / u.per_unit;
-      finding.effect = u.index < kSystemParameterCount
-                           ? (designBlock(edge).col(u.index) * value).norm()
-                           : std::abs(value);
-      finding.determined = solution.solved && SharedErrorModel::isDetermined(value, std, u.slab);
       finding.remedy = remedyOf(u, session);
-      finding.evidence = evidenceOf(finding);
+      if (!solution.solved) {
+        finding.determined = false;
+        finding.evidence = evidenceOf(finding);
+      }
       diagnosis.push_back(std::move(finding));
     }
   }
   adjustment.setLevels(levels);
 }
 
-void judgeDifferences(std::size_t first, double relevant, CalibrationResult& result) {
+void judgeDifferences(std::size_t first, double relevant, Remedy remedy,
+                      CalibrationResult& result) {
   for (std::size_t i = first; i < result.diagnosis.size(); ++i) {
     const ErrorFinding& f = result.diagnosis[i];
     if (!f.determined || f.probability <= kSupported) continue;
     char size[80];
     std::snprintf(size, sizeof size, " differ by %.3g +- %.2g %s", f.value, f.std, f.unit.c_str());
     const std::string text = f.source + ": " + f.title + size;
-    result.warnings.push_back(text + "; " + f.remedy);
+    result.warnings.emplace_back(text + "; " + f.remedy, remedy);
     if (f.source.find("offset_") == std::string::npos && f.effect > relevant)
       result.verdict.object(CalibrationStatus::parameters_affected,
                             text + ", and no parameters of one system describe both");

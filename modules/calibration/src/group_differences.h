@@ -10,10 +10,31 @@
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
+#include "spike_and_slab.h"
+
 namespace pcl_als {
+
+/// Prior probability that parts of a block do not differ in an unknown.
+inline constexpr double kDifferenceAbsent = 0.9;
+
+/// What may differ between parts of a block that one instrument measured.
+struct DifferenceUnknown {
+  int index;                      ///< of SystemUnknowns
+  std::string name, title, unit;  ///< of results; title for people
+  double per_unit;                ///< internal units
+  double slab;  ///< standard deviation where there is a difference, internal units
+};
+
+/// Boresight, range bias and scan angle scale; with \a offsets also the coordinates.
+std::vector<DifferenceUnknown> differenceUnknowns(bool offsets);
+
+/// The finding of one unknown, without its source, title and remedy. \param at index in the mixture
+ErrorFinding differenceFinding(const DifferenceUnknown& unknown, const SpikeAndSlab& mixture,
+                               Eigen::Index at, const ScanGeometry& edge);
 
 /** \brief Groups of strips that may differ although no systems are given: sessions (three hours or
  * more without a strip between them) and, where strips are those of channels, channels.
@@ -43,9 +64,9 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
 /** \brief Warns of differences that are supported (determined, probability above 0.9), and objects
  * to a result whose parameters cannot be those of all groups.
  *
- * \param first of the findings of addGroupDifferences()
+ * \param first of the findings of addGroupDifferences() or fieldDifferences()
  * \param relevant smallest effect of the difference of a parameter that is an objection, metres
  */
-void judgeDifferences(std::size_t first, double relevant, CalibrationResult& result);
+void judgeDifferences(std::size_t first, double relevant, Remedy remedy, CalibrationResult& result);
 
 }  // namespace pcl_als

@@ -193,35 +193,6 @@ std::string setPriors(const SurveyCalibrationOptions& options, const SurveyReade
          describe(summary);
 }
 
-/// Channels that are not strips of their own are not compared with each other: a note, or the first
-/// thing to examine where something is left that a system does not explain.
-void judgeChannels(const SurveyReader& survey, CalibrationResult& result,
-                   ProgressReport& progress) {
-  if (!survey.channelField().empty()) return;
-  std::size_t most = 0;
-  for (const SurveyedFile& file : survey.files())
-    for (const auto& [strip, channels] : file.channels) most = std::max(most, channels.size());
-  if (most < 2) return;
-  const std::string text = "strips hold the points of " + counted(most, "channel") +
-                           " of the scanner, whose differences are not examined";
-  const bool affected = result.verdict.status == CalibrationStatus::parameters_affected;
-  const bool corrected =
-      std::any_of(result.warnings.begin(), result.warnings.end(),
-                  [](const Warning& warning) { return warning.remedy == Remedy::flight_sigmas; });
-  if (!affected && !corrected) {
-    progress.remark(text);
-    return;
-  }
-  const std::string cause =
-      text + " and may be the cause: divide strips by channel to find and to calibrate them";
-  result.warnings.insert(result.warnings.begin(), {cause, Remedy::channels});
-  // Corrections of the trajectory that are larger than its errors take in what the channels differ
-  // by, and the parameters need not change with them.
-  if (!affected && !result.verdict.usable()) return;
-  result.verdict.status = CalibrationStatus::parameters_affected;
-  result.verdict.reason = cause + "; " + result.verdict.reason;
-}
-
 /// A reconstructed path is that of the origin of the pulses as it was assumed, and nothing is known
 /// of the heights and the positions that the points were computed with.
 void leaveOutUndeterminable(CalibrationSettings& settings) {
@@ -281,7 +252,6 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
     made.result.inputs.push_back(file.sources.info.path.string());
   for (const ReferenceSource& reference : options.references)
     made.result.inputs.push_back(reference.info.path.string());
-  judgeChannels(survey, made.result, progress);
   if (!settings.systems.empty() || !settings.fixed.empty())
     made.result.channel_field = survey.channelField();
   made.areas = calibration.areas();

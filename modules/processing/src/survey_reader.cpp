@@ -293,6 +293,7 @@ LidarReturn SurveyReader::Run::point(std::size_t row) const {
   point.classification = chunk.classification[row];
   point.flags = chunk.flags[row];
   point.channel = chunk.channel[row];
+  point.user_data = chunk.user_data[row];
   return point;
 }
 

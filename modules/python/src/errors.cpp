@@ -38,6 +38,7 @@ constexpr RemedyName kRemedies[] = {
     {Remedy::flight_sigmas, "flight_sigmas"},
     {Remedy::strips, "strips"},
     {Remedy::channels, "channels"},
+    {Remedy::user_data, "channels"},
 };
 
 const char* nameOf(Remedy remedy) {

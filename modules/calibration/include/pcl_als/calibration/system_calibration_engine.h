@@ -26,6 +26,8 @@ namespace pcl_als {
 
 class AreaMatcher;
 class CalibrationReport;
+struct ComparedValues;
+struct FieldPair;
 struct OverlappingPair;
 
 /// A strip as measured.
@@ -137,6 +139,7 @@ class SystemCalibrationEngine {
 
  private:
   struct State;
+  struct StripCorrections;
 
   void shareSurvey();
   bool isMine(std::size_t area) const { return area_shares_.mine(area); }
@@ -186,6 +189,14 @@ class SystemCalibrationEngine {
   /// or channels, and jumps of the trajectory. The adjustment is restored.
   void diagnoseParts(State& state, SharedErrors& errors, const ScanGeometry& edge,
                      CalibrationResult& result) const;
+  /// Adds constant differences between points of one strip that differ in their channel, user data
+  /// or scan direction, and judges them.
+  void diagnoseFields(const State& state, const ScanGeometry& edge,
+                      CalibrationResult& result) const;
+  /// The pairs of the points with compared values, by area, of these strips in these areas.
+  std::vector<std::vector<FieldPair>> pairsByField(
+      const StripCorrections& corrections, const ComparedValues& values,
+      const std::vector<std::pair<std::size_t, int>>& parts) const;
   /// Observations as those of a block without held surfaces: these become control. Returns whether
   /// there are any.
   bool replaceHeld(std::vector<AreaObservations>& observations) const;
@@ -229,6 +240,8 @@ class SystemCalibrationEngine {
   /// Values of the error sources whose effects are removed from the points: those that are
   /// estimated, ranging on slopes excepted.
   static ErrorSourceVector sourcesOf(const State& state);
+  /// The corrections of the solution.
+  StripCorrections correctionsOf(const State& state) const;
   /// Reconstructs the points with the biases of their systems.
   void correctPoints(State& state);
   void adjust(State& state, bool estimate_components) const;

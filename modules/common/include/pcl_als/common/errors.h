@@ -29,6 +29,7 @@ enum class Remedy {
   flight_sigmas,     ///< to state the standard deviations of the trajectory
   strips,            ///< to leave strips out, or to use some only
   channels,          ///< to divide strips by the channel of the scanner
+  user_data,         ///< to divide strips by the user data
 };
 
 /// Base of every exception of this library. what() is one line that names the file, record or

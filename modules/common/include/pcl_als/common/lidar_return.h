@@ -23,6 +23,7 @@ struct LidarReturn {
   std::uint8_t classification = 0;  ///< ASPRS code
   std::uint8_t flags = 0;           ///< PointFlag
   std::uint8_t channel = 0;         ///< of the scanner; 0 where none is recorded
+  std::uint8_t user_data = 0;       ///< as recorded; its meaning is that of the software before
 
   bool isSingle() const { return number_of_returns <= 1; }
   bool isLast() const { return return_number >= number_of_returns; }
