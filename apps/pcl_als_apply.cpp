@@ -50,6 +50,7 @@ CommandLine commandLine() {
                      {".tif", ".tiff"});
   line.addNumber("uncertainty_cell", "size of its cells", 2.0, {0.01, 1e4, "m"});
   line.exclude({"corrected", "uncertainty_raster"});
+  line.makeDependent("uncertainty_cell", "uncertainty_raster");
   app::addAccuracyOption(line,
                          "for -uncertainty at times of which the calibration knows nothing "
                          "(default: the trajectory's own columns)");

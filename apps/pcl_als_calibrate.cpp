@@ -98,6 +98,7 @@ CommandLine commandLine() {
                "with -corrected: also correct the estimated trajectory errors (not with -bounds)");
   line.exclude({"corrected", "keep_readable"});
   line.exclude({"strip_corrections", "bounds"});
+  line.makeDependent("strip_corrections", "corrected");
   app::addReportOption(line, "folder for report.html (with pictures), report.md, tables as CSV",
                        {"parameters.csv", "control.csv", "held.csv", "systems.csv", "pairs.csv",
                         "iterations.csv", "areas.csv"});
@@ -105,6 +106,7 @@ CommandLine commandLine() {
   app::addAccuracyOption(line,
                          "their root mean squares over the strips are the prior standard "
                          "deviations of trajectory errors that no option gives");
+  line.makeDependent("control_sigma", "control");
   addWorkOptions(line);
   return line;
 }

@@ -21,6 +21,8 @@ using namespace pcl_als;
 using app::CommandLine;
 using app::Step;
 
+constexpr double kComplete = 0.995;  // of the lines: less is worth a remark
+
 CommandLine commandLine() {
   const SurfaceModel surface;
   CommandLine line("pcl_als_plan",
@@ -49,6 +51,7 @@ CommandLine commandLine() {
   line.addInputFile("terrain",
                     "elevations in the frame of the lines: ESRI ASCII grid (.asc), in "
                     "place of -ground_slope");
+  line.exclude({"terrain", "ground_slope"});
   line.addWhole("control", "number of vertical control points, distributed over the block", 0,
                 {0, 1000, {}});
   app::addEstimateOption(line, "the flight determines");
@@ -62,7 +65,7 @@ double densityOf(const CommandLine& line) {
   return line.has("density") ? line.number("density") : 1.0;
 }
 
-SurfaceModel surfaceOf(const CommandLine& line) {
+SurfaceModel surfaceOf(const CommandLine& line, const std::vector<StripGeometry>& lines) {
   SurfaceModel surface;
   surface.ground_slope = line.number("ground_slope") * kRadiansPerDegree;
   surface.steep_slope = line.number("slope") * kRadiansPerDegree;
@@ -73,6 +76,11 @@ SurfaceModel surfaceOf(const CommandLine& line) {
   const auto grid =
       std::make_shared<const ElevationGrid>(ElevationGrid::read(line.text("terrain")));
   step.done(std::to_string(grid->columns()) + " x " + std::to_string(grid->rows()) + " cells");
+  const double covered = terrainCoverage(lines, *grid, line.text("terrain"));
+  if (covered < kComplete) {
+    app::remark(line, "the terrain covers " + std::to_string(std::lround(100.0 * covered)) +
+                          " % of the swaths; elsewhere the ground is taken as level");
+  }
   surface.terrain = terrainOf(grid);
   return surface;
 }
@@ -104,7 +112,7 @@ std::vector<StripGeometry> plannedLines(const CommandLine& line) {
 int plan(const CommandLine& line) {
   FlightPlan::Settings settings = settingsOf(line);
   std::vector<StripGeometry> lines = plannedLines(line);
-  settings.adjustment.pairs.surface = surfaceOf(line);
+  settings.adjustment.pairs.surface = surfaceOf(line, lines);
   const FlightPlan flight(std::move(lines), settings);
   Step step("Adjusting the plan", line.quiet());
   FlightPlanResult result = flight.evaluate();

@@ -80,6 +80,8 @@ void addSystemOptions(CommandLine& line) {
                "with -system: what a system has of its own: boresight, lever_arm, names of "
                "parameters, offset of coordinates (default: boresight,range_bias,"
                "scan_angle_scale)");
+  line.makeDependent("own", "system");
+  line.makeDependent("fixed_sigma", "fixed");
 }
 
 void readSystems(const CommandLine& line, CalibrationSettings& settings) {

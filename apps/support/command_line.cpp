@@ -263,7 +263,7 @@ void CommandLine::takeArguments() {
 void CommandLine::checkRelations() const {
   for (const auto& [names, needed] : exclusive_) {
     const auto count = std::count_if(names.begin(), names.end(),
-                                     [this](const std::string& name) { return has(name); });
+                                     [this](const std::string& name) { return given(name); });
     std::string options;
     for (const std::string& name : names)
       options += (options.empty() ? "-" : name == names.back() ? " and -" : ", -") + name;
@@ -272,7 +272,7 @@ void CommandLine::checkRelations() const {
       throw UsageError("one of the options " + options + " is needed (see " + tool_ + " -h)");
   }
   for (const auto& [name, on] : dependent_)
-    if (has(name) && !has(on)) throw UsageError("option -" + name + " needs -" + on);
+    if (given(name) && !has(on)) throw UsageError("option -" + name + " needs -" + on);
   for (const Option& option : options_)
     if (option.is_needed && !has(option.name))
       throw UsageError("option -" + option.name + " is needed (see " + tool_ + " -h)");

@@ -67,9 +67,9 @@ class CommandLine {
   /// A folder that is made where it is missing, with the names of the files that are written there.
   Option& addOutputFolder(const std::string& name, const std::string& help, FolderFiles files);
 
-  /// At most one of the options may be given; with \a needed, one must.
+  /// At most one of the options may be given, defaults apart; with \a needed, one must.
   void exclude(std::vector<std::string> names, bool needed = false);
-  /// The option makes sense only with another one.
+  /// The option has an effect only with another one: without it, it is refused, its default apart.
   void makeDependent(const std::string& name, const std::string& on);
 
   /// Parses and checks; returns false when help or version was printed and the tool is done.

@@ -53,6 +53,14 @@ expect 1 "option -trajectory is needed" apply none.las x.las -calibration none.j
 expect 1 "options -output and -grids is needed" classify none.las -training none.csv
 expect 1 "options -output and -window is needed" view none.las
 
+# Options without an effect are refused.
+expect 1 "option -own needs -system" calibrate none.las -trajectory none.csv -output c.json -own offset
+expect 1 "option -fixed_sigma needs -fixed" calibrate none.las -trajectory none.csv -output c.json -fixed_sigma 0.1
+expect 1 "option -control_sigma needs -control" calibrate none.las -trajectory none.csv -output c.json -control_sigma 0.1
+expect 1 "option -uncertainty_cell needs -uncertainty_raster" apply none.las x.las -trajectory none.csv -biases range_bias=1 -uncertainty_cell 5
+expect 1 "options -terrain and -ground_slope exclude each other" plan -lines none.csv -terrain none.asc -ground_slope 3
+expect 1 "option -strip_corrections needs -corrected" calibrate none.las -trajectory none.csv -output c.json -strip_corrections
+
 for tool in apply calibrate info; do expect 1 "usage: pcl_als_$tool" "$tool"; done
 
 # A misspelt option is answered with the nearest one, where there is one.

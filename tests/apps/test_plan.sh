@@ -42,8 +42,14 @@ pairs 1,0,0,0,1500,500 2,9000,0,9000,1500,500 >apart.csv
 expect 2 "no two lines overlap" plan -lines apart.csv
 
 grid() { printf 'ncols %s\nnrows %s\nxllcorner -1000\nyllcorner -1000\ncellsize 1000\nNODATA_value -9999\n' "$1" "$2"; }
-{ grid 4 4; echo "0 20 0 10 30 5 60 0 10 -9999 20 40 0 80 10 0"; } >good.asc
+{ grid 4 4; echo "0 20 0 10 30 5 60 0 10 7 20 40 0 80 -9999 0"; } >good.asc
 expect 0 "4 x 4 cells" plan -lines two.csv -terrain good.asc -sloped 0.1
+# A grid somewhere else is refused, one below a part of the lines is told.
+{ printf 'ncols 2\nnrows 2\nxllcorner 900000\nyllcorner 0\ncellsize 1000\n'; echo "0 20 0 10"; } >far.asc
+expect 2 "far.asc: has no elevation below any of the lines *its nearest cell is 900.2 km away*" \
+  plan -lines two.csv -terrain far.asc
+{ printf 'ncols 2\nnrows 2\nxllcorner -1000\nyllcorner -500\ncellsize 1000\n'; echo "0 20 0 10"; } >part.asc
+expect 0 "the terrain covers 67 % of the swaths" plan -lines two.csv -terrain part.asc -sloped 0.1
 { grid 4 4; echo "0 20 0 10 30"; } >short.asc
 expect 2 "declares 16 values" plan -lines two.csv -terrain short.asc
 { grid 999999 999999; echo "0 20 0 10 30"; } >lying.asc

@@ -65,9 +65,9 @@ std::size_t AreaMatcher::stripCount() const {
 std::vector<TimeSpan> AreaMatcher::timesOf(int strip) const {
   std::vector<TimeSpan> spans;
   for (const StripPart& part : surfaces_) {
-    if (part.strip != strip || part.times.empty()) continue;
-    const auto [first, last] = std::minmax_element(part.times.begin(), part.times.end());
-    spans.emplace_back(*first, *last);
+    if (part.strip != strip) continue;
+    const std::vector<TimeSpan> of_part = continuousSpans(part.times);
+    spans.insert(spans.end(), of_part.begin(), of_part.end());
   }
   return spans;
 }

@@ -67,7 +67,7 @@ class AreaMatcher {
   void clear();                    ///< deletes all points
   std::size_t stripCount() const;  ///< strips with points in the area or its margin
 
-  /// Times at which a strip measured the area with its margin, a span for each of its surfaces.
+  /// Times at which a strip measured the area with its margin, a span for each crossing.
   std::vector<TimeSpan> timesOf(int strip) const;
 
   /** \brief Keeps one point of each strip in every cell of 0.7 of its mean spacing, before

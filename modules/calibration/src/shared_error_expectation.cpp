@@ -12,12 +12,26 @@
 
 namespace pcl_als {
 
+std::vector<int> SharedErrors::StripKnots::stepsWithin(double reach) const {
+  std::vector<int> chosen{0};
+  for (const int knot : at) {
+    const int from = std::max(chosen.back() + 1, static_cast<int>(std::max(0.0, knot - reach)));
+    const int to = static_cast<int>(std::min<double>(steps, knot + reach));
+    for (int step = from; step <= to; ++step) chosen.push_back(step);
+  }
+  if (chosen.back() < steps) chosen.push_back(steps);
+  return chosen;
+}
+
 std::vector<SharedErrors::Expectation> SharedErrors::expectationsOf(int index) const {
+  // Correlation times from the next knot: the expectation is that of the constant component there,
+  // to 3e-4 of the error at the knot.
+  constexpr double kMemory = 8.0;
   const StripKnots& strip = passOf(index);
   const double unit = strip.spacing / model_.correlation_time;
   const int last = static_cast<int>(strip.at.size()) - 1;
   std::vector<Expectation> expectations;
-  for (int step = 0; step <= strip.steps; ++step) {
+  for (const int step : strip.stepsWithin(std::ceil(kMemory / unit))) {
     Expectation at;
     at.time = strip.start + step * strip.spacing;
     std::map<int, double> blocks;
@@ -36,8 +50,11 @@ std::vector<SharedErrors::Expectation> SharedErrors::expectationsOf(int index) c
     const int knot = strip.before(step);
     const double since = unit * (step - strip.at[knot]);
     if (since > 0.0 && knot < last) {
-      const double until = unit * (strip.at[knot + 1] - step), all = std::sinh(since + until);
-      const double a = std::sinh(until) / all, b = std::sinh(since) / all;
+      // sinh(until) / sinh(since + until) and the reverse, without overflow in long gaps.
+      const double until = unit * (strip.at[knot + 1] - step);
+      const double all = std::expm1(-2.0 * (since + until));
+      const double a = std::exp(-since) * std::expm1(-2.0 * until) / all;
+      const double b = std::exp(-until) * std::expm1(-2.0 * since) / all;
       addKnot(knot, a);
       addKnot(knot + 1, b);
       at.gauss_markov_left = 1.0 - a * std::exp(-since) - b * std::exp(-until);

@@ -105,23 +105,40 @@ bool SharedErrorLevels::near(const SharedErrorLevels& other) const {
                     [](double a, double b) { return std::max(a, b) <= 1.5 * std::min(a, b); });
 }
 
+std::vector<TimeSpan> continuousSpans(const std::vector<double>& times) {
+  constexpr double kGap = 10.0;  // seconds: far more than between two looks at the same ground
+  std::map<double, TimeSpan> by_interval;
+  for (const double time : times) {
+    TimeSpan& span = by_interval.try_emplace(std::floor(time / kGap), time, time).first->second;
+    span = {std::min(span.first, time), std::max(span.second, time)};
+  }
+  std::vector<TimeSpan> spans;
+  for (const auto& [interval, span] : by_interval) {
+    if (!spans.empty() && span.first - spans.back().second <= kGap)
+      spans.back().second = span.second;
+    else
+      spans.push_back(span);
+  }
+  return spans;
+}
+
 std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
                                                  std::size_t strips) {
   std::vector<std::vector<TimeSpan>> times(strips);
   for (const AreaObservations& area : areas) {
-    std::map<int, TimeSpan> here;
+    std::map<int, std::vector<double>> here;
     for (const PairObservation& o : area) {
-      const auto add = [&here](int strip, double time) {
-        if (strip == PairObservation::kControl) return;
-        TimeSpan& span = here.try_emplace(strip, time, time).first->second;
-        span = {std::min(span.first, time), std::max(span.second, time)};
-      };
-      add(o.a, o.time_a);
-      add(o.b, o.time_b);
+      if (o.a != PairObservation::kControl) here[o.a].push_back(o.time_a);
+      here[o.b].push_back(o.time_b);
       if (!o.mixed_times) continue;
-      for (const PairObservation::Vertex& vertex : o.vertices) add(o.b, o.time_b + vertex.after);
+      for (const PairObservation::Vertex& vertex : o.vertices)
+        here[o.b].push_back(o.time_b + vertex.after);
     }
-    for (const auto& [strip, span] : here) times[static_cast<std::size_t>(strip)].push_back(span);
+    for (const auto& [strip, of_strip] : here) {
+      const std::vector<TimeSpan> spans = continuousSpans(of_strip);
+      auto& all = times[static_cast<std::size_t>(strip)];
+      all.insert(all.end(), spans.begin(), spans.end());
+    }
   }
   return times;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <pcl_als/calibration/shared_errors.h>
 
@@ -37,23 +38,24 @@ int SharedErrors::StripKnots::before(double step) const {
 
 SharedErrors::StripKnots SharedErrors::knotsOf(const TimeSpan& span, double spacing,
                                                const std::vector<TimeSpan>* observed) {
+  constexpr double kMostSteps = 1e9;
   StripKnots strip;
   const double length = std::max(0.0, span.second - span.first);
   strip.start = span.first;
-  strip.steps = static_cast<int>(std::ceil(length / spacing - 1e-9));
+  strip.steps = static_cast<int>(std::min(kMostSteps, std::ceil(length / spacing - 1e-9)));
   strip.spacing = strip.steps > 0 ? length / strip.steps : 1.0;
-  std::vector<bool> used(static_cast<std::size_t>(strip.steps) + 1, observed == nullptr);
-  if (observed != nullptr && strip.steps > 0) {
-    for (const auto& [from, to] : *observed) {
-      const auto stepOf = [&](double time) {
-        return std::clamp(static_cast<int>((time - strip.start) / strip.spacing), 0,
-                          strip.steps - 1);
-      };
-      for (int step = stepOf(from); step <= stepOf(to) + 1; ++step) used[step] = true;
-    }
-  }
-  for (int step = 0; step <= strip.steps; ++step) {
-    if (used[step]) strip.at.push_back(step);
+  if (observed == nullptr || strip.steps == 0) {
+    strip.at.resize(static_cast<std::size_t>(strip.steps) + (observed == nullptr ? 1 : 0));
+    std::iota(strip.at.begin(), strip.at.end(), 0);
+  } else {
+    const auto stepOf = [&](double time) {
+      return static_cast<int>(
+          std::clamp((time - strip.start) / strip.spacing, 0.0, strip.steps - 1.0));
+    };
+    for (const auto& [from, to] : *observed)
+      for (int step = stepOf(from); step <= stepOf(to) + 1; ++step) strip.at.push_back(step);
+    std::sort(strip.at.begin(), strip.at.end());
+    strip.at.erase(std::unique(strip.at.begin(), strip.at.end()), strip.at.end());
   }
   if (strip.at.empty()) strip.at.push_back(0);
   return strip;

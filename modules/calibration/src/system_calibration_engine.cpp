@@ -285,7 +285,8 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
                                       CalibrationResult& result) {
   const std::vector<AreaUse> used = state.usedAreas();
   addFarPairs(state);
-  setSystemEffects(state.errors, state.differences, state.observations);
+  // The fits are those of points corrected by what the result states, not by the solution.
+  setSystemEffects(state.errors, systemDifferences(result, state.errors), state.observations);
   for (AreaObservations& area : state.observations)
     addSourceEffects(result.sources - state.held_sources, area);
   report.addControlPoints(control_, state.observations, used,

@@ -140,10 +140,22 @@ void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
       p.status = ParameterStatus::estimated;
       p.reason = relative ? "relative to system " + groups.front().name : "";
     }
-    if (!errors.isOwn(system, kSystemParameterCount)) continue;
-    estimate.offset = solution.difference.tail<3>();
-    estimate.offset_std = solution.std.tail<3>();
+    for (int axis = 0; axis < 3; ++axis) {
+      const int i = kSystemParameterCount + axis;
+      if (!errors.isOwn(system, i)) continue;
+      estimate.offset[axis] = solution.difference[i];
+      estimate.offset_std[axis] = solution.std[i];
+    }
   }
+}
+
+std::vector<SystemUnknowns> systemDifferences(const CalibrationResult& result,
+                                              const SharedErrors& errors) {
+  std::vector<SystemUnknowns> differences(static_cast<std::size_t>(errors.systems().count),
+                                          SystemUnknowns::Zero());
+  for (std::size_t i = 1; i < result.systems.size(); ++i)
+    differences[i] = result.systems[i].values() - result.systems.front().values();
+  return differences;
 }
 
 }  // namespace pcl_als

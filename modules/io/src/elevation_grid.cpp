@@ -134,6 +134,11 @@ ElevationGrid ElevationGrid::read(const std::filesystem::path& path) {
   return grid;
 }
 
+Eigen::AlignedBox2d ElevationGrid::extent() const {
+  const Eigen::Vector2d cells(static_cast<double>(columns_ - 1), static_cast<double>(rows_ - 1));
+  return {first_, first_ + cell_ * cells};
+}
+
 std::optional<double> ElevationGrid::at(const Eigen::Vector2d& place,
                                         Eigen::Vector2d& gradient) const {
   const Eigen::Vector2d at = (place - first_) / cell_;

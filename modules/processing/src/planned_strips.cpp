@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/planned_strips.h>
 
@@ -34,6 +38,32 @@ std::function<std::optional<SurfacePoint>(const Eigen::Vector2d&)> terrainOf(
     return SurfacePoint{*z - grid->mean(),
                         Eigen::Vector3d(-gradient.x(), -gradient.y(), 1.0).normalized()};
   };
+}
+
+double terrainCoverage(const std::vector<StripGeometry>& lines, const ElevationGrid& grid,
+                       const std::filesystem::path& path) {
+  constexpr int kAlong = 100;                                // places on each line
+  constexpr double kAcross[] = {-0.8, -0.4, 0.0, 0.4, 0.8};  // of half the swath
+  const Eigen::AlignedBox2d extent = grid.extent();
+  double all = 0.0, covered = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (const StripGeometry& line : lines) {
+    const Eigen::Vector2d along = line.direction(), right(along.y(), -along.x());
+    for (int i = 0; i < kAlong; ++i)
+      for (const double across : kAcross) {
+        const Eigen::Vector2d place = line.start + (i + 0.5) / kAlong * line.length() * along +
+                                      across * line.halfSwath() * right;
+        Eigen::Vector2d gradient;
+        all += line.length();
+        if (grid.at(place, gradient)) covered += line.length();
+        nearest = std::min(nearest, extent.exteriorDistance(place));
+      }
+  }
+  if (covered > 0.0) return covered / all;
+  char distance[64] = "";
+  if (nearest > 0.0)
+    std::snprintf(distance, sizeof distance, " (its nearest cell is %.1f km away)", 1e-3 * nearest);
+  throw InputError(path.string() + ": has no elevation below any of the lines" + distance +
+                   "; give elevations of the planned area, in the frame of the lines");
 }
 
 }  // namespace pcl_als

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/adjustment/overlap_variation.h>
+#include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
+
+#include "strip_deformation.h"
 
 namespace pcl_als {
 
@@ -30,6 +32,15 @@ namespace {
 constexpr double kGentleCosine = 0.98481;  // 10 degrees
 // metres: a priori uncertainty of a direction that is left unchanged
 constexpr double kHeldDirectionStd = 1.0;
+constexpr double kNoVariance = 1e-18;  // m^2: an unknown in directions that are not determined
+
+std::string describeUncertainty(double std) {
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "its standard deviation is %.2g m, with the errors that neighbouring points share",
+                std);
+  return text;
+}
 
 DistanceSummary summary(const RunningStatistics& statistics) {
   return {statistics.mean(), statistics.rms()};
@@ -44,78 +55,99 @@ AlignmentReport::Matrix6d AlignmentReport::ofParameters(const UnknownsMatrix& co
   return jacobian * covariance.topLeftCorner<6, 6>() * jacobian.transpose();
 }
 
+UnknownsMatrix AlignmentReport::ofWeakDirections() const {
+  UnknownsMatrix weak = UnknownsMatrix::Zero();
+  for (int i = 0; i < directions_.weak; ++i) {
+    const double std = std::min(directions_.std[i], kHeldDirectionStd);
+    weak += std * std * directions_.vectors.col(i) * directions_.vectors.col(i).transpose();
+  }
+  return weak;
+}
+
+void AlignmentReport::estimate(const PlanGrid& groups, PatchAlignmentResult& result) {
+  const PatchAdjustment adjustment(pairs_, frame_, Robustness(), 1);
+  const auto parts = adjustment.accumulateGroups(scatter_, groups.size());
+  groups_ = 0;
+  NormalEquations all;
+  for (const NormalEquations& part : parts) {
+    all.merge(part);
+    groups_ += part.weights > 0.0 ? 1 : 0;
+  }
+  formal_ = cofactor(all, directions_);
+  jackknife_ = jackknifeOfParts(parts, groups, directions_);
+  correlated_ = adjustment.correlated(scatter_, directions_);
+  const Unknowns bent = deformationOf(pairs_, frame_, scatter_, directions_);
+  Unknowns raise = Unknowns::Zero();
+  for (int i = 0; i < directions_.unknowns; ++i) {
+    double excess = 0.0;
+    if (i < PatchAlignmentResult::kParameters) {
+      const double scale = i < 3 ? 1.0 : frame_.radius;
+      excess = scale * scale *
+               (std::pow(result.surface_std[i], 2) + std::pow(result.convergence_std[i], 2));
+      result.deformation_std[i] = std::sqrt(bent[i]) / scale;
+    }
+    const double formal = formal_(i, i);
+    const double variance =
+        std::max({formal + bent[i], jackknife_(i, i), correlated_(i, i)}) + excess;
+    raise[i] = formal > kNoVariance ? std::sqrt(variance / formal) : 0.0;
+  }
+  // Raised along the axes, of the determined directions alone.
+  UnknownsMatrix determined = UnknownsMatrix::Zero();
+  const int n = directions_.unknowns;
+  const Eigen::MatrixXd basis = directions_.basis().topRows(n);
+  determined.topLeftCorner(n, n) = basis * basis.transpose();
+  covariance_ = determined * raise.asDiagonal() * formal_ * raise.asDiagonal() * determined;
+}
+
+HeldDirections AlignmentReport::undetermined() const {
+  const double limit = settings_.determined_std * settings_.determined_std;
+  const Eigen::MatrixXd basis = directions_.basis();
+  const int n = directions_.unknowns, strong = directions_.strong();
+  HeldDirections held;
+  if (strong == 0) return held;
+  const Eigen::MatrixXd part = covariance_.topLeftCorner(n, n), own = basis.topRows(n);
+  const auto eigen = symmetricEigen(own.transpose() * part * own);
+  const Eigen::MatrixXd vectors = basis * eigen.vectors;
+  Unknowns left = covariance_.diagonal();
+  for (int i = strong - 1; i >= 0; --i) {
+    if (eigen.values[i] < limit && left.maxCoeff() < limit) break;
+    held.vectors.emplace_back(vectors.col(i));
+    held.std.push_back(std::sqrt(std::max(0.0, eigen.values[i])));
+    left -= eigen.values[i] * vectors.col(i).cwiseAbs2();
+  }
+  return held;
+}
+
 void AlignmentReport::fillParameters(PatchAlignmentResult& result) const {
+  const Unknowns of_weak = ofWeakDirections().diagonal(), all = of_weak + covariance_.diagonal();
+  const double limit = settings_.determined_std * settings_.determined_std;
   std::string weak;
   for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
-    double variance = 0.0;
-    for (int i = 0; i < directions_.weak; ++i) {
-      const double sigma = 1.0 / std::sqrt(std::max(directions_.values[i], 1e-12));
-      const double share = directions_.vectors(p, i) * std::min(sigma, kHeldDirectionStd);
-      variance += share * share;
-    }
     auto& parameter = result.parameters[p];
-    parameter.determined = variance < settings_.determined_std * settings_.determined_std;
+    parameter.determined = all[p] < limit;
     if (parameter.determined) continue;
-    parameter.reason = describeWeakness(directions_, p, frame_.radius);
+    parameter.reason = of_weak[p] < limit ? describeUncertainty(std::sqrt(all[p]))
+                                          : describeWeakness(directions_, p, frame_.radius);
     weak += (weak.empty() ? "" : ", ") + std::string(PatchAlignmentResult::name(p));
   }
   if (!weak.empty()) result.message = "not determined: " + weak;
 }
 
-void AlignmentReport::fillCovariance(std::size_t groups, PatchAlignmentResult& result) const {
-  const PatchAdjustment adjustment(pairs_, frame_, Robustness(), 1);
-  const auto parts = adjustment.accumulateGroups(scatter_, groups);
-  result.jackknife_groups = parts.size();
-  UnknownsMatrix weak = UnknownsMatrix::Zero();
-  for (int i = 0; i < directions_.weak; ++i) {
-    const double sigma = 1.0 / std::sqrt(std::max(directions_.values[i], 1e-12));
-    const double variance = std::min(sigma, kHeldDirectionStd) * std::min(sigma, kHeldDirectionStd);
-    weak += variance * directions_.vectors.col(i) * directions_.vectors.col(i).transpose();
-  }
-  NormalEquations all;
-  for (const NormalEquations& part : parts) all.merge(part);
-  const UnknownsMatrix formal = cofactor(all, directions_) + weak;
-  const UnknownsMatrix scatter = jackknife(parts, directions_) + weak;
-  const UnknownsMatrix correlated = adjustment.correlated(scatter_, directions_) + weak;
-  result.covariance_formal = ofParameters(formal, result.motion);
-  if (scatter.trace() > 0.0) result.covariance_jackknife = ofParameters(scatter, result.motion);
-  if (correlated.trace() > 0.0)
-    result.covariance_correlated = ofParameters(correlated, result.motion);
-  Matrix6d raise = Matrix6d::Identity();
-  for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
-    const double formal_variance = result.covariance_formal(p, p);
-    const double excess = result.surface_std[p] * result.surface_std[p] +
-                          result.convergence_std[p] * result.convergence_std[p];
-    const double bent = result.deformation_std[p] * result.deformation_std[p];
-    const double variance = std::max({formal_variance + bent, result.covariance_jackknife(p, p),
-                                      result.covariance_correlated(p, p)}) +
-                            excess;
-    raise(p, p) = !result.parameters[p].determined ? 0.0 : std::sqrt(variance / formal_variance);
-  }
-  result.covariance = raise * result.covariance_formal * raise;
-  const auto keep = (raise.diagonal().array() > 0.0).cast<double>().matrix().asDiagonal();
-  result.covariance_formal = keep * result.covariance_formal * keep;
-  result.covariance_jackknife = keep * result.covariance_jackknife * keep;
-  result.covariance_correlated = keep * result.covariance_correlated * keep;
-  if (frame_.with_scale)
-    result.scale_std =
-        std::sqrt(std::max({formal(6, 6), scatter(6, 6), correlated(6, 6)})) / frame_.radius;
-}
-
-/// How rotations vary over the overlap where the clouds are bent against each other.
-void AlignmentReport::fillDeformation(PatchAlignmentResult& result) const {
-  constexpr std::size_t kEnough = 20'000;
-  const double cut = Robustness().cut;
-  const std::size_t stride = 1 + pairs_.size() / kEnough;
-  OverlapVariation variation;
-  for (std::size_t i = 0; i < pairs_.size(); i += stride) {
-    const PatchPair& pair = pairs_[i];
-    if (pair.normal.z() < kGentleCosine ||
-        std::abs(pair.distance) > cut * scatter_.of(pair) * std::sqrt(pair.variance))
-      continue;
-    variation.add(pair.group, pair.position.head<2>(), pair.distance / pair.normal.z());
-  }
-  result.deformation_std.segment<2>(3) = variation.ofRotations().cwiseSqrt();
+void AlignmentReport::fillCovariance(PatchAlignmentResult& result) const {
+  const UnknownsMatrix weak = ofWeakDirections();
+  Eigen::Matrix<double, PatchAlignmentResult::kParameters, 1> keep;
+  for (int p = 0; p < PatchAlignmentResult::kParameters; ++p)
+    keep[p] = result.parameters[p].determined ? 1.0 : 0.0;
+  const auto filled = [&](const UnknownsMatrix& covariance) -> Matrix6d {
+    if (!(covariance.trace() > 0.0)) return Matrix6d::Zero();
+    return keep.asDiagonal() * ofParameters(covariance + weak, result.motion) * keep.asDiagonal();
+  };
+  result.jackknife_groups = groups_;
+  result.covariance = filled(covariance_);
+  result.covariance_formal = filled(formal_);
+  result.covariance_jackknife = filled(jackknife_);
+  result.covariance_correlated = filled(correlated_);
+  if (frame_.with_scale) result.scale_std = std::sqrt(covariance_(6, 6)) / frame_.radius;
 }
 
 void AlignmentReport::fillFit(PatchAlignmentResult& result) const {
@@ -139,14 +171,13 @@ void AlignmentReport::fillFit(PatchAlignmentResult& result) const {
   result.vertical_pairs = vertical_before.count();
 }
 
-void AlignmentReport::fill(std::size_t groups, PatchAlignmentResult& result) const {
+void AlignmentReport::fill(PatchAlignmentResult& result) const {
   result.sigma0 = scatter_.all();
   result.radius = frame_.radius;
   fillParameters(result);
-  fillDeformation(result);
-  fillCovariance(groups, result);
+  fillCovariance(result);
   fillFit(result);
-  const auto unknowns = static_cast<std::size_t>(directions_.unknowns - directions_.weak);
+  const auto unknowns = static_cast<std::size_t>(directions_.strong());
   result.redundancy = result.pairs - std::min(result.pairs, unknowns);
   if (result.status == PatchAlignmentResult::Status::not_converged)
     result.message = "no convergence in " + std::to_string(result.iterations) + " iterations";
@@ -154,17 +185,20 @@ void AlignmentReport::fill(std::size_t groups, PatchAlignmentResult& result) con
 
 std::string describeWeakness(const Directions& directions, int parameter, double radius) {
   int worst = 0;
+  const auto share = [&](int i) {
+    return std::abs(directions.vectors(parameter, i)) * std::min(directions.std[i], 1.0);
+  };
   for (int i = 1; i < directions.weak; ++i)
-    if (std::abs(directions.vectors(parameter, i)) > std::abs(directions.vectors(parameter, worst)))
-      worst = i;
+    if (share(i) > share(worst)) worst = i;
   const double information = std::max(directions.values[worst], 1e-12);
   const double effect = std::sqrt(information / std::max(directions.weights, 1e-12));
-  char text[240];
+  char text[300];
   std::snprintf(text, sizeof text,
                 "%s changes the patches' normal distances by %.2g mm (RMS) only, its standard "
-                "deviation would be %.2g m; slopes that face the right way are missing",
+                "deviation would be %.2g m%s; slopes that face the right way are missing",
                 parameter < 3 ? "a shift of 1 m" : "a turn that moves points by 1 m", 1e3 * effect,
-                std::min(1.0 / std::sqrt(information), 1e6));
+                std::min(directions.std[worst], 1e6),
+                worst < directions.held ? ", with the errors that neighbouring points share" : "");
   return parameter < 3 ? text : std::string(text) + " (radius " + std::to_string(radius) + " m)";
 }
 

@@ -7,6 +7,7 @@
 #include <pcl_als/registration/patch_alignment.h>
 
 #include "patch_adjustment.h"
+#include "plan_cells.h"
 
 namespace pcl_als::registration {
 
@@ -22,15 +23,21 @@ class AlignmentReport {
         directions_(directions),
         settings_(settings) {}
 
-  /// result.motion has been set before. \param groups of the jackknife.
-  void fill(std::size_t groups, PatchAlignmentResult& result) const;
+  /// Covariance of the unknowns. Of the result surface_std and convergence_std have been set;
+  /// deformation_std is set here. \param groups of the jackknife.
+  void estimate(const PlanGrid& groups, PatchAlignmentResult& result);
+  /// After estimate(): the directions whose standard deviations are larger than the limit.
+  HeldDirections undetermined() const;
+  /// After estimate(); result.motion has been set before.
+  void fill(PatchAlignmentResult& result) const;
 
  private:
   using Matrix6d = PatchAlignmentResult::Matrix6d;
   void fillParameters(PatchAlignmentResult& result) const;
-  void fillCovariance(std::size_t groups, PatchAlignmentResult& result) const;
-  void fillDeformation(PatchAlignmentResult& result) const;
+  void fillCovariance(PatchAlignmentResult& result) const;
   void fillFit(PatchAlignmentResult& result) const;
+  /// Covariance of the directions that keep their initial value.
+  UnknownsMatrix ofWeakDirections() const;
   /// Covariance of XT … kappa (m, rad) from that of the unknowns.
   Matrix6d ofParameters(const UnknownsMatrix& covariance, const RigidMotion& motion) const;
 
@@ -39,6 +46,10 @@ class AlignmentReport {
   ScatterBySlope scatter_;
   Directions directions_;
   const PatchAlignmentSettings& settings_;
+  /// Of the determined directions, square metres: as reported, and its parts.
+  UnknownsMatrix covariance_ = UnknownsMatrix::Zero(), formal_ = UnknownsMatrix::Zero(),
+                 jackknife_ = UnknownsMatrix::Zero(), correlated_ = UnknownsMatrix::Zero();
+  std::size_t groups_ = 0;  ///< of the jackknife, with pairs
 };
 
 }  // namespace pcl_als::registration

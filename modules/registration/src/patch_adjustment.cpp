@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <pcl_als/adjustment/correlated_errors.h>
 #include <pcl_als/adjustment/robust_weight.h>
@@ -19,7 +20,7 @@ constexpr double kNoiseFactor = 3.0;  // the roughness may understate the noise 
 constexpr std::size_t kFewestInStep = 30;
 constexpr double kLeastScatter = 1e-6;  // metres
 constexpr std::size_t kChunk = 8192;
-constexpr std::size_t kFewestGroups = 10;
+constexpr std::size_t kFewestStrips = 6;  // of cells, left out one at a time
 // The contribution of the noise of normals to the normal matrix is a mean: a sample of pairs
 // suffices.
 constexpr std::size_t kNoiseSample = 8, kEnoughToSample = 20'000;
@@ -151,17 +152,14 @@ std::vector<NormalEquations> PatchAdjustment::accumulateGroups(const ScatterBySl
     sum.right -= weight * pair.distance * row;
     sum.weights += weight;
   }
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const NormalEquations& sum) { return sum.weights == 0.0; }),
-            all.end());
   return all;
 }
 
 UnknownsMatrix PatchAdjustment::correlated(const ScatterBySlope& scatter,
                                            const Directions& directions) const {
-  const int strong = directions.unknowns - directions.weak;
+  const int strong = directions.strong();
   if (strong == 0) return UnknownsMatrix::Zero();
-  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  const Eigen::MatrixXd basis = directions.basis();
   CorrelatedErrors errors(strong, 3);
   for (const PatchPair& pair : pairs_) {
     const double weight = weightOf(pair.distance, pair, scatter);
@@ -174,58 +172,121 @@ UnknownsMatrix PatchAdjustment::correlated(const ScatterBySlope& scatter,
   return basis * result.covariance * basis.transpose();
 }
 
-Directions analyse(const NormalEquations& equations, int unknowns, double limit) {
+Directions analyse(const NormalEquations& equations, int unknowns, double limit,
+                   const HeldDirections& held) {
   Directions directions;
   directions.unknowns = unknowns;
   directions.weights = equations.weights;
+  directions.held = directions.weak = static_cast<int>(held.vectors.size());
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  if (directions.held > 0) {
+    Eigen::MatrixXd vectors(unknowns, directions.held);
+    for (int i = 0; i < directions.held; ++i)
+      vectors.col(i) = held.vectors[static_cast<std::size_t>(i)].head(unknowns);
+    basis << vectors, orthogonalComplement(vectors);
+  }
   const UnknownsMatrix sure = equations.matrix - kNoiseFactor * equations.noise;
   const Eigen::MatrixXd part = sure.topLeftCorner(unknowns, unknowns);
-  const auto eigen = symmetricEigen(part);
-  directions.vectors.topLeftCorner(unknowns, unknowns) = eigen.vectors;
-  directions.values.head(unknowns) = eigen.values.cwiseMax(0.0);
+  if (const int others = unknowns - directions.held; others > 0) {
+    const Eigen::MatrixXd free = basis.rightCols(others);
+    basis.rightCols(others) = free * symmetricEigen(free.transpose() * part * free).vectors;
+  }
+  directions.vectors.topLeftCorner(unknowns, unknowns) = basis;
+  directions.values.head(unknowns) = (basis.transpose() * part * basis).diagonal().cwiseMax(0.0);
   const double least = 1.0 / (limit * limit);
   while (directions.weak < unknowns && !(directions.values[directions.weak] > least))
     ++directions.weak;
+  for (int i = 0; i < directions.weak; ++i) {
+    directions.std[i] = i < directions.held
+                            ? held.std[static_cast<std::size_t>(i)]
+                            : 1.0 / std::sqrt(std::max(directions.values[i], 1e-12));
+  }
   return directions;
 }
 
 Unknowns solveDetermined(const NormalEquations& equations, const Directions& directions,
                          double prior_information) {
-  const int strong = directions.unknowns - directions.weak;
-  if (strong == 0) return Unknowns::Zero();
-  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  if (directions.strong() == 0) return Unknowns::Zero();
+  const Eigen::MatrixXd basis = directions.basis();
   Eigen::MatrixXd normal = basis.transpose() * equations.matrix * basis;
   normal.diagonal().array() += prior_information;
   return basis * solveSymmetric(normal, basis.transpose() * equations.right);
 }
 
 UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& directions) {
-  const int strong = directions.unknowns - directions.weak;
-  if (strong == 0) return UnknownsMatrix::Zero();
-  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+  if (directions.strong() == 0) return UnknownsMatrix::Zero();
+  const Eigen::MatrixXd basis = directions.basis();
   const Eigen::MatrixXd normal = basis.transpose() * equations.matrix * basis;
   return basis * inverseOfRegular(normal) * basis.transpose();
 }
 
-UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions) {
-  const int strong = directions.unknowns - directions.weak;
-  if (groups.size() < kFewestGroups || strong == 0) return UnknownsMatrix::Zero();
-  const Eigen::MatrixXd basis = directions.vectors.middleCols(directions.weak, strong);
+UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions,
+                         std::size_t fewest) {
+  const int strong = directions.strong();
+  if (strong == 0) return UnknownsMatrix::Zero();
+  const Eigen::MatrixXd basis = directions.basis();
   NormalEquations all;
   for (const NormalEquations& group : groups) all.merge(group);
   std::vector<Eigen::VectorXd> solutions;
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(strong);
   for (const NormalEquations& group : groups) {
+    if (group.weights == 0.0) continue;
     const Eigen::MatrixXd rest = basis.transpose() * (all.matrix - group.matrix) * basis;
     solutions.push_back(solveSymmetric(rest, basis.transpose() * (all.right - group.right)));
     mean += solutions.back();
   }
-  mean /= static_cast<double>(groups.size());
+  if (solutions.size() < fewest) return UnknownsMatrix::Zero();
+  const auto count = static_cast<double>(solutions.size());
+  mean /= count;
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(strong, strong);
   for (const Eigen::VectorXd& solution : solutions)
     scatter += (solution - mean) * (solution - mean).transpose();
-  const auto count = static_cast<double>(groups.size());
   return basis * (scatter * ((count - 1.0) / count)) * basis.transpose();
+}
+
+namespace {
+
+/// 95 % of the chi-squared distribution over its degrees of freedom (Wilson and Hilferty 1931).
+double largestChanceRatio(std::size_t degrees) {
+  constexpr double kNormal95 = 1.6449;
+  const double ninth = 2.0 / (9.0 * static_cast<double>(degrees));
+  return std::pow(1.0 - ninth + kNormal95 * std::sqrt(ninth), 3);
+}
+
+/// Cells by the columns and rows of larger cells.
+std::vector<NormalEquations> merged(const std::vector<NormalEquations>& cells, const PlanGrid& grid,
+                                    int columns, int rows) {
+  const int across = (grid.columns + columns - 1) / columns;
+  const int up = (grid.rows + rows - 1) / rows;
+  std::vector<NormalEquations> groups(static_cast<std::size_t>(across) * up);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const int index = static_cast<int>(i);
+    const int column = index % grid.columns / columns, row = index / grid.columns / rows;
+    groups[static_cast<std::size_t>(row * across + column)].merge(cells[i]);
+  }
+  return groups;
+}
+
+}  // namespace
+
+UnknownsMatrix jackknifeOfParts(const std::vector<NormalEquations>& cells, const PlanGrid& grid,
+                                const Directions& directions) {
+  const UnknownsMatrix covariance = jackknife(cells, directions);
+  Unknowns largest = covariance.diagonal(), raise = Unknowns::Zero();
+  const std::pair<std::vector<NormalEquations>, std::size_t> divisions[] = {
+      {merged(cells, grid, 2, 2), kFewestGroups},
+      {merged(cells, grid, 1, grid.rows), kFewestStrips},
+      {merged(cells, grid, grid.columns, 1), kFewestStrips}};
+  for (const auto& [groups, fewest] : divisions) {
+    const Unknowns variances = jackknife(groups, directions, fewest).diagonal();
+    const double by_chance = largestChanceRatio(groups.size() - 1);
+    for (int i = 0; i < directions.unknowns; ++i)
+      if (variances[i] > by_chance * covariance(i, i))
+        largest[i] = std::max(largest[i], variances[i]);
+  }
+  for (int i = 0; i < directions.unknowns; ++i)
+    if (covariance(i, i) > 0.0) raise[i] = std::sqrt(largest[i] / covariance(i, i));
+  return raise.asDiagonal() * covariance * raise.asDiagonal();
 }
 
 }  // namespace pcl_als::registration

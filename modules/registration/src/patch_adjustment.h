@@ -14,8 +14,11 @@
 #include <pcl_als/adjustment/robust_weight.h>
 
 #include "patch_pair.h"
+#include "plan_cells.h"
 
 namespace pcl_als::registration {
+
+constexpr std::size_t kFewestGroups = 10;  ///< of a jackknife
 
 /// Unknowns in metres: shift, rotation times the radius, scale times the radius.
 constexpr int kUnknowns = 7;
@@ -49,13 +52,28 @@ struct NormalEquations {
   void merge(const NormalEquations& other);
 };
 
-/// Eigenvectors of the information, and the directions that are not determined.
+/// Directions that keep their initial value because their reported standard deviations, which
+/// include the errors that neighbouring points share, are too large.
+struct HeldDirections {
+  std::vector<Unknowns> vectors;  ///< orthonormal
+  std::vector<double> std;        ///< metres
+};
+
+/// Orthonormal directions by information, and those that are not determined.
 struct Directions {
-  UnknownsMatrix vectors = UnknownsMatrix::Identity();  ///< columns, ascending information
-  Unknowns values = Unknowns::Zero();                   ///< eigenvalues, 1 / m^2
+  /// Columns: those that are held, then eigenvectors of the information, ascending.
+  UnknownsMatrix vectors = UnknownsMatrix::Identity();
+  Unknowns values = Unknowns::Zero();  ///< information along them, 1 / m^2
+  /// Metres, of the first columns: as held, or according to the information.
+  Unknowns std = Unknowns::Zero();
   double weights = 0.0;
   int unknowns = kUnknowns - 1;
-  int weak = 0;  ///< number of first columns that are not determined
+  int held = 0;
+  int weak = 0;  ///< number of first columns that are not determined, with those that are held
+
+  int strong() const { return unknowns - weak; }
+  /// The directions that are determined.
+  Eigen::MatrixXd basis() const { return vectors.middleCols(weak, strong()); }
 };
 
 /** \brief Scatter of the pairs' distances over the roots of their variances, metres, by slope.
@@ -96,7 +114,7 @@ class PatchAdjustment {
 
   ScatterBySlope scatter(const Unknowns& unknowns) const;
   NormalEquations accumulate(const Unknowns& unknowns, const ScatterBySlope& scatter) const;
-  /// By group, in order of their numbers; groups without weight are left out.
+  /// By group, in order of their numbers.
   std::vector<NormalEquations> accumulateGroups(const ScatterBySlope& scatter,
                                                 std::size_t groups) const;
   /// Covariance of the solution where errors vary slowly over the ground (CorrelatedErrors), metres
@@ -113,17 +131,27 @@ class PatchAdjustment {
 };
 
 /// Eigen-analysis of the information of the normals beyond their noise: directions whose standard
-/// deviation exceeds \a limit (metres) are weak.
-Directions analyse(const NormalEquations& equations, int unknowns, double limit);
+/// deviation exceeds \a limit (metres) are weak, as are those that are held.
+Directions analyse(const NormalEquations& equations, int unknowns, double limit,
+                   const HeldDirections& held = {});
 
 /// The least squares solution in the determined directions; \a prior_information is added to each.
 Unknowns solveDetermined(const NormalEquations& equations, const Directions& directions,
                          double prior_information = 0.0);
 /// N^-1 in the determined directions, zero in the others.
 UnknownsMatrix cofactor(const NormalEquations& equations, const Directions& directions);
-/// Covariance of the solution from leaving out one group at a time, metres squared; zero with too
-/// few groups.
-UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions);
+/// Covariance of the solution from leaving out one group at a time, metres squared; zero with fewer
+/// than \a fewest groups that have a weight.
+UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Directions& directions,
+                         std::size_t fewest = kFewestGroups);
+/** \brief The same with variances that are larger where squares of four cells, or strips of cells
+ * in either direction, are left out: where they exceed those of cells by more than chance (95 %).
+ *
+ * Errors that are shared over more than a cell, as those of a strip that bends along its time, are
+ * not seen when single cells are left out.
+ */
+UnknownsMatrix jackknifeOfParts(const std::vector<NormalEquations>& cells, const PlanGrid& grid,
+                                const Directions& directions);
 
 /// Reason for which a parameter with a component in a weak direction is not determined.
 std::string describeWeakness(const Directions& directions, int parameter, double radius);

@@ -11,6 +11,7 @@
 
 #include "alignment_areas.h"
 #include "alignment_report.h"
+#include "cloud_overlap.h"
 #include "patch_adjustment.h"
 #include "update_history.h"
 
@@ -22,14 +23,12 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 using Status = PatchAlignmentResult::Status;
 
-constexpr double kCellSpacings = 2.5;  // mean spacings of the sparser cloud per cell
 constexpr std::size_t kCoarsePoints = 20'000;
 constexpr int kCoarseLevels = 3, kCoarseIterations = 15;
 constexpr double kFirstFineThreshold = 3.0;  // metres, upper limit
 constexpr double kLeastThreshold = 0.25;     // metres
 constexpr double kThresholdSigmas = 8.0;
 constexpr std::size_t kFewestPairs = 50;
-constexpr double kGroups = 60.0;       // of the jackknife, approximately
 constexpr double kSmallUpdate = 5e-3;  // metres: an update that ends a stage of the iteration
 // The first stage uses a part of the candidates.
 constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
@@ -41,27 +40,6 @@ constexpr std::size_t kSecondEstimatePairs = 25'000;
 constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
 constexpr double kThresholdChange = 1e-3;  // metres: below, the threshold is no longer changed
 
-struct Extent {
-  Eigen::AlignedBox3d box;
-  std::size_t finite = 0;
-};
-
-Extent extentOf(const PointView& view) {
-  Extent extent;
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const Vector3d p = view.position(i);
-    if (!p.allFinite()) continue;
-    extent.box.extend(p);
-    ++extent.finite;
-  }
-  return extent;
-}
-
-double spacingOf(const Extent& extent) {
-  const double area = extent.box.sizes().head<2>().prod();
-  return std::sqrt(area / static_cast<double>(std::max<std::size_t>(extent.finite, 1)));
-}
-
 /// One alignment, step by step; the working coordinates are the target's about a reference point.
 class Alignment {
  public:
@@ -71,30 +49,28 @@ class Alignment {
   PatchAlignmentResult run(const PointView& source, const PointView& target);
 
  private:
-  bool look(const PointView& source, const PointView& target);
-  bool findOverlap();
   void alignCoarsely();
   void alignLevel(std::vector<AreaSurfaces>& level, double cell);
   std::vector<AreaSurfaces> prepareAreas(const WorkingPoints& source, const WorkingPoints& target);
   void chooseCandidates(std::vector<AreaSurfaces>& areas, const SurfaceCriterion& criterion,
                         std::size_t count) const;
   bool alignFinely(std::vector<AreaSurfaces>& areas);
+  bool alignDetermined(std::vector<AreaSurfaces>& areas);
   void keepSwing(const Unknowns& update);
+  void setMotion();
   void compareWithAllSurfaces(std::vector<AreaSurfaces>& areas);
   Unknowns returnToGuess() const;
   bool isSmall(const Unknowns& update) const;
   Unknowns adjust(const PatchPairs& pairs, double limit, double prior);
-  AdjustmentFrame frame() const { return {motion_ * centroid_, radius_, settings_.estimate_scale}; }
+  AdjustmentFrame frame() const {
+    return {motion_ * overlap_.centroid, overlap_.radius, settings_.estimate_scale};
+  }
   PatchAlignmentResult fail(Status status, const std::string& message);
 
   const PatchAlignmentSettings& settings_;
   Affine3d guess_;
   PointNoise noise_;
-  Vector3d reference_ = Vector3d::Zero();
-  CommonCells cells_;
-  PlanGrid groups_;
-  Vector3d centroid_ = Vector3d::Zero();  ///< working coordinates of the source
-  double radius_ = 1.0, overlap_area_ = 0.0;
+  CloudOverlap overlap_;
   Affine3d motion_ = Affine3d::Identity();
   ScatterBySlope scatter_;
   double threshold_ = 0.0;
@@ -103,6 +79,7 @@ class Alignment {
   bool frozen_ = false;
   SurfaceCriterion criterion_ = surfaceCriterion();
   Directions directions_;
+  HeldDirections held_;
   PatchPairs pairs_;
   PatchAlignmentResult result_;
 };
@@ -114,66 +91,9 @@ PatchAlignmentResult Alignment::fail(Status status, const std::string& message) 
   return result_;
 }
 
-/// First pass over all points: extents, reference, lowest points of cells.
-bool Alignment::look(const PointView& source, const PointView& target) {
-  Extent extents[2];
-  parallelFor(2, settings_.threads,
-              [&](std::size_t i) { extents[i] = extentOf(i == 0 ? source : target); });
-  if (std::min(extents[0].finite, extents[1].finite) < 3) return false;
-  const double reach = settings_.search_distance;
-  Eigen::AlignedBox3d moved = extents[0].box.transformed(guess_);
-  const Eigen::AlignedBox2d a(moved.min().head<2>().array() - reach,
-                              moved.max().head<2>().array() + reach);
-  const Eigen::AlignedBox2d b(extents[1].box.min().head<2>().array() - reach,
-                              extents[1].box.max().head<2>().array() + reach);
-  const Eigen::AlignedBox2d common = a.intersection(b);
-  if (common.isEmpty()) return false;
-  reference_ << common.center(), extents[1].box.center().z();
-  reference_ = reference_.array().round();
-  const double spacing = std::max(spacingOf(extents[0]), spacingOf(extents[1]));
-  const double cell = std::max(kCellSpacings * spacing, 0.05);
-  const Eigen::AlignedBox2d box(common.min() - reference_.head<2>(),
-                                common.max() - reference_.head<2>());
-  const PlanGrid grid(box, cell);
-  const Affine3d to_working = Eigen::Translation3d(-reference_) * guess_;
-  const Affine3d target_to_working(Eigen::Translation3d(-reference_));
-  parallelFor(2, settings_.threads, [&](std::size_t i) {
-    if (i == 0)
-      cells_.source = LowestPoints(WorkingPoints(source, to_working), grid);
-    else
-      cells_.target = LowestPoints(WorkingPoints(target, target_to_working), grid);
-  });
-  return true;
-}
-
-/// Centroid, radius and area of the cells with points of both clouds.
-bool Alignment::findOverlap() {
-  const PlanGrid& grid = cells_.target.grid();
-  double count = 0.0;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    if (!cells_.both(i)) continue;
-    centroid_.head<2>() += grid.centreOf(i);
-    centroid_.z() += 0.5 * (cells_.source.at(i).z() + cells_.target.at(i).z());
-    count += 1.0;
-  }
-  if (count < 3.0) return false;
-  centroid_ /= count;
-  double squares = 0.0;
-  Eigen::AlignedBox2d box;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    if (!cells_.both(i)) continue;
-    squares += (grid.centreOf(i) - centroid_.head<2>()).squaredNorm();
-    box.extend(grid.centreOf(i));
-  }
-  overlap_area_ = count * grid.cell * grid.cell;
-  radius_ = std::max(std::sqrt(squares / count), grid.cell);
-  groups_ = PlanGrid(box, std::sqrt(overlap_area_ / kGroups));
-  return true;
-}
-
 void Alignment::alignCoarsely() {
   threshold_ = settings_.search_distance;
-  std::vector<CommonCells> levels{cells_.pooled()};
+  std::vector<CommonCells> levels{overlap_.cells.pooled()};
   while (levels.size() < kCoarseLevels) levels.push_back(levels.back().pooled());
   for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
     std::vector<AreaSurfaces> areas(1);
@@ -190,7 +110,7 @@ void Alignment::alignCoarsely() {
 void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
   for (int i = 0; i < kCoarseIterations; ++i) {
     const PatchPairs pairs =
-        findPairs(level, motion_, threshold_, groups_, noise_, settings_.threads);
+        findPairs(level, motion_, threshold_, overlap_.groups, noise_, settings_.threads);
     if (pairs.size() < kFewestPairs) return;
     // A prior of a few metres, because flat ground does not determine the motion in plan.
     const Unknowns update = adjust(pairs, 1e3, threshold_);
@@ -210,7 +130,7 @@ Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) 
   for (int pass = 0; pass < kPasses; ++pass) {
     if (!frozen_) scatter_ = adjustment.scatter(update);
     const NormalEquations equations = adjustment.accumulate(update, scatter_);
-    if (!frozen_) directions_ = analyse(equations, about.unknowns(), limit);
+    if (!frozen_) directions_ = analyse(equations, about.unknowns(), limit, held_);
     update += solveDetermined(equations, directions_, 1.0 / (prior * prior));
   }
   return update;
@@ -218,7 +138,7 @@ Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) 
 
 std::vector<AreaSurfaces> Alignment::prepareAreas(const WorkingPoints& source,
                                                   const WorkingPoints& target) {
-  const AlignmentAreas choice(cells_, settings_.points);
+  const AlignmentAreas choice(overlap_.cells, settings_.points);
   std::vector<AreaSurfaces> areas = choice.triangulate(source, target, motion_, settings_);
   if (areas.empty()) return areas;
   const std::size_t samples = std::max<std::size_t>(30, 20'000 / areas.size());
@@ -261,7 +181,7 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   frozen_ = false;
   PatchPairs pairs;
   for (int i = 0; i < kIterations; ++i) {
-    pairs = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads);
+    pairs = findPairs(areas, motion_, threshold_, overlap_.groups, noise_, settings_.threads);
     const Unknowns update = adjust(pairs, settings_.determined_std / 3.0, 1e9);
     motion_ = frame().motionOf(update) * motion_;
     if (update.norm() < 1e-4) break;
@@ -269,14 +189,14 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   const AdjustmentFrame about = frame();
   const UnknownsMatrix chance =
       jackknife(PatchAdjustment(pairs, about, robustness_, settings_.threads)
-                    .accumulateGroups(scatter_, groups_.size()),
+                    .accumulateGroups(scatter_, overlap_.groups.size()),
                 directions_);
-  const RigidMotion there = RigidMotion::about(centroid_, motion_);
+  const RigidMotion there = RigidMotion::about(overlap_.centroid, motion_);
   motion_ = motion;
-  const RigidMotion here = RigidMotion::about(centroid_, motion_);
+  const RigidMotion here = RigidMotion::about(overlap_.centroid, motion_);
   Eigen::Matrix<double, 6, 1> excess;
   for (int p = 0; p < PatchAlignmentResult::kParameters; ++p) {
-    const double scale = p < 3 ? 1.0 : 1.0 / radius_;
+    const double scale = p < 3 ? 1.0 : 1.0 / overlap_.radius;
     const double difference =
         p < 3 ? (there.shift - here.shift)[p] : (there.rotation - here.rotation)[p - 3];
     excess[p] = std::max(0.0, difference * difference - scale * scale * chance(p, p));
@@ -298,9 +218,12 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
   bool last = false;
   std::size_t stride = settings_.pairs < kEnoughForStride ? 1 : kFirstStride;
   UpdateHistory history;
-  for (result_.iterations = 1; result_.iterations <= settings_.maximum_iterations;
-       ++result_.iterations) {
-    pairs_ = findPairs(areas, motion_, threshold_, groups_, noise_, settings_.threads, stride);
+  robustness_ = Robustness::whileMoving();
+  frozen_ = false;
+  for (int i = 0; i < settings_.maximum_iterations; ++i) {
+    ++result_.iterations;
+    pairs_ =
+        findPairs(areas, motion_, threshold_, overlap_.groups, noise_, settings_.threads, stride);
     if (pairs_.size() < kFewestPairs * stride) {
       if (stride == 1) return false;
       stride = 1;
@@ -327,13 +250,46 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
     if (moved > kThresholdChange && !frozen_)
       threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);
   }
-  --result_.iterations;
   return false;
+}
+
+/** Directions whose standard deviation, with the errors that neighbouring points share, exceeds the
+ * limit keep their initial value from then on, and the others are estimated again: the pairs alone
+ * seem to determine a motion in plan from the noise of flat ground. \return whether there are
+ * pairs.
+ */
+bool Alignment::alignDetermined(std::vector<AreaSurfaces>& areas) {
+  for (;;) {
+    const bool converged = alignFinely(areas);
+    if (pairs_.size() < kFewestPairs) return false;
+    setMotion();
+    AlignmentReport report(pairs_, frame(), scatter_, directions_, settings_);
+    if (converged) compareWithAllSurfaces(areas);
+    report.estimate(overlap_.groups, result_);
+    result_.status = converged ? Status::converged : Status::not_converged;
+    const HeldDirections more = report.undetermined();
+    if (!converged || more.vectors.empty()) {
+      report.fill(result_);
+      return true;
+    }
+    held_.vectors.insert(held_.vectors.end(), more.vectors.begin(), more.vectors.end());
+    held_.std.insert(held_.std.end(), more.std.begin(), more.std.end());
+    result_.convergence_std.setZero();
+    chooseCandidates(areas, criterion_, settings_.pairs);
+  }
+}
+
+void Alignment::setMotion() {
+  const Affine3d about_reference(Eigen::Translation3d(-overlap_.reference));
+  result_.motion =
+      RigidMotion::about(guess_.inverse() * (overlap_.centroid + overlap_.reference),
+                         about_reference.inverse() * motion_ * about_reference * guess_);
 }
 
 /// The remaining update where the iteration was damped, which limits the accuracy of the motion.
 void Alignment::keepSwing(const Unknowns& update) {
-  result_.convergence_std << update.head<3>().cwiseAbs(), update.segment<3>(3).cwiseAbs() / radius_;
+  result_.convergence_std << update.head<3>().cwiseAbs(),
+      update.segment<3>(3).cwiseAbs() / overlap_.radius;
 }
 
 /// Reverts the movements of the coarse stage in directions that are not determined.
@@ -341,7 +297,8 @@ Unknowns Alignment::returnToGuess() const {
   const double scale = std::cbrt(motion_.linear().determinant());
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(motion_.linear() / scale));
   Unknowns total;
-  total << motion_ * centroid_ - centroid_, turn.angle() * radius_ * turn.axis(), 0.0;
+  total << motion_ * overlap_.centroid - overlap_.centroid,
+      turn.angle() * overlap_.radius * turn.axis(), 0.0;
   const auto weak = directions_.vectors.leftCols(directions_.weak);
   return -(weak * (weak.transpose() * total));
 }
@@ -353,25 +310,16 @@ bool Alignment::isSmall(const Unknowns& update) const {
 }
 
 PatchAlignmentResult Alignment::run(const PointView& source, const PointView& target) {
-  if (!look(source, target) || !findOverlap())
+  if (!overlap_.find(source, target, settings_, guess_))
     return fail(Status::no_overlap, "the clouds do not overlap in plan");
   alignCoarsely();
-  const WorkingPoints moved(source, Eigen::Translation3d(-reference_) * guess_);
-  const WorkingPoints fixed(target, Affine3d(Eigen::Translation3d(-reference_)));
+  const WorkingPoints moved(source, Eigen::Translation3d(-overlap_.reference) * guess_);
+  const WorkingPoints fixed(target, Affine3d(Eigen::Translation3d(-overlap_.reference)));
   std::vector<AreaSurfaces> areas = prepareAreas(moved, fixed);
-  const bool converged = alignFinely(areas);
-  if (pairs_.size() < kFewestPairs)
+  result_.overlap_area = overlap_.area;
+  if (!alignDetermined(areas))
     return fail(Status::too_few_pairs, "only " + std::to_string(pairs_.size()) +
                                            " points lie on a smooth surface of the other cloud");
-  result_.status = converged ? Status::converged : Status::not_converged;
-  result_.overlap_area = overlap_area_;
-  const Affine3d about_reference(Eigen::Translation3d(-reference_));
-  const Affine3d total = about_reference.inverse() * motion_ * about_reference * guess_;
-  const Vector3d centroid = guess_.inverse() * (centroid_ + reference_);
-  result_.motion = RigidMotion::about(centroid, total);
-  const AlignmentReport report(pairs_, frame(), scatter_, directions_, settings_);
-  if (converged) compareWithAllSurfaces(areas);
-  report.fill(groups_.size(), result_);
   return result_;
 }
 

@@ -132,9 +132,10 @@ ReportTable systemTable(const CalibrationResult& result) {
             system.difference_std[indexOf(info.parameter)] / info.internal_per_unit);
     }
     constexpr std::array<const char*, 3> kAxes{"offset east", "offset north", "offset up"};
-    for (int i = 0; i < 3 && !system.offset_std.isZero(0.0); ++i)
-      add(kAxes[static_cast<std::size_t>(i)], "m", system.offset[i], system.offset_std[i],
-          system.offset_std[i]);
+    for (int i = 0; i < 3; ++i)
+      if (system.offset_std[i] > 0.0)
+        add(kAxes[static_cast<std::size_t>(i)], "m", system.offset[i], system.offset_std[i],
+            system.offset_std[i]);
   }
   return table;
 }

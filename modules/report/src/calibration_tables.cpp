@@ -61,6 +61,26 @@ void differenceTable(const SystemEstimate& system, const CalibrationResult& resu
   }
 }
 
+/// The components of the offset that are the system's own; a standard deviation of zero: it shares
+/// that of the first one, because the data do not determine the difference.
+void offsetLine(const SystemEstimate& system, std::ostream& out) {
+  if (system.offset_std.isZero(0.0)) return;
+  constexpr std::array<const char*, 3> kAxes{"east", "north", "up"};
+  std::vector<std::string> shared;
+  out << std::fixed << std::setprecision(4)
+      << "\nOffset of its coordinates to those of the first system (m): ";
+  const char* separator = "";
+  for (int i = 0; i < 3; ++i) {
+    if (system.offset_std[i] > 0.0) {
+      out << separator << kAxes[i] << ' ' << system.offset[i] << " +- " << system.offset_std[i];
+      separator = ", ";
+    } else {
+      shared.emplace_back(kAxes[i]);
+    }
+  }
+  out << (shared.empty() ? "" : "; not determined: " + joined(shared)) << '\n';
+}
+
 /// Biases of every system where there are several.
 void systemTables(const CalibrationResult& result, std::ostream& out) {
   for (const SystemEstimate& system : result.systems) {
@@ -70,16 +90,9 @@ void systemTables(const CalibrationResult& result, std::ostream& out) {
         << (first ? "" : ", differences to system " + result.systems.front().group.name) << "\n\n";
     if (first)
       parameterTable(system.parameters, out);
-    else
+    else if (!system.difference_std.isZero(0.0))
       differenceTable(system, result, out);
-    if (system.offset_std.isZero(0.0)) continue;
-    out << std::fixed << std::setprecision(4) << "\nOffset of its coordinates to those of the "
-        << "first system (m): ";
-    const char* const names[3] = {"east", "north", "up"};
-    for (int i = 0; i < 3; ++i)
-      out << (i > 0 ? ", " : "") << names[i] << ' ' << system.offset[i] << " +- "
-          << system.offset_std[i];
-    out << '\n';
+    offsetLine(system, out);
   }
 }
 

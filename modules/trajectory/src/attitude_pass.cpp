@@ -110,14 +110,13 @@ void fitWhole(const PulseSums& all, AttitudeRecovery::Pass& pass) {
   pass.off_cone = std::sqrt(left / all.n) / std::tan(pass.cone_angle);
 }
 
-AttitudeRecovery::Verdict verdictOn(const AttitudeRecovery::Pass& pass, double share_off,
-                                    bool jumping) {
+AttitudeRecovery::Verdict verdictOn(const AttitudeRecovery::Pass& pass, bool jumping) {
   using Verdict = AttitudeRecovery::Verdict;
   const bool cone = pass.off_constant > kFarOffConstant &&
                     kConeRatio * pass.off_cone < pass.off_constant &&
                     pass.cone_angle > kLeastCone && pass.cone_angle < kWidestCone;
   if (cone) return Verdict::conical;
-  if (pass.off_plane > kOffPlane || share_off > kShareOff) return Verdict::not_planar;
+  if (pass.off_plane > kOffPlane || pass.share_off > kShareOff) return Verdict::not_planar;
   const bool flown = pass.pitch.high - pass.pitch.low < kPitchRange &&
                      pass.crab.high - pass.crab.low < kCrabRange &&
                      std::abs(middle(pass.pitch)) < kMostPitch &&
@@ -183,12 +182,12 @@ AttitudeRecovery::Pass judgePass(const std::vector<PassBin>& bins) {
   }
   pass.points = all.n;
   if (off.size() < kFewestBins) return pass;
-  const double share_off = far / static_cast<double>(off.size());
+  pass.share_off = far / static_cast<double>(off.size());
   pass.off_plane = medianInPlace(off);
   const bool enough = pitch.size() >= kFewestBins;
   pass.pitch = rangeOf(std::move(pitch)), pass.crab = rangeOf(std::move(crab));
   fitWhole(all, pass);
-  pass.verdict = verdictOn(pass, share_off, jumps(bins));
+  pass.verdict = verdictOn(pass, jumps(bins));
   if (pass.verdict == AttitudeRecovery::Verdict::linear && !enough) {
     pass.verdict = AttitudeRecovery::Verdict::undetermined;
   }
@@ -224,8 +223,14 @@ std::string objectionTo(const AttitudeRecovery::Pass& pass) {
                     pass.cone_angle / kDegree);
       break;
     case AttitudeRecovery::Verdict::not_planar:
-      std::snprintf(text, sizeof text, "the pulses lie in no plane (%.2f degrees off it)",
-                    pass.off_plane / kDegree);
+      if (pass.off_plane > kOffPlane)
+        std::snprintf(text, sizeof text, "the pulses lie in no plane (%.2f degrees off it)",
+                      pass.off_plane / kDegree);
+      else
+        std::snprintf(text, sizeof text,
+                      "in %.0f %% of the tenths of a second the pulses lie in no plane (more than "
+                      "%.1f degrees off it)",
+                      100.0 * pass.share_off, kFarOffPlane / kDegree);
       break;
     case AttitudeRecovery::Verdict::implausible:
       std::snprintf(text, sizeof text,

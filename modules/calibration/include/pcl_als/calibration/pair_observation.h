@@ -139,7 +139,10 @@ WeightedObservations thinned(const std::vector<AreaObservations>& observations,
 /// First and last of some times, seconds.
 using TimeSpan = std::pair<double, double>;
 
-/// Times at which each of \a strips strips is observed, one span for every area.
+/// The spans that some times cover without gaps of more than 10 s, in increasing order.
+std::vector<TimeSpan> continuousSpans(const std::vector<double>& times);
+
+/// Times at which each of \a strips strips is observed, one span for every crossing of an area.
 std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
                                                  std::size_t strips);
 

@@ -218,7 +218,7 @@ class SharedErrors {
     double gauss_markov_left = 0.0, smooth_left = 0.0;
   };
   /// A knot_spacing apart from the start of the strip to its end; where nothing was observed,
-  /// between the neighbouring knots.
+  /// between the neighbouring knots. None in long gaps, where it does not vary.
   std::vector<Expectation> expectationsOf(int strip) const;
   /// What remains of the variances of a strip's errors, m^2 and rad^2.
   std::array<double, kPerKnot> variancesLeft(int strip, const Expectation& at,
@@ -271,6 +271,8 @@ class SharedErrors {
     std::array<double, kPerKnot> variance_factors{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     /// The knot of the strip at or before a step; 0 before the first.
     int before(double step) const;
+    /// The first and the last step, and those within \a reach of a knot.
+    std::vector<int> stepsWithin(double reach) const;
   };
   static StripKnots knotsOf(const TimeSpan& span, double spacing,
                             const std::vector<TimeSpan>* observed);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace pcl_als {
 
@@ -41,6 +41,8 @@ class ElevationGrid {
   std::size_t rows() const { return rows_; }
   double cell() const { return cell_; }  ///< metres
   double mean() const { return mean_; }  ///< metres, of the cells that have a value
+  /// Between the centres of the outermost cells, metres.
+  Eigen::AlignedBox2d extent() const;
 
   /// Elevation (metres) and its derivatives by x and y; empty outside and beside cells without a
   /// value.

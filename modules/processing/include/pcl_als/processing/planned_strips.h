@@ -23,4 +23,10 @@ std::vector<StripGeometry> readPlannedStrips(const std::filesystem::path& path,
 std::function<std::optional<SurfacePoint>(const Eigen::Vector2d&)> terrainOf(
     const std::shared_ptr<const ElevationGrid>& grid);
 
+/// The share of the swaths of the lines that has an elevation. InputError with the
+/// distance where there is none: the grid, read from \a path, is that of another area, or in
+/// another frame.
+double terrainCoverage(const std::vector<StripGeometry>& lines, const ElevationGrid& grid,
+                       const std::filesystem::path& path);
+
 }  // namespace pcl_als

@@ -63,8 +63,8 @@ struct PatchAlignmentResult {
   /// where it converged without damping. Included in covariance.
   Eigen::Matrix<double, kParameters, 1> convergence_std =
       Eigen::Matrix<double, kParameters, 1>::Zero();
-  /// Radians (shifts: 0): by how much omega and phi vary over the overlap where the clouds are bent
-  /// against each other (OverlapVariation). Part of covariance.
+  /// Metres, radians: by how much the motion varies over the overlap where the clouds are bent or
+  /// strained against each other. Part of covariance.
   Eigen::Matrix<double, kParameters, 1> deformation_std =
       Eigen::Matrix<double, kParameters, 1>::Zero();
   double scale_std = 0.0;  ///< of motion.scale; 0 where the scale is not estimated

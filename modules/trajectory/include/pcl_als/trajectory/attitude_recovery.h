@@ -95,6 +95,7 @@ class AttitudeRecovery {
     Verdict verdict = Verdict::undetermined;
     Range pitch, crab;
     double off_plane = 0.0;     ///< radians, RMS from the plane of each bin, median
+    double share_off = 0.0;     ///< of the bins, whose pulses are far off their plane
     double off_constant = 0.0;  ///< radians, RMS from one plane over the whole pass
     double off_cone = 0.0;      ///< radians, RMS from one cone over the whole pass
     double cone_angle = 0.0;    ///< radians, half the angle of that cone
