@@ -217,7 +217,10 @@ int calibrate(const CommandLine& line) {
   FlightFile whole;
   const auto flight = app::readFlight(line, survey.reference().crs, 0.0, attitude, files, &whole);
   options.reconstructed = whole.reconstructed();
-  if (options.accuracy.empty() && !options.reconstructed) options.accuracy = whole.accuracy;
+  if (options.reconstructed)
+    options.path_accuracy = whole.accuracy;
+  else if (options.accuracy.empty())
+    options.accuracy = whole.accuracy;
   options.control = app::controlOf(line);
   for (const std::string& text : line.list("reference"))
     options.references.push_back(openReference(text));

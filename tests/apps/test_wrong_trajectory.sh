@@ -120,9 +120,17 @@ done
 expect 3 'm too high by the recorded scan angles' "${calibrate[@]}" -trajectory tall.csv -quiet
 # Ellipsoidal heights of the trajectory, points above a geoid: named, and brought together by the undulation.
 awk -F, -v OFS=, -v OFMT=%.9f -v CONVFMT=%.9f 'NR > 1 { $4 += 47 } { print }' "$block/trajectory.csv" >ellipsoidal.csv
-for tool in check apply intensity; do
+expect 0 '47 m too high*as between ellipsoidal heights and heights above a geoid' "${check[@]}" -trajectory ellipsoidal.csv
+# The rays through several returns of a pulse leave no doubt; beside the line and late as well.
+variant aside '$2 += 60; $3 += 60'
+variant late '$1 += 1'
+for tool in apply intensity; do
   declare -n command=$tool
-  expect 0 '47 m too high*as between ellipsoidal heights and heights above a geoid' "${command[@]}" -trajectory ellipsoidal.csv
+  expect 2 'up 47)*as between ellipsoidal heights and heights above a geoid' "${command[@]}" -trajectory ellipsoidal.csv
+  expect 2 'lies 85 m (east 60, north 60, up 0) beside' "${command[@]}" -trajectory aside.csv
+  expect 2 '1.00 s of flight, as if two clocks differed' "${command[@]}" -trajectory late.csv
+  absent out.las
+  expect 0 'rays through several returns' "${command[@]}" -trajectory late.csv -force
   rm -f out.las
 done
 expect 0 'geoid subtracts the undulation' "${check[@]}" -trajectory ellipsoidal.csv

@@ -184,15 +184,22 @@ TEST(Probe, DISABLED_Seeds) {
     request.control = survey.control;
     request.settings.shared_errors = SharedErrorModel::ofGrade(grade);
     const CalibrationResult r = survey.loaded(request)->calibrate();
-    printf("seed %u %s rb %.3f+-%.3f%s dS %.2e+-%.2e%s (true rb %.3f dS %.2e)\n", seed, r.verdict.usable() ? "usable" : "NOT",
-           r[P::range_bias].bias, r[P::range_bias].std, r[P::range_bias].status != ParameterStatus::estimated ? " NE" : r[P::range_bias].determined ? "" : " ND",
-           r[P::scan_angle_scale].bias, r[P::scan_angle_scale].std, r[P::scan_angle_scale].determined ? "" : " ND",
-           options.bias[indexOf(P::range_bias)], options.bias[indexOf(P::scan_angle_scale)]);
+    printf("seed %u %s rb %.3f+-%.3f%s dS %.2e+-%.2e%s (true rb %.3f dS %.2e)\n", seed,
+           r.verdict.usable() ? "usable" : "NOT", r[P::range_bias].bias, r[P::range_bias].std,
+           r[P::range_bias].status != ParameterStatus::estimated ? " NE"
+           : r[P::range_bias].determined                         ? ""
+                                                                 : " ND",
+           r[P::scan_angle_scale].bias, r[P::scan_angle_scale].std,
+           r[P::scan_angle_scale].determined ? "" : " ND", options.bias[indexOf(P::range_bias)],
+           options.bias[indexOf(P::scan_angle_scale)]);
     if (!r.verdict.usable() || getenv("V")) printf("   verdict %s\n", r.verdict.text().c_str());
     for (const auto& f : r.diagnosis)
-      if (f.source.find("offset") != std::string::npos || f.source == "range_scale" || (f.corrected && f.probability > 0.5 && f.source != "boresight_roll"))
-        printf("   %s p %.3f %.4f+-%.4f %s%s\n", f.source.c_str(), f.probability, f.value, f.std, f.determined ? "det" : "nd", f.corrected ? " CORRECTED" : "");
-    for (const auto& w : r.warnings) if (w.text.find("offset") != std::string::npos) printf("   ! %s\n", w.text.c_str());
+      if (f.source.find("offset") != std::string::npos || f.source == "range_scale" ||
+          (f.corrected && f.probability > 0.5 && f.source != "boresight_roll"))
+        printf("   %s p %.3f %.4f+-%.4f %s%s\n", f.source.c_str(), f.probability, f.value, f.std,
+               f.determined ? "det" : "nd", f.corrected ? " CORRECTED" : "");
+    for (const auto& w : r.warnings)
+      if (w.text.find("offset") != std::string::npos) printf("   ! %s\n", w.text.c_str());
   }
 }
 }  // namespace

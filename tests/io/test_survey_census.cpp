@@ -166,6 +166,36 @@ TEST(SurveyCensus, SaysWhatIsSuspiciousAboutTimes) {
   EXPECT_TRUE(remarksFor(keep, week).empty());
 }
 
+TEST(SurveyCensus, RecognisesUnixTimes) {
+  const auto folder = test::scratch("census_unix");
+  for (const double units : {1.0, 1e3, 1e9}) {
+    PointChunk p = field(0, 0, 20, 20, 1, 1756080000.0);
+    for (double& time : p.gps_time) time *= units;
+    const SurveyCensus survey = takeCensus({write(folder / "a.las", {p})});
+    EXPECT_TRUE(has(survey.files[0].remarks, "look like Unix time")) << units;
+    EXPECT_TRUE(has(survey.files[0].remarks, "2025-08-25")) << units;
+    EXPECT_EQ(has(survey.files[0].remarks, "nanoseconds"), units == 1e9);
+    EXPECT_EQ(survey.files[0].statistics.invalid_times, 0U);
+    EXPECT_NEAR(survey.strips[0].statistics.first_time, 1756080000.0, 1e-6);
+    EXPECT_NEAR(survey.strips[0].statistics.last_time, 1756080015.99, 1e-3);
+    EXPECT_TRUE(survey.strips[0].gaps.empty());
+  }
+}
+
+TEST(SurveyCensus, LinesGoOnThroughTheEndOfTheWeek) {
+  const auto folder = test::scratch("census_rollover");
+  PointChunk p = field(0, 0, 20, 20, 1, 604792.0);
+  for (double& time : p.gps_time) time = std::fmod(time, 604800.0);
+  const SurveyCensus survey = takeCensus({write(folder / "a.las", {p})});
+  const PointStatistics& s = survey.strips[0].statistics;
+  EXPECT_NEAR(s.first_time, 604792.0, 1e-6);
+  EXPECT_NEAR(s.last_time, 604807.99, 1e-6);
+  EXPECT_NEAR(survey.files[0].statistics.last_time, 604807.99, 1e-6);
+  EXPECT_TRUE(survey.strips[0].gaps.empty());
+  EXPECT_EQ(s.unsorted_times, 0U);
+  EXPECT_TRUE(has(survey.remarks, "end of a GPS week"));
+}
+
 TEST(SurveyCensus, SaysWhatIsSuspiciousAboutPoints) {
   const auto folder = test::scratch("census_points");
   PointChunk p = field(0, 0, 10, 10, 1);

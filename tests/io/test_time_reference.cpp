@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/io/time_scale.h>
+
+#include "test_files.h"
 
 namespace pcl_als {
 namespace {
@@ -85,6 +89,68 @@ TEST(TimeReference, AFileAcrossTheEndOfTheWeekIsUnwrappedPointByPoint) {
       "a.las", {2.0, 604798.0}, kWeek, {2140 * 604800.0 - 1000.0, 2140 * 604800.0 + 1000.0});
   EXPECT_EQ(absolute(604798.0), 2140 * 604800.0 - 2.0);
   EXPECT_EQ(absolute(2.0), 2140 * 604800.0 + 2.0);
+}
+
+// 2025-08-25 00:00 UTC: day 20325 of Unix time, Monday of GPS week 2381, in which day it is day 1.
+constexpr double kUnix = 20325 * 86400.0;
+
+TEST(TimeReference, UnixTimeIsBroughtToTheScaleOfTheTrajectory) {
+  const TimeRange points = around(kUnix + 1000.0, 5, 5);
+  const TimeAlignment week =
+      reconcileTimes("a.las", points, kWeek, around(86400.0 + 1018.0, 100, 100));
+  EXPECT_EQ(week(kUnix + 1000.0), 86400.0 + 1018.0);
+  EXPECT_NE(week.remark.find("Unix time"), std::string::npos) << week.remark;
+  EXPECT_NE(week.remark.find("GPS week 2381"), std::string::npos) << week.remark;
+  const double gps = kUnix + 1000.0 - 315964800.0 + 18.0;
+  EXPECT_EQ(reconcileTimes("a.las", points, kWeek, around(gps, 100, 100))(kUnix + 1000.0), gps);
+  EXPECT_TRUE(reconcileTimes("a.las", points, kAdjusted, points).identity());
+  // Points of the week, a trajectory in Unix time.
+  EXPECT_EQ(reconcileTimes("a.las", around(86400.0, 5, 5), kWeek,
+                           around(kUnix - 18.0, 100, 100))(86400.0),
+            kUnix - 18.0);
+}
+
+TEST(TimeReference, UnixTimesOfOlderFlightsAreTried) {
+  // 2013-09-21: GPS seconds of this value would be those of 2023.
+  const double unix_time = 15969 * 86400.0 + 72007.0;
+  const TimeAlignment alignment = reconcileTimes("a.las", around(unix_time, 5, 5), kWeek,
+                                                 around(6 * 86400.0 + 72023.0, 100, 100));
+  EXPECT_EQ(alignment(unix_time), 6 * 86400.0 + 72023.0);
+}
+
+TEST(TimeReference, RefusalsNameUnixTimeAndNoInventedWeek) {
+  const std::string text = test::messageOf<InputError>([] {
+    reconcileTimes("a.las", around(kUnix, 5, 5), kWeek, {230000.0, 231000.0});
+  });
+  EXPECT_NE(text.find("Unix time (2025-08-25)"), std::string::npos) << text;
+  // A time that no week has is not brought to the week of the trajectory.
+  EXPECT_THROW(reconcileTimes("a.las", around(1e15, 5, 5), kWeek, {0.0, 604800.0}), InputError);
+}
+
+TEST(TimeReference, RecordedUnitsBecomeSeconds) {
+  EXPECT_EQ(secondsOfTime(1756080000.0), 1756080000.0);
+  EXPECT_EQ(secondsOfTime(1756080000250.0), 1756080000.25);
+  EXPECT_EQ(secondsOfTime(1756080000250000.0), 1756080000.25);
+  EXPECT_NEAR(secondsOfTime(1756080000.25e9), 1756080000.25, 3e-7);
+  for (const double other : {0.0, -5.0, 604800.0, 4.1e8, 1e11, 1e20})
+    EXPECT_EQ(secondsOfTime(other), other);
+  EXPECT_TRUE(std::isnan(secondsOfTime(std::nan(""))));
+  EXPECT_NE(unixTimeText({kUnix, kUnix + 5.0}, 1e9)
+                .find("Unix time in nanoseconds (2025-08-25): GPS time is Unix time - 315964800 + "
+                      "18 s"),
+            std::string::npos);
+}
+
+TEST(TimeReference, FindsTheEndOfAWeekInsideAFlight) {
+  const auto rollover = weekRollover({{2.0, 60.0}, {604700.0, 604799.0}});
+  ASSERT_TRUE(rollover);
+  EXPECT_GT(*rollover, 60.0);
+  EXPECT_LT(*rollover, 604700.0);
+  // Flights of Sunday and Saturday; absolute times; a flight inside a week.
+  EXPECT_FALSE(weekRollover({{30000.0, 33000.0}, {560000.0, 570000.0}}));
+  EXPECT_FALSE(weekRollover({{4e8, 4e8 + 10.0}, {4e8 + 604000.0, 4e8 + 604100.0}}));
+  EXPECT_FALSE(weekRollover({{200000.0, 200100.0}, {200300.0, 200400.0}}));
+  EXPECT_FALSE(weekRollover({}));
 }
 
 TEST(TimeReference, RangesThatDoNotMeetAreBothGiven) {

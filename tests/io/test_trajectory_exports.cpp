@@ -45,6 +45,40 @@ const std::string kInertialExplorer =
     "             Position 47 00 00.00000, 9 00 00.00000, 500.000 m (WGS84, Ellipsoidal hgt)\n"
     "\n";
 
+/// A file of map coordinates with a date in a column of this name.
+std::string dated(const std::string& name, const std::string& date, const std::string& time) {
+  return name + ",UTCTime,X,Y,Z\n" + date + "," + time + ",500000,5600000,900\n" + date + "," +
+         time + "1,500006,5600000,900\n";
+}
+
+// 2013-09-21 is the Saturday (day 6) of GPS week 1758; GPS time was 16 s ahead of UTC.
+TEST(InertialExplorer, SecondsOfTheDayBesideADate) {
+  constexpr double kTime = 1758 * 604800.0 + 6 * 86400.0 + 72007.5 + 16.0;
+  for (const auto& [name, date] :
+       std::vector<std::pair<std::string, std::string>>{{"Date", "2013/09/21"},
+                                                        {"Date", "2013-09-21"},
+                                                        {"Date", "20130921"},
+                                                        {"Date", "21.09.2013"},
+                                                        {"Date", "09/21/2013"},
+                                                        {"Date(MDY)", "09/21/2013"},
+                                                        {"Date(DMY)", "21/09/2013"}}) {
+    const TrajectoryFile flight = readTrajectoryFile(file(dated(name, date, "72007.5")), reading());
+    EXPECT_NEAR(flight.samples.front().time, kTime, 1e-6) << name << " " << date;
+    TrajectoryReading stated = reading();
+    stated.leap_seconds = 16.0;
+    EXPECT_NEAR(readTrajectoryFile(file(dated(name, date, "72007.5")), stated).samples[0].time,
+                kTime, 1e-6);
+  }
+  // Seconds of the week beside a date.
+  const TrajectoryFile week =
+      readTrajectoryFile(file(dated("Date", "2013-09-21", "590407.5")), reading());
+  EXPECT_NEAR(week.samples.front().time, kTime, 1e-6);
+  EXPECT_NE(refusal(dated("Date", "09/08/2013", "72007.5"), reading()).find("Date(YMD)"),
+            std::string::npos);
+  EXPECT_NE(refusal(dated("Date", "2013-09-20", "590407.5"), reading()).find("day of the week"),
+            std::string::npos);
+}
+
 #ifdef PCL_ALS_HAVE_PROJ
 
 /// 4 429 529.0302 m: the meridian arc from the equator to 40 degrees on WGS 84.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
@@ -52,6 +54,21 @@ TEST(StripArrangement, ChoosesStripsByName) {
   EXPECT_EQ(left[0].strip, "2");
   EXPECT_EQ(left[0].reason, LeftOutReason::excluded);
   EXPECT_EQ(left[0].points, 800U);
+}
+
+TEST(StripArrangement, SplitsThroughTheEndOfAWeekAsAtOtherTimes) {
+  PointChunk chunk;
+  test::scan(chunk, 0, test::straight({0.0, 0.0}, 0.0, 604796.0), 604796.0, 604804.0);
+  test::scan(chunk, 0, test::straight({100.0, 480.0}, 180.0, 604896.0), 604896.0, 604904.0);
+  for (double& time : chunk.gps_time) time = std::fmod(time, 604800.0);
+  const std::vector<SurveyedFile> files{test::surveyed("week.las", chunk)};
+  StripChoice choice;
+  choice.split = true;
+  const StripArrangement arrangement(files, choice, {});
+  EXPECT_EQ(arrangement.names(), (Names{"line1", "line2"}));
+  StripArrangement::Sorter sorter(arrangement, 0);
+  EXPECT_EQ(sorter.label(0, 604797.0), sorter.label(0, 3.0));
+  EXPECT_NE(sorter.label(0, 3.0), sorter.label(0, 99.0));
 }
 
 TEST(StripArrangement, AnUnknownNameIsRefusedWithThoseThereAre) {

@@ -11,6 +11,7 @@
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
 #include "flights.h"
+#include "ray_flight.h"
 
 namespace pcl_als {
 namespace {
@@ -74,6 +75,48 @@ std::string said(const Change& change, bool attitude = false) {
   } catch (const InputError& error) {
     return error.what();
   }
+}
+
+/// One line of ray_flight.h over trees, without scan angles, checked with a trajectory of another
+/// place or time.
+std::string raysSay(const Eigen::Vector3d& moved, double late, bool force = false) {
+  test::RayFlight flight;
+  flight.path = test::wavyPath;
+  flight.angle_step = 0.0;
+  Samples samples;
+  for (int i = -10; i < 260; ++i) {
+    TrajectorySample& sample = samples.emplace_back();
+    sample.time = 0.1 * i;
+    sample.position = test::wavyPath(sample.time - late) + moved;
+  }
+  TrajectoryPlausibility check(std::make_shared<const Trajectory>(samples));
+  check.addStrip("7");
+  std::size_t i = 0;
+  for (const LidarReturn& point : flight.points()) {
+    if (i++ % 8 == 0) check.add(0, point.time, point.position);
+    check.addReturn(0, point);
+  }
+  try {
+    const Warnings warnings = check.check(force);
+    return warnings.empty() ? "" : "warning: " + warnings.front().text;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(TrajectoryPlausibility, RaysShowATrajectoryBesideTheTrueOne) {
+  EXPECT_EQ(raysSay({0.0, 0.0, 0.0}, 0.0), "");
+  EXPECT_EQ(raysSay({1.0, -1.0, 2.0}, 0.0), "");  // lever arms
+  for (const Eigen::Vector3d& moved :
+       {Eigen::Vector3d(60.0, 0.0, 0.0), Eigen::Vector3d(0.0, 50.0, 0.0),
+        Eigen::Vector3d(0.0, 0.0, 100.0), Eigen::Vector3d(30.0, -30.0, -40.0)}) {
+    const std::string text = raysSay(moved, 0.0);
+    EXPECT_EQ(text.rfind("strip 7: the trajectory lies", 0), 0U) << text;
+    EXPECT_NE(text.find("rays"), std::string::npos) << text;
+    EXPECT_EQ(raysSay(moved, 0.0, true).rfind("warning: strip 7", 0), 0U);
+  }
+  const std::string late = raysSay({0.0, 0.0, 0.0}, 1.0);
+  EXPECT_NE(late.find("1.00 s of flight"), std::string::npos) << late;
 }
 
 TEST(TrajectoryPlausibility, AcceptsTheRightOne) {

@@ -128,7 +128,7 @@ bool SystemCalibrationEngine::mayContinue(State& state, const CalibrationResult&
   if (result.converged || state.observationCount() == 0) return false;
   const int done = static_cast<int>(result.iterations.size()) - state.coarse_iterations;
   const int most = (settings_.pair_budget > 0 ? 2 : 1) * settings_.max_iterations;
-  const int reductions = static_cast<int>(state.excluded.size() - settings_.undeterminable.size());
+  const int reductions = static_cast<int>(state.excluded.size());
   if (done < most + reductions * kAfterReduction) return true;
   if (!settings_.estimate.empty() || reductions == kMostReductions ||
       state.choice.estimate.size() < 2) {

@@ -15,6 +15,7 @@
 #include "area_matcher.h"
 #include "control_coverage.h"
 #include "group_differences.h"
+#include "strip_error_check.h"
 #include "system_groups.h"
 
 namespace pcl_als {
@@ -209,10 +210,19 @@ void SystemCalibrationEngine::checkTrajectory() {
     if (!used_[strip] || isReference(static_cast<int>(strip)))
       plausibility_.leaveOut(static_cast<int>(strip));
   }
+  if (settings_.reconstructed_height_std) plausibility_.nameReconstructed();
   for (const Warning& warning : plausibility_.check(settings_.force, true)) {
     warnings_.push_back(warning);
   }
   height_error_ = plausibility_.heightError();
+  if (settings_.reconstructed_height_std) {
+    double lowest = HUGE_VAL;
+    for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+      const double height = plausibility_.meanHeight(static_cast<int>(strip));
+      if (height > 0.0) lowest = std::min(lowest, height);
+    }
+    height_error_ = uncertainHeight(*settings_.reconstructed_height_std, lowest);
+  }
   plausibility_.release();
 }
 

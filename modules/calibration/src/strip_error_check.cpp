@@ -25,6 +25,8 @@ constexpr const char* kPlanCauses = "datum, projection or reference point of the
 constexpr const char* kHeightCauses =
     "unit or vertical datum of the trajectory's heights, or its reference point";
 constexpr const char* kAttitudeCauses = "attitude of the trajectory, its unit and its time";
+constexpr const char* kPointCauses =
+    "trajectory that the points were computed with, whose errors they contain";
 constexpr std::array<Component, 6> kComponents{{
     {"east", false, "positions", kPlanCauses},
     {"north", false, "positions", kPlanCauses},
@@ -44,15 +46,15 @@ std::string sizeText(double value, bool angle) {
   return text;
 }
 
-std::string describe(const StripErrorSize& error) {
+std::string describe(const StripErrorSize& error, bool reconstructed) {
   const Component& component = kComponents[static_cast<std::size_t>(error.component)];
   char ratio[32];
   std::snprintf(ratio, sizeof ratio, "%.1f", error.ratio());
   return "strip " + error.strip + ": trajectory correction in " + component.name + " of " +
          sizeText(error.rms, component.angle) + " (RMS over the strip), " + ratio +
          " times its a priori standard deviation of " + sizeText(error.sigma, component.angle) +
-         "; check the " + component.causes + ", or state a larger standard deviation of its " +
-         component.measured;
+         "; check the " + (reconstructed ? kPointCauses : component.causes) +
+         ", or state a larger standard deviation of its " + component.measured;
 }
 
 /// RMS over all pairs of strips.
@@ -143,12 +145,13 @@ std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& str
   return large;
 }
 
-void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEffect>& effects,
+void assessStripErrors(const CalibrationSettings& settings, const std::vector<PriorEffect>& effects,
                        CalibrationResult& result) {
+  const bool reconstructed = settings.reconstructed_height_std.has_value();
   const std::vector<StripErrorSize> large =
-      largeStripErrors(result.strip_errors, model, kNoticeableCorrection);
+      largeStripErrors(result.strip_errors, settings.shared_errors, kNoticeableCorrection);
   for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
-    result.warnings.push_back({describe(large[i]), Remedy::flight_sigmas});
+    result.warnings.push_back({describe(large[i], reconstructed), Remedy::flight_sigmas});
   if (large.size() > kListed) {
     result.warnings.push_back(std::to_string(large.size() - kListed) +
                               " further trajectory corrections exceed three a priori standard "
@@ -158,7 +161,7 @@ void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEff
   if (!affected.empty()) result.warnings.push_back(affected);
   if (!affected.empty() && large.front().ratio() > kContradictingCorrection) {
     result.verdict.object(CalibrationStatus::parameters_affected,
-                          describe(large.front()) + "; " + affected);
+                          describe(large.front(), reconstructed) + "; " + affected);
   }
   assessNeed(!affected.empty(), result);
 }
@@ -193,7 +196,10 @@ std::vector<std::pair<SystemParameter, double>> heightEffects(const HeightError&
 
 }  // namespace
 
-void assessHeight(const HeightError& error, CalibrationResult& result) {
+void assessHeight(const HeightError& error, const CalibrationSettings& settings,
+                  CalibrationResult& result) {
+  const std::string trajectory =
+      settings.reconstructed_height_std ? "the reconstructed trajectory" : "the trajectory";
   if (error.kind == HeightError::Kind::none) return;
   const bool certain = error.kind != HeightError::Kind::scale;
   if (certain) result.verdict.object(CalibrationStatus::parameters_affected, error.text);
@@ -202,18 +208,28 @@ void assessHeight(const HeightError& error, CalibrationResult& result) {
     ParameterEstimate& p = result[parameter];
     if (!certain && !(change > kNoticeableChange * p.std)) continue;
     p.reason += p.reason.empty() ? "" : "; ";
-    p.reason += certain
-                    ? "affected by the height of the trajectory, which is wrong: the standard "
-                      "deviation does not include this"
-                    : "the standard deviation includes that the height of the trajectory may be "
-                      "wrong";
+    p.reason +=
+        certain
+            ? std::string(
+                  "affected by the height of the trajectory, which is wrong: the standard "
+                  "deviation does not include this")
+            : "the standard deviation includes that the height of " + trajectory + " may be wrong";
     names += (names.empty() ? "" : ", ") + std::string(infoOf(parameter).name);
     if (!certain) p.std = std::hypot(p.std, change);
   }
   if (certain || names.empty()) return;
-  result.warnings.push_back("the standard deviations of " + names +
-                            " include that the height of the trajectory may be wrong by " +
+  result.warnings.push_back("the standard deviations of " + names + " include that the height of " +
+                            trajectory + " may be wrong by " +
                             std::to_string(std::lround(std::abs(error.metres))) + " m");
+}
+
+HeightError uncertainHeight(double std, double height) {
+  HeightError error;
+  if (!(std > 0.0) || !(height > std)) return error;
+  error.kind = HeightError::Kind::scale;
+  error.metres = std;
+  error.slope = height / (height - std);
+  return error;
 }
 
 }  // namespace pcl_als

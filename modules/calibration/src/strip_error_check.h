@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/calibration/calibration_settings.h>
 #include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
@@ -60,11 +61,12 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
  * them, in proportion to their a priori variances. Corrections beyond three a priori standard
  * deviations give a warning, and so does a misfit that only the corrections reduce; beyond five, or
  * where both are found, the verdict is that parameters are affected. Names strip, component, size,
- * a priori standard deviation and likely causes, and the parameters that are affected (\a effects),
- * with the change as the reason of each; where none is, corrections alone are no objection. Call
- * after the fits are in the result and before judgeCalibration().
+ * a priori standard deviation and likely causes (of a reconstructed trajectory those of the one
+ * that the points were computed with), and the parameters that are affected (\a effects), with the
+ * change as the reason of each; where none is, corrections alone are no objection. Call after the
+ * fits are in the result and before judgeCalibration().
  */
-void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEffect>& effects,
+void assessStripErrors(const CalibrationSettings& settings, const std::vector<PriorEffect>& effects,
                        CalibrationResult& result);
 
 /** \brief Assesses the effect of a wrong height of the trajectory on the parameters.
@@ -77,6 +79,10 @@ void assessStripErrors(const SharedErrorModel& model, const std::vector<PriorEff
  * error that is certain is an objection; one that may also be of the recorded angles is included in
  * the standard deviations.
  */
-void assessHeight(const HeightError& error, CalibrationResult& result);
+void assessHeight(const HeightError& error, const CalibrationSettings& settings,
+                  CalibrationResult& result);
+
+/// The standard deviation of the heights of a reconstructed trajectory as an error that may be.
+HeightError uncertainHeight(double std, double height);
 
 }  // namespace pcl_als

@@ -297,6 +297,20 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
   warnOfTargets(result);
 }
 
+void SystemCalibrationEngine::judge(State& state, const SharedErrors& errors,
+                                    const std::vector<PriorEffect>& effects,
+                                    const std::string& not_converged,
+                                    CalibrationResult& result) const {
+  diagnose(result);
+  assessControl(state, errors, result);
+  assessStripErrors(settings_, effects, result);
+  assessHeight(height_error_, settings_, result);
+  judgeCalibration(settings_.estimate, not_converged, result);
+  assessParts(state, result);  // larger standard deviations must not make a result usable
+  judgePairCoverage(overlappingPairs(), settings_.max_normal_distance, result);
+  nameUndetermined(swathEdge(state.observations), settings_.limits.on_points, result);
+}
+
 CalibrationResult SystemCalibrationEngine::calibrate() {
   constexpr std::size_t kEnoughForMisfit = 100'000;  // pairs of the points as delivered
   const std::size_t pairs = prepare();
@@ -304,7 +318,6 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   const std::vector<std::vector<TimeSpan>> observed = measuredTimes();
   SharedErrors errors(spans, settings_.shared_errors.withKnotsFor(observed), observed, systems_);
   State state(errors, settings_.threads);
-  state.excluded = settings_.undeterminable;
   state.choice.solution = state.adjustment.unsolved(SystemVector::Zero());
   state.threshold = settings_.max_normal_distance;
   CalibrationResult result;
@@ -347,14 +360,7 @@ CalibrationResult SystemCalibrationEngine::calibrate() {
   keepAdjusted(state, spans);
   addFits(state, report, result);
   result.misfit = misfit.change(state.observations, result.biases());
-  diagnose(result);
-  assessControl(state, errors, result);
-  assessStripErrors(settings_.shared_errors, effects, result);
-  assessHeight(height_error_, result);
-  judgeCalibration(settings_.estimate, open ? reasonNotConverged(state, result) : "", result);
-  assessParts(state, result);  // larger standard deviations must not make a result usable
-  judgePairCoverage(overlappingPairs(), settings_.max_normal_distance, result);
-  nameUndetermined(swathEdge(state.observations), settings_.limits.on_points, result);
+  judge(state, errors, effects, open ? reasonNotConverged(state, result) : "", result);
   return result;
 }
 

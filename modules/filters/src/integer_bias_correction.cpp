@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/filters/integer_bias_correction.h>
 
 namespace pcl_als {
@@ -82,7 +83,7 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
     tile.raw[0][i] = load<std::int32_t>(records);
     tile.raw[1][i] = load<std::int32_t>(records + 4);
     tile.raw[2][i] = load<std::int32_t>(records + 8);
-    tile.time[i] = load<double>(time);
+    tile.time[i] = secondsOfTime(load<double>(time));
     tile.intensity[i] = load<std::uint16_t>(records + layout_.intensity_position);
     tile.turning[i] =
         (load<std::uint8_t>(records + layout_.scan_direction_position) & 64) != 0 ? -1 : 1;

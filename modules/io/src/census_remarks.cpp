@@ -7,11 +7,16 @@
 #include <sstream>
 
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/time_unit.h>
+#include <pcl_als/io/time_scale.h>
 #include <pcl_als/las/external_waveforms.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/las/recorded_pose.h>
 #include <pcl_als/las/unclaimed_bytes.h>
+
+#include "pcd_file.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -35,6 +40,25 @@ void remarkCount(std::vector<std::string>& remarks, std::uint64_t part, std::uin
                       (part == 1 ? one : many));
 }
 
+/// In which unit the first time of a file is recorded, which readers bring to seconds.
+double timeUnitsOf(const std::filesystem::path& path) {
+  if (lowerExtension(path) == ".pcd") {
+    PcdFile file(path, "");
+    PointChunk chunk;
+    file.read(1, chunk);
+    return file.timeUnits();
+  }
+  const LasFile las(path, kLazAllFields, LasDamage::keep_intact);
+  if (las.layout().gps_time < 0 || las.header().point_count == 0) return 1.0;
+  std::vector<std::byte> record(las.header().record_length);
+  try {
+    las.readRecords(0, 1, record.data());
+  } catch (const InputError&) {
+    return 1.0;  // damaged there, as is said elsewhere
+  }
+  return timeUnitsPerSecond(loadLas<double>(record.data() + las.layout().gps_time));
+}
+
 void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
                  std::vector<std::string>& remarks) {
   if (info.time_kind == TimeKind::none) {
@@ -48,6 +72,11 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
     return;
   }
   remarkCount(remarks, s.zero_times, s.points, "has GPS time zero", "have GPS time zero");
+  const std::string unix_time = unixTimeText({s.first_time, s.last_time}, timeUnitsOf(info.path));
+  if (!unix_time.empty()) {
+    remarks.push_back("the times look like " + unix_time);
+    return;
+  }
   const bool in_week = s.first_time >= 0.0 && s.last_time <= kLastWeekSecond;
   if (info.time_kind == TimeKind::week_seconds && !in_week)
     remarks.push_back(

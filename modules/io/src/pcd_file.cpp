@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/time_unit.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -141,6 +142,10 @@ bool PcdFile::read(std::size_t records, PointChunk& chunk) {
   block.column("y", 0.0, chunk.y);
   block.column("z", 0.0, chunk.z);
   block.column("gps_time", 0.0, chunk.gps_time);
+  for (double& time : chunk.gps_time) {
+    time_units_ = std::max(time_units_, timeUnitsPerSecond(time));
+    time = secondsOfTime(time);
+  }
   block.column("intensity", 0.0F, chunk.intensity);
   block.column("scan_angle", 0.0F, chunk.scan_angle);
   block.column("point_source_id", std::uint16_t{0}, chunk.point_source_id);

@@ -40,6 +40,8 @@ class PcdFile {
   const FileVersion& version() const { return file_.version(); }
   /// The next points out of at most \a records records; false at the end of the file.
   bool read(std::size_t records, PointChunk& chunk);
+  /// Of the times so far, per second (timeUnitsPerSecond()).
+  double timeUnits() const { return time_units_; }
   void rewind();
 
  private:
@@ -50,6 +52,7 @@ class PcdFile {
   std::string channel_field_;  ///< empty: bits of the flags
   std::unique_ptr<PcdRecords> records_;
   std::uint64_t position_ = 0;
+  double time_units_ = 1.0;
   std::vector<std::byte> buffer_;
 };
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <pcl_als/common/point_flag.h>
+
+#include "week_rollover.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -71,6 +74,27 @@ std::vector<TimeGap> TimeBins::gaps(double longer_than) const {
   return gaps;
 }
 
+std::vector<TimeRange> TimeBins::ranges() const {
+  std::vector<TimeRange> ranges;
+  for (const auto& bin : bins_) ranges.push_back({bin.second.first, bin.second.second});
+  return ranges;
+}
+
+void SourceTally::unwrap(double rollover) {
+  if (!(statistics_.first_time < rollover)) return;
+  TimeBins bins;
+  TimeRange all;
+  for (const TimeRange& range : times_.ranges()) {
+    const double shift = range.first < rollover ? kSecondsPerWeek : 0.0;
+    bins.add(range.first + shift);
+    bins.add(range.last + shift);
+    all.add(range.first + shift);
+    all.add(range.last + shift);
+  }
+  times_ = std::move(bins);
+  statistics_.first_time = all.first, statistics_.last_time = all.last;
+}
+
 void SourceTally::add(const PointChunk& chunk, std::size_t first, std::size_t last, double cell) {
   const double inverse_cell = 1.0 / cell;
   for (std::size_t i = first; i < last; ++i) {
@@ -106,7 +130,7 @@ void SourceTally::addTime(double time) {
     statistics_.first_time = statistics_.last_time = previous_time_ = time;
   statistics_.first_time = std::min(statistics_.first_time, time);
   statistics_.last_time = std::max(statistics_.last_time, time);
-  if (time < previous_time_) ++statistics_.unsorted_times;
+  if (time < previous_time_ && !isWeekRollover(previous_time_, time)) ++statistics_.unsorted_times;
   previous_time_ = time;
   times_.add(time);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/io/survey_census.h>
 
 #include "cell_counts.h"
@@ -19,6 +20,7 @@ class TimeBins {
   void add(double time);
   void add(const TimeBins& other);
   std::vector<TimeGap> gaps(double longer_than) const;
+  std::vector<TimeRange> ranges() const;
 
  private:
   static constexpr double kBin = 0.5;
@@ -41,6 +43,8 @@ class SourceTally {
   const TimeResolution& resolution() const { return resolution_; }
   const CellCounts& cells() const { return cells_; }
   CellCounts& cells() { return cells_; }
+  /// Brings seconds of the week below \a rollover to those of the week before, beyond 604800.
+  void unwrap(double rollover);
 
  private:
   void addPlace(const PointChunk& chunk, std::size_t i, double inverse_cell);

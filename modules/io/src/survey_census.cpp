@@ -8,6 +8,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/io/survey_census.h>
+#include <pcl_als/io/time_scale.h>
 
 #include "census_remarks.h"
 #include "duplicate_sample.h"
@@ -57,6 +58,7 @@ class Census {
 
   SurveyCensus take() {
     if (done_ == 0 && !survey_.window.everything()) refuseNothingRead();
+    unwrapWeek();
     survey_.duplicates = duplicates_.count();
     survey_.duplicates_estimated = duplicates_.estimated();
     joinStrips();
@@ -138,6 +140,32 @@ class Census {
     while (blocksAfter(doublings) > kMostBlocks / 2 && doublings < kMostDoublings) ++doublings;
     for (auto& source : sources_) source.second.cells().coarsen(doublings);
     survey_.cell = std::ldexp(survey_.cell, static_cast<int>(doublings));
+  }
+
+  /// Lines that go on through the end of a GPS week.
+  void unwrapWeek() {
+    std::vector<TimeRange> observed;
+    for (const auto& source : sources_) {
+      for (const TimeRange& range : source.second.times().ranges())
+        if (range.last != 0.0) observed.push_back(range);  // zero: none
+    }
+    const auto rollover = weekRollover(std::move(observed));
+    if (!rollover) return;
+    survey_.remarks.emplace_back(
+        "the flight passes the end of a GPS week: the times after it are given as seconds beyond "
+        "604800");
+    std::vector<TimeRange> of_files(survey_.files.size());
+    for (auto& [key, tally] : sources_) {
+      tally.unwrap(*rollover);
+      const PointStatistics& s = tally.statistics();
+      of_files[key.first].add(s.first_time);
+      of_files[key.first].add(s.last_time);
+    }
+    for (std::size_t f = 0; f < of_files.size(); ++f) {
+      if (of_files[f].empty()) continue;
+      survey_.files[f].statistics.first_time = of_files[f].first;
+      survey_.files[f].statistics.last_time = of_files[f].last;
+    }
   }
 
   /// By key; points of no strip have none.

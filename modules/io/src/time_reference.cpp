@@ -7,45 +7,17 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/time_reference.h>
+#include <pcl_als/io/time_scale.h>
 
 #include "week_rollover.h"
 
 namespace pcl_als {
 namespace {
 
-/// How seconds may be counted.
-enum class Scale { week, adjusted, gps };
+using Scale = TimeScale;
 
-const char* nameOf(Scale scale) {
-  switch (scale) {
-    case Scale::week:
-      return "seconds of the GPS week";
-    case Scale::adjusted:
-      return "adjusted standard GPS time";
-    case Scale::gps:
-      return "GPS seconds";
-  }
-  return "";
-}
-
-/// Seconds that turn an absolute scale into GPS seconds.
-double originOf(Scale scale) {
-  return scale == Scale::adjusted ? kAdjustedOffset : 0.0;
-}
-
-/// Week seconds may run on past the end of the week, not much further.
-bool looksLikeWeek(const TimeRange& range) {
-  return range.first >= 0.0 && range.last <= 2.0 * kSecondsPerWeek;
-}
-
-/// Scales that values may be in, the likeliest first: as adjusted time, 1e9 s would be in 2043; as
-/// GPS seconds, less would be before September 2011, when few wrote them.
-std::vector<Scale> scalesOf(const TimeRange& range, TimeKind declared) {
-  if (range.last >= kAdjustedOffset) return {Scale::gps, Scale::adjusted};
-  if (!looksLikeWeek(range)) return {Scale::adjusted, Scale::gps};
-  if (declared == TimeKind::adjusted_standard) return {Scale::adjusted, Scale::week};
-  return {Scale::week, Scale::adjusted};
-}
+// Weeks of GPS time until 2056: a week beyond is none that points were measured in.
+constexpr long kLastWeek = 4000;
 
 double middle(const TimeRange& range) {
   return 0.5 * (range.first + range.last);
@@ -60,7 +32,7 @@ struct Candidate {
 
 Candidate candidate(Scale p, const TimeRange& points, Scale t, const TimeRange& trajectory,
                     std::optional<int> gps_week) {
-  const double origins = originOf(p) - originOf(t);
+  const double origins = gpsSecondsOffset(p, points.first) - gpsSecondsOffset(t, trajectory.first);
   if (p != Scale::week && t != Scale::week) return {p, t, origins, std::nullopt};
   const double apart = middle(trajectory) - middle(points) - origins;
   if (p == Scale::week && t == Scale::week) {
@@ -74,9 +46,10 @@ Candidate candidate(Scale p, const TimeRange& points, Scale t, const TimeRange& 
 
 std::optional<Candidate> firstThatMeets(const TimeRange& points, TimeKind kind,
                                         const TimeRange& trajectory, std::optional<int> gps_week) {
-  for (const Scale p : scalesOf(points, kind)) {
-    for (const Scale t : scalesOf(trajectory, TimeKind::none)) {
+  for (const Scale p : probableTimeScales(points, kind)) {
+    for (const Scale t : probableTimeScales(trajectory)) {
       const Candidate next = candidate(p, points, t, trajectory, gps_week);
+      if (next.week && (*next.week < 0 || *next.week > kLastWeek)) continue;
       if (points.last + next.offset >= trajectory.first &&
           points.first + next.offset <= trajectory.last) {
         return next;
@@ -88,11 +61,14 @@ std::optional<Candidate> firstThatMeets(const TimeRange& points, TimeKind kind,
 
 std::string rangesText(const std::string& name, const TimeRange& points,
                        const TimeRange& trajectory) {
-  char text[200];
-  std::snprintf(text, sizeof text,
-                ": its times, %.3f to %.3f s, do not overlap the trajectory's, %.3f to %.3f s",
-                points.first, points.last, trajectory.first, trajectory.last);
-  return name + text;
+  const auto describe = [](const TimeRange& times) {
+    const std::string unix_time = unixTimeText(times);
+    char text[80];
+    std::snprintf(text, sizeof text, "%.3f to %.3f s", times.first, times.last);
+    return text + (unix_time.empty() ? "" : " (" + unix_time.substr(0, unix_time.find(':')) + ")");
+  };
+  return name + ": its times, " + describe(points) + ", do not overlap the trajectory's, " +
+         describe(trajectory);
 }
 
 void refuseUnusable(const std::string& name, const TimeRange& points, const TimeRange& trajectory) {
@@ -122,8 +98,8 @@ std::string shiftText(const TimeRange& points, const TimeRange& trajectory) {
 
 std::string remarkOf(const std::string& name, const Candidate& best) {
   if (best.offset == 0.0) return {};
-  std::string text =
-      name + ": times are " + nameOf(best.points) + ", the trajectory's " + nameOf(best.trajectory);
+  std::string text = name + ": times are " + timeScaleName(best.points) + ", the trajectory's " +
+                     timeScaleName(best.trajectory);
   if (best.week) text += ", GPS week " + std::to_string(*best.week);
   char added[60];
   std::snprintf(added, sizeof added, ": %+.0f s", best.offset);

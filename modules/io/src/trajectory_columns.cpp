@@ -11,7 +11,7 @@
 namespace pcl_als::detail {
 namespace {
 
-enum class UnitKind { second, metre, angle, week };
+enum class UnitKind { second, metre, angle, week, date };
 
 struct QuantityInfo {
   const char* name;  ///< as in this project's own files
@@ -47,6 +47,7 @@ const std::array<QuantityInfo, kTrajectoryQuantities>& quantities() {
        {"h_msl", "msl", "orthometric_height", "h_ortho", "ortho_height"}},
       {"week", UnitKind::week, {"week", "gps_week", "wn"}},
       {"UTC time", UnitKind::second, {"utc_time", "utc", "utc_seconds"}},
+      {"date", UnitKind::date, {"date", "utc_date", "gps_date", "calendar_date"}},
       {"sd_east", UnitKind::metre, {"sd_east", "east_sd", "se", "std_east"}},
       {"sd_north", UnitKind::metre, {"sd_north", "north_sd", "sn", "std_north"}},
       {"sd_up", UnitKind::metre, {"sd_up", "sd_height", "height_sd", "sh", "std_up"}},
@@ -111,6 +112,7 @@ double factorOf(UnitKind kind, const std::string& unit, AngleUnit angles) {
     case UnitKind::metre:
       return any({"", "m", "metre", "meter", "metres", "meters"}) ? 1.0 : 0.0;
     case UnitKind::week:
+    case UnitKind::date:
       return 1.0;
     case UnitKind::angle:
       break;
@@ -191,7 +193,7 @@ void TrajectoryColumns::assign(const CsvTable& table, std::size_t index, AngleUn
     table.refuseHeader("columns '" + column.name + "' and '" + header + "' both name the " +
                        info.name + "; rename or remove the one that is not meant");
   }
-  column = {index, header, factorOf(info.unit, found.unit, angles)};
+  column = {index, header, factorOf(info.unit, found.unit, angles), found.unit};
   if (column.factor == 0.0 && q >= static_cast<std::size_t>(TrajectoryQuantity::sd_east)) {
     column = {};  // TerraPOS gives metres for standard deviations of angles
   } else if (column.factor == 0.0) {

@@ -30,6 +30,7 @@ enum class TrajectoryQuantity {
   orthometric_height,
   week,
   utc_time,
+  date,
   sd_east,
   sd_north,
   sd_up,
@@ -38,7 +39,7 @@ enum class TrajectoryQuantity {
   sd_heading,
   reconstructed,  ///< any value: the trajectory was reconstructed from points
 };
-constexpr std::size_t kTrajectoryQuantities = 22;
+constexpr std::size_t kTrajectoryQuantities = 23;
 
 /// A column that was recognised: where it stands, its name in the file, and the factor to internal
 /// units (radians for angles, otherwise 1).
@@ -46,6 +47,7 @@ struct TrajectoryColumn {
   std::size_t index = CsvTable::npos;
   std::string name;
   double factor = 1.0;
+  std::string unit{};  ///< plain, as stated; of a date the order of its parts (ymd)
 
   bool present() const { return index != CsvTable::npos; }
 };

@@ -12,7 +12,7 @@
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/io/time_reference.h>
+#include <pcl_als/io/time_scale.h>
 
 #include "trajectory_records.h"
 
@@ -80,9 +80,8 @@ void commonTimes(std::vector<Part>& parts) {
   const auto week = std::find_if(parts.begin(), parts.end(), inWeek);
   const auto absolute = std::find_if_not(parts.begin(), parts.end(), inWeek);
   if (week == parts.end() || absolute == parts.end()) return;
-  // Adjusted standard time begins 1e9 s after GPS time.
   const auto toGps = [](const Part& part) {
-    return part.last < kAdjustedOffset ? kAdjustedOffset : 0.0;
+    return gpsSecondsOffset(probableTimeScales({part.first, part.last}).front(), part.first);
   };
   const double number = std::floor((absolute->first + toGps(*absolute)) / kSecondsPerWeek);
   for (Part& part : parts) {
@@ -233,8 +232,10 @@ class Joined {
 };
 
 std::string timeKindOf(const TimeRange& times) {
-  if (times.first >= 0.0 && times.last <= 2.0 * kSecondsPerWeek) return "seconds of the GPS week";
-  return times.last >= kAdjustedOffset ? "GPS seconds" : "adjusted standard GPS time";
+  const TimeScale scale = probableTimeScales(times).front();
+  const std::string name = timeScaleName(scale);
+  if (scale == TimeScale::week) return name;
+  return name + " (" + dateText(times.first + gpsSecondsOffset(scale, times.first)) + ")";
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/common/time_unit.h>
+#include <pcl_als/io/time_scale.h>
 
+#include "calendar_date.h"
 #include "csv_table.h"
 #include "leap_seconds.h"
 #include "trajectory_columns.h"
@@ -22,12 +26,12 @@ class RecordReader {
   RecordReader(const CsvTable& table, const TrajectoryColumns& columns,
                const TrajectoryReading& reading)
       : table_(table), columns_(columns), reading_(reading), place_(columns.place()) {
-    if (!columns_[Quantity::time].present() && !reading_.leap_seconds && !hasWeek()) {
-      throw InputError(
-          table.at(
-              "its times are UTC, which lags GPS time by leap seconds, and no GPS week says by "
-              "how many (18 since 2017)"),
-          Remedy::leap_seconds);
+    if (!columns_[Quantity::time].present() && !reading_.leap_seconds && !hasWeek() &&
+        !columns_[Quantity::date].present()) {
+      throw InputError(table.at("its times are UTC, which lags GPS time by leap seconds, and no "
+                                "GPS week or date says by "
+                                "how many (18 since 2017)"),
+                       Remedy::leap_seconds);
     }
   }
 
@@ -67,12 +71,31 @@ class RecordReader {
  private:
   double time() const {
     const bool utc = !columns_[Quantity::time].present();
-    double time = table_.number(columns_[utc ? Quantity::utc_time : Quantity::time].index);
+    double time =
+        secondsOfTime(table_.number(columns_[utc ? Quantity::utc_time : Quantity::time].index));
+    if (columns_[Quantity::date].present() && time < 2.0 * kSecondsPerWeek) time += dayOf(time);
+    if (probableTimeScales({time, time}).front() == TimeScale::unix_time) return time;
     // A time beyond two weeks holds its week already.
     if (hasWeek() && std::abs(time) < 2.0 * kSecondsPerWeek)
       time += table_.number(columns_[Quantity::week].index) * kSecondsPerWeek;
     if (reading_.leap_seconds) return time + *reading_.leap_seconds;
     return utc ? time + leapSecondsAt(time) : time;
+  }
+  /// GPS seconds at the start of the day of a record, whose time is in seconds of that day. Seconds
+  /// of the week, which the first record shows, count from the Sunday before.
+  double dayOf(double time) const {
+    constexpr double kDay = 86400.0;
+    const TrajectoryColumn& column = columns_[Quantity::date];
+    const auto day = daysOfGps(table_.text(column.index), column.unit);
+    if (!day)
+      table_.refuse(column.index,
+                    "is no date whose order is known; give year-month-day, or name the order in "
+                    "the header: Date(YMD), Date(DMY) or Date(MDY)");
+    if (!of_week_) of_week_ = time >= kDay;
+    const double since_sunday = static_cast<double>(*day % 7) * kDay;
+    if (*of_week_ && std::floor(time / kDay) != static_cast<double>(*day % 7))
+      table_.refuse(column.index, "is not the day of the week of its time");
+    return static_cast<double>(*day) * kDay - (*of_week_ ? since_sunday : 0.0);
   }
   void angle(Quantity quantity, double& value) const {
     const TrajectoryColumn& column = columns_[quantity];
@@ -83,6 +106,7 @@ class RecordReader {
   const TrajectoryColumns& columns_;
   const TrajectoryReading& reading_;
   std::array<Quantity, 3> place_;
+  mutable std::optional<bool> of_week_;  ///< with a date: times are seconds of the week
 };
 
 }  // namespace
@@ -108,6 +132,8 @@ TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
       records.accuracy.push_back(reader.accuracy(records.samples.back().time));
   }
   if (records.samples.empty()) throw InputError(path.string() + ": has a header but no records");
+  if (columns[Quantity::date].present())
+    records.remarks.push_back("times are those of the date of each record");
   if (reader.hasWeek()) records.remarks.push_back("times hold the GPS week of the file");
   return records;
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/las/las_record.h>
 
 #include "las_bytes.h"
@@ -87,7 +88,8 @@ void decodeBlock(const Source& from, const LasRecordLayout& layout, const Eigen:
   from.column(layout.point_source_id, &to.point_source_id[first], loadLas<std::uint16_t>);
   from.column(layout.user_data, &to.user_data[first], byteAt);
   if (layout.gps_time >= 0)
-    from.column(layout.gps_time, &to.gps_time[first], loadLas<double>);
+    from.column(layout.gps_time, &to.gps_time[first],
+                [](const std::byte* at) { return secondsOfTime(loadLas<double>(at)); });
   else
     std::fill_n(&to.gps_time[first], from.count, 0.0);
   if (layout.extended)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
 
@@ -35,7 +36,7 @@ void visitSome(const LasFile& file, const Visit& visit) {
         point[axis] =
             loadLas<std::int32_t>(record + 4 * axis) * metres.scale[axis] + metres.offset[axis];
       }
-      visit(loadLas<double>(record + file.layout().gps_time), point);
+      visit(secondsOfTime(loadLas<double>(record + file.layout().gps_time)), point);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/las/las_file.h>
 
@@ -38,7 +39,7 @@ TimeRange probedTimes(const LasFile& file, std::uint64_t probes, std::uint64_t r
     const std::uint64_t size = std::min(run, count - first);
     file.readRecords(first, size, records.data());
     for (std::uint64_t i = 0; i < size; ++i) {
-      times.add(loadLas<double>(&records[i * length + file.layout().gps_time]));
+      times.add(secondsOfTime(loadLas<double>(&records[i * length + file.layout().gps_time])));
     }
   }
   return times.range();
@@ -70,7 +71,7 @@ TimeAlignment alignmentOf(const std::string& name, const Strip<PointLidar>& stri
                           const Trajectory& flight, std::optional<int> gps_week) {
   if (strip.cloud->empty()) return {};
   TimeSpread times;
-  for (const PointLidar& point : *strip.cloud) times.add(point.gps_time);
+  for (const PointLidar& point : *strip.cloud) times.add(secondsOfTime(point.gps_time));
   return reconcileTimes(name, times.range(), TimeKind::none, rangeOf(flight), gps_week);
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/las/las_record.h>
 
 #include "deviation_sum.h"
@@ -164,7 +165,8 @@ void FileUncertainty::store(const LasRecordBlock& block,
                         loadLas<std::int32_t>(record + 8))
             .cwiseProduct(layout_.scale) +
         layout_.offset;
-    const double time = correction_.flightTime(loadLas<double>(record + layout_.time_position));
+    const double time =
+        correction_.flightTime(secondsOfTime(loadLas<double>(record + layout_.time_position)));
     points[i] = {position.x(), position.y(), kNone, kNone};
     if (correction_.knowsAttitude(time) &&
         uncertainty_.covarianceAt(time, position, normals[i].cast<double>(), cursor, covariance,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/lidar_return.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_sample.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
@@ -18,11 +19,15 @@ class FlightCheck {
  public:
   explicit FlightCheck(std::shared_ptr<const Trajectory> flight) : check_(std::move(flight)) {}
 
-  void add(std::uint16_t source, double time, const Eigen::Vector3d& point, float scan_angle) {
-    check_.add(stripOf(source), time, point, scan_angle);
-    addTime(source, time);
+  void add(std::uint16_t source, const LidarReturn& point) {
+    check_.add(stripOf(source), point.time, point.position, point.scan_angle);
+    addReturn(source, point);
   }
-  void addTime(std::uint16_t source, double time) { check_.addTime(stripOf(source), time); }
+  /// Of a run of consecutive points.
+  void addReturn(std::uint16_t source, const LidarReturn& point) {
+    check_.addTime(stripOf(source), point.time);
+    check_.addReturn(stripOf(source), point);
+  }
   /// Warnings; a refusal is an InputError that names the file. The model is that of the biases: a
   /// wrong attitude has no remedy here.
   Warnings result(const std::string& name, bool force) const {
@@ -48,14 +53,41 @@ class FlightCheck {
 
 }  // namespace
 
+LidarReturn returnOf(const PointChunk& chunk, std::size_t row, double time) {
+  LidarReturn point;
+  point.position = {chunk.x[row], chunk.y[row], chunk.z[row]};
+  point.time = time;
+  point.scan_angle = chunk.scan_angle[row];
+  point.return_number = chunk.return_number[row];
+  point.number_of_returns = chunk.number_of_returns[row];
+  point.classification = chunk.classification[row];
+  point.flags = chunk.flags[row];
+  point.channel = static_cast<std::uint8_t>(chunk.flags[row] >> 6U);
+  return point;
+}
+
+LidarReturn returnOf(const Strip<PointLidar>& strip, std::size_t row, double time) {
+  const PointLidar& stored = (*strip.cloud)[row];
+  LidarReturn point;
+  point.position = strip.frame.origin + stored.getVector3fMap().cast<double>();
+  point.time = time;
+  point.scan_angle = stored.scan_angle;
+  point.return_number = stored.return_number;
+  point.number_of_returns = stored.number_of_returns;
+  point.classification = stored.classification;
+  point.flags = stored.flags;
+  point.channel = static_cast<std::uint8_t>(stored.flags >> 6U);
+  return point;
+}
+
 Warnings checkFlight(const LasFile& file, const TimeAlignment& alignment,
                      const std::shared_ptr<const Trajectory>& flight, bool force) {
   FlightCheck check(flight);
   const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   samplePoints(file, size, [&](const PointChunk& chunk) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      check.add(chunk.point_source_id[i], alignment(chunk.gps_time[i]),
-                {chunk.x[i], chunk.y[i], chunk.z[i]}, chunk.scan_angle[i]);
+      const LidarReturn point = returnOf(chunk, i, alignment(chunk.gps_time[i]));
+      check.add(chunk.point_source_id[i], point);
     }
   });
   return check.result(file.path().string(), force);
@@ -68,13 +100,12 @@ Warnings checkFlight(const std::string& name, const Strip<PointLidar>& strip,
   const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / size.points());
   for (std::size_t i = 0; i < strip.cloud->size(); ++i) {
-    const PointLidar& point = (*strip.cloud)[i];
-    if (i % every != 0) {
-      check.addTime(point.point_source_id, alignment(point.gps_time));
-      continue;
-    }
-    check.add(point.point_source_id, alignment(point.gps_time),
-              strip.frame.origin + point.getVector3fMap().cast<double>(), point.scan_angle);
+    const PointLidar& stored = (*strip.cloud)[i];
+    const LidarReturn point = returnOf(strip, i, alignment(stored.gps_time));
+    if (i % every == 0)
+      check.add(stored.point_source_id, point);
+    else
+      check.addReturn(stored.point_source_id, point);
   }
   return check.result(name, force);
 }

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include <pcl_als/common/lidar_return.h>
+#include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
 #include <pcl_als/common/time_alignment.h>
@@ -13,6 +15,10 @@
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als::detail {
+
+/// A point as a return at an aligned time.
+LidarReturn returnOf(const PointChunk& chunk, std::size_t row, double time);
+LidarReturn returnOf(const Strip<PointLidar>& strip, std::size_t row, double time);
 
 /// Whether the points of a file can have been measured from the flight: warnings; InputError naming
 /// the file where they cannot, unless \a force.

@@ -75,13 +75,17 @@ FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions
 
 FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
                       const FlightFileOptions& options) {
-  TrajectoryFile file = readScreened(paths, options);
+  return flightOf(readScreened(paths, options), paths.front().string(), options);
+}
+
+FlightFile flightOf(TrajectoryFile file, const std::string& name,
+                    const FlightFileOptions& options) {
   const std::string yaw = decideYaw(file);
   const bool complete = !file.samples.empty() &&
                         std::all_of(file.samples.begin(), file.samples.end(),
                                     [](const TrajectorySample& s) { return s.hasAttitude(); });
   if (options.attitude == AttitudeUse::needed && !complete) {
-    throw InputError(paths.front().string() +
+    throw InputError(name +
                      ": has no roll, pitch and heading for every sample; the rigorous model "
                      "needs them");
   }

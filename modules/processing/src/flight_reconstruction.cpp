@@ -126,24 +126,18 @@ FlightFile reconstructFlight(const std::vector<std::string>& points,
         "a job on a single file cannot reconstruct the trajectory: write that of all strips with "
         "pcl_als_trajectory first");
   ReconstructionOptions how;
-  how.attitude = false;
+  how.attitude = options.attitude != AttitudeUse::ignore;
   SurveyReader survey(points, threads);
   return reconstructFlight(survey, how, progress).asFile(options);
 }
 
 FlightFile ReconstructedFlight::asFile(const FlightFileOptions& options) const {
-  FlightFile file;
-  Trajectory::Options use;
-  if (options.line_fit_half_width > 0.0) use.line_fit_half_width = options.line_fit_half_width;
-  use.nominal_attitude = options.attitude == AttitudeUse::nominal;
-  if (options.attitude == AttitudeUse::needed)
-    throw InputError("a trajectory reconstructed from points has no attitude of its own");
-  file.trajectory = std::make_shared<const Trajectory>(samples, use);
-  if (options.keep_samples) file.samples = samples;
+  TrajectoryFile file;
+  file.samples = samples;
   file.format = kReconstructedFormat;
   file.frame = "coordinates of the points";
   file.accuracy = accuracy;
-  return file;
+  return flightOf(std::move(file), "the reconstructed trajectory", options);
 }
 
 std::vector<std::filesystem::path> writeReconstruction(const ReconstructedFlight& flight,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/common/vector_clones.h>
 
 namespace pcl_als {
@@ -103,7 +104,7 @@ std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t 
     tile.raw[2][i] = loadLas<std::int32_t>(records + 8);
     tile.given[i] = loadLas<std::uint16_t>(records + kIntensityAt);
     tile.source[i] = loadLas<std::uint16_t>(records + source_at);
-    tile.time[i] = loadLas<double>(records + time_at);
+    tile.time[i] = secondsOfTime(loadLas<double>(records + time_at));
     const unsigned returns = loadLas<std::uint8_t>(records + kReturnsAt);
     tile.partial[i] = (returns & mask) < ((returns >> shift) & mask) ? 1 : 0;
     partial += tile.partial[i];
@@ -134,7 +135,7 @@ void RangeOnlyCorrection::countUncovered(std::size_t count, const std::byte* rec
     if (tile.range[i] == tile.range[i] ||
         run_.trajectory()->coverage(tile.time[i]) == Trajectory::Coverage::covered)
       continue;
-    const auto time = loadLas<double>(records + i * length + layout_.gps_time);
+    const double time = secondsOfTime(loadLas<double>(records + i * length + layout_.gps_time));
     ++counts.uncovered[{sources_.at(tile.source[i]).label, run_.whyUncovered(file_, time)}];
   }
 }

@@ -9,6 +9,7 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/parallel.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
@@ -147,7 +148,8 @@ class LasInput : public IntensityInput {
   IntensityPoint pointOf(const std::byte* record) const {
     IntensityPoint point;
     point.position = positionOf(record);
-    if (layout_.gps_time >= 0) point.time = loadLas<double>(record + layout_.gps_time);
+    if (layout_.gps_time >= 0)
+      point.time = secondsOfTime(loadLas<double>(record + layout_.gps_time));
     point.intensity = loadLas<std::uint16_t>(record + kIntensity);
     point.source = sourceOf(record);
     const auto returns = loadLas<std::uint8_t>(record + kReturns);
@@ -222,7 +224,8 @@ class LasInput : public IntensityInput {
       const auto intensity = loadLas<std::uint16_t>(records + kIntensity);
       largest = std::max(largest, intensity);
       zeros += intensity == 0 ? 1 : 0;
-      const double time = survey_.has_time ? loadLas<double>(records + time_at) : 0.0;
+      const double time =
+          survey_.has_time ? secondsOfTime(loadLas<double>(records + time_at)) : 0.0;
       if (time == 0.0)
         ++zero_times;
       else
@@ -335,7 +338,7 @@ class PcdInput : public IntensityInput {
   IntensityPoint pointOf(const PointLidar& p) const {
     IntensityPoint point;
     point.position = strip_.frame.toGround(p.getVector3fMap());
-    point.time = p.gps_time;
+    point.time = secondsOfTime(p.gps_time);
     point.intensity = p.intensity;
     point.return_number = p.return_number;
     point.number_of_returns = p.number_of_returns;
@@ -350,7 +353,7 @@ class PcdInput : public IntensityInput {
     run.zeros = point.intensity == 0.0F ? 1 : 0;
     run.largest = static_cast<double>(point.intensity);
     run.zero_time = point.gps_time == 0.0;
-    if (!run.zero_time) run.times.add(point.gps_time);
+    if (!run.zero_time) run.times.add(secondsOfTime(point.gps_time));
     run.minimum = run.maximum = strip_.frame.toGround(point.getVector3fMap());
     return run;
   }

@@ -12,6 +12,7 @@
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
+#include "flight_check.h"
 #include "survey_messages.h"
 
 namespace pcl_als {
@@ -85,35 +86,34 @@ void IntensityRun::visit(
 
 struct IntensityRun::Sample {
   int strip;
-  double time;
-  Eigen::Vector3d point;
-  float scan_angle;
+  LidarReturn point;
 };
 
 std::vector<IntensityRun::Sample> IntensityRun::samplesOf(std::size_t file) const {
   const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   std::vector<Sample> samples;
   StripArrangement::Sorter sorter(*arrangement_, file);
-  const auto add = [&](std::uint16_t source, double time, const Eigen::Vector3d& point,
-                       float scan_angle) {
+  const auto add = [&](std::uint16_t source, double time, const auto& points, std::size_t row) {
     const int strip = arrangement_->labels()[sorter.label(source, time)].index;
-    if (strip >= 0) samples.push_back({strip, times_[file](time), point, scan_angle});
+    if (strip >= 0) samples.push_back({strip, detail::returnOf(points, row, times_[file](time))});
   };
   if (const LasFile* las = inputs_[file]->las()) {
     samplePoints(*las, size, [&add](const PointChunk& chunk) {
-      for (std::size_t i = 0; i < chunk.size(); ++i) {
-        add(chunk.point_source_id[i], chunk.gps_time[i], {chunk.x[i], chunk.y[i], chunk.z[i]},
-            chunk.scan_angle[i]);
-      }
+      for (std::size_t i = 0; i < chunk.size(); ++i)
+        add(chunk.point_source_id[i], chunk.gps_time[i], chunk, i);
     });
     return samples;
   }
   const Strip<PointLidar>& strip = *inputs_[file]->strip();
-  const std::size_t every = std::max<std::size_t>(1, strip.cloud->size() / size.points());
-  for (std::size_t i = 0; i < strip.cloud->size(); i += every) {
-    const PointLidar& point = (*strip.cloud)[i];
-    add(point.point_source_id, point.gps_time,
-        strip.frame.origin + point.getVector3fMap().cast<double>(), point.scan_angle);
+  // Runs of consecutive points, which hold all returns of their pulses.
+  const std::size_t every =
+      size.points_per_run * std::max<std::size_t>(1, strip.cloud->size() / size.points());
+  for (std::size_t run = 0; run < strip.cloud->size(); run += every) {
+    const std::size_t end = std::min(strip.cloud->size(), run + size.points_per_run);
+    for (std::size_t i = run; i < end; ++i) {
+      const PointLidar& point = (*strip.cloud)[i];
+      add(point.point_source_id, point.gps_time, strip, i);
+    }
   }
   return samples;
 }
@@ -130,8 +130,9 @@ void IntensityRun::checkTrajectory() {
   for (const std::string& strip : strips()) check.addStrip(strip);
   for (const std::vector<Sample>& of_file : samples) {
     for (const Sample& sample : of_file) {
-      check.add(sample.strip, sample.time, sample.point, sample.scan_angle);
-      check.addTime(sample.strip, sample.time);
+      check.add(sample.strip, sample.point.time, sample.point.position, sample.point.scan_angle);
+      check.addTime(sample.strip, sample.point.time);
+      check.addReturn(sample.strip, sample.point);
     }
   }
   warnings_ = check.check(settings_.force);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/las/las_rewriter.h>
@@ -68,7 +69,7 @@ PointClassCounts classifyPcd(const std::filesystem::path& input,
     PointLidar& point = (*strip.cloud)[i];
     auto& code = point.classification;
     if (found[i] == MaximumLikelihood::kNoClass || isNoise(code) ||
-        !used(point.point_source_id, point.gps_time))
+        !used(point.point_source_id, secondsOfTime(point.gps_time)))
       ++counts.unclassified;
     else
       code = codes[static_cast<std::size_t>(found[i])];
@@ -103,7 +104,7 @@ std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_
     if (found[i] == MaximumLikelihood::kNoClass ||
         isNoise(static_cast<std::uint8_t>(present & ~flags)) ||
         !used(loadLas<std::uint16_t>(record + layout.point_source_id),
-              layout.gps_time < 0 ? 0.0 : loadLas<double>(record + layout.gps_time)))
+              layout.gps_time < 0 ? 0.0 : secondsOfTime(loadLas<double>(record + layout.gps_time))))
       ++missed;
     else
       field = static_cast<std::byte>(flags | codes[static_cast<std::size_t>(found[i])]);

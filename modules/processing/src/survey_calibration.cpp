@@ -193,13 +193,21 @@ std::string setPriors(const SurveyCalibrationOptions& options, const SurveyReade
          describe(summary);
 }
 
-/// A reconstructed path is that of the origin of the pulses as it was assumed, and nothing is known
-/// of the heights and the positions that the points were computed with.
-void leaveOutUndeterminable(CalibrationSettings& settings) {
-  using P = SystemParameter;
-  for (const P p : {P::lever_arm_x, P::lever_arm_y, P::lever_arm_z, P::range_bias})
-    settings.undeterminable.emplace(
-        p, "the trajectory is reconstructed from the points and contains its effect");
+/// The standard deviation of the heights of a reconstructed path during the strips. The errors of
+/// the points are not those of the path: they are those of the trajectory that the points were
+/// computed with.
+double heightStd(const std::vector<TrajectoryAccuracy>& accuracy, const SurveyReader& survey) {
+  const std::vector<TimeRange> observed = survey.observedTimes();
+  double squares = 0.0, count = 0.0;
+  for (const TrajectoryAccuracy& at : accuracy) {
+    const bool used = std::any_of(observed.begin(), observed.end(), [&](const TimeRange& range) {
+      return at.time >= range.first && at.time <= range.last;
+    });
+    if (!used || !std::isfinite(at.position.z())) continue;
+    squares += at.position.z() * at.position.z();
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
 }  // namespace
@@ -221,7 +229,8 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   }
   CalibrationSettings settings = options.settings;
   settings.resolution = survey.resolution();
-  if (options.reconstructed) leaveOutUndeterminable(settings);
+  if (options.reconstructed)
+    settings.reconstructed_height_std = heightStd(options.path_accuracy, survey);
   progress.remark(setPriors(options, survey, settings.shared_errors));
   SystemCalibrationEngine calibration(flight, settings, survey.corner());
   calibration.setProcesses(survey.processes(), survey.stripShares());

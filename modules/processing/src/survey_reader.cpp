@@ -139,8 +139,9 @@ double SurveyReader::resolution() const {
 
 std::vector<std::string> SurveyReader::alignTimes(const Flight& flight) {
   std::vector<std::string> remarks;
-  times_.assign(files_.size(), {});
-  if (flight.trajectory == nullptr) return remarks;
+  const bool aligned = flight.trajectory != nullptr;
+  times_ = aligned ? std::vector<TimeAlignment>(files_.size()) : continuousTimes(files_);
+  if (!aligned) return remarks;
   const TimeRange flown{flight.trajectory->startTime(), flight.trajectory->endTime()};
   std::string objection;
   std::size_t met = 0;
@@ -237,23 +238,25 @@ void SurveyReader::passOn(int strip, const Run& run, const RunSink& sink) const 
 
 void SurveyReader::checkAnyLeft(const Flight& flight) const {
   if (!strips().empty()) return;
-  TimeRange range;
-  for (std::size_t file = 0; file < files_.size(); ++file) {
+  TimeRange range;  // of the first file with times, as it counts them
+  std::string remark;
+  for (std::size_t file = 0; file < files_.size() && range.empty(); ++file) {
     for (const PointSource& source : files_[file].sources.sources) {
       if (!source.hasTimes()) continue;
-      range.add(times_[file](source.first_time));
-      range.add(times_[file](source.last_time));
+      range.add(source.first_time);
+      range.add(source.last_time);
     }
+    if (!times_[file].remark.empty()) remark = " (" + times_[file].remark + ")";
   }
   if (flight.trajectory == nullptr || range.empty())
     throw InputError("no strip is left: all are excluded or have no times");
-  char text[200];
+  char text[600];
   std::snprintf(
       text, sizeof text,
-      "no strip is left: the points were measured at %.3f to %.3f s, the trajectory covers "
+      "no strip is left: the points were measured at %.3f to %.3f s%s, the trajectory covers "
       "%.3f to %.3f s%s: give the trajectory of this flight",
-      range.first, range.last, flight.trajectory->startTime(), flight.trajectory->endTime(),
-      flight.trajectory->gaps().empty() ? "" : " with gaps");
+      range.first, range.last, remark.c_str(), flight.trajectory->startTime(),
+      flight.trajectory->endTime(), flight.trajectory->gaps().empty() ? "" : " with gaps");
   throw InputError(text);
 }
 

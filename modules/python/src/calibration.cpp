@@ -176,7 +176,7 @@ std::shared_ptr<CalibrationResult> calibrate(
     options.control = controlOf(control), options.gps_week = gps_week;
     for (const std::string& text : references) options.references.push_back(openReference(text));
     options.reconstructed = flight.reconstructed();
-    if (!options.reconstructed) options.accuracy = flight.accuracy;
+    (options.reconstructed ? options.path_accuracy : options.accuracy) = flight.accuracy;
     SurveyCalibration made = calibrateSurvey(*survey, flight.trajectory, options, report);
     addInputs(trajectory, control, made.result.inputs);
     return std::make_shared<CalibrationResult>(std::move(made.result));

@@ -66,6 +66,8 @@ struct StripArrangement::Piece {
 StripArrangement::StripArrangement(const std::vector<SurveyedFile>& files,
                                    const StripChoice& choice, const FlownTimes& flown)
     : files_(files), flown_(flown) {
+  if (flown_.alignments.empty() && flown_.trajectory == nullptr)
+    flown_.alignments = continuousTimes(files);
   flown_.alignments.resize(files.size());
   const std::vector<Piece> all = pieces(choice);
   checkNames(choice, all);

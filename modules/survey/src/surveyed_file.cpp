@@ -4,7 +4,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
+#include <pcl_als/io/time_scale.h>
 #include <pcl_als/survey/surveyed_file.h>
 
 namespace pcl_als {
@@ -35,6 +37,17 @@ SurveyInput SurveyInput::ofFile(const std::filesystem::path& path, const PointWi
     return reader;
   };
   return input;
+}
+
+std::vector<TimeAlignment> continuousTimes(const std::vector<SurveyedFile>& files) {
+  std::vector<TimeRange> observed;
+  for (const SurveyedFile& file : files)
+    for (const auto& track : file.tracks)
+      for (const auto& entry : track.second.bins())
+        observed.push_back({entry.second.first, entry.second.last});
+  TimeAlignment alignment;
+  if (const auto rollover = weekRollover(std::move(observed))) alignment.wrap_below = *rollover;
+  return std::vector<TimeAlignment>(files.size(), alignment);
 }
 
 SurveyedFile surveyFile(const std::filesystem::path& path) {

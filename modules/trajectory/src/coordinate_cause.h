@@ -23,4 +23,8 @@ std::string coordinateCause(const Eigen::Vector3d& sensor, const Eigen::Vector3d
 /// seconds that the sensor needs for the distance: UTC against GPS time. Empty for other times.
 std::string timeCause(double seconds_ahead);
 
+// Undulations of a geoid above the ellipsoid are -107 to 86 m (EGM2008); smaller offsets than 5 m
+// have other causes as often.
+inline constexpr double kLeastUndulation = 5.0, kLargestUndulation = 110.0;
+
 }  // namespace pcl_als::detail

@@ -8,6 +8,8 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/height_check.h>
 
+#include "coordinate_cause.h"
+
 namespace pcl_als {
 namespace {
 
@@ -24,9 +26,6 @@ constexpr double kGross = 0.25;
 constexpr double kHalfLeast = 0.42, kHalfMost = 0.52, kTwiceLeast = 1.95, kTwiceMost = 2.4;
 // ratio of flying heights: errors of heights and of angles are separable
 constexpr double kTwoHeights = 1.3;
-// Undulations of a geoid above the ellipsoid are -107 to 86 m (EGM2008); smaller offsets than 5 m
-// have other causes as often.
-constexpr double kLeastUndulation = 5.0, kLargestUndulation = 110.0;
 
 bool isGross(double slope) {
   const bool half = slope > kHalfLeast && slope < kHalfMost;
@@ -37,8 +36,8 @@ bool isGross(double slope) {
 /// Whether an offset may be that between ellipsoidal heights and heights above a geoid.
 bool isUndulation(const HeightError& error) {
   const double metres = std::abs(error.metres);
-  return error.kind != HeightError::Kind::gross && metres > kLeastUndulation &&
-         metres < kLargestUndulation;
+  return error.kind != HeightError::Kind::gross && metres > detail::kLeastUndulation &&
+         metres < detail::kLargestUndulation;
 }
 
 }  // namespace

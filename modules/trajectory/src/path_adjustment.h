@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -67,6 +68,10 @@ class PathAdjustment {
 
   std::size_t rayCount() const { return rays_.size(); }
   bool hasAngles() const { return !angles_.empty(); }
+  /// Share of the rays that miss the path.
+  double missingShare() const;
+  /// Recorded angles against those of the path: rad, of the mean of a class.
+  double angleNoise() const { return std::sqrt(noise_); }
 
   /// The path from rays alone; false where the equations are singular.
   bool adjustRays();

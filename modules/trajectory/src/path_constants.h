@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstddef>
+
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als::detail {
@@ -52,5 +54,15 @@ inline constexpr double kNormHuber = 2.5;           // standard deviations of a 
 inline constexpr double kNormRejection = 5.0;
 inline constexpr double kPriorRays = 4.0;   // rays that the value at the start counts
 inline constexpr double kManyRays = 100.0;  // rays from which on it does not
+inline constexpr std::size_t kFewestRaysOfLine = 8;
+inline constexpr int kLineSteps = 30;          // of least absolute deviations
+inline constexpr double kRegularLine = 1e-12;  // 1, reciprocal condition of its equations
+inline constexpr double kBend = 2.0;           // m/s^2, acceleration beside it that is allowed for
+inline constexpr double kStraightTime = 5.0;   // s, of a pass that is compared with it
+inline constexpr double kBeyondLine = 3.0;     // standard deviations from it
+inline constexpr double kFastestFlight = 250.0;  // m/s, of aircraft that survey
+inline constexpr double kSteepestFlight = 50.0;  // m/s, climb
+inline constexpr double kMostMissing = 0.5;      // 1, share of the rays beside a path of angles
+inline constexpr double kMostAngleNoise = 1.0 * kRadiansPerDegree;  // rad, of recorded angles
 
 }  // namespace pcl_als::detail

@@ -29,6 +29,12 @@ std::vector<double> residualsByTime(const std::vector<AdjustedRay>& rays, double
 
 }  // namespace
 
+double PathAdjustment::missingShare() const {
+  const auto missing = std::count_if(rays_.begin(), rays_.end(),
+                                     [](const AdjustedRay& ray) { return !(ray.weight > 0.0); });
+  return rays_.empty() ? 0.0 : static_cast<double>(missing) / static_cast<double>(rays_.size());
+}
+
 void PathAdjustment::describe(ReconstructedPath& path) const {
   path.rays = rays_.size();
   forBins([&path](std::int64_t, const PathEvidence::Bin& bin) { path.points += bin.points; });

@@ -11,6 +11,7 @@
 
 #include "attitude_comparison.h"
 #include "coordinate_cause.h"
+#include "ray_offset.h"
 
 namespace pcl_als {
 namespace {
@@ -27,6 +28,10 @@ constexpr double kLongestStep = 1.0;  // seconds: of a strip with one time, whic
 constexpr double kCoarseRefused = 0.01, kCoarseSuspicious = 0.001;
 constexpr std::size_t kFewestHeadings = 50;
 constexpr double kLargestDatumShift = 1000.0;  // metres: most national datums against WGS 84
+
+// Shares of the height above ground. A trajectory that is displaced by one percent changes the
+// corrections of a calibration by as much; beyond three, intensities and incidence angles as well.
+constexpr double kDisplacedSuspicious = 0.01, kDisplacedRefused = 0.03;
 
 std::string metres(double value) {
   return std::to_string(std::lround(value)) + " m";
@@ -267,6 +272,26 @@ void TrajectoryPlausibility::checkOffset(std::vector<Finding>& findings) const {
                  ": give it in the coordinates of the points"});
 }
 
+void TrajectoryPlausibility::checkRays(std::vector<Finding>& findings) const {
+  for (const Strip& strip : strips_) {
+    if (!strip.used) continue;
+    const auto found = detail::rayOffset(strip.rays, *flight_);
+    if (!found || !found->exceeds(kDisplacedSuspicious)) continue;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "strip %s: the trajectory lies %ld m (east %ld, north %ld, up %ld) beside "
+                  "where its points were measured from, as the rays through several returns of a "
+                  "pulse show",
+                  strip.name.c_str(), std::lround(found->offset.norm()),
+                  std::lround(-found->offset.x()), std::lround(-found->offset.y()),
+                  std::lround(-found->offset.z()));
+    const std::string cause = found->cause();
+    findings.push_back({found->exceeds(kDisplacedRefused),
+                        {text + (cause.empty() ? "" : "; " + cause) + kRemedy}});
+    return;
+  }
+}
+
 HeightError TrajectoryPlausibility::heightOfStrips() const {
   std::vector<HeightCheck> strips;
   for (const Strip& strip : strips_) {
@@ -328,6 +353,16 @@ void TrajectoryPlausibility::checkRollAndPitch(std::vector<Finding>& findings) c
   if (!found.text.empty()) findings.push_back(ofAttitude(found.wrong, found.text));
 }
 
+void TrajectoryPlausibility::nameReconstructed(std::vector<Finding>& findings) {
+  const std::string given = "the trajectory", other = "the reconstructed trajectory";
+  for (Finding& finding : findings) {
+    std::string& text = finding.warning.text;
+    for (std::size_t at = text.find(given); at != std::string::npos;
+         at = text.find(given, at + other.size()))
+      text.replace(at, given.size(), other);
+  }
+}
+
 std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() const {
   std::vector<Finding> findings;
   checkStrips(findings);
@@ -338,6 +373,8 @@ std::vector<TrajectoryPlausibility::Finding> TrajectoryPlausibility::findings() 
   checkHeight(findings);
   if (clean) checkRollAndPitch(findings);
   if (findings.empty()) checkOffset(findings);
+  if (clean) checkRays(findings);
+  if (reconstructed_) nameReconstructed(findings);
   return findings;
 }
 

@@ -4,13 +4,18 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
+
+#include <Eigen/Dense>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 
 #include "path_adjustment.h"
 #include "path_constants.h"
+#include "straight_path.h"
 
 namespace pcl_als {
 namespace {
@@ -61,6 +66,36 @@ void trim(ReconstructedPath& path) {
                      path.samples.end());
   path.determined = static_cast<double>(path.samples.size()) / static_cast<double>(all);
   path.found = path.samples.size() > 1;
+}
+
+/// What a path deviates from the straight line through its rays by more than an aircraft bends is
+/// an error that the adjustment does not know of.
+void allowForStraightLine(const std::optional<detail::StraightPath>& line,
+                          ReconstructedPath& path) {
+  if (!line || path.times.last - path.times.first > detail::kStraightTime) return;
+  for (PathSample& sample : path.samples) {
+    const PathSample straight = line->at(sample.time);
+    const Eigen::Vector3d apart = sample.position - straight.position;
+    const Eigen::Matrix3d expected = sample.covariance + straight.covariance;
+    const double size = std::sqrt(apart.dot(expected.ldlt().solve(apart)));
+    if (size > detail::kBeyondLine) sample.covariance += apart * apart.transpose();
+  }
+}
+
+/// Why a sensor cannot have moved so; empty where it can. What is uncertain is no evidence.
+std::string whyImpossible(const ReconstructedPath& path) {
+  double speed = 0.0, climb = 0.0;
+  for (const PathSample& sample : path.samples) {
+    const Eigen::Vector3d std = sample.velocity_covariance.diagonal().cwiseSqrt();
+    speed = std::max(
+        speed, sample.velocity.head<2>().norm() - detail::kSignificant * std.head<2>().norm());
+    climb = std::max(climb, std::abs(sample.velocity.z()) - detail::kSignificant * std.z());
+  }
+  if (speed > detail::kFastestFlight)
+    return formatted("the sensor would move at %.0f m/s: its rays or scan angles are wrong", speed);
+  if (climb > detail::kSteepestFlight)
+    return formatted("the sensor would climb or sink at %.0f m/s: its rays are wrong", climb);
+  return {};
 }
 
 /// Why a strip has no evidence at all; empty where it has.
@@ -164,6 +199,47 @@ std::vector<ReconstructedPath> TrajectoryReconstruction::reconstruct() {
   return paths;
 }
 
+/// Recorded angles have systematic errors; they are used where rays are not sufficient, and rays
+/// that agree with each other are believed rather than angles that contradict them.
+bool TrajectoryReconstruction::adjust(const Strip& strip, const TimeRange& span,
+                                      ReconstructedPath& path) const {
+  PathAdjustment rays(strip.evidence, span, settings_);
+  const bool by_rays = rays.adjustRays();
+  if (by_rays) takeSamples(rays, settings_.interval, path);
+  const auto line = detail::straightPath(strip.evidence, span);
+  const double share = by_rays ? largestShare(path) : std::numeric_limits<double>::infinity();
+  if (share > detail::kRaysSuffice && rays.hasAngles()) {
+    PathAdjustment both = rays;
+    if (both.adjustWithAngles()) {
+      const bool contradicts = line && line->fitting > detail::kMostMissing &&
+                               both.missingShare() > detail::kMostMissing;
+      if (!contradicts && both.angleNoise() < detail::kMostAngleNoise) {
+        takeSamples(both, settings_.interval, path);
+        allowForStraightLine(line, path);
+        both.describe(path);
+        return true;
+      }
+      const std::string found =
+          contradicts ? formatted(
+                            "its rays and its recorded scan angles contradict each other: the "
+                            "sensor is %.0f m above ground by the rays, %.0f m by the angles",
+                            line->height, both.heightAboveGround())
+                      : formatted(
+                            "its recorded scan angles do not fit the positions of its points "
+                            "(%.1f degrees off)",
+                            both.angleNoise() / kRadiansPerDegree);
+      if (share > kLargestShare)
+        path.reason = found;
+      else
+        path.warnings.emplace_back("strip " + path.name + ": " + found + "; they are not used");
+    }
+  }
+  rays.describe(path);
+  if (!by_rays || !path.reason.empty()) return false;
+  allowForStraightLine(line, path);
+  return true;
+}
+
 ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip, const TimeRange& span,
                                                         bool first) const {
   ReconstructedPath path;
@@ -172,22 +248,15 @@ ReconstructedPath TrajectoryReconstruction::reconstruct(const Strip& strip, cons
   path.counts = strip.evidence.counts();
   path.reason = whyNone(path.counts);
   if (!path.reason.empty()) return path;
-  PathAdjustment adjustment(strip.evidence, span, settings_);
-  bool solved = adjustment.adjustRays();
-  if (solved) takeSamples(adjustment, settings_.interval, path);
-  // Recorded angles have systematic errors; they are used where rays are not sufficient.
-  if ((!solved || largestShare(path) > detail::kRaysSuffice) && adjustment.hasAngles()) {
-    if (adjustment.adjustWithAngles()) {
-      solved = true;
-      takeSamples(adjustment, settings_.interval, path);
-    }
-  }
-  adjustment.describe(path);
+  const bool solved = adjust(strip, span, path);
   if (solved) {
     allowForRounding(strip.evidence.times().step(), path);
     trim(path);
+    path.reason = whyImpossible(path);
+    path.found = path.found && path.reason.empty();
   }
-  if (!path.found)
+  if (!path.found) path.samples.clear();
+  if (!path.found && path.reason.empty())
     path.reason = solved ? formatted(
                                "the path is uncertain by more than %.0f %% of the height "
                                "above ground (%.0f m)",

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,9 +35,10 @@ struct ReferenceSurface {
 /// 500-3000 m height.
 struct CalibrationSettings {
   std::vector<SystemParameter> estimate;  ///< empty: all that the data determine
-  /// Parameters that the trajectory does not allow to determine, with the reason: not estimated;
-  /// the uncertainty of the others includes their possible size (DeterminationLimits::whenHeld()).
-  std::map<SystemParameter, std::string> undeterminable;
+  /// Of a trajectory that was reconstructed from the points: the standard deviation of its heights,
+  /// metres. The standard deviations of the parameters include it, and nothing advises to examine a
+  /// trajectory that nobody gave.
+  std::optional<double> reconstructed_height_std;
   /// Systems with parameters of their own; strips that no group names are of the first one. Empty:
   /// one system. UsageError from the engine for a strip that does not exist or is in two groups.
   std::vector<StripGroup> systems;

@@ -29,6 +29,7 @@ class CalibrationReport;
 struct ComparedValues;
 struct FieldPair;
 struct OverlappingPair;
+struct PriorEffect;
 
 /// A strip as measured.
 struct FlownStrip {
@@ -291,6 +292,9 @@ class SystemCalibrationEngine {
   void addFarPairs(State& state);
   /// Adds the residuals of control, and the parameters that depend on contradictory control.
   void assessControl(State& state, const SharedErrors& errors, CalibrationResult& result) const;
+  /// Adds warnings and the verdict. \param not_converged why the iteration did not converge
+  void judge(State& state, const SharedErrors& errors, const std::vector<PriorEffect>& effects,
+             const std::string& not_converged, CalibrationResult& result) const;
   /// Adds the parameters that differ between halves of the block.
   void assessParts(const State& state, CalibrationResult& result) const;
 

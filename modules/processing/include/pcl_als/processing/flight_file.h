@@ -51,4 +51,9 @@ FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
                       const FlightFileOptions& options = {});
 FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options = {});
 
+/// A trajectory whose samples were screened (screenTrajectory()), as it is used. \a name: for
+/// messages.
+FlightFile flightOf(TrajectoryFile file, const std::string& name,
+                    const FlightFileOptions& options = {});
+
 }  // namespace pcl_als

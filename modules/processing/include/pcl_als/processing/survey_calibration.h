@@ -34,6 +34,9 @@ struct SurveyCalibrationOptions {
   std::vector<TrajectoryAccuracy> accuracy;
   /// The trajectory is one of reconstructFlight(): lever arm and range bias are not determined.
   bool reconstructed = false;
+  /// Of a reconstructed trajectory: standard deviations of its own, which are not those of the
+  /// errors that the points have.
+  std::vector<TrajectoryAccuracy> path_accuracy;
   bool keep_position = false, keep_roll_pitch = false, keep_heading = false;
 };
 

@@ -10,6 +10,7 @@
 
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/point_fields.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/local_point_reader.h>
 #include <pcl_als/survey/survey_input.h>
 
@@ -59,7 +60,7 @@ class CloudReader : public LocalPointReader {
     chunk.x[row] = static_cast<double>(fields.point.x);
     chunk.y[row] = static_cast<double>(fields.point.y);
     chunk.z[row] = static_cast<double>(fields.point.z);
-    chunk.gps_time[row] = fields.gpsTime();
+    chunk.gps_time[row] = secondsOfTime(fields.gpsTime());
     chunk.intensity[row] = fields.intensity();
     chunk.scan_angle[row] = fields.scanAngle();
     chunk.point_source_id[row] = 0;

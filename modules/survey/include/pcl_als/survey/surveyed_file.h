@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/survey/survey_input.h>
@@ -28,5 +29,9 @@ struct SurveyedFile {
 /// Reads a file once; memory: see SwathTrack. InputError for a file that cannot be read.
 SurveyedFile surveyFile(const std::filesystem::path& path);
 SurveyedFile surveyFile(const SurveyInput& input);
+
+/// Times that go on where a flight passed the end of a GPS week: of each file, seconds of the week
+/// after it as seconds beyond 604800. For jobs without a trajectory.
+std::vector<TimeAlignment> continuousTimes(const std::vector<SurveyedFile>& files);
 
 }  // namespace pcl_als

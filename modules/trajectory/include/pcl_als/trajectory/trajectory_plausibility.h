@@ -18,6 +18,7 @@
 #include <pcl_als/trajectory/attitude_recovery.h>
 #include <pcl_als/trajectory/heading_check.h>
 #include <pcl_als/trajectory/height_check.h>
+#include <pcl_als/trajectory/path_evidence.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {
@@ -31,7 +32,8 @@ namespace pcl_als {
  * directions. The heading is compared with the course, pitch with the planes of the pulses, and
  * roll with the edges of the swath and with recorded scan angles, where these are mirror angles;
  * without changes of pitch and roll these are not assessed. The height is compared with the one
- * that recorded scan angles imply. With times of coarse steps the firing point is uncertain by the
+ * that recorded scan angles imply, and the trajectory with the rays through several returns of a
+ * pulse, which pass through it. With times of coarse steps the firing point is uncertain by the
  * distance flown in a step.
  *
  * Some points of every strip are sufficient (one in a hundred). Points at times outside the
@@ -57,6 +59,14 @@ class TrajectoryPlausibility {
   /// \a scan_angle as recorded, degrees; NaN: none
   void add(int strip, double time, const Eigen::Vector3d& point,
            double scan_angle = std::numeric_limits<double>::quiet_NaN());
+  /// A return of a run of consecutive ones: the rays through several returns of a pulse show where
+  /// the points were measured from. Beside add(), which needs single points only.
+  void addReturn(int strip, const LidarReturn& point) {
+    strips_[static_cast<std::size_t>(strip)].rays.add(point);
+  }
+  /// The trajectory was reconstructed from points: findings are of it, and not of one that a user
+  /// gave.
+  void nameReconstructed() { reconstructed_ = true; }
   /// Every so many of \a count points from \a duration seconds are sufficient for add(): roll is
   /// seen at the edges of the swath, for which points of each tenth of a second are needed.
   std::size_t spacing(std::size_t count, double duration) const;
@@ -126,6 +136,7 @@ class TrajectoryPlausibility {
     std::size_t path_cursor = 0;
     HeadingCheck heading;
     HeightCheck angles;
+    PathEvidence rays;
     std::optional<AttitudeRecovery> recovery;  ///< where the trajectory's attitude is used
   };
   /// Mean position of the points of a strip relative to the sensor.
@@ -143,9 +154,11 @@ class TrajectoryPlausibility {
   void checkStrips(std::vector<Finding>& findings) const;
   void checkTimes(std::vector<Finding>& findings) const;
   void checkOffset(std::vector<Finding>& findings) const;
+  void checkRays(std::vector<Finding>& findings) const;
   void checkHeight(std::vector<Finding>& findings) const;
   void checkHeading(std::vector<Finding>& findings) const;
   void checkRollAndPitch(std::vector<Finding>& findings) const;
+  static void nameReconstructed(std::vector<Finding>& findings);
   Finding ofAttitude(bool wrong, const std::string& text) const;
   HeightError heightOfStrips() const;
   Eigen::Vector2d offset(const std::vector<View>& views) const;
@@ -153,6 +166,7 @@ class TrajectoryPlausibility {
   std::shared_ptr<const Trajectory> flight_;
   std::shared_ptr<const Trajectory> path_;  ///< without attitude; null where none is compared
   Attitude attitude_;
+  bool reconstructed_ = false;
   std::deque<Strip> strips_;
 };
 

@@ -83,6 +83,12 @@ struct ReconstructedPath {
  * Strips that were measured at the same times (tiles with ids of their own, channels) have one
  * path; a strip has several where its times have gaps of more than kGap.
  *
+ * What contradicts itself is no path: where rays and recorded scan angles show different heights
+ * and the rays alone do not determine the path, where the angles do not fit the positions of the
+ * points, or where the sensor would move faster than an aircraft. Of a pass of a few seconds the
+ * straight line at constant speed through the rays is the measure: what the path deviates from it
+ * by more than an aircraft bends is added to the covariance.
+ *
  * The path is that of the origin of the pulses: it includes the lever arm, assumed as in the
  * computation of the points.
  * \code
@@ -119,6 +125,7 @@ class TrajectoryReconstruction {
     std::vector<std::string> joined;  ///< names of strips with the same times
   };
   void joinSimultaneous();
+  bool adjust(const Strip& strip, const TimeRange& span, ReconstructedPath& path) const;
   ReconstructedPath reconstruct(const Strip& strip, const TimeRange& span, bool first) const;
 
   Settings settings_;
