@@ -56,6 +56,44 @@ TEST(StripArrangement, ChoosesStripsByName) {
   EXPECT_EQ(left[0].points, 800U);
 }
 
+TEST(StripArrangement, DividesAStripThatIsCertainlySeveralLines) {
+  const auto files = block(4, 4, 4);
+  EXPECT_EQ(StripArrangement(files, {}, {}).names(), (Names{"4"}));
+  StripChoice choice;
+  choice.divide_lines = true;
+  const StripArrangement arrangement(files, choice, {});
+  EXPECT_EQ(arrangement.names(), (Names{"4.1", "4.2", "4.3"}));
+  ASSERT_EQ(arrangement.divisions().size(), 1U);
+  EXPECT_EQ(arrangement.divisions()[0],
+            "strip 4 holds 3 flight lines, which lead back and forth, and is divided into 4.1, "
+            "4.2, 4.3");
+  // The number names all of its lines, that of a line only this one.
+  choice.only = {"4"};
+  EXPECT_EQ(StripArrangement(files, choice, {}).names(), (Names{"4.1", "4.2", "4.3"}));
+  choice.without = {"4.2"};
+  EXPECT_EQ(StripArrangement(files, choice, {}).names(), (Names{"4.1", "4.3"}));
+  // Strips with a line each are left as they are.
+  choice = {};
+  choice.divide_lines = true;
+  const auto strips = block(1, 2, 3);
+  const StripArrangement single(strips, choice, {});
+  EXPECT_EQ(single.names(), (Names{"1", "2", "3"}));
+  EXPECT_TRUE(single.divisions().empty());
+}
+
+TEST(StripArrangement, StripsOfOnePassHaveTheSameTimes) {
+  PointChunk chunk;
+  test::scan(chunk, 1, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 120.0);
+  test::scan(chunk, 2, test::straight({0.0, 0.0}, 0.0, 100.0), 104.0, 116.0);
+  test::scan(chunk, 3, test::straight({0.0, 1500.0}, 180.0, 119.0), 119.0, 140.0);
+  const std::vector<SurveyedFile> files{test::surveyed("pass.las", chunk)};
+  const StripArrangement arrangement(files, {}, {});
+  EXPECT_TRUE(arrangement.areOfOnePass(0, 1));
+  EXPECT_TRUE(arrangement.areOfOnePass(1, 0));
+  EXPECT_FALSE(arrangement.areOfOnePass(0, 2)) << "one second of twenty";
+  EXPECT_FALSE(arrangement.areOfOnePass(1, 2));
+}
+
 TEST(StripArrangement, SplitsThroughTheEndOfAWeekAsAtOtherTimes) {
   PointChunk chunk;
   test::scan(chunk, 0, test::straight({0.0, 0.0}, 0.0, 604796.0), 604796.0, 604804.0);

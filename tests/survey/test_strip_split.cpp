@@ -203,6 +203,51 @@ TEST(StripSplit, OrderAndFilesChangeNothing) {
   }
 }
 
+bool leadsBack(const PointChunk& chunk) {
+  const SwathTrack track = trackOf(chunk);
+  return leadBack(track, splitTrack(track, nullptr));
+}
+
+TEST(LeadBack, LinesFlownBackAndForthAre) {
+  PointChunk chunk;
+  test::scan(chunk, 5, lineTurnLine(), 100.0, 170.0);
+  EXPECT_TRUE(leadsBack(chunk));
+  PointChunk apart;  // two lines without the turn between
+  test::scan(apart, 5, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 120.0);
+  test::scan(apart, 5, test::straight({200.0, 1200.0}, 180.0, 300.0), 300.0, 320.0);
+  EXPECT_TRUE(leadsBack(apart));
+}
+
+TEST(LeadBack, TheSameLineFlownTwiceIs) {
+  PointChunk chunk;
+  test::scan(chunk, 5, test::straight({0.0, 0.0}, 30.0, 100.0), 100.0, 115.0);
+  test::scan(chunk, 5, test::straight({0.0, 0.0}, 30.0, 600.0), 600.0, 615.0);
+  EXPECT_TRUE(leadsBack(chunk));
+}
+
+TEST(LeadBack, ALineThatContinuesIsNot) {
+  PointChunk lake;  // 40 s without points
+  test::scan(lake, 5, test::straight({0.0, 0.0}, 0.0, 100.0), 100.0, 115.0);
+  test::scan(lake, 5, test::straight({0.0, 3300.0}, 5.0, 155.0), 155.0, 170.0);
+  EXPECT_FALSE(leadsBack(lake));
+  PointChunk bend;  // a turn of 100 degrees in 20 s
+  test::scan(bend, 5, byVelocity([](double t) {
+               return velocity(40.0, 5.0 * std::clamp(t - 130.0, 0.0, 20.0));
+             }),
+             100.0, 190.0);
+  EXPECT_FALSE(leadsBack(bend));
+}
+
+TEST(LeadBack, APlatformThatMostlyHoversHasNoCertainLines) {
+  PointChunk chunk;
+  test::scan(chunk, 5, byVelocity([](double t) {
+               const bool out = t > 160.0 && t<168.0, back = t> 240.0 && t < 248.0;
+               return velocity(out || back ? 6.0 : 0.0, back ? 180.0 : 0.0);
+             }),
+             100.0, 320.0);
+  EXPECT_FALSE(leadsBack(chunk));
+}
+
 TEST(SwathTrack, MemoryIsBounded) {
   SwathTrack track;
   PointChunk chunk;

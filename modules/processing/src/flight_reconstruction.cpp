@@ -101,7 +101,9 @@ ReconstructedFlight reconstructFlight(SurveyReader& survey, const Reconstruction
   const UnchangedInputs unchanged;
   ProgressReport progress(callback);
   const ReadingProgress reading(survey, progress);
-  for (const std::string& text : survey.choose(options.strips, {nullptr, std::nullopt, false}))
+  StripChoice strips = options.strips;
+  strips.divide_lines = true;
+  for (const std::string& text : survey.choose(strips, {nullptr, std::nullopt, false}))
     progress.remark(text);
   TrajectoryReconstruction reconstruction(options.settings);
   progress.begin("Collecting rays and scan angles");

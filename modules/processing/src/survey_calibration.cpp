@@ -223,8 +223,9 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   const UnchangedInputs unchanged;
   ProgressReport progress(sharedProgress(survey.processes(), callback));
   const ReadingProgress reading(survey, progress);
-  for (const std::string& text :
-       survey.choose(options.strips, {flight.get(), options.gps_week, true})) {
+  StripChoice strips = options.strips;
+  strips.divide_lines = true;
+  for (const std::string& text : survey.choose(strips, {flight.get(), options.gps_week, true})) {
     progress.remark(text);
   }
   CalibrationSettings settings = options.settings;

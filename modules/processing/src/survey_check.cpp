@@ -78,9 +78,11 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
   const UnchangedInputs unchanged;
   ProgressReport progress(sharedProgress(survey.processes(), callback));
   const ReadingProgress reading(survey, progress);
+  StripChoice strips = options.strips;
+  strips.divide_lines = true;
   // The trajectory serves for scan angles only: points that it does not cover are compared, too.
   for (const std::string& text :
-       survey.choose(options.strips, {trajectory.get(), options.gps_week, false})) {
+       survey.choose(strips, {trajectory.get(), options.gps_week, false})) {
     progress.remark(text);
   }
   BlockCheck check(survey, options.settings, trajectory);

@@ -137,11 +137,10 @@ double SurveyReader::resolution() const {
   return std::clamp(finest, 1e-4, 0.01);
 }
 
-std::vector<std::string> SurveyReader::alignTimes(const Flight& flight) {
-  std::vector<std::string> remarks;
-  const bool aligned = flight.trajectory != nullptr;
-  times_ = aligned ? std::vector<TimeAlignment>(files_.size()) : continuousTimes(files_);
-  if (!aligned) return remarks;
+void SurveyReader::alignTimes(const Flight& flight, std::vector<std::string>& remarks) {
+  times_ = continuousTimes(files_);
+  if (flight.trajectory == nullptr) return;
+  times_.assign(files_.size(), {});
   const TimeRange flown{flight.trajectory->startTime(), flight.trajectory->endTime()};
   std::string objection;
   std::size_t met = 0;
@@ -174,13 +173,14 @@ std::vector<std::string> SurveyReader::alignTimes(const Flight& flight) {
   }
   if (met == 0) throw InputError(objection);
   if (!objection.empty()) remarks.push_back(objection);
-  return remarks;
 }
 
 std::vector<std::string> SurveyReader::choose(const StripChoice& choice, const Flight& flight) {
-  std::vector<std::string> remarks = alignTimes(flight);
+  std::vector<std::string> remarks;
+  alignTimes(flight, remarks);
   arrangement_.emplace(files_, choice, FlownTimes{flight.trajectory, times_, flight.needed});
   left_out_.clear();
+  for (const std::string& text : arrangement_->divisions()) remarks.push_back(text);
   divide(choice.by_channel);
   checkAnyLeft(flight);
   return remarks;

@@ -2,11 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/listed_names.h>
 #include <pcl_als/survey/strip_arrangement.h>
-#include <pcl_als/survey/strip_split.h>
 
 namespace pcl_als {
 namespace {
@@ -59,6 +60,8 @@ std::vector<bool> chosenStrips(const StripChoice& choice, const std::vector<std:
 struct StripArrangement::Piece {
   std::string name;
   std::vector<Key> keys;
+  std::string whole;      ///< the strip that it is a line of
+  bool is_given = false;  ///< the name is that of an input
   double from = -kInfinity, until = kInfinity;
   std::optional<LeftOutReason> between;  ///< lines: why it is none
 };
@@ -81,23 +84,24 @@ SwathTrack StripArrangement::trackOf(const std::vector<Key>& keys) const {
   return track;
 }
 
-void StripArrangement::splitPool(std::uint16_t id, const std::vector<Key>& keys,
-                                 std::vector<Piece>& found) const {
-  const std::vector<TimeStretch> stretches = splitTrack(trackOf(keys), flown_.trajectory);
+/// \param strip its number or name; "0": lines have no strip
+void StripArrangement::addLines(const std::string& strip, const std::vector<TimeStretch>& stretches,
+                                const std::vector<Key>& keys, std::vector<Piece>& found) {
   const auto lines = std::count_if(stretches.begin(), stretches.end(),
                                    [](const TimeStretch& stretch) { return stretch.isLine(); });
-  const std::string number = std::to_string(id);
+  const bool nameless = strip == "0";
   int line = 0;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     Piece piece;
     piece.keys = keys;
+    piece.whole = strip;
     piece.between = stretches[i].left_out;
     if (piece.between) {
       const bool hovering = piece.between == LeftOutReason::hovering;
-      piece.name = (id == 0 ? "" : number + ".") + (hovering ? "hovering" : "turns");
+      piece.name = (nameless ? "" : strip + ".") + (hovering ? "hovering" : "turns");
     } else {
       const std::string place = std::to_string(++line);
-      piece.name = id == 0 ? "line" + place : lines == 1 ? number : number + "." + place;
+      piece.name = nameless ? "line" + place : lines == 1 ? strip : strip + "." + place;
     }
     if (i > 0) piece.from = stretches[i].from;
     if (i + 1 < stretches.size()) piece.until = stretches[i + 1].from;
@@ -105,11 +109,28 @@ void StripArrangement::splitPool(std::uint16_t id, const std::vector<Key>& keys,
   }
 }
 
-std::vector<StripArrangement::Piece> StripArrangement::pieces(const StripChoice& choice) const {
+/// Adds the lines of a strip that is certainly several of them.
+bool StripArrangement::divide(const Piece& strip, std::vector<Piece>& found) {
+  const SwathTrack track = trackOf(strip.keys);
+  if (track.empty()) return false;
+  const std::vector<TimeStretch> stretches = splitTrack(track, flown_.trajectory);
+  if (!leadBack(track, stretches)) return false;
+  const std::size_t first = found.size();
+  addLines(strip.name, stretches, strip.keys, found);
+  std::vector<std::string> names;
+  for (std::size_t i = first; i < found.size(); ++i)
+    if (!found[i].between) names.push_back(found[i].name);
+  divisions_.push_back("strip " + strip.name + " holds " + std::to_string(names.size()) +
+                       " flight lines, which lead back and forth, and is divided into " +
+                       listedNames(names));
+  return true;
+}
+
+std::vector<StripArrangement::Piece> StripArrangement::pieces(const StripChoice& choice) {
   std::vector<PointFileSources> sources;
   for (const SurveyedFile& file : files_) sources.push_back(file.sources);
   const StripNaming naming(sources);
-  std::vector<Piece> found;
+  std::vector<Piece> named, found;
   std::map<std::uint16_t, std::vector<Key>> pools;
   std::map<std::string, std::size_t> place;
   for (std::size_t file = 0; file < files_.size(); ++file) {
@@ -120,25 +141,40 @@ std::vector<StripArrangement::Piece> StripArrangement::pieces(const StripChoice&
         continue;
       }
       const std::string& name = given.empty() ? naming.nameOf(file, source.id) : given;
-      const auto [known, added] = place.try_emplace(name, found.size());
+      const auto [known, added] = place.try_emplace(name, named.size());
       if (added) {
-        found.emplace_back();
-        found.back().name = name;
+        named.emplace_back();
+        named.back().name = named.back().whole = name;
+        named.back().is_given = !given.empty();
       }
-      found[known->second].keys.emplace_back(file, source.id);
+      named[known->second].keys.emplace_back(file, source.id);
     }
   }
-  for (const auto& [id, keys] : pools) splitPool(id, keys, found);
+  for (const Piece& strip : named)
+    if (!choice.divide_lines || choice.split || strip.is_given || !divide(strip, found))
+      found.push_back(strip);
+  for (const auto& [id, keys] : pools)
+    addLines(std::to_string(id), splitTrack(trackOf(keys), flown_.trajectory), keys, found);
   return found;
 }
 
 void StripArrangement::checkNames(const StripChoice& choice, const std::vector<Piece>& all) {
   std::vector<std::string> strips;
   for (const Piece& piece : all) {
-    if (!piece.between) strips.push_back(piece.name);
+    if (piece.between) continue;
+    strips.push_back(piece.name);
+    if (choice.divide_lines && !contains(strips, piece.whole)) strips.push_back(piece.whole);
   }
   for (const std::string& name : choice.only) stripNamed(strips, name, "strips");
   for (const std::string& name : choice.without) stripNamed(strips, name, "without");
+}
+
+bool StripArrangement::areOfOnePass(std::size_t a, std::size_t b) const {
+  const std::vector<std::int64_t>&one = seconds_[a], &other = seconds_[b];
+  std::vector<std::int64_t> common;
+  std::set_intersection(one.begin(), one.end(), other.begin(), other.end(),
+                        std::back_inserter(common));
+  return !common.empty() && 2 * common.size() >= std::min(one.size(), other.size());
 }
 
 std::size_t StripArrangement::labelFor(const std::string& strip,
@@ -150,6 +186,7 @@ std::size_t StripArrangement::labelFor(const std::string& strip,
     if (found == names_.end()) {
       names_.push_back(strip);
       expected_.push_back(0);
+      seconds_.emplace_back();
     }
   }
   for (std::size_t i = 0; i < labels_.size(); ++i) {
@@ -207,8 +244,11 @@ std::optional<LeftOutReason> StripArrangement::whyNone(const Piece& piece,
                                                        std::uint64_t& covered) const {
   const double share = coveredShare(piece, covered);
   if (piece.between) return piece.between;
-  const bool chosen = choice.only.empty() || contains(choice.only, piece.name);
-  if (!chosen || contains(choice.without, piece.name)) return LeftOutReason::excluded;
+  const auto names = [&piece, &choice](const std::vector<std::string>& list) {
+    return contains(list, piece.name) || (choice.divide_lines && contains(list, piece.whole));
+  };
+  if ((!choice.only.empty() && !names(choice.only)) || names(choice.without))
+    return LeftOutReason::excluded;
   const bool timeless = std::all_of(piece.keys.begin(), piece.keys.end(), [&](const Key& key) {
     return losesTimeless(key, choice) && files_[key.first].tracks.at(key.second).empty();
   });
@@ -232,7 +272,17 @@ void StripArrangement::arrange(const Piece& piece, const StripChoice& choice) {
     for (const PointSource& source : files_[key.first].sources.sources)
       if (source.id == key.second && !loses) covered += source.without_time;
   }
-  if (!whole) expected_[stripNamed(names_, piece.name, "")] += covered;
+  if (whole) return;
+  const std::size_t strip = stripNamed(names_, piece.name, "");
+  expected_[strip] += covered;
+  const SwathTrack track = trackOf(piece.keys);
+  std::vector<std::int64_t>& seconds = seconds_[strip];
+  for (const auto& entry : track.bins()) {
+    const SwathTrack::Bin& bin = entry.second;
+    if (bin.first < piece.from || bin.first >= piece.until) continue;
+    const auto second = static_cast<std::int64_t>(std::floor(bin.middle()));
+    if (seconds.empty() || seconds.back() != second) seconds.push_back(second);
+  }
 }
 
 std::vector<int> StripArrangement::stripsOf(std::size_t file, std::uint16_t id) const {

@@ -32,7 +32,9 @@ constexpr double kSlow = 0.5;      // speed over the typical one around it: brak
 constexpr double kAround = 60.0;   // s of the speed to which braking and starting refer
 constexpr double kShortWay = 0.5;  // way of a passage over that of the lines that it joins
 constexpr double kOpposite = 135.0 * kRadiansPerDegree;  // between lines that a passage joins
-constexpr double kAcross = 45.0 * kRadiansPerDegree;     // between these and the passage
+constexpr double kEndOfLine = 4.0;  // s at an end of a line that show its course there
+constexpr double kBehind = 0.5;     // cosine: more than 120 degrees from ahead
+constexpr double kAcross = 45.0 * kRadiansPerDegree;  // between these and the passage
 
 /// Divides the bins of one track.
 class Division {
@@ -241,7 +243,64 @@ std::vector<TimeStretch> Division::stretches() const {
   return found;
 }
 
+/// Where a line begins and ends, and its courses there.
+struct LineEnds {
+  Vector2d start, end, first_course, last_course;
+};
+
+Vector2d meanOf(const Bins& bins, std::size_t from, std::size_t to) {
+  Vector2d sum = Vector2d::Zero();
+  for (std::size_t i = from; i < to; ++i) sum += bins[i].mean();
+  return sum / static_cast<double>(to - from);
+}
+
+/// Empty for lines that are too short for a course.
+std::optional<LineEnds> endsOf(const Bins& all, const TimeStretch& line) {
+  Bins bins;
+  for (const SwathTrack::Bin& bin : all)
+    if (bin.placed > 0 && bin.first >= line.from && bin.last <= line.to) bins.push_back(bin);
+  const std::size_t count = bins.size();
+  if (count < 4) return std::nullopt;
+  std::size_t head = 1, tail = count - 1;
+  while (head + 1 < count && bins[head].last < bins.front().first + kEndOfLine) ++head;
+  while (tail > 1 && bins[tail].first > bins.back().last - kEndOfLine) --tail;
+  const std::size_t a = std::max<std::size_t>(1, head / 2);
+  const std::size_t b = std::min(count - 1, tail + (count - tail) / 2);
+  return LineEnds{bins.front().mean(), bins.back().mean(),
+                  meanOf(bins, a, head + 1) - meanOf(bins, 0, a),
+                  meanOf(bins, b, count) - meanOf(bins, tail - 1, b)};
+}
+
+bool leadsBack(const LineEnds& before, const LineEnds& after) {
+  const Vector2d gap = after.start - before.end;
+  return std::abs(turned(before.last_course, after.first_course)) > kOpposite ||
+         gap.dot(before.last_course) < -kBehind * gap.norm() * before.last_course.norm();
+}
+
 }  // namespace
+
+bool leadBack(const SwathTrack& track, const std::vector<TimeStretch>& stretches) {
+  Bins bins;
+  std::uint64_t in_lines = 0;
+  for (const auto& entry : track.bins()) {
+    bins.push_back(entry.second);
+    const double time = entry.second.middle();
+    if (std::any_of(stretches.begin(), stretches.end(), [&](const TimeStretch& one) {
+          return one.isLine() && time >= one.from && time <= one.to;
+        }))
+      in_lines += entry.second.points;
+  }
+  if (2 * in_lines < track.pointCount()) return false;
+  std::optional<LineEnds> before;
+  for (const TimeStretch& stretch : stretches) {
+    if (!stretch.isLine()) continue;
+    const std::optional<LineEnds> line = endsOf(bins, stretch);
+    if (!line) continue;
+    if (before && leadsBack(*before, *line)) return true;
+    before = line;
+  }
+  return false;
+}
 
 std::vector<TimeStretch> splitTrack(const SwathTrack& track, const Trajectory* flight) {
   Bins bins;

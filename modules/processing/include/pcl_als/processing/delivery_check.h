@@ -125,6 +125,7 @@ class BlockCheck {
                       std::size_t& cursor) const;
   void compareWithFlight(int strip, const std::vector<LidarReturn>& points);
   void checkTrajectory();
+  void chooseOverlaps();
   void findRoughness();
   void measureAreas();
   void measureControl(CheckedBlock& block);

@@ -71,6 +71,12 @@ class SurveyReader {
   std::vector<std::string> choose(const StripChoice& choice, const Flight& flight);
 
   const std::vector<std::string>& strips() const { return strips_; }
+  /// Whether two strips were measured in one pass, as of scanners with numbers of their own; not so
+  /// where strips are divided by channel, because these are to be compared.
+  bool areOfOnePass(int a, int b) const {
+    return channels_.empty() &&
+           arrangement_->areOfOnePass(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+  }
   /// The field that divides strips by the channel of the scanner (PointWindow::channel_field);
   /// empty where they are not divided.
   std::string channelField() const;
@@ -129,7 +135,7 @@ class SurveyReader {
   /// Reads some groups of files and counts points by group and label.
   void readGroups(const Groups& groups, const std::vector<std::size_t>& chosen, const RunSink& sink,
                   std::vector<std::vector<std::uint64_t>>& counts) const;
-  std::vector<std::string> alignTimes(const Flight& flight);
+  void alignTimes(const Flight& flight, std::vector<std::string>& remarks);
   void checkAnyLeft(const Flight& flight) const;
   /// Sets names, expected points and channels of the strips.
   void divide(bool by_channel);

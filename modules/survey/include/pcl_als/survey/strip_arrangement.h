@@ -12,6 +12,7 @@
 
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/time_alignment.h>
+#include <pcl_als/survey/strip_split.h>
 #include <pcl_als/survey/surveyed_file.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -22,6 +23,9 @@ struct StripChoice {
   std::vector<std::string> only;     ///< names of the strips that are used; empty: all
   std::vector<std::string> without;  ///< names of strips to leave out
   bool split = false;                ///< cut into flight lines by splitTrack()
+  /// Without split: cut strips that are certainly several flight lines (leadBack()), as they are
+  /// compared with others and not with themselves.
+  bool divide_lines = false;
   /// Without split: keep points of GPS time 0 in files that have times.
   bool keep_timeless = false;
   /// The channels of the scanner in a strip are strips of their own: 3.ch0, 3.ch1 (SurveyReader).
@@ -50,7 +54,9 @@ struct FlownTimes {
  * Without StripChoice::split, strips are those that the inputs name, else those of StripNaming.
  * With it, points of one point source id in all files are divided into stretches by splitTrack():
  * those of id 0 are named line1, line2, … in order of time, those of another id by the number where
- * there is one stretch, else 7.1, 7.2, …; files whose points have no times are not divided.
+ * there is one stretch, else 7.1, 7.2, …; files whose points have no times are not divided. With
+ * StripChoice::divide_lines the same is done with single strips, whose names choose all of their
+ * lines.
  *
  * Left out are strips that were not chosen, points between lines (with split), points of GPS time 0
  * in a file that has times, and, where a trajectory is needed, points that it does not cover; a
@@ -77,6 +83,11 @@ class StripArrangement {
   std::size_t fileCount() const { return files_.size(); }
   /// The strips in use, in order of first appearance (with split: of id and time).
   const std::vector<std::string>& names() const { return names_; }
+  /// What was divided although nobody asked for it, in a sentence for each strip.
+  const std::vector<std::string>& divisions() const { return divisions_; }
+  /// Whether two strips in use were measured in one pass: at least half of the seconds of one are
+  /// also those of the other, as of scanners or tiles with ids of their own.
+  bool areOfOnePass(std::size_t a, std::size_t b) const;
   /// Approximate number of points of each strip in use (bins on the border of the trajectory count
   /// as a whole).
   const std::vector<std::uint64_t>& expectedPoints() const { return expected_; }
@@ -116,9 +127,11 @@ class StripArrangement {
  private:
   struct Piece;
 
-  std::vector<Piece> pieces(const StripChoice& choice) const;
+  std::vector<Piece> pieces(const StripChoice& choice);
   SwathTrack trackOf(const std::vector<Key>& keys) const;
-  void splitPool(std::uint16_t id, const std::vector<Key>& keys, std::vector<Piece>& found) const;
+  static void addLines(const std::string& strip, const std::vector<TimeStretch>& stretches,
+                       const std::vector<Key>& keys, std::vector<Piece>& found);
+  bool divide(const Piece& strip, std::vector<Piece>& found);
   static void checkNames(const StripChoice& choice, const std::vector<Piece>& all);
   void arrange(const Piece& piece, const StripChoice& choice);
   std::optional<LeftOutReason> whyNone(const Piece& piece, const StripChoice& choice,
@@ -133,6 +146,8 @@ class StripArrangement {
   TimeAlignment identity_;
   std::vector<std::string> names_;
   std::vector<std::uint64_t> expected_;
+  std::vector<std::vector<std::int64_t>> seconds_;  ///< by strip in use: whole ones with points
+  std::vector<std::string> divisions_;
   std::vector<Label> labels_;
   std::map<Key, Table> tables_;
 };

@@ -44,4 +44,14 @@ struct TimeStretch {
  */
 std::vector<TimeStretch> splitTrack(const SwathTrack& track, const Trajectory* flight);
 
+/** \brief Whether stretches of splitTrack() are certainly those of several flight lines, and not of
+ * one line with gaps or bends.
+ *
+ * A line that follows another one leads back: its course differs by more than 135 degrees, or it
+ * begins behind the end of the other. A line that continues behind a gap (a lake, the border of a
+ * tile) or a bend does not. Lines must hold at least half of the points: where a platform mostly
+ * hovers or turns, what a line is cannot be told.
+ */
+bool leadBack(const SwathTrack& track, const std::vector<TimeStretch>& stretches);
+
 }  // namespace pcl_als
