@@ -41,6 +41,14 @@ CommandLine commandLine() {
       "write a file for each strip into the output folder; points are divided into flight "
       "lines at gaps in time, changes of course, turns and hovering; points between lines are "
       "left out");
+  line.addFlag("keep_ids",
+               "with -split: points keep their point source ids (default: lines that are not the "
+               "only one of their id get numbers of their own)");
+  line.makeDependent("keep_ids", "split");
+  line.addFlag("number_lines",
+               "write the files as they are, but with the number of its flight line as the point "
+               "source id of each point (0 between lines): for tiles with wrong ids");
+  for (const char* other : {"split", "strips", "without"}) line.exclude({"number_lines", other});
   line.addChoice("format", "format of the files in an output folder (default: as the input)",
                  {"las", "laz", "pcd"});
   return line;
@@ -50,6 +58,8 @@ PointConversionOptions optionsOf(const CommandLine& line) {
   PointConversionOptions options;
   options.window = app::windowOf(line);
   options.strips = app::stripChoice(line);
+  options.keep_ids = line.has("keep_ids");
+  options.number_lines = line.has("number_lines");
   if (line.has("format")) options.format = line.text("format");
   options.threads = line.threads();
   return options;

@@ -41,6 +41,27 @@ expect 0 "lines/1.laz" convert "$block"/strip*.las lines -split -format laz
 expect 1 "needs a folder" convert "$block"/strip*.las lines.las -split
 expect 1 "several inputs need a folder" convert "$block"/strip1.las "$block"/strip2.las both.las
 
+# Lines that share a point source id get numbers of their own: in a file each, or in their tiles.
+mkdir tiles
+for k in 1 2 3; do
+  perl -e 'binmode STDIN; binmode STDOUT; local $/; my $las = <STDIN>;
+    my ($at, $length) = (unpack("V", substr($las, 96, 4)), unpack("v", substr($las, 105, 2)));
+    for (; $at + $length <= length $las; $at += $length) { substr($las, $at + 20, 2) = pack("v", 9) }
+    print $las' <"$block/strip$k.las" >"tiles/t$k.las"
+done
+expect 0 "point source ids of lines: 9.1 = 1, 9.2 = 2, 9.3 = 3" convert tiles/t*.las numbered -number_lines
+expect 0 "point source ids of lines: 9.1 = 1" convert tiles/t*.las parts -split
+for k in 1 2 3; do
+  check "tile $k has the number of its line" cmp "numbered/t$k.las" "$block/strip$k.las"
+  check "and the file of the line" cmp "parts/9.$k.las" "$block/strip$k.las"
+done
+expect 0 "points" convert tiles/t*.las kept -split -keep_ids
+check "the ids are as they were" cmp kept/9.2.las tiles/t2.las
+expect 0 "strip 9 holds 3 flight lines*9.1, 9.2, 9.3" check tiles/t*.las -output tiles.json
+check "each line is a strip" test "$(grep -c '"id": "9\.' tiles.json)" == 3
+expect 1 "-keep_ids needs -split" convert tiles/t*.las kept -keep_ids
+expect 1 "-number_lines and -split exclude each other" convert tiles/t*.las x -split -number_lines
+
 # Wrong usage; inputs stay as they are.
 expect 1 "usage: pcl_als_convert" convert "$strip"
 expect 1 "none of las, laz, pcd" convert "$strip" folder -format txt

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_protection.h>
@@ -105,6 +108,27 @@ std::vector<fs::path> stripPaths(const std::vector<fs::path>& inputs, const fs::
   check(inputs, outputs, true);
   makeFolder(folder);
   return outputs;
+}
+
+std::vector<std::uint16_t> lineNumbers(const std::vector<std::string>& strips) {
+  constexpr std::size_t kMost = 65'535;
+  if (strips.size() > kMost)
+    throw InputError(counted(strips.size(), "strip") + ", and point source ids end at 65535");
+  std::set<std::uint16_t> taken;
+  std::vector<std::optional<std::uint16_t>> known(strips.size());
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const bool digits = strips[i].find_first_not_of("0123456789") == std::string::npos;
+    if (!digits || strips[i].size() > 5 || std::stoul(strips[i]) > kMost) continue;
+    known[i] = static_cast<std::uint16_t>(std::stoul(strips[i]));
+    taken.insert(*known[i]);
+  }
+  std::vector<std::uint16_t> numbers;
+  std::uint16_t next = 1;
+  for (const auto& number : known) {
+    while (!number && taken.count(next) > 0) ++next;
+    numbers.push_back(number ? *number : next++);
+  }
+  return numbers;
 }
 
 }  // namespace pcl_als::detail

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,5 +19,9 @@ std::vector<std::filesystem::path> stripPaths(const std::vector<std::filesystem:
                                               const std::filesystem::path& folder,
                                               const std::string& format,
                                               const std::vector<std::string>& strips);
+
+/// By strip, the point source id that its points get: the name where it is one, else the next
+/// number from 1 that no strip has. InputError for more strips than there are numbers.
+std::vector<std::uint16_t> lineNumbers(const std::vector<std::string>& strips);
 
 }  // namespace pcl_als::detail

@@ -4,12 +4,12 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <tuple>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/header_box.h>
+#include <pcl_als/common/listed_names.h>
 #include <pcl_als/io/pcd_writer.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
@@ -55,6 +55,19 @@ class Source {
     return remark.empty() ? remark : info().path.string() + ": " + remark;
   }
   const PointChunk& chunk() const { return chunk_; }
+  /// Sets the point source id of the rows [from, to), in the columns and in the records.
+  void setNumber(std::size_t from, std::size_t to, std::uint16_t number) {
+    std::fill(chunk_.point_source_id.begin() + static_cast<std::ptrdiff_t>(from),
+              chunk_.point_source_id.begin() + static_cast<std::ptrdiff_t>(to), number);
+    if (las_ == nullptr) return;
+    const LasHeader& header = las_->file().header();
+    const std::size_t place = header.point_format < 6 ? 18 : 20;  // LAS 1.4 R15, Tables 7 and 14
+    for (std::size_t row = from; row < to; ++row) {
+      std::byte* field = las_->records() + row * header.record_length + place;
+      field[0] = static_cast<std::byte>(number & 0xFFU);
+      field[1] = static_cast<std::byte>(number >> 8U);
+    }
+  }
   detail::PointBlock block() {
     if (las_ == nullptr) return {chunk_};
     return {chunk_, &las_->file(), las_->records()};
@@ -78,9 +91,15 @@ constexpr double kOriginStep = 10.0;  ///< metres: origins of PCD are multiples 
 /// Ends the writing of a PCD whose origin was taken from a header that the points contradict.
 struct BoxIsWrong {};
 
-/// The end of a run of rows from \a from on that go to one output, and its number; -1: to none.
-using Distribution =
-    std::function<std::pair<std::size_t, int>(std::size_t file, const PointChunk&, std::size_t)>;
+/// A run of points that go to one output.
+struct Run {
+  std::size_t to = 0;                   ///< row behind the last one
+  int target = -1;                      ///< -1: to none
+  std::optional<std::uint16_t> number;  ///< point source id in the output; empty: as it is
+};
+
+/// The run of a chunk of a file that begins with a row.
+using Distribution = std::function<Run(std::size_t file, const PointChunk&, std::size_t from)>;
 
 class Conversion {
  public:
@@ -89,12 +108,23 @@ class Conversion {
       : inputs_(inputs), options_(options), report_(progress) {
     requirePointFiles(inputs.size());
     const StripChoice& choice = options.strips;
-    if (choice.only.empty() && choice.without.empty() && !choice.split) return;
+    const bool chosen = !choice.only.empty() || !choice.without.empty();
+    if (options.number_lines && (chosen || choice.split))
+      throw UsageError("numbers of lines are written to whole files: choose no strips");
+    if (!chosen && !choice.split && !options.number_lines) return;
     StripChoice strips = choice;
-    strips.keep_timeless = !choice.split;  // nothing here needs times
+    strips.split = choice.split || options.number_lines;
+    strips.keep_timeless = !strips.split;  // nothing here needs times
     report_.begin("Reading " + counted(inputs.size(), "file"));
     arranged_.emplace(inputs, strips, options.window);
-    report_.end(counted(arranged_->arrangement().names().size(), "strip"));
+    const std::vector<std::string>& names = arranged_->arrangement().names();
+    report_.end(counted(names.size(), "strip"));
+    if (strips.split && !options.keep_ids) numbers_ = detail::lineNumbers(names);
+    std::vector<std::string> changed;
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      if (names[i] != std::to_string(numbers_[i]))
+        changed.push_back(names[i] + " = " + std::to_string(numbers_[i]));
+    if (!changed.empty()) remarkOnce("point source ids of lines: " + listedNames(changed, 100));
   }
 
   PointConversionResult run(const fs::path& output) {
@@ -103,7 +133,8 @@ class Conversion {
           detail::stripPaths(inputs_, output, options_.format, arranged_->arrangement().names()));
     else
       writeFiles(detail::outputPaths(inputs_, output, options_.format));
-    if (arranged_) result_.left_out = arranged_->arrangement().leftOut(label_counts_);
+    if (arranged_ && !options_.number_lines)
+      result_.left_out = arranged_->arrangement().leftOut(label_counts_);
     if (result_.outputs.empty()) refuseNothing();
     return std::move(result_);
   }
@@ -129,7 +160,7 @@ class Conversion {
   }
 
   void writeFiles(const std::vector<fs::path>& outputs) {
-    const Distribution chosen = chosenPoints();
+    const Distribution chosen = options_.number_lines ? numberedPoints() : chosenPoints();
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       report_.begin("Writing " + outputs[i].string());
       const std::size_t before = result_.outputs.size();
@@ -210,12 +241,21 @@ class Conversion {
   Distribution chosenPoints() {
     if (!arranged_)
       return [](std::size_t, const PointChunk& chunk, std::size_t) {
-        return std::pair(chunk.size(), 0);
+        return Run{chunk.size(), 0, std::nullopt};
       };
     const Distribution strips = stripPoints(0, arranged_->arrangement().names().size());
     return [strips](std::size_t file, const PointChunk& chunk, std::size_t from) {
-      const auto [to, strip] = strips(file, chunk, from);
-      return std::pair(to, strip < 0 ? -1 : 0);
+      const Run run = strips(file, chunk, from);
+      return Run{run.to, run.target < 0 ? -1 : 0, std::nullopt};
+    };
+  }
+
+  /// Everything, with the numbers of lines.
+  Distribution numberedPoints() {
+    const Distribution strips = stripPoints(0, arranged_->arrangement().names().size());
+    return [strips](std::size_t file, const PointChunk& chunk, std::size_t from) {
+      const Run run = strips(file, chunk, from);
+      return Run{run.to, 0, run.number.value_or(0)};
     };
   }
 
@@ -223,9 +263,11 @@ class Conversion {
   Distribution stripPoints(std::size_t first, std::size_t last) {
     const CensusStrips strips = censusStrips(arranged_->arrangement(), label_counts_);
     const auto low = static_cast<int>(first), high = static_cast<int>(last);
-    return [strips, low, high](std::size_t file, const PointChunk& chunk, std::size_t from) {
+    return [this, strips, low, high](std::size_t file, const PointChunk& chunk, std::size_t from) {
       const auto [to, strip] = strips.run(file, chunk, from);
-      return std::pair(to, strip >= low && strip < high ? strip - low : -1);
+      Run run{to, strip >= low && strip < high ? strip - low : -1, std::nullopt};
+      if (strip >= 0 && !numbers_.empty()) run.number = numbers_[static_cast<std::size_t>(strip)];
+      return run;
     };
   }
 
@@ -237,11 +279,12 @@ class Conversion {
       if (!source.damage().empty()) remarkOnce(source.damage());
       while (source.read()) {
         const PointChunk& chunk = source.chunk();
-        for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
-          int target = -1;
-          std::tie(to, target) = target_of(file, chunk, from);
-          if (target >= 0)
-            append(targets[static_cast<std::size_t>(target)], file, source, from, to);
+        Run run;
+        for (std::size_t from = 0; from < chunk.size(); from = run.to) {
+          run = target_of(file, chunk, from);
+          if (run.target < 0) continue;
+          if (run.number) source.setNumber(from, run.to, *run.number);
+          append(targets[static_cast<std::size_t>(run.target)], file, source, from, run.to);
         }
         done += chunk.size();
         report_.advance(std::min(1.0, static_cast<double>(done) / expected(files, source)));
@@ -316,7 +359,8 @@ class Conversion {
   ProgressReport report_;
   std::optional<ArrangedFiles> arranged_;
   std::vector<std::uint64_t> label_counts_;
-  bool records_ = false;  ///< all points of the targets have raw records
+  std::vector<std::uint16_t> numbers_;  ///< by strip: point source id; empty: points keep theirs
+  bool records_ = false;                ///< all points of the targets have raw records
   PointConversionResult result_;
 };
 

@@ -97,9 +97,10 @@ void bindFiles(py::module_& m) {
   m.def(
       "convert",
       [](const Files& inputs, const std::filesystem::path& output, const PointWindow& window,
-         const StripChoice& strips, const std::string& format, int threads,
-         const PythonProgress& progress) {
+         const StripChoice& strips, const std::string& format, bool keep_ids, bool number_lines,
+         int threads, const PythonProgress& progress) {
         PointConversionOptions options;
+        options.keep_ids = keep_ids, options.number_lines = number_lines;
         options.window = window, options.strips = strips, options.format = format;
         options.threads = threads;
         return runJob(progress, [&](const ProgressCallback& report) {
@@ -109,11 +110,15 @@ void bindFiles(py::module_& m) {
       py::arg("inputs"), py::arg("output"), py::kw_only(),
       py::arg_v("window", PointWindow(), "PointWindow()"),
       py::arg_v("strips", StripChoice(), "StripChoice()"), py::arg("format") = "",
-      py::arg("threads") = 0, py::arg("progress") = py::none(),
+      py::arg("keep_ids") = false, py::arg("number_lines") = false, py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
       "Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of "
       "LAS records stay as they are. output: a file for one input, else a folder, whose files have "
       "the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one "
-      "file for each strip. Constant memory.");
+      "file for each strip, whose lines get point source ids of their own unless keep_ids is set. "
+      "number_lines: the files as they are, with the number of its line as the point source id of "
+      "each point (0 between lines). UsageError for number_lines with a choice of strips. Constant "
+      "memory.");
 }
 
 }  // namespace pcl_als::python

@@ -22,6 +22,13 @@ struct PointConversionOptions {
   /// "las", "laz" or "pcd" of the files in an output folder; empty: that of each input, with
   /// StripChoice::split of the first one.
   std::string format;
+  /// With StripChoice::split: points keep their point source ids. Otherwise points of id 7 keep it
+  /// where they are one line, and other lines get the numbers from 1 that no strip has, so that the
+  /// files are the strips of a survey by themselves.
+  bool keep_ids = false;
+  /// Without StripChoice::split: the points of every file are written, with these numbers of their
+  /// lines; those between lines get 0. For tiles with wrong ids.
+  bool number_lines = false;
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
