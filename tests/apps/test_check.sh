@@ -57,9 +57,9 @@ expect 0 "1 & 2" check a.pcd b.pcd lifted.pcd -output lifted.json
 # A required level is kept or not: exit status and a field of the result, for a batch.
 expect 0 "" check a.pcd b.pcd -require QL2 -output kept.json
 check "kept.json says so" grep -q '"kept": true' kept.json
-expect 3 "does not keep QL1: strips 1 and 6: not measured" check a.pcd b.pcd lifted.pcd -require QL1 -output missed.json
+expect 3 "does not keep QL1: strips 1 and 6: too far apart" check a.pcd b.pcd lifted.pcd -require QL1 -output missed.json
 check "missed.json says so" awk '/"requirement"/ { found = 1 } /"required_level": "QL1"/ { level = 1 }
-  found && level && /"kept": false/ { kept = 1 } /"strips 2 and 6: not measured/ { reason = 1 }
+  found && level && /"kept": false/ { kept = 1 } /"strips 2 and 6: too far apart/ { reason = 1 }
   END { exit !(kept && reason) }' missed.json
 awk '/^DATA/ { data = 1; print; next } data { $3 += 0.12; $6 = 7 } { print }' b.pcd >high.pcd
 expect 3 "does not keep QL2: strips 1 and 7: RMSDz 1*.* cm, more than the 8 cm that are allowed" check a.pcd high.pcd -require QL2 -output high.json

@@ -57,8 +57,6 @@ for k in 1 2 3; do
 done
 expect 0 "points" convert tiles/t*.las kept -split -keep_ids
 check "the ids are as they were" cmp kept/9.2.las tiles/t2.las
-expect 0 "strip 9 holds 3 flight lines*9.1, 9.2, 9.3" check tiles/t*.las -output tiles.json
-check "each line is a strip" test "$(grep -c '"id": "9\.' tiles.json)" == 3
 expect 1 "-keep_ids needs -split" convert tiles/t*.las kept -keep_ids
 expect 1 "-number_lines and -split exclude each other" convert tiles/t*.las x -split -number_lines
 

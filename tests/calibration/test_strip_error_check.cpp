@@ -29,9 +29,10 @@ std::vector<PriorEffect> effects() {
 
 /// With \a effects, where any correction is large.
 void assess(CalibrationResult& result) {
-  const SharedErrorModel model;
-  const bool large = !largeStripErrors(result.strip_errors, model, kNoticeableCorrection).empty();
-  assessStripErrors(model, large ? effects() : std::vector<PriorEffect>(), result);
+  const CalibrationSettings settings;
+  const bool large =
+      !largeStripErrors(result.strip_errors, settings.shared_errors, kNoticeableCorrection).empty();
+  assessStripErrors(settings, large ? effects() : std::vector<PriorEffect>(), result);
 }
 
 TEST(StripErrorCheck, AcceptsErrorsOfTheAPrioriSize) {
@@ -71,7 +72,7 @@ TEST(StripErrorCheck, ObjectsBeyondFive) {
 
 TEST(StripErrorCheck, NoObjectionWhereNoParameterDependsOnThem) {
   CalibrationResult result = resultWith(-0.307, 0.0);
-  assessStripErrors(SharedErrorModel(), {effects().front()}, result);
+  assessStripErrors(CalibrationSettings(), {effects().front()}, result);
   EXPECT_TRUE(result.verdict.usable());
   EXPECT_EQ(result.warnings.size(), 1U);
 }
@@ -147,7 +148,7 @@ CalibrationResult calibratedFrom1150Metres(HeightError::Kind kind, bool with_arm
   error.kind = kind;
   error.metres = 50.0;
   error.slope = 1150.0 / 1100.0;
-  assessHeight(error, result);
+  assessHeight(error, CalibrationSettings(), result);
   return result;
 }
 

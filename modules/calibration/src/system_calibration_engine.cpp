@@ -286,7 +286,7 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
   const std::vector<AreaUse> used = state.usedAreas();
   addFarPairs(state);
   // The fits are those of points corrected by what the result states, not by the solution.
-  setSystemEffects(state.errors, systemDifferences(result, state.errors), state.observations);
+  setSystemEffects(state.errors, statedDifferences(result, state.differences), state.observations);
   for (AreaObservations& area : state.observations)
     addSourceEffects(result.sources - state.held_sources, area);
   report.addControlPoints(control_, state.observations, used,

@@ -149,13 +149,11 @@ void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
   }
 }
 
-std::vector<SystemUnknowns> systemDifferences(const CalibrationResult& result,
-                                              const SharedErrors& errors) {
-  std::vector<SystemUnknowns> differences(static_cast<std::size_t>(errors.systems().count),
-                                          SystemUnknowns::Zero());
+std::vector<SystemUnknowns> statedDifferences(const CalibrationResult& result,
+                                              std::vector<SystemUnknowns> solved) {
   for (std::size_t i = 1; i < result.systems.size(); ++i)
-    differences[i] = result.systems[i].values() - result.systems.front().values();
-  return differences;
+    solved[i] = result.systems[i].values() - result.systems.front().values();
+  return solved;
 }
 
 }  // namespace pcl_als

@@ -36,9 +36,9 @@ void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
                 const ParameterChoice& choice, const std::vector<StripGroup>& groups,
                 const std::vector<std::string>& ids, CalibrationResult& result);
 
-/// Differences of all systems to the first one as a result states them, by which points are
-/// corrected; zero for surfaces that are held fixed, because they are not corrected.
-std::vector<SystemUnknowns> systemDifferences(const CalibrationResult& result,
-                                              const SharedErrors& errors);
+/// Differences of the systems to the first one as a result states them, by which points are
+/// corrected. \param solved of all systems; those of surfaces that are held fixed stay as they are
+std::vector<SystemUnknowns> statedDifferences(const CalibrationResult& result,
+                                              std::vector<SystemUnknowns> solved);
 
 }  // namespace pcl_als

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 
@@ -55,6 +56,8 @@ double gpsSecondsOffset(TimeScale scale, double time) {
 }
 
 std::string dateText(double gps_seconds) {
+  constexpr double kLatest = 1e11;  // years of four digits
+  if (!(std::abs(gps_seconds) < kLatest)) return "";
   const auto seconds = static_cast<std::time_t>(gps_seconds + kUnixOfGps);
   std::tm date{};
   char text[40] = "";

@@ -5,7 +5,6 @@
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/processing/delivery_check.h>
 #include <pcl_als/survey/area_index.h>
@@ -102,7 +101,9 @@ void BlockCheck::surveyBlock() {
                         " and is left out");
   }
   checkTrajectory();
-  chooseOverlaps();
+  for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
+    if (used_[overlap.strips.first] && used_[overlap.strips.second]) overlaps_.push_back(overlap);
+  }
   if (!overlaps_.empty() || !settings_.control.empty()) return;
   const auto used = std::count(used_.begin(), used_.end(), true);
   throw InputError(
@@ -134,23 +135,6 @@ double BlockCheck::coveredArea() const {
   for (std::size_t strip = 0; strip < used_.size(); ++strip)
     area += map_.coveredArea(static_cast<int>(strip));
   return area;
-}
-
-/// Points of one pass agree whatever its errors are: they say nothing of those between passes.
-void BlockCheck::chooseOverlaps() {
-  std::vector<std::string> of_one_pass;
-  for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
-    const auto [a, b] = overlap.strips;
-    if (!used_[a] || !used_[b]) continue;
-    if (survey_.areOfOnePass(a, b))
-      of_one_pass.push_back(survey_.strips()[a] + " and " + survey_.strips()[b]);
-    else
-      overlaps_.push_back(overlap);
-  }
-  if (of_one_pass.empty()) return;
-  warnings_.push_back(counted(of_one_pass.size(), "pair") +
-                      " of strips measured in one pass: strips " + listedNames(of_one_pass) +
-                      " have the same times, share their errors, and are not compared");
 }
 
 void BlockCheck::chooseAreas() {

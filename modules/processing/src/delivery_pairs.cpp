@@ -60,18 +60,20 @@ bool isTooFar(const CheckedPair& pair) {
 PairCounts countPairs(const std::vector<CheckedPair>& pairs) {
   PairCounts counts;
   for (const CheckedPair& pair : pairs) {
-    std::size_t& kind = isMeasured(pair) ? counts.measured
-                        : isTooFar(pair) ? counts.too_far
-                        : pair.too_small ? counts.too_small
-                                         : counts.unmeasurable;
+    std::size_t& kind = isMeasured(pair) && pair.of_one_pass ? counts.of_one_pass
+                        : isMeasured(pair)                   ? counts.measured
+                        : isTooFar(pair)                     ? counts.too_far
+                        : pair.too_small                     ? counts.too_small
+                                                             : counts.unmeasurable;
     ++kind;
   }
   return counts;
 }
 
 std::vector<std::string> unmeasuredPairs(const std::vector<CheckedPair>& pairs) {
-  std::vector<std::string> far, without;
+  std::vector<std::string> far, without, of_one_pass;
   for (const CheckedPair& pair : pairs) {
+    if (isMeasured(pair) && pair.of_one_pass) of_one_pass.push_back(pairName(pair));
     if (isTooFar(pair))
       far.push_back(withDistance(pair));
     else if (!isMeasured(pair) && !pair.too_small)
@@ -85,6 +87,11 @@ std::vector<std::string> unmeasuredPairs(const std::vector<CheckedPair>& pairs) 
   if (!without.empty())
     sentences.push_back(counted(without.size(), "overlapping pair") +
                         " could not be measured: strips " + listedNames(without, kNamedPairs));
+  if (!of_one_pass.empty())
+    sentences.push_back(counted(of_one_pass.size(), "pair") +
+                        " measured in one pass, whose errors both strips share, not counted: "
+                        "strips " +
+                        listedNames(of_one_pass, kNamedPairs));
   return sentences;
 }
 
@@ -134,6 +141,7 @@ CheckedPair BlockCheck::assessOverlap(std::size_t k, CellMeans& cells) {
   }
   pair.assessment = assessPair(samples, courses_[static_cast<std::size_t>(a)].direction(),
                                courses_[static_cast<std::size_t>(b)].direction());
+  pair.of_one_pass = survey_.areOfOnePass(a, b);
   findDistance(k, pair);
   cells = cellMeans(samples);
   pair.samples = thinned(std::move(samples), CheckedPair::kScatter);

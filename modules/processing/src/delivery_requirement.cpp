@@ -72,7 +72,8 @@ DeliveryRequirement requireLevel(const CheckedBlock& block, int level) {
     if (!reason.empty()) requirement.reasons.push_back(std::move(reason));
   };
   for (const CheckedPair& pair : block.pairs) {
-    requirement.pairs += pair.assessment.status == PairAssessment::Status::judged ? 1 : 0;
+    const bool measured = pair.assessment.status == PairAssessment::Status::judged;
+    requirement.pairs += measured && !pair.of_one_pass ? 1 : 0;
     add(objection(pair, limits));
   }
   if (block.control) {

@@ -75,7 +75,8 @@ FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions
 
 FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
                       const FlightFileOptions& options) {
-  return flightOf(readScreened(paths, options), paths.front().string(), options);
+  TrajectoryFile file = readScreened(paths, options);  // refuses an empty list
+  return flightOf(std::move(file), paths.front().string(), options);
 }
 
 FlightFile flightOf(TrajectoryFile file, const std::string& name,

@@ -224,7 +224,7 @@ class Conversion {
     if (!records_ || !detail::isLas(paths[0])) boxes = arranged_->use().boxes;
     std::vector<PointFileInfo> infos;
     for (const SurveyedFile& file : arranged_->files()) infos.push_back(file.sources.info);
-    result_.remarks = commonReference(infos).remarks;
+    for (const std::string& text : commonReference(infos).remarks) remarkOnce(text);
     for (std::size_t first = 0; first < names.size(); first += kMostOutputs) {
       const std::size_t last = std::min(names.size(), first + kMostOutputs);
       report_.begin("Writing " + counted(last - first, "strip"));

@@ -216,6 +216,7 @@ Json blockJson(const CheckedBlock& block) {
   for (const CheckedPair& pair : block.pairs) json["pairs"].push_back(pairJson(pair));
   const PairCounts counts = countPairs(block.pairs);
   json["pair_counts"] = {{"measured", counts.measured},
+                         {"of_one_pass", counts.of_one_pass},
                          {"too_far", counts.too_far},
                          {"unmeasurable", counts.unmeasurable},
                          {"too_small", counts.too_small}};

@@ -241,7 +241,8 @@ std::string pairsText(const QualityReport& report) {
       qualityLevels()[static_cast<std::size_t>(report.quality_level)];
   const auto& pairs = report.block.pairs;
   const auto kept = std::count_if(pairs.begin(), pairs.end(), [&](const CheckedPair& pair) {
-    return judged(pair) && pair.assessment.vertical.rms <= limits.swath_overlap_rmsdz;
+    return judged(pair) && !pair.of_one_pass &&
+           pair.assessment.vertical.rms <= limits.swath_overlap_rmsdz;
   });
   const PairCounts counts = countPairs(pairs);
   std::string text = formatted("\n%zu of %zu pairs keep QL%d: RMSDz at most %.2f m [%s]\n",

@@ -30,7 +30,7 @@ std::string withStd(double value, double std, double unit, int digits, const std
 std::vector<const CheckedPair*> judgedPairs(const CheckedBlock& block) {
   std::vector<const CheckedPair*> pairs;
   for (const CheckedPair& pair : block.pairs)
-    if (judged(pair)) pairs.push_back(&pair);
+    if (judged(pair) && !pair.of_one_pass) pairs.push_back(&pair);
   return pairs;
 }
 

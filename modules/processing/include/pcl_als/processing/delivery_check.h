@@ -44,6 +44,7 @@ struct CheckedPair {
   std::string a, b;
   double overlap_area = 0.0;  ///< m^2
   bool too_small = false;     ///< below CheckSettings::minimum_overlap: areas are not chosen for it
+  bool of_one_pass = false;   ///< both share their errors, and agree whatever these are
   std::size_t areas = 0;      ///< areas of comparison
   PairAssessment assessment;
   std::optional<PatchAlignmentResult> alignment;  ///< where it was attempted
@@ -64,7 +65,8 @@ struct CheckedStrip {
 
 /// How many overlapping pairs were measured, and why the others were not.
 struct PairCounts {
-  std::size_t measured = 0;
+  std::size_t measured = 0;      ///< of two passes
+  std::size_t of_one_pass = 0;   ///< measured, but of one pass: they are not pairs of a delivery
   std::size_t too_far = 0;       ///< further apart than surfaces are compared
   std::size_t unmeasurable = 0;  ///< too little in common, or the same points twice
   std::size_t too_small = 0;     ///< overlaps below CheckSettings::minimum_overlap, not measured
@@ -125,7 +127,6 @@ class BlockCheck {
                       std::size_t& cursor) const;
   void compareWithFlight(int strip, const std::vector<LidarReturn>& points);
   void checkTrajectory();
-  void chooseOverlaps();
   void findRoughness();
   void measureAreas();
   void measureControl(CheckedBlock& block);
