@@ -10,6 +10,7 @@
 #include <pcl_als/trajectory/scan_geometry.h>
 
 #include "area_matcher.h"
+#include "field_differences.h"
 
 namespace pcl_als {
 
@@ -53,44 +54,38 @@ std::vector<int> scanDirections(const std::vector<double>& times,
 
 }  // namespace
 
-std::vector<int> AreaMatcher::StripPart::values(PointField field) const {
-  switch (field) {
-    case PointField::scanner_channel:
-      return {channel.begin(), channel.end()};
-    case PointField::user_data:
-      return {user_data.begin(), user_data.end()};
-    default:
-      return {turning.begin(), turning.end()};
-  }
+std::vector<int> AreaMatcher::StripPart::values(PointField field,
+                                                const Trajectory& trajectory) const {
+  if (field == PointField::scanner_channel) return {channel.begin(), channel.end()};
+  if (field == PointField::user_data) return {user_data.begin(), user_data.end()};
+  const bool recorded = std::any_of(turning.begin(), turning.end(), [](int v) { return v != 0; });
+  return recorded ? std::vector<int>(times.size(), 0) : scanDirections(times, biased, trajectory);
 }
 
-std::map<int, std::size_t> AreaMatcher::valuesOf(int strip, PointField field) const {
-  std::map<int, std::size_t> counts;
+std::map<int, std::map<int, std::size_t>> AreaMatcher::valuesOf(
+    PointField field, const Trajectory& trajectory) const {
+  std::map<int, std::map<int, std::size_t>> counts;
   for (const StripPart& part : surfaces_) {
-    if (part.strip != strip || part.held()) continue;
-    for (const int value : part.values(field)) ++counts[value];
+    if (part.held()) continue;
+    for (const int value : part.values(field, trajectory)) ++counts[part.strip][value];
   }
   return counts;
 }
 
-AreaMatcher AreaMatcher::divided(int strip, PointField field, const std::vector<int>& values,
-                                 std::size_t candidates, double resolution,
-                                 const Trajectory& trajectory) const {
-  AreaMatcher matcher(area_, values.size());
+AreaMatcher AreaMatcher::divided(const FieldDivision& division, std::size_t candidates,
+                                 double resolution, const Trajectory& trajectory) const {
+  AreaMatcher matcher(area_, corrected_for_.size() * division.parts());
   matcher.criterion_ = criterion_;
   matcher.source_scale_ = source_scale_;
+  const std::vector<int>& values = division.values;
   for (const StripPart& part : surfaces_) {
-    if (part.strip != strip || part.held()) continue;
-    std::vector<int> of_points = part.values(field);
-    const bool recorded =
-        std::any_of(of_points.begin(), of_points.end(), [](int v) { return v != 0; });
-    if (field == PointField::scan_direction && !recorded)
-      of_points = scanDirections(part.times, part.biased, trajectory);
+    if (part.held()) continue;
+    const std::vector<int> of_points = part.values(division.field, trajectory);
     for (std::size_t i = 0; i < part.biased.size(); ++i) {
-      const auto found = std::find(values.begin(), values.end(), of_points[i]);
-      if (found == values.end()) continue;
-      StripPart& to = matcher.surfaces_[static_cast<std::size_t>(found - values.begin())];
-      to.add(part, i);
+      const auto found = std::lower_bound(values.begin(), values.end(), of_points[i]);
+      if (found == values.end() || *found != of_points[i]) continue;
+      const auto k = static_cast<std::size_t>(found - values.begin());
+      matcher.surfaces_[static_cast<std::size_t>(division.partOf(part.strip, k))].add(part, i);
     }
   }
   matcher.buildSurfaces(candidates, resolution, trajectory);

@@ -28,6 +28,8 @@
 
 namespace pcl_als {
 
+struct FieldDivision;
+
 /// What the points of one strip may differ in although one instrument measured them.
 enum class PointField { scanner_channel, user_data, scan_direction };
 
@@ -104,14 +106,14 @@ class AreaMatcher {
   /// From now on pairs have the effects of all error sources.
   void considerSources(const ErrorSourceScale& scale) { source_scale_ = scale; }
 
-  /// The numbers of points of a strip by the value of a field. The scan direction is 1 to the left,
-  /// -1 to the right, 0 unknown.
-  std::map<int, std::size_t> valuesOf(int strip, PointField field) const;
-  /// The points of a strip by the value of a field: a matcher whose strips are the points of each
-  /// of these values, with surfaces by the criterion of this one, see prepare(). Scan directions
-  /// that are not recorded are found from the angles of successive pulses.
-  AreaMatcher divided(int strip, PointField field, const std::vector<int>& values,
-                      std::size_t candidates, double resolution,
+  /// The numbers of points of strips that are not held fixed, by strip and value of a field. Scan
+  /// directions (1 to the left, -1 to the right) that are not recorded are found from the angles of
+  /// successive pulses; recorded ones are not counted: they have an error source of their own.
+  std::map<int, std::map<int, std::size_t>> valuesOf(PointField field,
+                                                     const Trajectory& trajectory) const;
+  /// The points of strips that are not held fixed, divided by the value of a field, with surfaces
+  /// by the criterion of this matcher, see prepare().
+  AreaMatcher divided(const FieldDivision& division, std::size_t candidates, double resolution,
                       const Trajectory& trajectory) const;
 
   /// Which points are paired with patches: all candidates, or those of the observations last kept.
@@ -192,7 +194,8 @@ class AreaMatcher {
     bool flown = true;              ///< false: the points of a surface, without times
 
     bool held() const { return held_std > 0.0; }
-    std::vector<int> values(PointField field) const;      ///< by point
+    /// By point; 0 for scan directions that are recorded or unknown.
+    std::vector<int> values(PointField field, const Trajectory& trajectory) const;
     void add(const StripPart& other, std::size_t point);  ///< a point of another part
   };
   class PointGeometry;

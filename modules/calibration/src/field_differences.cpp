@@ -3,145 +3,122 @@
 #include "field_differences.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
-#include <pcl_als/adjustment/clustered_regression.h>
+#include <set>
 
 #include "group_differences.h"
+#include "pair_weights.h"
 
 namespace pcl_als {
 namespace {
 
-std::string nameOf(PointField field, int value) {
-  if (field == PointField::scan_direction) return value < 0 ? "to_the_right" : "to_the_left";
-  return (field == PointField::user_data ? "user_data" : "channel") + std::to_string(value);
-}
-
-std::string titleOf(PointField field, int value) {
-  if (field == PointField::scan_direction)
-    return value < 0 ? "points scanned to the right" : "points scanned to the left";
-  return (field == PointField::user_data ? "points with user data " : "channel ") +
-         std::to_string(value);
-}
-
-std::string remedyOf(PointField field) {
-  switch (field) {
-    case PointField::scanner_channel:
-      return "divide strips by the scanner channel and calibrate the channels as systems of their "
-             "own";
-    case PointField::user_data:
-      return "divide strips by the user data and calibrate these parts as systems of their own";
-    default:
-      return "check how the scan angles of both directions were derived (lag of the mirror, time "
-             "tags of the encoder)";
+/// Estimates the differences of all values at once, for the weights of the observations.
+bool weighJointly(const std::vector<AreaObservations>& observations,
+                  const std::vector<SystemParameter>& estimate, int threads,
+                  Adjustment& adjustment) {
+  constexpr int kWeightings = 3;
+  PairWeights weights;
+  AdjustmentSolution solution = adjustment.unsolved(SystemVector::Zero());
+  for (int i = 0; i < kWeightings; ++i) {
+    PairWeights::Residuals residuals(observations.size());
+    for (std::size_t area = 0; area < observations.size(); ++area)
+      for (const PairObservation& o : observations[area])
+        residuals[area].emplace_back(o, adjustment.residual(o, solution));
+    weights.findScales(residuals, threads);
+    weights.update(residuals, i > 0, threads);
+    adjustment.accumulate(observations, weights.weights());
+    solution = adjustment.solve(estimate, SystemVector::Zero());
+    if (!solution.solved) return false;
   }
-}
-
-/// The equations of one value, each divided by its standard deviation, with the prior of the
-/// differences as further observations.
-ClusteredRegression equationsOf(int value, const std::vector<DifferenceUnknown>& unknowns,
-                                const std::vector<std::vector<FieldPair>>& pairs,
-                                std::size_t& clusters) {
-  const auto n = static_cast<Eigen::Index>(unknowns.size());
-  ClusteredRegression regression(static_cast<int>(n));
-  Eigen::VectorXd row(n);
-  std::int64_t cluster = -1;
-  for (const std::vector<FieldPair>& area : pairs) {
-    int strip = -1;
-    for (const FieldPair& pair : area) {
-      if (pair.value != value) continue;
-      if (pair.strip != strip) ++cluster;
-      strip = pair.strip;
-      const double std = std::sqrt(pair.variance);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const DifferenceUnknown& u = unknowns[static_cast<std::size_t>(i)];
-        row[i] = pair.row[u.index] * u.slab / std;
-      }
-      regression.add(cluster, row, pair.distance / std);
-    }
-  }
-  clusters = static_cast<std::size_t>(cluster + 1);
-  for (Eigen::Index i = 0; i < n; ++i) regression.add(++cluster, Eigen::VectorXd::Unit(n, i), 0.0);
-  return regression;
+  return true;
 }
 
 }  // namespace
 
-std::vector<int> ComparedValues::all() const {
-  std::vector<int> values{reference};
-  values.insert(values.end(), others.begin(), others.end());
-  return values;
-}
-
-ComparedValues comparedValues(PointField field, const std::map<int, std::size_t>& counts) {
+FieldDivision FieldDivision::of(PointField field, const ValueCounts& counts) {
   constexpr std::size_t kMost = 16;  // parts of one instrument
-  constexpr double kLeastShare = 0.02;
+  // An oscillating mirror measures half of its points in each direction.
+  const double least_share = field == PointField::scan_direction ? 0.3 : 0.02;
+  std::map<int, double> sums;
   double total = 0.0;
-  for (const auto& [value, count] : counts) total += static_cast<double>(count);
-  ComparedValues found;
-  found.field = field;
-  std::size_t most = 0;
-  for (const auto& [value, count] : counts) {
-    if (static_cast<double>(count) < kLeastShare * total) continue;
-    found.others.push_back(value);
-    if (count <= most) continue;
-    most = count;
-    found.reference = value;
-  }
-  if (found.others.size() < 2 || found.others.size() > kMost) {
-    found.others.clear();
-    return found;
-  }
-  found.others.erase(std::find(found.others.begin(), found.others.end(), found.reference));
-  return found;
+  for (const auto& [strip, of_strip] : counts)
+    for (const auto& [value, count] : of_strip) {
+      sums[value] += static_cast<double>(count);
+      total += static_cast<double>(count);
+    }
+  FieldDivision division;
+  division.field = field;
+  for (const auto& [value, sum] : sums)
+    if (sum >= least_share * total) division.values.push_back(value);
+  const auto several = [&](const auto& of_strip) {
+    return std::count_if(division.values.begin(), division.values.end(),
+                         [&](int value) { return of_strip.second.count(value) > 0; }) > 1;
+  };
+  if (division.values.size() > kMost || std::none_of(counts.begin(), counts.end(), several))
+    division.values.clear();
+  return division;
 }
 
-void addFieldPairs(const ComparedValues& values, int strip, const AreaObservations& observations,
-                   const SystemVector& biases, const ErrorSourceVector& sources,
-                   std::vector<FieldPair>& pairs) {
-  for (const PairObservation& o : observations) {
-    if ((o.a == 0) == (o.b == 0)) continue;  // strip 0 has the reference value
-    const bool point = o.a != 0;
-    FieldPair pair;
-    pair.strip = strip;
-    pair.value = values.others[static_cast<std::size_t>(std::max(o.a, o.b) - 1)];
-    pair.row = point ? o.row_a : SystemRow(-o.row_b);
-    pair.distance = o.misclosure - o.row() * biases - o.sources * sources;
-    pair.variance = o.variance * o.sharing;
-    pairs.push_back(pair);
-  }
+std::string FieldDivision::nameOf(std::size_t k) const {
+  const int value = values[k];
+  if (field == PointField::scan_direction)
+    return value < 0 ? "points_scanned_to_the_right" : "points_scanned_to_the_left";
+  return (field == PointField::user_data ? "user_data" : "channel") + std::to_string(value);
 }
 
-std::vector<ErrorFinding> fieldDifferences(const ComparedValues& values,
-                                           const std::vector<std::vector<FieldPair>>& pairs,
+std::vector<StripPair> FieldDivision::pairs(const std::vector<StripPair>& of_strips,
+                                            const std::vector<int>& strips) const {
+  std::vector<StripPair> pairs;
+  for (const int strip : strips)
+    for (std::size_t k = 0; k < parts(); ++k)
+      for (std::size_t l = k + 1; l < parts(); ++l)
+        pairs.emplace_back(partOf(strip, k), partOf(strip, l));
+  for (const auto& [a, b] : of_strips)
+    for (std::size_t k = 0; k < parts(); ++k)
+      for (std::size_t l = 0; l < parts(); ++l) pairs.emplace_back(partOf(a, k), partOf(b, l));
+  return pairs;
+}
+
+StripSystems FieldDivision::systems(std::size_t strips) const {
+  StripSystems systems;
+  systems.count = static_cast<int>(parts());
+  systems.own = {{}, false};
+  for (int strip = 0; strip < static_cast<int>(strips); ++strip)
+    for (std::size_t k = 0; k < parts(); ++k) {
+      systems.system.push_back(static_cast<int>(k));
+      systems.pass.push_back(partOf(strip, 0));
+    }
+  return systems;
+}
+
+std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
+                                           const AdjustedBlock& block,
+                                           const std::vector<AreaObservations>& observations,
                                            const ScanGeometry& edge) {
-  const std::vector<DifferenceUnknown> unknowns = differenceUnknowns(false);
-  const auto n = static_cast<Eigen::Index>(unknowns.size());
+  const std::vector<TimeSpan> spans = division.repeated(block.spans);
+  const std::vector<std::vector<TimeSpan>> observed = observedTimes(observations, spans.size());
+  SharedErrors errors(spans, block.model.withKnotsFor(observed), observed,
+                      division.systems(block.spans.size()));
+  const auto set_own = [&](bool own) {
+    for (int system = 1; system < errors.systems().count; ++system)
+      for (const DifferenceUnknown& u : differenceUnknowns(false))
+        errors.setOwn(system, u.index, own ? u.slab : 0.0);
+  };
+  set_own(true);
+  Adjustment adjustment(errors, block.threads);
+  adjustment.setLevels(block.levels);
   std::vector<ErrorFinding> findings;
-  for (const int value : values.others) {
-    std::size_t used = 0;
-    const ClusteredRegression::Result found = equationsOf(value, unknowns, pairs, used).solve(true);
-    if (!found.determined || used < unknowns.size() + 1) continue;
-    Eigen::VectorXd slab(n);
-    std::vector<SpikeAndSlab::Prior> priors;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      slab[i] = unknowns[static_cast<std::size_t>(i)].slab;
-      priors.push_back({kDifferenceAbsent, 0.0, slab[i] * slab[i]});
-    }
-    const SpikeAndSlab mixture(priors, slab.cwiseProduct(found.estimate),
-                               slab.asDiagonal() * found.covariance * slab.asDiagonal(),
-                               {1.0, static_cast<double>(used) - static_cast<double>(n)});
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const DifferenceUnknown& u = unknowns[static_cast<std::size_t>(i)];
-      ErrorFinding finding = differenceFinding(u, mixture, i, edge);
-      finding.source = nameOf(values.field, value) + "_" + u.name;
-      finding.title = u.title + " of " + titleOf(values.field, value) + " against " +
-                      titleOf(values.field, values.reference);
-      finding.remedy = remedyOf(values.field);
-      findings.push_back(std::move(finding));
-    }
-  }
+  if (!weighJointly(observations, block.estimate, block.threads, adjustment)) return findings;
+  set_own(false);
+  adjustment.setLevels(block.levels);
+  ParameterChoice choice;
+  choice.estimate = block.estimate;
+  choice.solution = adjustment.unsolved(SystemVector::Zero());
+  std::vector<StripGroup> groups;
+  for (std::size_t k = 0; k < division.parts(); ++k) groups.push_back({division.nameOf(k), {}});
+  std::set<int> strips;
+  for (const AreaObservations& area : observations)
+    for (const PairObservation& o : area) strips.insert(o.b / errors.systems().count);
+  addGroupDifferences(groups, strips.size(), edge, choice, errors, adjustment, findings);
   return findings;
 }
 

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 #include <pcl_als/calibration/pair_observation.h>
+#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
@@ -15,48 +16,64 @@
 
 namespace pcl_als {
 
-/** \brief A pair of points of one strip of which one has the reference value of a field, the other
- * another value: one equation of what the other value's system parameters differ by.
+/// Numbers of points by strip and value of a field.
+using ValueCounts = std::map<int, std::map<int, std::size_t>>;
+
+/** \brief A block whose strips are divided by the value of a field: the points of a strip that have
+ * the k-th value are a strip of their own, number strip * values.size() + k.
  *
- * The two were measured within moments of each other, so that errors of the trajectory cancel.
+ * The parts of a strip are one pass (their trajectory errors are the same), the points of one value
+ * are those of one system.
  */
-struct FieldPair {
-  int strip = 0;
-  int value = 0;                      ///< the other value
-  SystemRow row = SystemRow::Zero();  ///< effect of the parameters' difference on the distance
-  double distance = 0.0;              ///< of the corrected points, along the normal, metres
-  double variance = 0.0;              ///< of the distance, with what it shares with others, m^2
-};
-
-/// Values of a field whose points are compared.
-struct ComparedValues {
+struct FieldDivision {
   PointField field = PointField::scanner_channel;
-  int reference = 0;        ///< that of most points
-  std::vector<int> others;  ///< in ascending order
-  std::vector<int> all() const;
+  std::vector<int> values;  ///< in ascending order; empty: nothing to compare
+
+  /// The values that enough points have, where some strip has two of them. None where there are so
+  /// many values that they do not tell parts of an instrument apart.
+  static FieldDivision of(PointField field, const ValueCounts& counts);
+
+  std::size_t parts() const { return values.size(); }
+  int partOf(int strip, std::size_t k) const {
+    return strip * static_cast<int>(parts()) + static_cast<int>(k);
+  }
+  /// "channel1", "user_data3", "points_scanned_to_the_left": the points of the k-th value.
+  std::string nameOf(std::size_t k) const;
+  /// All combinations of the parts of these pairs of strips, and the pairs of parts of each of
+  /// these strips.
+  std::vector<StripPair> pairs(const std::vector<StripPair>& of_strips,
+                               const std::vector<int>& strips) const;
+  /// For each part what is given for each strip.
+  template <class T>
+  std::vector<T> repeated(const std::vector<T>& of_strips) const {
+    std::vector<T> all;
+    for (const T& value : of_strips) all.insert(all.end(), parts(), value);
+    return all;
+  }
+  StripSystems systems(std::size_t strips) const;
 };
 
-/// The values of a field that enough points have, from the numbers of points; the most frequent one
-/// is the reference. No others where points have one value, or so many that they do not tell parts
-/// of an instrument apart.
-ComparedValues comparedValues(PointField field, const std::map<int, std::size_t>& counts);
-
-/// Adds the pairs of a matcher from AreaMatcher::divided(), whose points were corrected for \a
-/// biases and \a sources.
-void addFieldPairs(const ComparedValues& values, int strip, const AreaObservations& observations,
-                   const SystemVector& biases, const ErrorSourceVector& sources,
-                   std::vector<FieldPair>& pairs);
+/// An adjustment of a block, of which differences within strips are found by a further one.
+struct AdjustedBlock {
+  std::vector<TimeSpan> spans;  ///< by strip
+  SharedErrorModel model;
+  SharedErrorLevels levels;
+  std::vector<SystemParameter> estimate;
+  int threads = 0;
+};
 
 /** \brief How probable it is that points with another value of a field differ from those with the
- * reference value in boresight, range bias or scan angle scale, and by how much.
+ * first value in boresight, range bias or scan angle scale, and by how much.
  *
- * Least squares with Huber weights, one value after the other; the covariance is that of clusters
- * (what one strip has in one area), and presence follows from it as in addGroupDifferences().
+ * The block is adjusted once more with divided strips, for changes of its parameters together with
+ * the differences: a difference between crossing scan planes resembles a pitch of both, by which
+ * the parameters of one system absorb most of it. Presence as of addGroupDifferences().
  *
- * \param pairs by area; those of a strip follow each other
+ * \param observations by area, of the parts; misclosures are those of corrected points
  */
-std::vector<ErrorFinding> fieldDifferences(const ComparedValues& values,
-                                           const std::vector<std::vector<FieldPair>>& pairs,
+std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
+                                           const AdjustedBlock& block,
+                                           const std::vector<AreaObservations>& observations,
                                            const ScanGeometry& edge);
 
 }  // namespace pcl_als

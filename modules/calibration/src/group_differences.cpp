@@ -38,20 +38,27 @@ std::vector<int> sessionsOf(const std::vector<TimeSpan>& times) {
   return sessions;
 }
 
-std::string remedyOf(const DifferenceUnknown& unknown, bool session) {
+std::string remedyOf(const DifferenceUnknown& unknown, const std::string& group) {
+  const auto is = [&](const char* word) { return group.find(word) != std::string::npos; };
   if (unknown.index >= kSystemParameterCount)
     return "check base station, antenna height, datum and geoid of this session; or calibrate it "
            "as a system of its own, with an offset of the coordinates";
-  return session ? "mounting or instrument changed between the sessions: calibrate them as systems "
-                   "of their own"
-                 : "calibrate the channels as systems of their own";
+  if (is("session"))
+    return "mounting or instrument changed between the sessions: calibrate them as systems of "
+           "their own";
+  if (is("scanned"))
+    return "check how the scan angles of both directions were derived (lag of the mirror, time "
+           "tags of the encoder)";
+  return is("channel") ? "calibrate the channels as systems of their own"
+                       : "calibrate the points of each value as systems of their own";
 }
 
+/// "user data 1" of user_data1.
 std::string readable(std::string name) {
-  for (const char* word : {"session", "channel"}) {
-    const std::size_t at = name.find(word);
-    if (at != std::string::npos) name.insert(at + std::char_traits<char>::length(word), " ");
-  }
+  const std::size_t digit = name.find_first_of("0123456789");
+  if (digit != std::string::npos) name.insert(digit, " ");
+  const std::size_t next = name.find("_channel");
+  if (next != std::string::npos) name.insert(next + std::string("_channel").size(), " ");
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
@@ -156,7 +163,7 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
       finding.source = groups[k].name + "_" + u.name;
       finding.title =
           u.title + " of " + readable(groups[k].name) + " against " + readable(groups.front().name);
-      finding.remedy = remedyOf(u, session);
+      finding.remedy = remedyOf(u, groups[k].name);
       if (!solution.solved) {
         finding.determined = false;
         finding.evidence = evidenceOf(finding);

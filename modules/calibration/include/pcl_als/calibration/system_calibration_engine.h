@@ -26,8 +26,8 @@ namespace pcl_als {
 
 class AreaMatcher;
 class CalibrationReport;
-struct ComparedValues;
-struct FieldPair;
+enum class PointField;
+struct FieldDivision;
 struct OverlappingPair;
 struct PriorEffect;
 
@@ -194,10 +194,9 @@ class SystemCalibrationEngine {
   /// or scan direction, and judges them.
   void diagnoseFields(const State& state, const ScanGeometry& edge,
                       CalibrationResult& result) const;
-  /// The pairs of the points with compared values, by area, of these strips in these areas.
-  std::vector<std::vector<FieldPair>> pairsByField(
-      const StripCorrections& corrections, const ComparedValues& values,
-      const std::vector<std::pair<std::size_t, int>>& parts) const;
+  FieldDivision divisionBy(PointField field) const;  ///< collective
+  /// The pairs of the parts of divided strips, by area; misclosures are those of corrected points.
+  std::vector<AreaObservations> pairsOf(const FieldDivision& division, const State& state) const;
   /// Observations as those of a block without held surfaces: these become control. Returns whether
   /// there are any.
   bool replaceHeld(std::vector<AreaObservations>& observations) const;
