@@ -25,6 +25,7 @@ FIELDS = {"names": ["x", "y", "z", "intensity", "flags", "user_data", "angle", "
           "formats": ["<i4", "<i4", "<i4", "<u2", "u1", "u1", "<i2", "<u2", "<f8"],
           "offsets": [0, 4, 8, 12, 15, 17, 18, 20, 22]}
 SCAN_DIRECTION = 0x40
+UNIX_TIME = 1_756_080_000  # 2025-08-25
 
 
 def edit(path, change, output=None):
@@ -268,7 +269,7 @@ def calibrate_user_data(block):
 
 
 @situation("mirror torsion without recorded scan directions, `calibrate`", "10 arcsec",
-           r"(to_the_(left|right)|torsion).*", None)
+           r"(scanned_to_the_(left|right)|torsion).*", None)
 def calibrate_torsion(block):
     block.simulate("-error", "mirror_torsion=25")
 
@@ -284,7 +285,7 @@ def info_unix(block):
     block.simulate("-time", "adjusted")
 
     def unix(records, _):
-        records["time"] += 1e9 + 315964800 - 18
+        records["time"] = UNIX_TIME + records["time"] % 86400
     edit(block.strips()[0], unix)
     return block.run("info", block.strips()[0])
 
@@ -294,7 +295,7 @@ def info_nanoseconds(block):
     block.simulate("-time", "adjusted")
 
     def unix(records, _):
-        records["time"] = (records["time"] + 1e9 + 315964800 - 18) * 1e9
+        records["time"] = (UNIX_TIME + records["time"] % 86400) * 1e9
     edit(block.strips()[0], unix)
     return block.run("info", block.strips()[0])
 

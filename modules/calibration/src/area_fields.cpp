@@ -85,7 +85,9 @@ AreaMatcher AreaMatcher::divided(const FieldDivision& division, std::size_t cand
       const auto found = std::lower_bound(values.begin(), values.end(), of_points[i]);
       if (found == values.end() || *found != of_points[i]) continue;
       const auto k = static_cast<std::size_t>(found - values.begin());
-      matcher.surfaces_[static_cast<std::size_t>(division.partOf(part.strip, k))].add(part, i);
+      StripPart& to = matcher.surfaces_[static_cast<std::size_t>(division.partOf(part.strip, k))];
+      to.add(part, i);
+      to.rounding = part.rounding;
     }
   }
   matcher.buildSurfaces(candidates, resolution, trajectory);

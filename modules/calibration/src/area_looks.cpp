@@ -60,6 +60,7 @@ void AreaMatcher::evenOut() {
     for (std::size_t i = 0; i < part.biased.size(); ++i)
       if (taken.insert(cellOf(part.biased[i], size)).second) even.add(part, i);
     even.strip = part.strip;
+    even.rounding = part.rounding;
     part = std::move(even);
   }
 }
@@ -102,6 +103,7 @@ bool AreaMatcher::divideByLook(std::size_t strip, double resolution, const Traje
     if (look.biased.size() < kTooFew) return false;
     look.strip = whole.strip;
     look.held_std = whole.held_std;
+    look.rounding = whole.rounding;
     buildSurface(look, resolution);
     if (mixedShare(look) > kStillMixed * mixed) return false;
   }

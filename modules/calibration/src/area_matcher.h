@@ -72,6 +72,17 @@ class AreaMatcher {
   /// Times at which a strip measured the area with its margin, a span for each crossing.
   std::vector<TimeSpan> timesOf(int strip) const;
 
+  /// Of the coordinates of each strip, see coordinateSteps(); zero for strips that are held fixed.
+  std::vector<Eigen::Vector3d> steps() const;
+  /** \brief Distributes the coordinates of a strip evenly over the steps to which they were rounded,
+   * before prepare(): a random number of up to half a step is added to each.
+   *
+   * The rounding errors of neighbouring points depend on each other, and two strips that were
+   * rounded to the same values differ by nothing or by a whole step, which robust weights take for
+   * outliers. The sum of rounding error and random number is a random error of variance step^2/6.
+   */
+  void distribute(int strip, const Eigen::Vector3d& steps);
+
   /** \brief Keeps one point of each strip in every cell of 0.7 of its mean spacing, before
    * prepare().
    *
@@ -192,6 +203,8 @@ class AreaMatcher {
     double median_edge = 0.0;       ///< metres, in plan
     double held_std = 0.0;          ///< metres, of the points of a strip that is held fixed
     bool flown = true;              ///< false: the points of a surface, without times
+    /// Variance of coordinates that were rounded to large steps, m^2.
+    Eigen::Vector3d rounding = Eigen::Vector3d::Zero();
 
     bool held() const { return held_std > 0.0; }
     /// By point; 0 for scan directions that are recorded or unknown.

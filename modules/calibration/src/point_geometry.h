@@ -101,6 +101,7 @@ class AreaMatcher::PointGeometry {
     const ScanGeometry geometry = scanGeometry(pose_, alongBeam(position, surface));
     design = designBlock(geometry);
     covariance = noise_.pointCovariance(geometry);
+    covariance.diagonal() += part.rounding;
     pointing = noise_.pointingCovariance(geometry);
     beam = geometry.beam();
     range = geometry.range();

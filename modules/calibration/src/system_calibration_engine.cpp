@@ -61,6 +61,7 @@ std::size_t SystemCalibrationEngine::loadedPoints() const {
 std::size_t SystemCalibrationEngine::prepare() {
   if (area_shares_.count() != matchers_.size())
     area_shares_ = SharedItems(nullptr, std::vector<double>(matchers_.size(), 1.0));
+  distributeRounded();
   const Candidates candidates = candidatesOfStrips();
   std::vector<std::vector<double>> roughness(matchers_.size());
   forOwnAreas([&](std::size_t i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include <pcl_als/common/coordinate_steps.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
@@ -131,6 +132,17 @@ void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
                     "grid north");
 }
 
+void remarkSteps(const FileCensus& file, std::vector<std::string>& remarks) {
+  constexpr double kCoarser = 1.5;  // times the scale
+  constexpr double kNoticeable = 0.005;  // metres
+  const Eigen::Vector3d limit = (kCoarser * file.info.resolution).cwiseMax(kNoticeable);
+  const std::string steps = describeSteps(file.steps, limit);
+  if (!steps.empty())
+    remarks.push_back("the coordinates have steps of " + steps +
+                      ", coarser than the scale of the file: they passed single precision or a "
+                      "file with a larger scale");
+}
+
 void remarkFile(FileCensus& file, const PointWindow& window) {
   const bool whole = window.everything();
   const PointStatistics& s = file.statistics;
@@ -161,6 +173,7 @@ void remarkFile(FileCensus& file, const PointWindow& window) {
   remarkCount(remarks, s.withheld, s.points, "is flagged as withheld", "are flagged as withheld");
   if (s.largest_intensity == 0.0F && s.least_intensity == 0.0F)
     remarks.emplace_back("every intensity is zero");
+  remarkSteps(file, remarks);
   remarkCrs(file.info, remarks);
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include <pcl_als/common/coordinate_steps.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/io/survey_census.h>
@@ -87,8 +88,11 @@ class Census {
         PointReader::open(survey_.files[f].info.path, survey_.window, kAnyCoordinates);
     if (!reader->damage().empty()) survey_.files[f].remarks.push_back(reader->damage());
     PointChunk chunk;
+    std::vector<Eigen::Vector3d> first;
     while (reader->read(chunk)) {
       addChunk(f, chunk);
+      for (std::size_t i = 0; i < chunk.size() && first.size() < kEnoughForSteps; ++i)
+        first.emplace_back(chunk.x[i], chunk.y[i], chunk.z[i]);
       duplicates_.add(chunk);
       done_ += chunk.size();
       // Of a part of a file the number of points is only estimated before.
@@ -97,6 +101,7 @@ class Census {
     }
     for (const auto& [key, tally] : sources_)
       if (key.first == f) detail::mergeStatistics(survey_.files[f].statistics, tally.statistics());
+    survey_.files[f].steps = coordinateSteps(first);
     const PointStatistics& s = survey_.files[f].statistics;
     if (s.points == s.invalid_coordinates) return;
     const std::string remark = reader->boxRemark({s.minimum, s.maximum});

@@ -90,6 +90,7 @@ Json fileJson(const FileCensus& file) {
   for (const AppliedCorrection& correction : parseCorrections(file.info.corrections))
     json["corrections"].push_back(correction.describe());
   json["resolution"] = vector(file.info.resolution);
+  json["coordinate_steps"] = vector(file.steps);
   json["header_minimum"] = vector(file.info.minimum);
   json["header_maximum"] = vector(file.info.maximum);
   if (file.info.format.rfind("PCD", 0) != 0) json["las"] = lasParts(file.info.path);

@@ -203,6 +203,8 @@ class SystemCalibrationEngine {
   /// Limits of determination for the flying height.
   void adaptLimits();
   int stripNamed(const std::string& id) const;
+  /// Finds strips whose coordinates were rounded to large steps, and distributes them evenly.
+  void distributeRounded();
   /// Returns the number of pairs that may be formed.
   std::size_t prepare();
   std::vector<std::vector<TimeSpan>> measuredTimes() const;  ///< by strip, in the areas

@@ -42,6 +42,8 @@ struct PointStatistics {
 struct FileCensus {
   PointFileInfo info;
   PointStatistics statistics;
+  /// Of the coordinates of its first points, metres; zero: unknown; see coordinateSteps().
+  Eigen::Vector3d steps = Eigen::Vector3d::Zero();
   std::vector<std::string> remarks;  ///< suspicious facts in plain words
 };
 
