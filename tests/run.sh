@@ -17,6 +17,7 @@ cmake --build "$pcl_als_build"
 pcl_als_step "Testing"
 cd -- "$pcl_als_build"
 status=0
+# Tests that compile much have a longer limit of their own.
 ctest --output-on-failure --timeout 900 -j "$(nproc)" "$@" </dev/null || status=$?
 # Inside a program, a test that lacks something (real data, root) is skipped: say which.
 skipped=$(awk '/^SKIPPED: / { print "  " $0 }

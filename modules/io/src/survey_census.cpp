@@ -36,7 +36,7 @@ class Census {
       : progress_(progress), given_(strips) {
     survey_.window = window;
     for (const auto& path : paths) {
-      survey_.files.push_back({PointReader::open(path, window, kAnyCoordinates)->info(), {}, {}});
+      survey_.files.emplace_back().info = PointReader::open(path, window, kAnyCoordinates)->info();
       total_ += survey_.files.back().info.point_count;
     }
     survey_.cell = cell > 0.0 ? cell : usualCensusCell(infos());
