@@ -48,6 +48,7 @@ void addNoise(CommandLine& line) {
       "error",
       "[channelN:|sessionN:|stripN:]NAME=VALUE: further errors (assumed - true): time_offset "
       "(ms), mirror_torsion (arcsec), encoder_quadratic, encoder_cubic (1/rad, 1/rad2), "
+      "encoder_sine (arcsec, period 10 degrees), "
       "deflection_scale, range_scale (1), range_walk (m per decade of intensity), "
       "range_incidence (share of the stretched pulse), offset_x/_y/_z, jump_x/_y/_z in the "
       "middle of a strip (m), and every name of -bias of one channel (from 0), session or "

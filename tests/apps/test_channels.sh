@@ -40,10 +40,10 @@ check "roll of the first channel, $first" awk -v v="$first" 'BEGIN { exit !(v > 
 check "roll of the second channel, $second" awk -v v="$second" 'BEGIN { exit !(v > 116 && v < 124) }'
 # Not divided, the channels are compared within the strips all the same.
 value_of() { awk -v s="\"$1\"" '/"source":/ { found = index($0, s) } found && /"value":/ { gsub(/[^-0-9.e]/, "", $2); print $2 }' "$2"; }
-expect 3 "boresight roll of channel 1 against channel 0 differ*and no parameters of one system" \
+expect 3 "boresight roll of channel 1 against channel 0 differs by*and no parameters of one system" \
   calibrate "${strips[@]}" "${flight[@]}" -output one.json
 cp out.txt one.txt
-check "remedy" grep -q "differ by 1[12].*-channels scanner_channel divides them" one.txt
+check "remedy" grep -q "differs by 1[12].*-channels scanner_channel divides them" one.txt
 check "difference of the roll" awk -v v="$(value_of channel1_boresight_roll one.json)" 'BEGIN { exit !(v > 116 && v < 124) }'
 expect 0 "" apply cross/strip3.las by_apply.las "${flight[@]}" -calibration systems.json
 check "apply equals -corrected" cmp by_apply.las corrected/strip3.las

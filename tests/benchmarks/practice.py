@@ -255,7 +255,7 @@ def check_one_pass(block):
 
 
 @situation("two scanners 60\" apart, told apart by user data only, `calibrate`",
-           "user_data 1 differs by 60\" in roll", r"user_data.*roll.*differ by -?[56]\d",
+           "user_data 1 differs by 60\" in roll", r"user_data.*roll.*differs by -?[56]\d",
            r"verdict: usable")
 def calibrate_user_data(block):
     block.simulate("-scanner", "dual", "-error", "channel1:boresight_roll=60")

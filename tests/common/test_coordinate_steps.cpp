@@ -40,7 +40,7 @@ TEST(CoordinateSteps, ThoseOfASinglePrecision) {
 
 TEST(CoordinateSteps, ThoseOfAScale) {
   for (const double step : {0.01, 0.1, 0.25}) {
-    std::vector<Eigen::Vector3d> points = somePoints(2000);
+    std::vector<Eigen::Vector3d> points = somePoints(kEnoughForSteps);
     for (int axis = 0; axis < 3; ++axis) roundTo(step, axis, points);
     const Eigen::Vector3d steps = coordinateSteps(points);
     if (step >= 0.1) {
@@ -51,10 +51,16 @@ TEST(CoordinateSteps, ThoseOfAScale) {
   }
 }
 
+TEST(CoordinateSteps, AScanLineHasNone) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 500; ++i) points.emplace_back(0.25 * i, 0.1 * i, 500.0 + 0.01 * i);
+  EXPECT_TRUE(coordinateSteps(points).isZero(0.0));
+}
+
 /// The scale of the file, or nothing: never a step that is not there.
 TEST(CoordinateSteps, NoneWhereThereAreNone) {
-  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{50},
-                                  std::size_t{500}, std::size_t{5000}, kEnoughForSteps}) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{50}, std::size_t{500},
+                                  std::size_t{5000}, kEnoughForSteps}) {
     std::vector<Eigen::Vector3d> points = somePoints(count);
     EXPECT_LT(coordinateSteps(points).maxCoeff(), 1e-4) << count;
     for (int axis = 0; axis < 3; ++axis) roundTo(0.001, axis, points);

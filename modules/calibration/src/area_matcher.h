@@ -74,8 +74,8 @@ class AreaMatcher {
 
   /// Of the coordinates of each strip, see coordinateSteps(); zero for strips that are held fixed.
   std::vector<Eigen::Vector3d> steps() const;
-  /** \brief Distributes the coordinates of a strip evenly over the steps to which they were rounded,
-   * before prepare(): a random number of up to half a step is added to each.
+  /** \brief Distributes the coordinates of a strip evenly over the steps to which they were
+   * rounded, before prepare(): a random number of up to half a step is added to each.
    *
    * The rounding errors of neighbouring points depend on each other, and two strips that were
    * rounded to the same values differ by nothing or by a whole step, which robust weights take for

@@ -51,7 +51,8 @@ std::vector<Eigen::Vector3d> AreaMatcher::steps() const {
   for (std::size_t strip = 0; strip < steps.size(); ++strip) {
     const StripPart& part = surfaces_[strip];
     const auto count = static_cast<std::ptrdiff_t>(std::min(kEnough, part.biased.size()));
-    if (!part.held()) steps[strip] = coordinateSteps({part.biased.begin(), part.biased.begin() + count});
+    if (!part.held())
+      steps[strip] = coordinateSteps({part.biased.begin(), part.biased.begin() + count});
   }
   return steps;
 }

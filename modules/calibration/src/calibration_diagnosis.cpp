@@ -12,6 +12,7 @@
 
 #include "calibration_state.h"
 #include "control_consistency.h"
+#include "error_diagnosis.h"
 #include "pair_coverage.h"
 #include "part_consistency.h"
 #include "strip_consistency.h"

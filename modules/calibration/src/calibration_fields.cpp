@@ -91,8 +91,9 @@ void SystemCalibrationEngine::diagnoseFields(const State& state, const ScanGeome
     if (field == PointField::scan_direction && (conical_ || rosette_)) continue;
     const FieldDivision division = divisionBy(field);
     if (division.values.empty()) continue;
-    const AdjustedBlock block{flownTimes(), settings_.shared_errors, state.adjustment.levels(),
-                              state.choice.estimate, settings_.threads};
+    AdjustedBlock block{flownTimes(), settings_.shared_errors, state.adjustment.levels(),
+                        state.choice.estimate, settings_.threads};
+    block.model.biases.mean -= state.choice.solution.biases;  // a prior of their changes
     const std::size_t before = result.diagnosis.size();
     for (ErrorFinding& finding : fieldDifferences(division, block, pairsOf(division, state), edge))
       result.diagnosis.push_back(std::move(finding));

@@ -9,6 +9,7 @@
 #include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/statistics.h>
 
+#include "angle_curve.h"
 #include "calibration_state.h"
 #include "chosen_parameters.h"
 #include "error_diagnosis.h"
@@ -150,6 +151,20 @@ void SystemCalibrationEngine::diagnoseParts(State& state, SharedErrors& errors,
                         result.diagnosis);
   judgeDifferences(before, settings_.shared_errors.position, Remedy::none, result);
   diagnoseFields(state, edge, result);
+  diagnoseAngles(state, edge, result);
+}
+
+void SystemCalibrationEngine::diagnoseAngles(const State& state, const ScanGeometry& edge,
+                                             CalibrationResult& result) const {
+  // Other beams have no single angle, and parts of such blocks have parameters of their own.
+  if (!result.converged || conical_ || rosette_ || !trajectory_->scanPlanes().empty() ||
+      !held_.empty() || !settings_.systems.empty() || !(source_scale_.largest_angle > 0.0))
+    return;
+  const AdjustedBlock block{flownTimes(), settings_.shared_errors, state.adjustment.levels(),
+                            state.choice.estimate, settings_.threads};
+  judgeAngleCurve(angleCurve(block, {state.observations, state.weights.weights()},
+                             state.errors.consideredSources(), source_scale_.largest_angle, edge),
+                  settings_.shared_errors.position, result);
 }
 
 void SystemCalibrationEngine::continueWithSources(State& state, CalibrationResult& result) {

@@ -180,7 +180,7 @@ void judgeDifferences(std::size_t first, double relevant, Remedy remedy,
     const ErrorFinding& f = result.diagnosis[i];
     if (!f.determined || f.probability <= kSupported) continue;
     char size[80];
-    std::snprintf(size, sizeof size, " differ by %.3g +- %.2g %s", f.value, f.std, f.unit.c_str());
+    std::snprintf(size, sizeof size, " differs by %.3g +- %.2g %s", f.value, f.std, f.unit.c_str());
     const std::string text = f.source + ": " + f.title + size;
     result.warnings.emplace_back(text + "; " + f.remedy, remedy);
     if (f.source.find("offset_") == std::string::npos && f.effect > relevant)

@@ -8,6 +8,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "angle_curve.h"
+#include "error_diagnosis.h"
+
 namespace pcl_als {
 namespace {
 
@@ -145,18 +148,55 @@ std::vector<StripErrorSize> largeStripErrors(const std::vector<StripErrors>& str
   return large;
 }
 
+namespace {
+
+/// The source of a supported finding that one set of parameters does not describe: a difference
+/// between parts of the block, or a curve of the scan angle. Empty: none.
+std::string causeBesideParameters(const CalibrationResult& result) {
+  const auto is_difference = [](const std::string& source) {
+    return std::any_of(systemParameters().begin(), systemParameters().end(),
+                       [&](const SystemParameterInfo& info) {
+                         const std::string end = "_" + std::string(info.name);
+                         return source.size() > end.size() &&
+                                source.compare(source.size() - end.size(), end.size(), end) == 0;
+                       });
+  };
+  for (const ErrorFinding& f : result.diagnosis)
+    if (f.determined && f.probability > kSupported &&
+        (f.source == AngleCurve::kSource || is_difference(f.source)))
+      return f.source;
+  return {};
+}
+
+void warnOfCorrections(const std::vector<StripErrorSize>& large, bool reconstructed,
+                       CalibrationResult& result) {
+  const std::string cause = causeBesideParameters(result);
+  if (!cause.empty() && !large.empty()) {
+    const StripErrorSize& first = large.front();
+    const Component& component = kComponents[static_cast<std::size_t>(first.component)];
+    result.warnings.push_back(
+        std::to_string(large.size()) +
+        " trajectory corrections exceed three a priori standard deviations (largest: strip " +
+        first.strip + ", " + component.name + ", " + sizeText(first.rms, component.angle) + "); " +
+        cause + " may be their cause and is to be examined first");
+    return;
+  }
+  for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
+    result.warnings.push_back({describe(large[i], reconstructed), Remedy::flight_sigmas});
+  if (large.size() > kListed)
+    result.warnings.push_back(std::to_string(large.size() - kListed) +
+                              " further trajectory corrections exceed three a priori standard "
+                              "deviations");
+}
+
+}  // namespace
+
 void assessStripErrors(const CalibrationSettings& settings, const std::vector<PriorEffect>& effects,
                        CalibrationResult& result) {
   const bool reconstructed = settings.reconstructed_height_std.has_value();
   const std::vector<StripErrorSize> large =
       largeStripErrors(result.strip_errors, settings.shared_errors, kNoticeableCorrection);
-  for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
-    result.warnings.push_back({describe(large[i], reconstructed), Remedy::flight_sigmas});
-  if (large.size() > kListed) {
-    result.warnings.push_back(std::to_string(large.size() - kListed) +
-                              " further trajectory corrections exceed three a priori standard "
-                              "deviations");
-  }
+  warnOfCorrections(large, reconstructed, result);
   const std::string affected = affectedText(effects, result);
   if (!affected.empty()) result.warnings.push_back(affected);
   if (!affected.empty() && large.front().ratio() > kContradictingCorrection) {

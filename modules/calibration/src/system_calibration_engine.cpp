@@ -287,7 +287,8 @@ void SystemCalibrationEngine::addFits(State& state, const CalibrationReport& rep
   const std::vector<AreaUse> used = state.usedAreas();
   addFarPairs(state);
   // The fits are those of points corrected by what the result states, not by the solution.
-  setSystemEffects(state.errors, statedDifferences(result, state.differences), state.observations);
+  setSystemEffects(state.errors, statedDifferences(result, systems_, state.differences),
+                   state.observations);
   for (AreaObservations& area : state.observations)
     addSourceEffects(result.sources - state.held_sources, area);
   report.addControlPoints(control_, state.observations, used,

@@ -150,7 +150,10 @@ void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
 }
 
 std::vector<SystemUnknowns> statedDifferences(const CalibrationResult& result,
+                                              const StripSystems& systems,
                                               std::vector<SystemUnknowns> solved) {
+  for (std::size_t k = 0; k < systems.held.size(); ++k)
+    if (systems.held[k].flown) solved[static_cast<std::size_t>(systems.heldSystem(k))].setZero();
   for (std::size_t i = 1; i < result.systems.size(); ++i)
     solved[i] = result.systems[i].values() - result.systems.front().values();
   return solved;

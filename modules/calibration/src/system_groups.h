@@ -37,8 +37,10 @@ void addSystems(const Adjustment& adjustment, const SharedErrors& errors,
                 const std::vector<std::string>& ids, CalibrationResult& result);
 
 /// Differences of the systems to the first one as a result states them, by which points are
-/// corrected. \param solved of all systems; those of surfaces that are held fixed stay as they are
+/// corrected; none for strips that are held fixed, whose points stay where they are.
+/// \param solved of all systems; the heights of reference surfaces stay as they are
 std::vector<SystemUnknowns> statedDifferences(const CalibrationResult& result,
+                                              const StripSystems& systems,
                                               std::vector<SystemUnknowns> solved);
 
 }  // namespace pcl_als

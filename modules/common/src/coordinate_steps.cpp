@@ -9,15 +9,16 @@ namespace pcl_als {
 namespace {
 
 double stepOf(std::vector<double>& values) {
-  constexpr std::size_t kFewest = 40;  // distances, for a quantile of 5 %
-  constexpr double kSame = 1e-9;       // of the step: rounding of sums in double precision
+  constexpr std::size_t kFewest = 3;  // distances
+  constexpr double kSame = 1e-9;      // of the step: rounding of sums in double precision
   std::sort(values.begin(), values.end());
   std::vector<double> distances;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double distance = values[i] - values[i - 1];
     if (distance > kSame) distances.push_back(distance);
   }
-  if (distances.size() < kFewest) return 0.0;
+  // The points of one scan line are evenly spaced as well, but none of their values repeats.
+  if (distances.size() < kFewest || values.size() < 2 * distances.size()) return 0.0;
   const auto quantile = [&](double share) {
     const auto at = distances.begin() +
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(distances.size()));

@@ -133,7 +133,7 @@ void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
 }
 
 void remarkSteps(const FileCensus& file, std::vector<std::string>& remarks) {
-  constexpr double kCoarser = 1.5;  // times the scale
+  constexpr double kCoarser = 1.5;       // times the scale
   constexpr double kNoticeable = 0.005;  // metres
   const Eigen::Vector3d limit = (kCoarser * file.info.resolution).cwiseMax(kNoticeable);
   const std::string steps = describeSteps(file.steps, limit);

@@ -69,6 +69,13 @@ void writeDiagnosis(const CalibrationResult& result, Json& root) {
                             {"remedy", f.remedy}});
   }
   root["diagnosis"] = std::move(findings);
+  if (result.scan_angle_curve.empty()) return;
+  Json curve = Json::array();
+  for (const AngleError& e : result.scan_angle_curve)
+    curve.push_back(Json{{"angle_deg", number(e.angle / kRadiansPerDegree)},
+                         {"error_arcsec", number(e.error / kRadiansPerArcsec)},
+                         {"std_arcsec", number(e.std / kRadiansPerArcsec)}});
+  root["scan_angle_curve"] = std::move(curve);
 }
 
 void readDiagnosis(const JsonNode& root, CalibrationResult& result) {
@@ -88,6 +95,13 @@ void readDiagnosis(const JsonNode& root, CalibrationResult& result) {
         values[kLargestAngle].within(90.0, "degrees") * kRadiansPerDegree;
     result.source_scale.median_intensity = values[kMedianIntensity].number();
     result.source_scale.about_axis = values.has(kAboutAxis) && values[kAboutAxis].truth();
+  }
+  if (root.has("scan_angle_curve")) {
+    for (const JsonNode& node : root["scan_angle_curve"].items())
+      result.scan_angle_curve.push_back(
+          {node["angle_deg"].within(90.0, "degrees") * kRadiansPerDegree,
+           node["error_arcsec"].number() * kRadiansPerArcsec,
+           node["std_arcsec"].number() * kRadiansPerArcsec});
   }
   if (!root.has("diagnosis")) return;
   for (const JsonNode& node : root["diagnosis"].items()) {

@@ -182,6 +182,9 @@ void addDiagnosis(HtmlReport& report, const CalibrationResult& result) {
   }
   report.addTable(table);
   if (!remedies.empty()) report.addList(remedies);
+  if (!result.scan_angle_curve.empty())
+    report.addPicture(drawScanAngleCurve(result, kWide).image(),
+                      "Errors of the scan angle that depend on the scan angle.");
 }
 
 void addFits(HtmlReport& report, const CalibrationResult& result) {

@@ -51,6 +51,7 @@ void addCalibration(const std::filesystem::path& file, std::vector<NamedPlot>& p
   add("pairs", drawPairs, !result.pairs.empty());
   add("convergence", drawConvergence, !result.iterations.empty());
   add("residuals", drawResiduals, !result.residuals.edges.empty());
+  add("scan_angle_curve", drawScanAngleCurve, !result.scan_angle_curve.empty());
   add("strip_errors", drawStripErrors, !result.strip_errors.empty());
 }
 

@@ -91,6 +91,7 @@ const std::array<ErrorSourceInfo, kErrorSourceCount>& errorSources() {
       {ErrorSource::mirror_torsion, "mirror_torsion", "arcsec", kRadiansPerArcsec, 3600.0},
       {ErrorSource::encoder_quadratic, "encoder_quadratic", "1/rad", 1.0, 0.1},
       {ErrorSource::encoder_cubic, "encoder_cubic", "1/rad2", 1.0, 0.1},
+      {ErrorSource::encoder_sine, "encoder_sine", "arcsec", kRadiansPerArcsec, 3600.0},
       {ErrorSource::deflection_scale, "deflection_scale", "1", 1.0, 0.05},
       {ErrorSource::range_scale, "range_scale", "1", 1.0, 0.01},
       {ErrorSource::range_walk, "range_walk", "m/decade", 1.0, 1.0},

@@ -43,6 +43,7 @@ void checkErrors(const SimulationOptions& options) {
   } else {
     refuse(ErrorSource::encoder_quadratic, " has no mirror angle: no encoder_quadratic");
     refuse(ErrorSource::encoder_cubic, " has no mirror angle: no encoder_cubic");
+    refuse(ErrorSource::encoder_sine, " has no mirror angle: no encoder_sine");
   }
   for (const ErrorSources::Entry& entry : options.errors.entries()) {
     const auto concerns = [&entry](const PlannedLine& line) {

@@ -80,7 +80,8 @@ BeamAngles Channel::reported(const ScanPattern::Reading& reading) const {
   const double b = beam.across, torsion = error(ErrorSource::mirror_torsion);
   beam.across +=
       (reading.to_right ? torsion : -torsion) +
-      b * b * (error(ErrorSource::encoder_quadratic) + b * error(ErrorSource::encoder_cubic));
+      b * b * (error(ErrorSource::encoder_quadratic) + b * error(ErrorSource::encoder_cubic)) +
+      error(ErrorSource::encoder_sine) * std::sin(36.0 * b);  // a period of 10 degrees
   return beam;
 }
 

@@ -227,6 +227,21 @@ Canvas drawResiduals(const CalibrationResult& result, PictureSize size) {
   return drawHistogram(plot, size);
 }
 
+Canvas drawScanAngleCurve(const CalibrationResult& result, PictureSize size) {
+  if (result.scan_angle_curve.empty())
+    throw UsageError("plot of scan angle errors: none in the result");
+  CurvePlot plot{
+      "Errors of the scan angle", "scan angle, degrees (left positive)", "error, arcsec", {}};
+  CurvePlot::Series& series = plot.series.emplace_back();
+  series.name = "estimate, +- std";
+  for (const AngleError& error : result.scan_angle_curve) {
+    series.x.push_back(error.angle / kRadiansPerDegree);
+    series.y.push_back(error.error / kRadiansPerArcsec);
+    series.std.push_back(error.std / kRadiansPerArcsec);
+  }
+  return drawCurves(plot, size);
+}
+
 Canvas drawStripErrors(const CalibrationResult& result, PictureSize size) {
   if (result.strip_errors.empty()) throw UsageError("plot of strip errors: none in the result");
   Canvas canvas(size.width, size.height);

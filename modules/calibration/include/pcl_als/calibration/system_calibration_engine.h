@@ -194,6 +194,9 @@ class SystemCalibrationEngine {
   /// or scan direction, and judges them.
   void diagnoseFields(const State& state, const ScanGeometry& edge,
                       CalibrationResult& result) const;
+  /// Adds an error of the scan angle as a function of it, and judges it.
+  void diagnoseAngles(const State& state, const ScanGeometry& edge,
+                      CalibrationResult& result) const;
   FieldDivision divisionBy(PointField field) const;  ///< collective
   /// The pairs of the parts of divided strips, by area; misclosures are those of corrected points.
   std::vector<AreaObservations> pairsOf(const FieldDivision& division, const State& state) const;

@@ -160,6 +160,12 @@ struct ErrorLevels {
   double trajectory_heading = 16.0 * kRadiansPerArcsec;    ///< rad
 };
 
+/// An error of the scan angle at a scan angle, radians (positive to the left), with its standard
+/// deviation.
+struct AngleError {
+  double angle = 0.0, error = 0.0, std = 0.0;
+};
+
 /// One of several systems of a calibration. Parameters that it shares with the others have the
 /// same values in all systems.
 struct SystemEstimate {
@@ -189,6 +195,9 @@ struct CalibrationResult {
   ErrorSourceScale source_scale;
   /// Possible causes of the misfit, those of the system parameters first.
   std::vector<ErrorFinding> diagnosis;
+  /// Errors of the scan angle as a function of it, where the data support such a curve; their mean
+  /// is zero.
+  std::vector<AngleError> scan_angle_curve;
   std::vector<SystemParameter> correlation_order;  ///< the estimated ones
   Eigen::MatrixXd correlation;                     ///< in that order
   double sigma0 = 0.0;

@@ -17,10 +17,10 @@ inline constexpr std::size_t kEnoughForSteps = 20'000;
  * show them.
  *
  * Coordinates may be coarser than the scale of their file: they passed single precision (0.5 m in a
- * northing of UTM) or a file with a larger scale. The distances between neighbouring distinct
- * values of rounded coordinates are the step or a small multiple of it, so that their median is at
- * most three times the 5 % quantile; without rounding they are distributed exponentially, where it
- * is 13 times as large.
+ * northing of UTM) or a file with a larger scale. Values of rounded coordinates repeat: each occurs
+ * twice or more on average. The distances between neighbouring distinct values are the step or a
+ * small multiple of it, so that their median is at most three times the 5 % quantile; without
+ * rounding they are distributed exponentially, where it is 13 times as large.
  */
 Eigen::Vector3d coordinateSteps(const std::vector<Eigen::Vector3d>& points);
 

@@ -24,6 +24,7 @@ enum class ErrorSource {
                       ///< -torsion in sweeps to the left; oscillating mirrors only
   encoder_quadratic,  ///< 1/rad: d_b = value b^2; scanners with a mirror angle
   encoder_cubic,      ///< 1/rad^2: d_b = value b^3; scanners with a mirror angle
+  encoder_sine,       ///< rad: d_b = value sin(2 pi b / 10 degrees); scanners with a mirror angle
   deflection_scale,   ///< 1: angle from the axis times 1 + value; conical and rosette scanners
   range_scale,        ///< 1: d_r = value r
   range_walk,         ///< metres a decade: d_r = value log10(reference / intensity)
@@ -35,7 +36,7 @@ enum class ErrorSource {
   jump_y,             ///< metres north
   jump_z,             ///< metres up
 };
-inline constexpr int kErrorSourceCount = 14;
+inline constexpr int kErrorSourceCount = 15;
 
 struct ErrorSourceInfo {
   ErrorSource source;

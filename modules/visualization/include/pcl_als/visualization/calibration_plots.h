@@ -30,6 +30,10 @@ Canvas drawResiduals(const CalibrationResult& result, PictureSize size = {});
 /// none: as written in pictures and reports.
 std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate);
 
+/// Errors of the scan angle over the scan angle, with their standard deviations. UsageError without
+/// such a curve.
+Canvas drawScanAngleCurve(const CalibrationResult& result, PictureSize size = {});
+
 /// Estimated trajectory errors of each strip over time: position and angles.
 /// UsageError without strip corrections.
 Canvas drawStripErrors(const CalibrationResult& result, PictureSize size = {});
