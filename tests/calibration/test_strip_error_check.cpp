@@ -32,7 +32,8 @@ void assess(CalibrationResult& result) {
   const CalibrationSettings settings;
   const bool large =
       !largeStripErrors(result.strip_errors, settings.shared_errors, kNoticeableCorrection).empty();
-  assessStripErrors(settings, large ? effects() : std::vector<PriorEffect>(), result);
+  assessStripErrors(settings, large ? effects() : std::vector<PriorEffect>(), HeightError(),
+                    result);
 }
 
 TEST(StripErrorCheck, AcceptsErrorsOfTheAPrioriSize) {
@@ -72,9 +73,40 @@ TEST(StripErrorCheck, ObjectsBeyondFive) {
 
 TEST(StripErrorCheck, NoObjectionWhereNoParameterDependsOnThem) {
   CalibrationResult result = resultWith(-0.307, 0.0);
-  assessStripErrors(CalibrationSettings(), {effects().front()}, result);
+  assessStripErrors(CalibrationSettings(), {effects().front()}, HeightError(), result);
   EXPECT_TRUE(result.verdict.usable());
   EXPECT_EQ(result.warnings.size(), 1U);
+}
+
+/// A known cause is named in place of errors of the trajectory's positions and attitude.
+TEST(StripErrorCheck, NamesAKnownCauseFirst) {
+  ErrorFinding finding;
+  finding.source = "channel1_boresight_roll";
+  finding.probability = 1.0;
+  finding.determined = true;
+  HeightError height;
+  height.kind = HeightError::Kind::gross;
+  for (const bool by_height : {false, true}) {
+    CalibrationResult result = resultWith(-0.307, 0.0);
+    result.diagnosis = {finding};
+    assessStripErrors(CalibrationSettings(), effects(), by_height ? height : HeightError(), result);
+    const std::string text =
+        "1 trajectory correction beyond three a priori standard deviations (largest: strip 8, "
+        "height, 307 mm), of which " +
+        std::string(by_height ? "the height of the trajectory" : "channel1_boresight_roll") +
+        " may be the cause";
+    EXPECT_NE(result.warnings[0].text.find(text), std::string::npos) << result.warnings[0].text;
+    EXPECT_NE(result.verdict.reason.find(text), std::string::npos) << result.verdict.reason;
+    EXPECT_EQ(result.verdict.reason.find("check the"), std::string::npos);
+  }
+  // The parameters themselves and what is not supported are no cause.
+  for (const char* source : {"boresight_roll", "session2_offset_up", "trajectory_jump"}) {
+    CalibrationResult result = resultWith(-0.307, 0.0);
+    finding.source = source;
+    result.diagnosis = {finding};
+    assessStripErrors(CalibrationSettings(), effects(), HeightError(), result);
+    EXPECT_NE(result.verdict.reason.find("check the unit"), std::string::npos) << source;
+  }
 }
 
 // Had errors of the size found been expected, the solution is the one that expects them.

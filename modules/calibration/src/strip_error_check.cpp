@@ -8,11 +8,18 @@
 #include <cstdio>
 #include <utility>
 
+#include <pcl_als/common/count_text.h>
+
 #include "angle_curve.h"
 #include "error_diagnosis.h"
 
 namespace pcl_als {
 namespace {
+
+/// Whether heights of the trajectory are wrong, and not scan angles by a factor that resembles it.
+bool isCertain(const HeightError& error) {
+  return error.kind == HeightError::Kind::offset || error.kind == HeightError::Kind::gross;
+}
 
 constexpr std::size_t kListed = 5;
 constexpr double kSwath = 0.15;  // square of the scan angle at the edge of a swath of 45 degrees
@@ -98,8 +105,9 @@ std::string affectedText(std::vector<PriorEffect> effects, CalibrationResult& re
     }
     names += (names.empty() ? "" : ", ") + std::string(infoOf(effect.parameter).name) + " (" +
              text + ")";
-    result[effect.parameter].reason =
-        std::string("affected by large trajectory corrections: ") + text;
+    std::string& reason = result[effect.parameter].reason;
+    reason += (reason.empty() ? "" : "; ") +
+              std::string("affected by large trajectory corrections: ") + text;
   }
   if (names.empty()) return names;
   return "parameters that depend on these corrections, and what they change by if errors of this "
@@ -152,7 +160,8 @@ namespace {
 
 /// The source of a supported finding that one set of parameters does not describe: a difference
 /// between parts of the block, or a curve of the scan angle. Empty: none.
-std::string causeBesideParameters(const CalibrationResult& result) {
+std::string causeBesideParameters(const HeightError& height, const CalibrationResult& result) {
+  if (isCertain(height)) return "the height of the trajectory";
   const auto is_difference = [](const std::string& source) {
     return std::any_of(systemParameters().begin(), systemParameters().end(),
                        [&](const SystemParameterInfo& info) {
@@ -168,17 +177,20 @@ std::string causeBesideParameters(const CalibrationResult& result) {
   return {};
 }
 
-void warnOfCorrections(const std::vector<StripErrorSize>& large, bool reconstructed,
-                       CalibrationResult& result) {
-  const std::string cause = causeBesideParameters(result);
+/// The largest correction, and the cause that is to be examined before those of trajectories.
+std::string describeWithCause(const std::vector<StripErrorSize>& large, const std::string& cause) {
+  const StripErrorSize& first = large.front();
+  const Component& component = kComponents[static_cast<std::size_t>(first.component)];
+  return counted(large.size(), "trajectory correction") + " beyond three a priori standard " +
+         "deviations (largest: strip " + first.strip + ", " + component.name + ", " +
+         sizeText(first.rms, component.angle) + "), of which " + cause +
+         " may be the cause: examine it first";
+}
+
+void warnOfCorrections(const std::vector<StripErrorSize>& large, const std::string& cause,
+                       bool reconstructed, CalibrationResult& result) {
   if (!cause.empty() && !large.empty()) {
-    const StripErrorSize& first = large.front();
-    const Component& component = kComponents[static_cast<std::size_t>(first.component)];
-    result.warnings.push_back(
-        std::to_string(large.size()) +
-        " trajectory corrections exceed three a priori standard deviations (largest: strip " +
-        first.strip + ", " + component.name + ", " + sizeText(first.rms, component.angle) + "); " +
-        cause + " may be their cause and is to be examined first");
+    result.warnings.push_back(describeWithCause(large, cause));
     return;
   }
   for (std::size_t i = 0; i < std::min(kListed, large.size()); ++i)
@@ -192,16 +204,19 @@ void warnOfCorrections(const std::vector<StripErrorSize>& large, bool reconstruc
 }  // namespace
 
 void assessStripErrors(const CalibrationSettings& settings, const std::vector<PriorEffect>& effects,
-                       CalibrationResult& result) {
+                       const HeightError& height, CalibrationResult& result) {
   const bool reconstructed = settings.reconstructed_height_std.has_value();
+  const std::string cause = causeBesideParameters(height, result);
   const std::vector<StripErrorSize> large =
       largeStripErrors(result.strip_errors, settings.shared_errors, kNoticeableCorrection);
-  warnOfCorrections(large, reconstructed, result);
+  warnOfCorrections(large, cause, reconstructed, result);
   const std::string affected = affectedText(effects, result);
   if (!affected.empty()) result.warnings.push_back(affected);
   if (!affected.empty() && large.front().ratio() > kContradictingCorrection) {
-    result.verdict.object(CalibrationStatus::parameters_affected,
-                          describe(large.front(), reconstructed) + "; " + affected);
+    result.verdict.object(
+        CalibrationStatus::parameters_affected,
+        (cause.empty() ? describe(large.front(), reconstructed) : describeWithCause(large, cause)) +
+            "; " + affected);
   }
   assessNeed(!affected.empty(), result);
 }
@@ -241,7 +256,7 @@ void assessHeight(const HeightError& error, const CalibrationSettings& settings,
   const std::string trajectory =
       settings.reconstructed_height_std ? "the reconstructed trajectory" : "the trajectory";
   if (error.kind == HeightError::Kind::none) return;
-  const bool certain = error.kind != HeightError::Kind::scale;
+  const bool certain = isCertain(error);
   if (certain) result.verdict.object(CalibrationStatus::parameters_affected, error.text);
   std::string names;
   for (const auto& [parameter, change] : heightEffects(error, result)) {

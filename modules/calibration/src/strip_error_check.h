@@ -67,7 +67,7 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
  * fits are in the result and before judgeCalibration().
  */
 void assessStripErrors(const CalibrationSettings& settings, const std::vector<PriorEffect>& effects,
-                       CalibrationResult& result);
+                       const HeightError& height, CalibrationResult& result);
 
 /** \brief Assesses the effect of a wrong height of the trajectory on the parameters.
  *

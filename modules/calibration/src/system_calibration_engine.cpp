@@ -305,8 +305,8 @@ void SystemCalibrationEngine::judge(State& state, const SharedErrors& errors,
                                     CalibrationResult& result) const {
   diagnose(result);
   assessControl(state, errors, result);
-  assessStripErrors(settings_, effects, result);
-  assessHeight(height_error_, settings_, result);
+  assessHeight(height_error_, settings_, result);  // a cause of the errors that follow
+  assessStripErrors(settings_, effects, height_error_, result);
   judgeCalibration(settings_.estimate, not_converged, result);
   assessParts(state, result);  // larger standard deviations must not make a result usable
   judgePairCoverage(overlappingPairs(), settings_.max_normal_distance, result);

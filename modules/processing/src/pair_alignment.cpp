@@ -15,6 +15,7 @@ using Paths = std::vector<std::filesystem::path>;
 
 void arrange(AlignmentPair& pair, const Paths& files, StripChoice choice) {
   choice.keep_timeless = true;  // nothing here needs times
+  choice.divide_lines = true;
   pair.arranged = std::make_shared<const ArrangedFiles>(files, choice);
   pair.use = pair.arranged->use();
 }
