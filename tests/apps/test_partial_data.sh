@@ -71,6 +71,22 @@ expect 2 "no strip is left" icpatch id0_*.las -split -without line1,line2,line3,
   -pair line1:line2 -output x.json
 absent x.json
 
+# Several flight lines under one id are divided where they are compared with each other, and named where they are not.
+"$damage" "${strips[0]}" id7.las append "${strips[1]}" append "${strips[2]}" append "${strips[3]}" source_id 7 ||
+  failed "damage"
+expect 0 "strip 1799 holds 4 flight lines, which lead back and forth, and is divided" check id7.las -output lines.json
+check "pairs of lines" test "$(grep -c '"a":' lines.json)" = "$(grep -c '"a":' split.json)"
+run calibrate id7.las -trajectory "$block/trajectory.csv" -output lines.json
+check "calibrate divides them" grep -q '"1799.4"' lines.json
+expect 0 "" icpatch id7.las -pair 1799.1:1799.2 -output lines.json
+check "divided lines are aligned as the strips they were cut from" cmp \
+  <(sed -n '/"centroid"/,$p' lines.json) <(sed -n '/"centroid"/,$p' pair.json)
+expect 2 "no point is of strip 1799; there are 1799.1, 1799.2, 1799.3, 1799.4" icpatch id7.las \
+  -pair 1799:1799.2 -output x.json
+absent x.json
+expect 0 "a strip holds several flight lines*-split divides them" intensity id7.las lines.las \
+  -trajectory "$block/trajectory.csv"
+
 training=(-training "$block/training.csv" -cell 1)
 expect 0 "" classify "${strips[@]:0:2}" "${training[@]}" -output two.tif
 expect 0 "the strip was not chosen" classify "${strips[@]}" "${training[@]}" -strips 1,2 -output some.tif \

@@ -193,8 +193,10 @@ class LasInput : public IntensityInput {
     for (std::size_t at = 0; at < count;) {
       BlockBox box;
       PointRun run;
-      at += lookAtRun(records + at * length_, count - at, box, run);
+      const std::byte* const first = records + at * length_;
+      at += lookAtRun(first, count - at, box, run);
       tally.add(run);
+      if (survey_.has_time) addPlaces(first, run, tally);
       box.block = block;
       const auto same =
           std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first_of_block), boxes.end(),
@@ -204,6 +206,22 @@ class LasInput : public IntensityInput {
       else
         same->add(box);
     }
+  }
+
+  /// The track of a strip needs few of its points.
+  void addPlaces(const std::byte* records, const PointRun& run, SurveyTally& tally) const {
+    constexpr std::size_t kEvery = 32;
+    thread_local PointChunk places;
+    for (auto* column : {&places.x, &places.y, &places.gps_time}) column->clear();
+    for (std::size_t i = 0; i < run.points; i += kEvery) {
+      const std::byte* const record = records + i * length_;
+      const Eigen::Vector3d place = positionOf(record);
+      places.x.push_back(place.x());
+      places.y.push_back(place.y());
+      places.gps_time.push_back(
+          secondsOfTime(loadLas<double>(record + static_cast<std::size_t>(layout_.gps_time))));
+    }
+    tally.addPlaces(run.source, places);
   }
 
   /// Looks at the records of the first one's strip; returns how many there are in a row.
@@ -313,7 +331,18 @@ class PcdInput : public IntensityInput {
       throw UsageError(path + ": is a PCD; gain control is read from LAS");
     survey_.sources.info = PointReader::open(path)->info();
     SurveyTally tally;
-    for (const PointLidar& point : *strip_.cloud) tally.add(runOf(point));
+    PointChunk places;
+    std::uint16_t source = 0;
+    for (const PointLidar& point : *strip_.cloud) {
+      const PointRun run = runOf(point);
+      tally.add(run);
+      if (run.source != source) tally.addPlaces(source, std::exchange(places, {}));
+      source = run.source;
+      places.x.push_back(run.minimum.x());
+      places.y.push_back(run.minimum.y());
+      places.gps_time.push_back(secondsOfTime(point.gps_time));
+    }
+    tally.addPlaces(source, places);
     tally.store(survey_);
   }
 

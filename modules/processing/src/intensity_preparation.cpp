@@ -30,12 +30,14 @@ class ForeignInput : public IntensityInput {
   }
   void get(ByteReader& in) {
     detail::get(in, survey_.sources);
+    in.getMap(survey_.tracks, [](ByteReader& i, SwathTrack& track) { track.get(i); });
     in.get(survey_.zeros).get(survey_.largest).get(survey_.first_time).get(survey_.last_time);
   }
 };
 
 void putSurvey(ByteWriter& out, const IntensitySurvey& survey) {
   detail::put(out, survey.sources);
+  out.putMap(survey.tracks, [](ByteWriter& o, const SwathTrack& track) { track.put(o); });
   out.put(survey.zeros).put(survey.largest).put(survey.first_time).put(survey.last_time);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/shared_vectors.h>
@@ -45,6 +46,7 @@ IntensityRun::IntensityRun(const std::vector<std::string>& paths,
   alignTimes();
   arrangeStrips(paths);
   checkTrajectory();
+  warnOfLines();
   chooseRadii();
   chooseCells();
 }
@@ -88,6 +90,21 @@ void IntensityRun::arrangeStrips(const std::vector<std::string>& paths) {
   }
   for (const std::string& strip : strips()) known_gains_.push_back(knownGain(strip));
   estimated_gains_.assign(strips().size(), 1.0);
+}
+
+void IntensityRun::warnOfLines() {
+  StripChoice choice = settings_.strips;
+  if (choice.split) return;
+  choice.divide_lines = choice.keep_timeless = true;
+  std::vector<SurveyedFile> sampled;
+  for (const auto& input : inputs_)
+    sampled.push_back({input->survey().sources, input->survey().tracks, {}, {}});
+  const StripArrangement lines(sampled, choice, {trajectory_.get(), times_, false});
+  const std::size_t divided = lines.divisions().size();
+  if (divided == 0) return;
+  warnings_.push_back((divided == 1 ? "a strip holds" : counted(divided, "strip") + " hold") +
+                      " several flight lines, which lead back and forth: their surfaces and "
+                      "intensities are those of one line; -split divides them");
 }
 
 bool IntensityRun::allChosen(std::size_t file) const {

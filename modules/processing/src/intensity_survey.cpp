@@ -26,6 +26,7 @@ void SurveyTally::add(const PointRun& run) {
 
 void SurveyTally::merge(const SurveyTally& other) {
   for (const auto& [id, theirs] : other.sources_) add(theirs);
+  for (const auto& [id, theirs] : other.tracks_) tracks_[id].merge(theirs);
   for (const auto& [mine, theirs] :
        {std::pair(&times_, &other.times_), std::pair(&zero_times_, &other.zero_times_)}) {
     mine->first = std::min(mine->first, theirs->first);
@@ -37,6 +38,7 @@ void SurveyTally::merge(const SurveyTally& other) {
 
 void SurveyTally::store(IntensitySurvey& survey) const {
   for (const auto& [id, source] : sources_) survey.sources.sources.push_back(source);
+  survey.tracks = tracks_;
   const TimeRange& range = times_.empty() ? zero_times_ : times_;
   survey.first_time = range.first;
   survey.last_time = range.last;

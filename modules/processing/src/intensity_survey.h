@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include <pcl_als/common/point_chunk.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/processing/intensity_input.h>
 
@@ -26,6 +27,10 @@ struct PointRun {
 class SurveyTally {
  public:
   void add(const PointRun& run);
+  /// Adds some points of a strip to its track.
+  void addPlaces(std::uint16_t source, const PointChunk& points) {
+    tracks_[source].add(points, 0, points.size());
+  }
   void merge(const SurveyTally& other);
   void store(IntensitySurvey& survey) const;
 
@@ -33,6 +38,7 @@ class SurveyTally {
   void add(const PointSource& source);
 
   std::map<std::uint16_t, PointSource> sources_;
+  std::map<std::uint16_t, SwathTrack> tracks_;
   TimeRange times_, zero_times_;
   std::uint64_t zeros_ = 0;
   double largest_ = 0.0;

@@ -16,6 +16,7 @@
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/swath_track.h>
 
 namespace pcl_als {
 
@@ -42,6 +43,7 @@ struct IntensityWindow {
 /// Result of a first pass over a file.
 struct IntensitySurvey {
   PointFileSources sources;
+  std::map<std::uint16_t, SwathTrack> tracks;  ///< of some of the points, by point source id
   bool has_time = true;
   std::uint64_t zeros = 0;  ///< points of intensity 0
   double largest = 0.0;     ///< intensity

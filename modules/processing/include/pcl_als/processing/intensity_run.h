@@ -158,6 +158,8 @@ class IntensityRun {
   void alignTimes();
   void arrangeStrips(const std::vector<std::string>& paths);
   void checkTrajectory();
+  /// Names strips that are certainly several flight lines.
+  void warnOfLines();
   void chooseRadii();
   void chooseCells();
   WindowRequest requestFor(std::size_t file) const;
