@@ -4,11 +4,14 @@
 """Ordinary mistakes of a working day, and what the tools say of each.
 
     tests/benchmarks/practice.py BUILD [--only WORD] [--seed N]
+    tests/benchmarks/practice.py BUILD --figures [--seed N]
 
 Each situation is made from a simulated block by changing its files as the mistake does, and given
 to a tool with the command that a user would type. Prints a Markdown table with the truth beside
 the sentence of the tool. A situation holds if the tool says what is expected, and never "usable"
 where it must not; the status of this script is 1 if one does not. Deterministic for a seed.
+--figures compares what a calibration states of the corrected strips with what another calibration
+finds in the files that were corrected by it, for all presets of the simulator.
 """
 import argparse
 import json
@@ -438,12 +441,46 @@ def sentence(text, expected):
     return text[start:end if end > 0 else len(text)].strip()[:200]
 
 
+PRESETS = {"paper": 0.15, "small": 0.5, "uav": 0.3, "corridor": 0.3, "conical": 0.4, "dual": 0.4,
+           "rosette": 0.3, "mountain": 0.3, "city": 0.3}
+
+
+def figures(build, seed):
+    """Misfit as delivered, as stated of the corrected strips, and as measured on their files."""
+    print("| preset | status | as delivered, m | stated, m | measured again, m | ratio | "
+          "largest difference of a pair's mean, mm |\n|---|---|---|---|---|---|---|")
+    failed = 0
+    for preset, scale in PRESETS.items():
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="pcl_als_practice"))
+        try:
+            block = Block(build, folder, seed)
+            block.simulate(preset=preset, scale=scale)
+            status, _ = block.calibrate("-corrected", folder / "corrected")
+            first = block.result()
+            block.calibrate(files=sorted((folder / "corrected").glob("strip*.las")))
+            again = block.result()
+        finally:
+            shutil.rmtree(folder)
+        means = {(pair["a"], pair["b"]): pair["mean_before_m"] for pair in again["pairs"]}
+        differences = [abs(means[pair["a"], pair["b"]] - pair["mean_after_m"])
+                       for pair in first["pairs"] if (pair["a"], pair["b"]) in means]
+        before, stated = first["misfit"]["rms_before_m"], first["misfit"]["rms_after_m"]
+        measured = again["misfit"]["rms_before_m"]
+        failed += not (abs(measured / stated - 1.0) < 0.05 and max(differences) < 0.01)
+        print(f"| {preset} | {status} | {before:.4f} | {stated:.4f} | {measured:.4f} | "
+              f"{measured / stated:.3f} | {1000.0 * max(differences):.1f} |", flush=True)
+    return 1 if failed else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--only", default="", help="situations whose title holds this word")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--figures", action="store_true")
     arguments = parser.parse_args()
+    if arguments.figures:
+        return figures(arguments.build.resolve(), arguments.seed)
     print("| situation | truth | status | what the tool says | holds |\n|---|---|---|---|---|")
     failed = 0
     for title, truth, expected, forbidden, function in SITUATIONS:

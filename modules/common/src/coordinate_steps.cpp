@@ -10,7 +10,7 @@ namespace {
 
 double stepOf(std::vector<double>& values) {
   constexpr std::size_t kFewest = 3;  // distances
-  constexpr double kSame = 1e-9;      // of the step: rounding of sums in double precision
+  constexpr double kSame = 1e-9;      // m: rounding of sums in double precision
   std::sort(values.begin(), values.end());
   std::vector<double> distances;
   for (std::size_t i = 1; i < values.size(); ++i) {
