@@ -84,7 +84,7 @@ check "divided lines are aligned as the strips they were cut from" cmp \
 expect 2 "no point is of strip 1799; there are 1799.1, 1799.2, 1799.3, 1799.4" icpatch id7.las \
   -pair 1799:1799.2 -output x.json
 absent x.json
-expect 0 "a strip holds several flight lines*-split divides them" intensity id7.las lines.las \
+expect 0 "a strip holds several flight lines*unless strips are split into lines" intensity id7.las lines.las \
   -trajectory "$block/trajectory.csv"
 
 training=(-training "$block/training.csv" -cell 1)

@@ -10,12 +10,12 @@
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/time_unit.h>
-#include <pcl_als/io/pcd_io.h>
-#include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/intensity_input.h>
 
+#include "intensity_pcd.h"
 #include "intensity_survey.h"
+#include "surface_points.h"
 
 namespace pcl_als {
 namespace {
@@ -25,33 +25,6 @@ constexpr std::size_t kIntensity = 12, kReturns = 14;
 
 /// X, Y, Z and the four bytes behind them, which are ignored, as one vector.
 using Lanes = std::int32_t __attribute__((vector_size(16)));
-
-/// Sorts single and last returns by strip; the map is asked when the strip changes.
-class SurfacePoints {
- public:
-  SurfacePoints(const StripArrangement& arrangement, IntensityWindow& window)
-      : arrangement_(arrangement), window_(window) {}
-  void add(const IntensityPoint& point) {
-    if (!point.isLast()) return;
-    const int strip = arrangement_.labels()[point.label].index;
-    if (strip < 0) return;
-    if (last_ == nullptr || strip_ != strip) {
-      strip_ = strip;
-      last_ = &window_.surface_points[strip];
-    }
-    last_->push_back(window_.relative(point.position));
-  }
-
- private:
-  const StripArrangement& arrangement_;
-  IntensityWindow& window_;
-  std::vector<Eigen::Vector3f>* last_ = nullptr;
-  int strip_ = 0;
-};
-
-std::uint32_t labelOf(StripArrangement::Sorter& sorter, const IntensityPoint& point) {
-  return static_cast<std::uint32_t>(sorter.label(point.source, point.time));
-}
 
 /// Box of the points of one strip in a block, in coordinate steps of the file.
 struct BlockBox {
@@ -323,79 +296,12 @@ class LasInput : public IntensityInput {
   std::vector<std::size_t> first_box_;  ///< of each window, and the end
 };
 
-class PcdInput : public IntensityInput {
- public:
-  PcdInput(const std::string& path, const Options& options)
-      : IntensityInput(path), strip_(loadPcd(path)) {
-    if (!options.gain_control.empty())
-      throw UsageError(path + ": is a PCD; gain control is read from LAS");
-    survey_.sources.info = PointReader::open(path)->info();
-    SurveyTally tally;
-    PointChunk places;
-    std::uint16_t source = 0;
-    for (const PointLidar& point : *strip_.cloud) {
-      const PointRun run = runOf(point);
-      tally.add(run);
-      if (run.source != source) tally.addPlaces(source, std::exchange(places, {}));
-      source = run.source;
-      places.x.push_back(run.minimum.x());
-      places.y.push_back(run.minimum.y());
-      places.gps_time.push_back(secondsOfTime(point.gps_time));
-    }
-    tally.addPlaces(source, places);
-    tally.store(survey_);
-  }
-
-  std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
-  const Strip<PointLidar>* strip() const override { return &strip_; }
-
-  void load(std::size_t, const WindowRequest& request, IntensityWindow& out) const override {
-    out.origin = strip_.frame.origin;
-    out.points.clear();
-    out.surface_points.clear();
-    out.gain_control.clear();
-    StripArrangement::Sorter sorter(*request.arrangement, request.file);
-    SurfacePoints surface_points(*request.arrangement, out);
-    for (const PointLidar& p : *strip_.cloud) {
-      IntensityPoint& point = out.points.emplace_back(pointOf(p));
-      point.label = labelOf(sorter, point);
-      surface_points.add(point);
-    }
-  }
-
- private:
-  IntensityPoint pointOf(const PointLidar& p) const {
-    IntensityPoint point;
-    point.position = strip_.frame.toGround(p.getVector3fMap());
-    point.time = secondsOfTime(p.gps_time);
-    point.intensity = p.intensity;
-    point.return_number = p.return_number;
-    point.number_of_returns = p.number_of_returns;
-    point.classification = p.classification;
-    point.source = p.point_source_id;
-    return point;
-  }
-  PointRun runOf(const PointLidar& point) const {
-    PointRun run;
-    run.source = point.point_source_id;
-    run.points = 1;
-    run.zeros = point.intensity == 0.0F ? 1 : 0;
-    run.largest = static_cast<double>(point.intensity);
-    run.zero_time = point.gps_time == 0.0;
-    if (!run.zero_time) run.times.add(secondsOfTime(point.gps_time));
-    run.minimum = run.maximum = strip_.frame.toGround(point.getVector3fMap());
-    return run;
-  }
-
-  Strip<PointLidar> strip_;
-};
-
 }  // namespace
 
 std::unique_ptr<IntensityInput> IntensityInput::open(const std::string& path,
                                                      const Options& options) {
   const std::string extension = lowerExtension(path);
-  if (extension == ".pcd") return std::make_unique<PcdInput>(path, options);
+  if (extension == ".pcd") return openIntensityPcd(path, options);
   if (extension == ".las" || extension == ".laz") return std::make_unique<LasInput>(path, options);
   throw InputError(path + ": is no point file by its name (.las, .laz or .pcd)");
 }

@@ -104,7 +104,7 @@ void IntensityRun::warnOfLines() {
   if (divided == 0) return;
   warnings_.push_back((divided == 1 ? "a strip holds" : counted(divided, "strip") + " hold") +
                       " several flight lines, which lead back and forth: their surfaces and "
-                      "intensities are those of one line; -split divides them");
+                      "intensities are those of one line unless strips are split into lines");
 }
 
 bool IntensityRun::allChosen(std::size_t file) const {
