@@ -50,9 +50,9 @@ struct Objective {
   SymmetricEigen<Eigen::Dynamic> curvature;
 };
 
-/// Of which component the logarithm of a component is expected a priori to be that of, where it is
-/// positive; -1: none. Grades of inertial systems differ in roll, pitch and heading alike, and
-/// short lines hardly determine errors of the heading.
+/// Of which component the logarithm of a component is expected a priori to be that of; -1: none.
+/// Grades of inertial systems differ in roll, pitch and heading alike, and short lines hardly
+/// determine errors of the heading.
 int followedBy(int component) {
   return component < kComponents - 1 && component % kKinds == 2 ? component - 1 : -1;
 }
@@ -64,7 +64,7 @@ constexpr double kMostVariance = 0.5;
 /// expectations, exp(s^2 / 2) times the most likely ones.
 double fromExpected(const Vector& logarithms, int component) {
   const int followed = followedBy(component);
-  const double centre = followed < 0 ? 0.0 : std::max(0.0, logarithms[followed]);
+  const double centre = followed < 0 ? 0.0 : logarithms[followed];
   return logarithms[component] - (centre - 0.5 * kMostVariance);
 }
 
@@ -84,7 +84,7 @@ void addPrior(const Vector& logarithms, Vector& gradient, Matrix& curvature) {
     gradient[k] += weight * x;
     curvature(k, k) += weight;
     const int followed = followedBy(k);
-    if (followed < 0 || !(logarithms[followed] > 0.0)) continue;
+    if (followed < 0) continue;
     gradient[followed] -= weight * x;
     curvature(followed, followed) += weight;
     curvature(k, followed) -= weight;
