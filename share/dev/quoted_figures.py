@@ -179,6 +179,11 @@ def quotations_of_strips(page):
 
 def quotations_of_sources(page):
     """The same, for further error sources and trajectories from points."""
+    found = page("practice.md")
+    yield "# situations of practice", found.sentence("All # situations hold")
+    yield ("finds the misfit that the first one states within # %",
+           found.sentence("both agree within # %"))
+
     found = page("diagnosis.md", "## How often errors are found")
     yield "In # simulated blocks", found.sentence("occurs in one of the # blocks")
     yield ("a probability above 0.9 in # of # blocks",
