@@ -49,6 +49,15 @@ CommandLine commandLine() {
                "write the files as they are, but with the number of its flight line as the point "
                "source id of each point (0 between lines): for tiles with wrong ids");
   for (const char* other : {"split", "strips", "without"}) line.exclude({"number_lines", other});
+  line.addChoice("las_version",
+                 "version of the LAS and LAZ files, which are written as a whole (default: that of "
+                 "the input, 1.4 from PCD); 1.5 has point formats 6 to 10 and its CRS as WKT",
+                 {"1.4", "1.5"});
+  line.addWhole("time_offset",
+                "of LAS 1.5: store absolute times less this offset, e.g. 1500 for the years 2023 "
+                "to 2031 (default: 1000 as in LAS 1.4)",
+                std::nullopt, {0, 65535, "million s"});
+  line.makeDependent("time_offset", "las_version");
   line.addChoice("format", "format of the files in an output folder (default: as the input)",
                  {"las", "laz", "pcd"});
   return line;
@@ -60,6 +69,12 @@ PointConversionOptions optionsOf(const CommandLine& line) {
   options.strips = app::stripChoice(line);
   options.keep_ids = line.has("keep_ids");
   options.number_lines = line.has("number_lines");
+  if (line.has("las_version")) {
+    options.las_version.emplace();
+    options.las_version->minor = line.text("las_version") == "1.5" ? 5 : 4;
+    if (line.has("time_offset"))
+      options.las_version->time_offset = static_cast<std::uint16_t>(line.whole("time_offset"));
+  }
   if (line.has("format")) options.format = line.text("format");
   options.threads = line.threads();
   return options;

@@ -217,7 +217,7 @@ TEST(IntegerBiasCorrection, ExtremeIntegersThatFitAreRight) {
 }
 
 TEST(IntegerBiasCorrection, RefusesAScaleThatIsNone) {
-  for (const double scale : {0.0, -0.001, std::nan(""), std::numeric_limits<double>::infinity()}) {
+  for (const double scale : {0.0, -1e-12, std::nan(""), std::numeric_limits<double>::infinity()}) {
     auto layout = kLayout;
     layout.scale.y() = scale;
     EXPECT_THROW(IntegerBiasCorrection("a.las", systemCorrection(typicalBiases()), layout),

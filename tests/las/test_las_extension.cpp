@@ -98,7 +98,8 @@ TEST_P(LasExtensionMatrix, KeepsEverythingAndAddsTheFields) {
 }
 
 INSTANTIATE_TEST_SUITE_P(VersionsAndFormats, LasExtensionMatrix,
-                         testing::Combine(testing::Values(2, 3, 4), testing::Values(0, 1, 3, 6)));
+                         testing::Combine(testing::Values(2, 3, 4, 5),
+                                          testing::Values(0, 1, 3, 6)));
 
 TEST(LasExtension, ExtendsTheRecordThatIsThere) {
   const auto folder = test::scratch("las_extension_again");

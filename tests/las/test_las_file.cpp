@@ -92,7 +92,7 @@ TEST_P(LasFileMatrix, EncodingReturnsTheBytes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(VersionsAndFormats, LasFileMatrix,
-                         testing::Combine(testing::Values(2, 3, 4), testing::Range(0, 11)));
+                         testing::Combine(testing::Values(2, 3, 4, 5), testing::Range(0, 11)));
 
 TEST(LasFile, ListsVlrsAndEvlrs) {
   LasBytes las;
@@ -237,13 +237,12 @@ const Corruption kCorruptions[] = {
     {"HeaderCut", "header is truncated", cut(200)},
     {"HeaderCutIn14", "header is truncated", cut(300)},
     {"Major2", "version 2.4 is not supported", set<std::uint8_t>(24, 2)},
-    {"Minor5", "version 1.5 is not supported", set<std::uint8_t>(25, 5)},
+    {"Minor5", "says it has 375 bytes; version 1.5 has 393", set<std::uint8_t>(25, 5)},
+    {"Minor6", "version 1.6 is not supported", set<std::uint8_t>(25, 6)},
     {"HeaderSizeSmall", "says it has 227 bytes", set<std::uint16_t>(94, 227)},
     {"HeaderSizeLarge", "header is truncated", set<std::uint16_t>(94, 65535)},
     {"OffsetInHeader", "inside the header", set<std::uint32_t>(96, 100)},
     {"OffsetPastEnd", "truncated copy", set<std::uint32_t>(96, 4000000000U)},
-    {"VlrCount", "VLR 2 of 2 lies past the beginning", set<std::uint32_t>(100, 2)},
-    {"VlrCountHuge", "lies past the beginning", set<std::uint32_t>(100, 4294967295U)},
     {"VlrLength", "reaches past the beginning of the points", set<std::uint16_t>(375 + 20, 21)},
     {"Format11", "point format 11 is not supported", set<std::uint8_t>(104, 11)},
     {"RecordShort", "too short for point format 6", set<std::uint16_t>(105, 29)},
@@ -251,8 +250,8 @@ const Corruption kCorruptions[] = {
     {"RecordLong", "declares 5 points but the file holds", set<std::uint16_t>(105, 65535)},
     {"CountLies", "declares 1000 points but the file holds 7", set<std::uint64_t>(247, 1000)},
     {"CountOverflows", "declares 18446744073709551615", set(247, ~std::uint64_t{0})},
-    {"ScaleZero", "x scale is 0.000000", set(131, 0.0)},
-    {"ScaleNegative", "y scale is -0.001", set(139, -0.001)},
+    {"ScaleZero", "x scale is 0, so that all points", set(131, 0.0)},
+    {"ScaleMinusZero", "y scale is 0, so that all points", set(139, -0.0)},
     {"ScaleNan", "z scale is", set(147, kNan)},
     {"ScaleInfinite", "x scale is inf", set(131, kInfinity)},
     {"ScaleHuge", "x scale is", set(131, 1e300)},

@@ -60,7 +60,7 @@ TEST_P(LasRewriterMatrix, ChangesOnlyWhatTheEditChanges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(VersionsAndFormats, LasRewriterMatrix,
-                         testing::Combine(testing::Values(2, 3, 4), testing::Range(0, 11)));
+                         testing::Combine(testing::Values(2, 3, 4, 5), testing::Range(0, 11)));
 
 TEST(LasRewriter, CallsTheEditOnceForEveryRecord) {
   const auto folder = test::scratch("las_rewriter_blocks");

@@ -60,7 +60,8 @@ TEST_P(LasSelectionMatrix, APartHasItsOwnCountsAndBox) {
 
 INSTANTIATE_TEST_SUITE_P(VersionsAndFormats, LasSelectionMatrix,
                          testing::Values(std::tuple(2, 0), std::tuple(2, 3), std::tuple(3, 5),
-                                         std::tuple(4, 1), std::tuple(4, 6), std::tuple(4, 10)));
+                                         std::tuple(4, 1), std::tuple(4, 6), std::tuple(4, 10),
+                                         std::tuple(5, 6), std::tuple(5, 10)));
 
 TEST(LasSelection, NoPointsGiveAnEmptyBox) {
   const auto folder = test::scratch("las_selection_none");

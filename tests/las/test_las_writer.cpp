@@ -112,6 +112,7 @@ std::vector<std::pair<int, int>> specifiedFormats() {
   for (int format = 0; format <= 3; ++format) formats.emplace_back(2, format);
   for (int format = 0; format <= 5; ++format) formats.emplace_back(3, format);
   for (int format = 0; format <= 10; ++format) formats.emplace_back(4, format);
+  for (int format = 6; format <= 10; ++format) formats.emplace_back(5, format);
   return formats;
 }
 INSTANTIATE_TEST_SUITE_P(SpecifiedFormats, LasWriterMatrix, testing::ValuesIn(specifiedFormats()));
@@ -286,7 +287,7 @@ TEST(LasWriter, RefusesWrongOptions) {
   const auto folder = test::scratch("las_writer_options");
   EXPECT_THROW(LasWriter(folder / "a.las", around(2, 4)), UsageError);
   EXPECT_THROW(LasWriter(folder / "a.las", around(3, 6)), UsageError);
-  EXPECT_THROW(LasWriter(folder / "a.las", around(5, 6)), UsageError);
+  EXPECT_THROW(LasWriter(folder / "a.las", around(6, 6)), UsageError);
   LasWriterOptions options = around(4, 6);
   options.scale.y() = 0.0;
   EXPECT_THROW(LasWriter(folder / "a.las", options), UsageError);

@@ -56,6 +56,7 @@ struct LasBytes {
   unsigned extra = 0;  ///< extra bytes per record, 0xA0, 0xA1, …
   double scale = 0.001, offset_x = 85000.0, offset_y = 5400000.0, offset_z = -50.0;
   unsigned encoding = 1;
+  unsigned time_offset = 0;                 ///< 1.5
   std::vector<std::string> vlrs, evlrs;     ///< complete, with their headers
   std::string header_tail, between, after;  ///< bytes nobody knows
 
@@ -120,7 +121,7 @@ struct LasBytes {
   }
 
   std::size_t headerSize() const {
-    return (minor >= 4 ? 375U : minor == 3 ? 235U : 227U) + header_tail.size();
+    return (minor >= 5 ? 393U : minor == 4 ? 375U : minor == 3 ? 235U : 227U) + header_tail.size();
   }
   std::size_t offsetToPoints() const {
     std::size_t offset = headerSize() + between.size();
@@ -146,6 +147,10 @@ struct LasBytes {
       const std::size_t end = offsetToPoints() + count * length;
       b.u64(evlrs.empty() ? 0 : end).u32(evlrs.size()).u64(count);
       for (unsigned r = 1; r <= 15; ++r) b.u64(countOf(r));
+    }
+    if (minor >= 5) {
+      const bool timed = hasTime() && count > 0;
+      b.f64(timed ? time(last) : 0.0).f64(timed ? time(0) : 0.0).u16(time_offset);
     }
     return b.raw(header_tail).str();
   }

@@ -71,7 +71,7 @@ struct IntegerBiasCorrection::Tile {
 IntegerBiasCorrection::IntegerBiasCorrection(std::string name, SystemCorrection correction,
                                              const Layout& layout)
     : name_(std::move(name)), correction_(std::move(correction)), layout_(layout) {
-  if (!(layout_.scale.minCoeff() >= 1e-9) || !layout_.scale.allFinite()) {
+  if (!(layout_.scale.cwiseAbs().minCoeff() >= 1e-9) || !layout_.scale.allFinite()) {
     throw InputError(name_ + ": the scale of its coordinates is not a number of 1e-9 m or more");
   }
 }
@@ -83,7 +83,7 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
     tile.raw[0][i] = load<std::int32_t>(records);
     tile.raw[1][i] = load<std::int32_t>(records + 4);
     tile.raw[2][i] = load<std::int32_t>(records + 8);
-    tile.time[i] = secondsOfTime(load<double>(time));
+    tile.time[i] = secondsOfTime(load<double>(time)) + layout_.time_shift;
     tile.intensity[i] = load<std::uint16_t>(records + layout_.intensity_position);
     tile.turning[i] =
         (load<std::uint8_t>(records + layout_.scan_direction_position) & 64) != 0 ? -1 : 1;

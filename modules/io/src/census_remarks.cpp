@@ -105,6 +105,23 @@ void remarkHeader(const LasHeader& h, const PointStatistics& s, std::vector<std:
         std::to_string(h.point_count) + "; the second is used");
 }
 
+/// The times of the points in the header of LAS 1.5, where it states them.
+void remarkHeaderTimes(const LasHeader& h, const PointStatistics& s,
+                       std::vector<std::string>& remarks) {
+  constexpr double kRounding = 1e-6;  // seconds
+  const double first = h.earliest_time + h.timeShift(), last = h.latest_time + h.timeShift();
+  if (h.version_minor < 5 || (h.earliest_time == 0.0 && h.latest_time == 0.0) ||
+      s.zero_times == s.points)
+    return;
+  if (std::abs(first - s.first_time) <= kRounding && std::abs(last - s.last_time) <= kRounding)
+    return;
+  std::ostringstream text;
+  text.precision(13);
+  text << "the header's times are wrong: it says " << first << " to " << last
+       << ", the points have " << s.first_time << " to " << s.last_time;
+  remarks.push_back(text.str());
+}
+
 void remarkCrs(const PointFileInfo& info, std::vector<std::string>& remarks) {
   if (info.crs.empty())
     remarks.emplace_back("the coordinate reference system is unknown (no WKT, no EPSG code)");
@@ -160,8 +177,9 @@ void remarkFile(FileCensus& file, const PointWindow& window) {
     const LasFile las(file.info.path, kLazAllFields,
                       window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse);
     if (whole) remarkHeader(las.header(), s, remarks);
+    if (whole) remarkHeaderTimes(las.header(), s, remarks);
     remarkPose(las, remarks);
-    remarks.insert(remarks.end(), las.extraBytes().remarks.begin(), las.extraBytes().remarks.end());
+    remarks.insert(remarks.end(), las.remarks().begin(), las.remarks().end());
     add(ExternalWaveforms::of(las).describe());
     add(unclaimedBytes(las).describe());
   }

@@ -51,7 +51,8 @@ class Hierarchy {
   Hierarchy(const CopcInfo& info, const CopcFile& file, const LasWindow& window)
       : info_(info), file_(file), deepest_(deepestLevel(info, window)) {
     if (!window.bounds) return;
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(file.scale.head<2>().maxCoeff());
+    const Eigen::Vector2d margin =
+        Eigen::Vector2d::Constant(file.scale.head<2>().cwiseAbs().maxCoeff());
     bounds_ = Eigen::AlignedBox2d(window.bounds->min() - margin, window.bounds->max() + margin);
   }
 
@@ -145,7 +146,8 @@ class Hierarchy {
     for (int axis = 0; axis < 3; ++axis)
       point[axis] = loadLas<std::int32_t>(&record[static_cast<std::size_t>(4 * axis)]);
     point = point.cwiseProduct(file_.scale) + file_.offset;
-    const Eigen::Vector3d margin = 2.0 * file_.scale;  // positions may have been rounded twice
+    const Eigen::Vector3d margin =
+        2.0 * file_.scale.cwiseAbs();  // positions may have been rounded twice
     const Eigen::AlignedBox3d cube = cubeOf(key);
     if (!Eigen::AlignedBox3d(cube.min() - margin, cube.max() + margin).contains(point))
       refuse("the first point of " + nameOf(key) + " lies outside its cube");

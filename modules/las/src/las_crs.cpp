@@ -129,8 +129,9 @@ bool mayBeDegrees(const LasFile& file) {
 /// Coordinates in steps of a micrometre with heights in steps of a millimetre are no lengths.
 bool hasStepsOfDegrees(const LasHeader& h) {
   constexpr double kLargestStep = 1e-6, kLeastRatio = 1e3;
-  const double step = std::max(h.scale.x(), h.scale.y());
-  return step <= kLargestStep && h.scale.z() >= kLeastRatio * step;
+  const Eigen::Vector3d steps = h.scale.cwiseAbs();
+  const double step = std::max(steps.x(), steps.y());
+  return step <= kLargestStep && steps.z() >= kLeastRatio * step;
 }
 
 void checkDegrees(const LasFile& file, LasReference& reference) {

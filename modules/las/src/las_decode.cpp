@@ -87,11 +87,8 @@ void decodeBlock(const Source& from, const LasRecordLayout& layout, const Eigen:
               [](const std::byte* at) { return static_cast<float>(loadLas<std::uint16_t>(at)); });
   from.column(layout.point_source_id, &to.point_source_id[first], loadLas<std::uint16_t>);
   from.column(layout.user_data, &to.user_data[first], byteAt);
-  if (layout.gps_time >= 0)
-    from.column(layout.gps_time, &to.gps_time[first],
-                [](const std::byte* at) { return secondsOfTime(loadLas<double>(at)); });
-  else
-    std::fill_n(&to.gps_time[first], from.count, 0.0);
+  from.column(0, &to.gps_time[first],
+              [&layout](const std::byte* record) { return layout.timeOf(record); });
   if (layout.extended)
     decodeExtendedBits(from, to, first);
   else

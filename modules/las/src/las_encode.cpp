@@ -38,7 +38,7 @@ class Encoder {
     storeLas(record + 12, rounded<std::uint16_t>(i, chunk_.intensity[i], "intensity"));
     storeLas(record + layout_.point_source_id, chunk_.point_source_id[i]);
     record[layout_.user_data] = static_cast<std::byte>(chunk_.user_data[i]);
-    if (layout_.gps_time >= 0) storeLas(record + layout_.gps_time, chunk_.gps_time[i]);
+    if (layout_.gps_time >= 0) layout_.storeTime(chunk_.gps_time[i], record);
     if (layout_.extended)
       encodeExtendedBits(i, record);
     else

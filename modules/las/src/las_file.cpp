@@ -14,6 +14,7 @@
 #include "copc.h"
 #include "las_bytes.h"
 #include "las_crs.h"
+#include "las_vlrs.h"
 #include "laz.h"
 
 namespace pcl_als {
@@ -25,6 +26,7 @@ struct LasFile::State {
   LasRecordLayout layout;
   std::vector<LasVlrEntry> vlrs;
   LasExtraBytes extra;
+  std::vector<std::string> remarks;
   std::unique_ptr<LazPointReader> laz;
   LasDamage damage = LasDamage::refuse;
   LasIntact intact;
@@ -42,81 +44,28 @@ namespace {
 constexpr std::uint64_t kLargestExtraRecord = 65535 * kLasExtraDescriptor;
 
 LasHeader readHeader(const InputFile& file, LasDamage damage) {
-  std::array<std::byte, 375> block{};
+  std::array<std::byte, kLargestLasHeader> block{};
   const std::size_t available = std::min<std::uint64_t>(block.size(), file.size());
   file.read(0, available, block.data());
   return parseLasHeader(block.data(), available, file.size(), file.name(),
                         damage == LasDamage::keep_intact);
 }
 
-LasVlrEntry parseEntry(const std::byte* at, bool extended) {
-  LasVlrEntry entry;
-  entry.user_id = detail::textField(at + 2, 16);
-  entry.record_id = loadLas<std::uint16_t>(at + 18);
-  entry.length = extended ? loadLas<std::uint64_t>(at + 20) : loadLas<std::uint16_t>(at + 20);
-  entry.description = detail::textField(at + (extended ? 28 : 22), 32);
-  entry.extended = extended;
-  return entry;
-}
-
-std::string entryName(bool extended, std::uint32_t index, std::uint32_t count) {
-  return std::string(extended ? "extended VLR " : "VLR ") + std::to_string(index + 1) + " of " +
-         std::to_string(count);
-}
-
-/// Walks \a count records from \a position; none may reach past \a end.
-void readEntries(const InputFile& file, bool extended, std::uint64_t position, std::uint32_t count,
-                 std::uint64_t end, std::vector<LasVlrEntry>& entries) {
-  const std::size_t header = extended ? kLasEvlrHeader : kLasVlrHeader;
-  const char* const limit = extended ? "the end of the file" : "the beginning of the points";
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (position > end || end - position < header)
-      throw InputError(file.name() + ": " + entryName(extended, i, count) + " lies past " + limit +
-                       " (truncated copy, or the number of VLRs is wrong)");
-    std::array<std::byte, kLasEvlrHeader> block{};
-    file.read(position, header, block.data());
-    LasVlrEntry entry = parseEntry(block.data(), extended);
-    entry.position = position + header;
-    if (entry.length > end - entry.position)
-      throw InputError(file.name() + ": " + entryName(extended, i, count) + " (" + entry.user_id +
-                       " " + std::to_string(entry.record_id) + ", " + std::to_string(entry.length) +
-                       " bytes) reaches past " + limit);
-    position = entry.position + entry.length;
-    entries.push_back(std::move(entry));
-  }
-}
-
-void readExtendedEntries(const InputFile& file, const LasHeader& header,
-                         std::vector<LasVlrEntry>& entries) {
-  if (header.evlr_count == 0) return;
-  const std::uint64_t points_end =
-      header.offset_to_points + (header.compressed ? 0 : header.point_count * header.record_length);
-  if (header.evlr_start < points_end)
-    throw DamagedFile(file.name() + ": the extended VLRs are said to begin at byte " +
-                      std::to_string(header.evlr_start) + ", before the end of the points");
-  try {
-    readEntries(file, true, header.evlr_start, header.evlr_count, file.size(), entries);
-  } catch (const InputError& error) {
-    throw DamagedFile(error.what());
-  }
-}
-
-/// The extended VLRs up to the first one that is lost; returns the number of those lost.
-std::uint32_t readIntactEntries(const InputFile& file, LasHeader& header,
-                                std::vector<LasVlrEntry>& entries) {
-  const std::size_t before = entries.size();
-  try {
-    readExtendedEntries(file, header, entries);
-  } catch (const InputError&) {
-  }
-  const auto found = static_cast<std::uint32_t>(entries.size() - before);
-  const std::uint32_t lost = header.evlr_count - found;
-  header.evlr_count = found;
-  return lost;
-}
-
 bool isRecord(const LasVlrEntry& entry, const char* user, std::uint16_t id) {
   return entry.user_id == user && entry.record_id == id;
+}
+
+/// What contradicts the version of the file, and how it is taken.
+void remarkVersion(const LasHeader& h, std::vector<std::string>& remarks) {
+  if (h.version_minor < 5) return;
+  if (h.point_format < 6)
+    remarks.push_back("LAS 1.5 has no point format " + std::to_string(h.point_format) +
+                      "; the points are read as those of an older version");
+  if ((h.global_encoding & kLasTimeOffset) != 0 &&
+      (h.global_encoding & kLasAdjustedStandardTime) == 0)
+    remarks.emplace_back(
+        "the header declares offset GPS time without standard GPS time, which is no encoding of "
+        "LAS 1.5; the times are taken as seconds of the GPS week");
 }
 
 std::vector<std::byte> lazPayload(const LasFile& file) {
@@ -186,7 +135,7 @@ std::vector<LasRecordRange> chunksOf(const std::vector<detail::CopcNode>& nodes,
 
 /// Limits the header to what a truncated file holds.
 void LasFile::State::keepIntact() {
-  intact.lost_evlrs = readIntactEntries(file, header, vlrs);
+  intact.lost_evlrs = detail::readIntactEntries(file, header, vlrs);
   if (header.compressed) return;
   const std::uint64_t room = (file.size() - header.offset_to_points) / header.record_length;
   header.point_count = std::min(header.point_count, room);
@@ -199,20 +148,23 @@ LasFile::LasFile(std::filesystem::path path, unsigned laz_fields, LasDamage dama
   s.header = readHeader(s.file, damage);
   s.intact.announced = s.header.point_count;
   s.layout = LasRecordLayout::of(s.header.point_format);
-  readEntries(s.file, false, s.header.header_size, s.header.vlr_count, s.header.offset_to_points,
-              s.vlrs);
-  if (damage == LasDamage::keep_intact)
+  s.layout.time_shift = s.header.timeShift();
+  const bool keep_intact = damage == LasDamage::keep_intact;
+  const std::string wrong_number = detail::readVlrs(s.file, keep_intact, s.header, s.vlrs);
+  if (!wrong_number.empty()) s.remarks.push_back(wrong_number);
+  if (keep_intact)
     s.keepIntact();
   else
-    readExtendedEntries(s.file, s.header, s.vlrs);
+    detail::readExtendedEntries(s.file, s.header, s.vlrs);
   if (s.header.compressed) {
-    s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields,
-                                  damage == LasDamage::keep_intact);
+    s.laz = detail::openLazPoints(s.file, s.header, lazPayload(*this), laz_fields, keep_intact);
     for (const LasVlrEntry& entry : s.vlrs)
       if (!entry.extended && isRecord(entry, kCopcUser, detail::kCopcInfoRecord)) s.copc = &entry;
   }
   s.reference = detail::readLasReference(*this);
   s.extra = readExtraBytes(*this);
+  remarkVersion(s.header, s.remarks);
+  s.remarks.insert(s.remarks.end(), s.extra.remarks.begin(), s.extra.remarks.end());
 }
 
 LasFile::~LasFile() = default;
@@ -232,6 +184,9 @@ const std::vector<LasVlrEntry>& LasFile::vlrs() const {
 }
 const LasExtraBytes& LasFile::extraBytes() const {
   return state_->extra;
+}
+const std::vector<std::string>& LasFile::remarks() const {
+  return state_->remarks;
 }
 std::string LasFile::crs() const {
   return state_->reference.crs;
@@ -270,7 +225,7 @@ PointFileInfo LasFile::info() const {
   info.point_count = h.point_count;
   info.minimum = h.minimum.cwiseProduct(metres);
   info.maximum = h.maximum.cwiseProduct(metres);
-  info.resolution = h.scale.cwiseProduct(metres);
+  info.resolution = h.scale.cwiseAbs().cwiseProduct(metres);
   info.crs = crs();
   info.crs_kind = crsKind();
   info.units = units();
@@ -278,6 +233,7 @@ PointFileInfo LasFile::info() const {
     info.time_kind = (h.global_encoding & kLasAdjustedStandardTime) != 0
                          ? TimeKind::adjusted_standard
                          : TimeKind::week_seconds;
+  info.time_shift = h.timeShift();
   info.format = h.describe() + (isCopc() ? ", COPC" : "");
   info.corrections = correctionsOf(*this);
   return info;

@@ -10,7 +10,8 @@
 
 #include "las_bytes.h"
 
-// Byte positions are those of LAS 1.4 R15, table 3; 1.2 and 1.3 have the same up to their end.
+// Byte positions are those of LAS 1.5 R00, table "Public Header Block"; older versions have the
+// same up to their end.
 namespace pcl_als {
 namespace {
 
@@ -73,12 +74,24 @@ void readNewerFields(const std::byte* bytes, LasHeader& h) {
   for (int i = 0; i < 15; ++i) h.points_by_return[i] = loadLas<std::uint64_t>(bytes + 255 + 8 * i);
 }
 
+void readTimeFields(const std::byte* bytes, LasHeader& h) {
+  if (h.version_minor < 5) return;
+  h.latest_time = loadLas<double>(bytes + 375);
+  h.earliest_time = loadLas<double>(bytes + 383);
+  h.time_offset = loadLas<std::uint16_t>(bytes + 391);
+}
+
 void checkNumbers(const LasHeader& h, const std::string& name) {
   static const char* const axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(h.scale[axis] > 0.0 && h.scale[axis] <= kLargestScale))
+    const double step = std::abs(h.scale[axis]);
+    if (step == 0.0)
+      fail(name, std::string("the LAS header's ") + axes[axis] +
+                     " scale is 0, so that all points would have the same coordinate; write the "
+                     "file again with its scale");
+    if (!(step <= kLargestScale))
       fail(name, std::string("the LAS header's ") + axes[axis] + " scale is " +
-                     std::to_string(h.scale[axis]) + "; it must be a positive number of metres");
+                     std::to_string(h.scale[axis]) + "; it must be a number of metres");
     if (!std::isfinite(h.offset[axis]))
       fail(name, std::string("the LAS header's ") + axes[axis] + " offset is not a number");
   }
@@ -111,6 +124,10 @@ void writeNewerFields(const LasHeader& h, std::byte* bytes) {
   storeLas(bytes + 243, h.evlr_count);
   storeLas(bytes + 247, h.point_count);
   for (int i = 0; i < 15; ++i) storeLas(bytes + 255 + 8 * i, h.points_by_return[i]);
+  if (h.version_minor < 5) return;
+  storeLas(bytes + 375, h.latest_time);
+  storeLas(bytes + 383, h.earliest_time);
+  storeLas(bytes + 391, h.time_offset);
 }
 
 void writeLegacyCounts(const LasHeader& h, std::byte* bytes) {
@@ -125,8 +142,16 @@ void writeLegacyCounts(const LasHeader& h, std::byte* bytes) {
 }  // namespace
 
 std::uint16_t LasHeader::sizeOf(int version_minor) {
-  if (version_minor >= 4) return 375;
+  if (version_minor >= 5) return static_cast<std::uint16_t>(kLargestLasHeader);
+  if (version_minor == 4) return 375;
   return version_minor == 3 ? 235 : 227;
+}
+
+double LasHeader::timeShift() const {
+  constexpr unsigned kOffsetTime = kLasAdjustedStandardTime | kLasTimeOffset;
+  constexpr double kAdjusted = 1000.0, kUnit = 1e6;  // seconds
+  if (version_minor < 5 || (global_encoding & kOffsetTime) != kOffsetTime) return 0.0;
+  return (static_cast<double>(time_offset) - kAdjusted) * kUnit;
 }
 
 std::string LasHeader::describe() const {
@@ -140,9 +165,9 @@ LasHeader parseLasHeader(const std::byte* bytes, std::size_t available, std::uin
   LasHeader h;
   const auto major = loadLas<std::uint8_t>(bytes + 24);
   h.version_minor = loadLas<std::uint8_t>(bytes + 25);
-  if (major != 1 || h.version_minor > 4)
+  if (major != 1 || h.version_minor > 5)
     fail(name, "LAS version " + std::to_string(major) + "." + std::to_string(h.version_minor) +
-                   " is not supported (1.0 to 1.4 are); write it as LAS 1.4 with the software that "
+                   " is not supported (1.0 to 1.5 are); write it as LAS 1.4 with the software that "
                    "made it");
   h.header_size = loadLas<std::uint16_t>(bytes + 94);
   const std::uint16_t needed = LasHeader::sizeOf(h.version_minor);
@@ -155,6 +180,7 @@ LasHeader parseLasHeader(const std::byte* bytes, std::size_t available, std::uin
                    std::to_string(h.header_size) + " bytes)");
   readBlock(bytes, h);
   readNewerFields(bytes, h);
+  readTimeFields(bytes, h);
   if (h.point_format > 10)
     fail(name,
          "point format " + std::to_string(h.point_format) + " is not supported (0 to 10 are)");

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kOffsetToPoints = 96, kVlrCount = 100, kFormat = 104;
 constexpr std::size_t kLegacyCounts = 107, kLegacyCountsEnd = 131, kCounts = 247, kCountsEnd = 375;
+constexpr std::size_t kTimes = 375, kTimesEnd = 391;
 constexpr std::size_t kBoxBytes = 48;
 constexpr std::uint8_t kCompressed = 0x80;
 
@@ -77,8 +78,10 @@ LasHead readLasHead(const LasFile& file) {
   head.vlrs_end = head.header.header_size;
   for (const LasVlrEntry& vlr : file.vlrs())
     if (!vlr.extended) head.vlrs_end = vlr.position + vlr.length;
-  if (!head.header.compressed) return head;
+  const bool compressed = head.header.compressed;
   head.header.compressed = false;
+  storeChanged(head, false);
+  if (!compressed) return head;
   eraseVlrs(head, describesChunks);
   return head;
 }
@@ -135,6 +138,7 @@ void LasOutput::putCounts(const LasHeader& header) {
   store(kLegacyCounts, kLegacyCountsEnd);
   store(kLasBoxPosition, kLasBoxPosition + kBoxBytes);
   if (header.version_minor >= 4) store(kCounts, kCountsEnd);
+  if (header.version_minor >= 5) store(kTimes, kTimesEnd);
 }
 
 }  // namespace pcl_als::detail

@@ -83,7 +83,8 @@ std::array<std::int64_t, 3> stepsBetween(const LasFile& from, const LasFile& to)
   if (a.record_length != b.record_length) refuse("record length");
   if (a.scale != b.scale) refuse("coordinate scale");
   if (!sameFields(from.extraFields(), to.extraFields())) refuse("description of extra bytes");
-  if (((a.global_encoding ^ b.global_encoding) & kLasAdjustedStandardTime) != 0)
+  if (((a.global_encoding ^ b.global_encoding) & kLasAdjustedStandardTime) != 0 ||
+      a.timeShift() != b.timeShift())
     refuse("kind of GPS time");
   if (from.path() != to.path() && (refersToWaveforms(from) || refersToWaveforms(to)))
     refuse("set of waveforms");

@@ -110,7 +110,7 @@ void copyLasTail(const LasFile& input, LasOutput& output, bool extended_records)
 
 std::vector<std::string> remarksOf(const LasFile& input, const std::string& wrong_box,
                                    const WaveformCopy& waveforms) {
-  std::vector<std::string> remarks = input.extraBytes().remarks;
+  std::vector<std::string> remarks = input.remarks();
   if (!wrong_box.empty()) remarks.push_back(wrong_box);
   if (!waveforms.remark().empty()) remarks.push_back(waveforms.remark());
   const UnclaimedBytes unclaimed = unclaimedBytes(input);

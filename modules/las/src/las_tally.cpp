@@ -3,6 +3,7 @@
 #include "las_tally.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_als::detail {
 namespace {
@@ -47,8 +48,10 @@ void LasBox::add(const LasBox& other) {
 void LasBox::store(LasHeader& header) const {
   for (int axis = 0; axis < 3; ++axis) {
     const double scale = header.scale[axis], offset = header.offset[axis];
-    header.minimum[axis] = empty() ? 0.0 : low[axis] * scale + offset;
-    header.maximum[axis] = empty() ? 0.0 : high[axis] * scale + offset;
+    const double first = empty() ? 0.0 : low[axis] * scale + offset;
+    const double last = empty() ? 0.0 : high[axis] * scale + offset;
+    header.minimum[axis] = std::min(first, last);  // the scale may be negative
+    header.maximum[axis] = std::max(first, last);
   }
 }
 
@@ -70,12 +73,19 @@ void LasTally::add(const std::byte* records, std::size_t count, std::size_t reco
     const unsigned number = std::to_integer<unsigned>(records[i * record_length + 14]) & mask;
     if (number >= 1 && number <= last) ++by_return[number - 1];
   }
+  if (layout.gps_time < 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto time = loadLas<double>(records + i * record_length + layout.gps_time);
+    if (time != 0.0 && std::isfinite(time)) times.add(time);
+  }
 }
 
 void LasTally::store(LasHeader& header) const {
   header.point_count = points;
   header.points_by_return = by_return;
   box.store(header);
+  header.earliest_time = times.empty() ? 0.0 : times.first;
+  header.latest_time = times.empty() ? 0.0 : times.last;
 }
 
 }  // namespace pcl_als::detail

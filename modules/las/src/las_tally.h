@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <pcl_als/common/time_alignment.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/las/las_header.h>
 #include <pcl_als/las/las_record.h>
@@ -32,11 +33,12 @@ struct LasBox {
   void store(LasHeader& header) const;
 };
 
-/// What a header counts: points, returns by number, box.
+/// What a header tells of its points: number, returns by number, box, times as stored.
 struct LasTally {
   std::uint64_t points = 0;
   std::array<std::uint64_t, 15> by_return{};
   LasBox box;
+  TimeRange times;  ///< without zeros
 
   void add(const std::byte* records, std::size_t count, std::size_t record_length,
            const LasRecordLayout& layout);

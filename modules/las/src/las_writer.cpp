@@ -30,15 +30,19 @@ struct LasWriter::State {
 
 namespace {
 
-constexpr int kMostFormat[] = {1, 1, 3, 5, 10};
+constexpr int kLeastFormat[] = {0, 0, 0, 0, 0, 6}, kMostFormat[] = {1, 1, 3, 5, 10, 10};
 
 void checkOptions(const LasWriterOptions& options) {
-  if (options.version_minor < 2 || options.version_minor > 4)
+  if (options.version_minor < 2 || options.version_minor > 5)
     throw UsageError("LAS 1." + std::to_string(options.version_minor) +
-                     " cannot be written (1.2 to 1.4 can)");
-  if (options.point_format < 0 || options.point_format > kMostFormat[options.version_minor])
+                     " cannot be written (1.2 to 1.5 can)");
+  if (options.point_format < kLeastFormat[options.version_minor] ||
+      options.point_format > kMostFormat[options.version_minor])
     throw UsageError("LAS 1." + std::to_string(options.version_minor) + " has no point format " +
                      std::to_string(options.point_format));
+  if (options.time_offset &&
+      (options.version_minor < 5 || options.time_kind != TimeKind::adjusted_standard))
+    throw UsageError("a time offset needs LAS 1.5 and absolute times");
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(options.scale[axis]) || options.scale[axis] <= 0.0)
       throw UsageError("LAS scale must be a positive number");
@@ -90,6 +94,8 @@ LasHeader makeHeader(const LasWriterOptions& options, const std::vector<LasVlr>&
   h.file_source_id = options.file_source_id;
   if (options.time_kind == TimeKind::adjusted_standard)
     h.global_encoding |= kLasAdjustedStandardTime;
+  if (options.time_offset) h.global_encoding |= kLasTimeOffset;
+  h.time_offset = options.time_offset.value_or(0);
   // Formats 6-10 have to declare WKT, even where no CRS is known.
   if (hasCrsRecord(vlrs, detail::kWktRecord) ||
       (options.point_format >= 6 && !hasCrsRecord(vlrs, detail::kGeoKeyRecord)))
@@ -125,6 +131,7 @@ LasWriter::LasWriter(const std::filesystem::path& path, const LasWriterOptions& 
     vlr_bytes.insert(vlr_bytes.end(), bytes.begin(), bytes.end());
   }
   s.header = makeHeader(options, vlrs, vlr_bytes.size(), length);
+  s.layout.time_shift = s.header.timeShift();
   detail::LasHead head{serialiseLasHeader(s.header), s.header, 0};
   head.bytes.insert(head.bytes.end(), vlr_bytes.begin(), vlr_bytes.end());
   head.vlrs_end = head.bytes.size();

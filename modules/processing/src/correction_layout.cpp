@@ -44,6 +44,7 @@ IntegerBiasCorrection::Layout correctionLayout(const LasFile& file, const System
   IntegerBiasCorrection::Layout layout;
   layout.record_length = file.header().record_length;
   layout.time_position = static_cast<std::size_t>(file.layout().gps_time);
+  layout.time_shift = file.layout().time_shift;
   layout.intensity_position = kIntensity;
   layout.scan_direction_position = early ? kReturns : kFlags;
   layout.scale = metres.scale;

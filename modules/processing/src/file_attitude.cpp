@@ -36,7 +36,7 @@ void visitSome(const LasFile& file, const Visit& visit) {
         point[axis] =
             loadLas<std::int32_t>(record + 4 * axis) * metres.scale[axis] + metres.offset[axis];
       }
-      visit(secondsOfTime(loadLas<double>(record + file.layout().gps_time)), point);
+      visit(file.layout().timeOf(record), point);
     }
   }
 }

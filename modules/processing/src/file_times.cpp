@@ -39,7 +39,7 @@ TimeRange probedTimes(const LasFile& file, std::uint64_t probes, std::uint64_t r
     const std::uint64_t size = std::min(run, count - first);
     file.readRecords(first, size, records.data());
     for (std::uint64_t i = 0; i < size; ++i) {
-      times.add(secondsOfTime(loadLas<double>(&records[i * length + file.layout().gps_time])));
+      times.add(file.layout().timeOf(&records[i * length]));
     }
   }
   return times.range();

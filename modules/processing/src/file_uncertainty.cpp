@@ -165,8 +165,8 @@ void FileUncertainty::store(const LasRecordBlock& block,
                         loadLas<std::int32_t>(record + 8))
             .cwiseProduct(layout_.scale) +
         layout_.offset;
-    const double time =
-        correction_.flightTime(secondsOfTime(loadLas<double>(record + layout_.time_position)));
+    const double time = correction_.flightTime(
+        secondsOfTime(loadLas<double>(record + layout_.time_position)) + layout_.time_shift);
     points[i] = {position.x(), position.y(), kNone, kNone};
     if (correction_.knowsAttitude(time) &&
         uncertainty_.covarianceAt(time, position, normals[i].cast<double>(), cursor, covariance,

@@ -94,7 +94,6 @@ RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t fi
 
 std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t length,
                                           std::size_t count, Tile& tile) const {
-  const auto time_at = static_cast<std::size_t>(layout_.gps_time);
   const auto source_at = static_cast<std::size_t>(layout_.point_source_id);
   const unsigned mask = layout_.extended ? 15U : 7U, shift = layout_.extended ? 4U : 3U;
   std::uint64_t partial = 0;
@@ -104,7 +103,7 @@ std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t 
     tile.raw[2][i] = loadLas<std::int32_t>(records + 8);
     tile.given[i] = loadLas<std::uint16_t>(records + kIntensityAt);
     tile.source[i] = loadLas<std::uint16_t>(records + source_at);
-    tile.time[i] = secondsOfTime(loadLas<double>(records + time_at));
+    tile.time[i] = layout_.timeOf(records);
     const unsigned returns = loadLas<std::uint8_t>(records + kReturnsAt);
     tile.partial[i] = (returns & mask) < ((returns >> shift) & mask) ? 1 : 0;
     partial += tile.partial[i];
@@ -135,7 +134,7 @@ void RangeOnlyCorrection::countUncovered(std::size_t count, const std::byte* rec
     if (tile.range[i] == tile.range[i] ||
         run_.trajectory()->coverage(tile.time[i]) == Trajectory::Coverage::covered)
       continue;
-    const double time = secondsOfTime(loadLas<double>(records + i * length + layout_.gps_time));
+    const double time = layout_.timeOf(records + i * length);
     ++counts.uncovered[{sources_.at(tile.source[i]).label, run_.whyUncovered(file_, time)}];
   }
 }

@@ -121,8 +121,7 @@ class LasInput : public IntensityInput {
   IntensityPoint pointOf(const std::byte* record) const {
     IntensityPoint point;
     point.position = positionOf(record);
-    if (layout_.gps_time >= 0)
-      point.time = secondsOfTime(loadLas<double>(record + layout_.gps_time));
+    point.time = layout_.timeOf(record);
     point.intensity = loadLas<std::uint16_t>(record + kIntensity);
     point.source = sourceOf(record);
     const auto returns = loadLas<std::uint8_t>(record + kReturns);
@@ -191,8 +190,7 @@ class LasInput : public IntensityInput {
       const Eigen::Vector3d place = positionOf(record);
       places.x.push_back(place.x());
       places.y.push_back(place.y());
-      places.gps_time.push_back(
-          secondsOfTime(loadLas<double>(record + static_cast<std::size_t>(layout_.gps_time))));
+      places.gps_time.push_back(layout_.timeOf(record));
     }
     tally.addPlaces(run.source, places);
   }
@@ -200,7 +198,6 @@ class LasInput : public IntensityInput {
   /// Looks at the records of the first one's strip; returns how many there are in a row.
   std::size_t lookAtRun(const std::byte* records, std::size_t count, BlockBox& box,
                         PointRun& run) const {
-    const auto time_at = static_cast<std::size_t>(std::max(0, layout_.gps_time));
     const std::uint16_t source = sourceOf(records);
     auto least = loadLas<Lanes>(records), most = least;
     // In locals: a compiler must expect that bytes of records are those of the result.
@@ -215,8 +212,7 @@ class LasInput : public IntensityInput {
       const auto intensity = loadLas<std::uint16_t>(records + kIntensity);
       largest = std::max(largest, intensity);
       zeros += intensity == 0 ? 1 : 0;
-      const double time =
-          survey_.has_time ? secondsOfTime(loadLas<double>(records + time_at)) : 0.0;
+      const double time = layout_.timeOf(records);
       if (time == 0.0)
         ++zero_times;
       else
@@ -242,7 +238,8 @@ class LasInput : public IntensityInput {
       if (i >= first_box_[window] && i < first_box_[window + 1]) continue;
       const auto margin = margins.find(boxes_[i].source);
       if (margin == margins.end()) continue;
-      const double x = margin->second / scale_.x(), y = margin->second / scale_.y();
+      const double x = margin->second / std::abs(scale_.x());
+      const double y = margin->second / std::abs(scale_.y());
       for (std::size_t own = first_box_[window]; own < first_box_[window + 1]; ++own) {
         if (!boxes_[i].near(boxes_[own], x, y)) continue;
         blocks.insert(boxes_[i].block);

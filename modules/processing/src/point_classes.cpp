@@ -103,8 +103,7 @@ std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_
     const unsigned flags = layout.extended ? 0U : present & ~kShortClass;
     if (found[i] == MaximumLikelihood::kNoClass ||
         isNoise(static_cast<std::uint8_t>(present & ~flags)) ||
-        !used(loadLas<std::uint16_t>(record + layout.point_source_id),
-              layout.gps_time < 0 ? 0.0 : secondsOfTime(loadLas<double>(record + layout.gps_time))))
+        !used(loadLas<std::uint16_t>(record + layout.point_source_id), layout.timeOf(record)))
       ++missed;
     else
       field = static_cast<std::byte>(flags | codes[static_cast<std::size_t>(found[i])]);

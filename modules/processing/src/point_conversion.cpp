@@ -111,6 +111,11 @@ class Conversion {
     const bool chosen = !choice.only.empty() || !choice.without.empty();
     if (options.number_lines && (chosen || choice.split))
       throw UsageError("numbers of lines are written to whole files: choose no strips");
+    if (options.las_version &&
+        (chosen || choice.split || options.number_lines || !options.window.everything()))
+      throw UsageError(
+          "the version of LAS is changed of whole files: convert them first, then "
+          "choose parts");
     if (!chosen && !choice.split && !options.number_lines) return;
     StripChoice strips = choice;
     strips.split = choice.split || options.number_lines;
@@ -162,6 +167,8 @@ class Conversion {
   void writeFiles(const std::vector<fs::path>& outputs) {
     const Distribution chosen = options_.number_lines ? numberedPoints() : chosenPoints();
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (options_.las_version && !detail::isLas(outputs[i]))
+        throw UsageError(outputs[i].string() + ": has no version of LAS");
       report_.begin("Writing " + outputs[i].string());
       const std::size_t before = result_.outputs.size();
       if (copiesWholeFile(inputs_[i], outputs[i])) {
@@ -200,6 +207,12 @@ class Conversion {
 
   void copyFile(const fs::path& input, const fs::path& output) {
     const LasFile file(input);
+    if (options_.las_version) {
+      const auto written = convertLasVersion(file, output, *options_.las_version, options_.threads);
+      result_.outputs.push_back({output, written.points});
+      for (const std::string& text : written.remarks) remarkOnce(input.string() + ": " + text);
+      return;
+    }
     const auto count = static_cast<double>(std::max<std::uint64_t>(1, file.header().point_count));
     LasExtension none;
     none.keeps_coordinates = true;
@@ -322,9 +335,10 @@ class Conversion {
     if (!target.sink) {
       PointFileInfo info = source.info();
       if (!target.box.isEmpty()) info.minimum = target.box.min(), info.maximum = target.box.max();
-      target.sink = detail::openSink(
-          target.path, inputs_[file], info,
-          {records_, options_.window.keep_readable, target.strip, options_.threads});
+      target.sink =
+          detail::openSink(target.path, inputs_[file], info,
+                           {records_, options_.window.keep_readable, target.strip, options_.threads,
+                            options_.las_version.value_or(LasVersion())});
       target.origin = 0.5 * (info.minimum + info.maximum);
       const std::string loss = source.lossIn(target.path);
       if (!loss.empty()) remarkOnce(loss);

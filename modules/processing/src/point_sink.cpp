@@ -74,8 +74,10 @@ PointChunk rowsOf(const PointChunk& chunk, std::size_t from, std::size_t to) {
           part(chunk.channel)};
 }
 
-LasWriterOptions optionsFor(const PointFileInfo& info) {
+LasWriterOptions optionsFor(const PointFileInfo& info, const LasVersion& version) {
   LasWriterOptions options = newLasOptions(info.crs, info.time_kind, info.minimum);
+  options.version_minor = version.minor;
+  options.time_offset = version.time_offset;
   if (!info.corrections.empty()) options.vlrs.push_back(lasCorrectionsVlr(info.corrections));
   return options;
 }
@@ -83,7 +85,8 @@ LasWriterOptions optionsFor(const PointFileInfo& info) {
 /// Columns into a new LAS file.
 class ColumnSink : public PointSink {
  public:
-  ColumnSink(const fs::path& path, const PointFileInfo& info) : writer_(path, optionsFor(info)) {}
+  ColumnSink(const fs::path& path, const PointFileInfo& info, const LasVersion& version)
+      : writer_(path, optionsFor(info, version)) {}
 
   void append(const PointBlock& block, std::size_t from, std::size_t to) override {
     if (from == 0 && to == block.chunk.size())
@@ -129,7 +132,7 @@ std::unique_ptr<PointSink> openSink(const fs::path& path, const fs::path& first,
                                     const PointFileInfo& info, const SinkOptions& options) {
   if (!isLas(path)) return std::make_unique<PcdSink>(path, info, options.strip);
   if (options.records) return std::make_unique<RecordSink>(path, first, options);
-  return std::make_unique<ColumnSink>(path, info);
+  return std::make_unique<ColumnSink>(path, info, options.las_version);
 }
 
 std::string fieldsWithoutColumn(const LasFile& file) {

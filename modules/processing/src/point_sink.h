@@ -11,6 +11,7 @@
 
 #include <pcl_als/io/las_point_reader.h>
 #include <pcl_als/io/point_reader.h>
+#include <pcl_als/las/las_version.h>
 
 namespace pcl_als::detail {
 
@@ -38,6 +39,7 @@ struct SinkOptions {
   bool keep_readable = false;  ///< PointWindow::keep_readable
   std::string strip;           ///< name of the strip of all points; empty: several, or not known
   int threads = 0;
+  LasVersion las_version{};  ///< of a LAS file without raw records
 };
 
 /// The output at a path, by its extension, for points like those of \a first, the first file that

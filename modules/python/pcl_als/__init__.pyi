@@ -1263,14 +1263,15 @@ def classify(files: Union[_Path, Iterable[_Path]], output: _Path, *, training: O
     files with classes; reject: probability below which a cell has no class; training_radius: m.
     UsageError for impossible options, InputError for input that cannot be used."""
 
-def convert(inputs: Union[_Path, Iterable[_Path]], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Iterable[str]] = ..., format: str = '', keep_ids: bool = False, number_lines: bool = False, threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> list[ConvertedFile]:
+def convert(inputs: Union[_Path, Iterable[_Path]], output: _Path, *, window: PointWindow = ..., strips: Union[StripChoice, Iterable[str]] = ..., format: str = '', keep_ids: bool = False, number_lines: bool = False, las_version: str = '', time_offset: Optional[int] = None, threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> list[ConvertedFile]:
     """Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of
     LAS records stay as they are. output: a file for one input, else a folder, whose files have
     the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one
     file for each strip, whose lines get point source ids of their own unless keep_ids is set.
     number_lines: the files as they are, with the number of its line as the point source id of
-    each point (0 between lines). UsageError for number_lines with a choice of strips. Constant
-    memory."""
+    each point (0 between lines). las_version: '1.4' or '1.5', of whole files; time_offset: of
+    LAS 1.5, millions of seconds that are subtracted from GPS time. UsageError for number_lines
+    or las_version with a choice of strips. Constant memory."""
 
 def convert_trajectory(paths: Union[_Path, Iterable[_Path]], output: _Path, *, calibration: Optional[Union[_Path, CalibrationResult]] = None, crs: str = '', strip_corrections: bool = True, force: bool = False, progress: Optional[Callable[[Progress], Any]] = None) -> list[pathlib.Path]:
     """Reads trajectory files, takes lever arm and strip corrections of a calibration out, and

@@ -85,6 +85,12 @@ void bindStripFiles(py::module_& m) {
         "UsageError for another extension than .pcd.");
 }
 
+int lasMinorVersion(const std::string& version) {
+  if (version == "1.4") return 4;
+  if (version == "1.5") return 5;
+  throw UsageError("las_version '" + version + "': is not '1.4' or '1.5'");
+}
+
 }  // namespace
 
 void bindFiles(py::module_& m) {
@@ -98,11 +104,16 @@ void bindFiles(py::module_& m) {
       "convert",
       [](const Files& inputs, const std::filesystem::path& output, const PointWindow& window,
          const StripChoice& strips, const std::string& format, bool keep_ids, bool number_lines,
-         int threads, const PythonProgress& progress) {
+         const std::string& las_version, std::optional<std::uint16_t> time_offset, int threads,
+         const PythonProgress& progress) {
         PointConversionOptions options;
         options.keep_ids = keep_ids, options.number_lines = number_lines;
         options.window = window, options.strips = strips, options.format = format;
         options.threads = threads;
+        if (!las_version.empty())
+          options.las_version = {lasMinorVersion(las_version), time_offset};
+        else if (time_offset)
+          throw UsageError("time_offset needs las_version '1.5'");
         return runJob(progress, [&](const ProgressCallback& report) {
           return convertPointFiles(inputs.paths, output, options, report).outputs;
         });
@@ -110,15 +121,16 @@ void bindFiles(py::module_& m) {
       py::arg("inputs"), py::arg("output"), py::kw_only(),
       py::arg_v("window", PointWindow(), "PointWindow()"),
       py::arg_v("strips", StripChoice(), "StripChoice()"), py::arg("format") = "",
-      py::arg("keep_ids") = false, py::arg("number_lines") = false, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
+      py::arg("keep_ids") = false, py::arg("number_lines") = false, py::arg("las_version") = "",
+      py::arg("time_offset") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
       "Converts .las, .laz and .pcd files into each other, or writes parts of them; the bytes of "
       "LAS records stay as they are. output: a file for one input, else a folder, whose files have "
       "the given format ('las', 'laz', 'pcd'; default: that of the input). With strips.split one "
       "file for each strip, whose lines get point source ids of their own unless keep_ids is set. "
       "number_lines: the files as they are, with the number of its line as the point source id of "
-      "each point (0 between lines). UsageError for number_lines with a choice of strips. Constant "
-      "memory.");
+      "each point (0 between lines). las_version: '1.4' or '1.5', of whole files; time_offset: of "
+      "LAS 1.5, millions of seconds that are subtracted from GPS time. UsageError for number_lines "
+      "or las_version with a choice of strips. Constant memory.");
 }
 
 }  // namespace pcl_als::python

@@ -86,6 +86,7 @@ Json fileJson(const FileCensus& file) {
   json["crs"] = file.info.crs;
   json["units"] = unitsJson(file.info);
   json["time_kind"] = timeKindName(file.info.time_kind);
+  json["time_shift_s"] = file.info.time_shift;
   json["corrections"] = Json::array();
   for (const AppliedCorrection& correction : parseCorrections(file.info.corrections))
     json["corrections"].push_back(correction.describe());

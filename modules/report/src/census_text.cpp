@@ -42,7 +42,12 @@ std::string extentText(const PointStatistics& s) {
 
 std::string timeText(const PointFileInfo& info, const PointStatistics& s) {
   if (info.time_kind == TimeKind::none) return timeKindName(info.time_kind);
-  return timeKindName(info.time_kind) +
+  // 1e9 s of adjusted standard time, and what is stored less than that.
+  const std::string stored =
+      info.time_shift == 0.0
+          ? ""
+          : formatted(" (stored with an offset of %.0f million s)", 1e3 + 1e-6 * info.time_shift);
+  return timeKindName(info.time_kind) + stored +
          formatted(", %.3f … %.3f (%.1f s)", s.first_time, s.last_time, s.last_time - s.first_time);
 }
 

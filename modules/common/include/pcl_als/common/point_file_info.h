@@ -37,6 +37,9 @@ struct PointFileInfo {
   CrsKind crs_kind = CrsKind::unknown;
   LinearUnits units;  ///< of the file; everything else here is in metres
   TimeKind time_kind = TimeKind::none;
+  /// Added to the times that the file stores (offset GPS time of LAS 1.5), seconds; those of its
+  /// points contain it.
+  double time_shift = 0.0;
   FileVersion version;  ///< of the file when it was opened
   std::string format;   ///< "LAS 1.4, point format 6", "PCD binary"
   /// Record of the corrections that were applied to the points (io/applied_correction.h), as the

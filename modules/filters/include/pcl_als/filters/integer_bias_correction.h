@@ -37,11 +37,12 @@ class IntegerBiasCorrection {
     std::size_t source_position = 0;               ///< byte of the point source id (16 bits)
     std::size_t channel_position = 0;              ///< byte with the channel of the scanner
     unsigned channel_shift = 0, channel_mask = 0;  ///< channel = (byte >> shift) & mask
+    double time_shift = 0.0;                       ///< seconds, added to recorded times
   };
   /// Points that are computed together; their columns fit the first-level cache.
   static constexpr std::size_t kTile = 256;
 
-  /// \a name: the file, for messages. InputError for a scale that is not positive and finite.
+  /// \a name: the file, for messages. InputError for a scale that is zero or not finite.
   IntegerBiasCorrection(std::string name, SystemCorrection correction, const Layout& layout);
 
   /// Corrects \a count records. \a first: index of the first one in the file. InputError naming the

@@ -6,7 +6,7 @@
 
 namespace pcl_als {
 
-/// A LAS or LAZ file is damaged or cut off behind its header and VLRs: with LasDamage::keep_intact
+/// A LAS or LAZ file is damaged or cut off behind its header: with LasDamage::keep_intact
 /// the rest can be read.
 class DamagedFile : public InputError {
  public:

@@ -74,6 +74,8 @@ class LasFile {
   /// The one description of the extra bytes that all its VLRs and EVLRs give together.
   const LasExtraBytes& extraBytes() const;
   const std::vector<LasExtraField>& extraFields() const { return extraBytes().fields; }
+  /// What of the header, the VLRs and the descriptors of extra bytes was ignored or corrected.
+  const std::vector<std::string>& remarks() const;
   std::string crs() const;  ///< WKT or "EPSG:…"; empty when the file does not state it
   CrsKind crsKind() const;
   /// What the coordinates count in; of geographic and geocentric ones the default.

@@ -12,16 +12,17 @@
 
 namespace pcl_als {
 
-/// Bits of LasHeader::global_encoding (LAS 1.4 R15, table 4).
+/// Bits of LasHeader::global_encoding (LAS 1.5 R00, table "Global Encoding").
 enum LasGlobalEncoding : std::uint16_t {
   kLasAdjustedStandardTime = 1,  ///< GPS time is standard GPS seconds - 1e9; else seconds of week
   kLasWaveformInternal = 2,
   kLasWaveformExternal = 4,
   kLasSyntheticReturnNumbers = 8,
-  kLasWkt = 16,  ///< the CRS is WKT
+  kLasWkt = 16,         ///< the CRS is WKT
+  kLasTimeOffset = 64,  ///< LAS 1.5: GPS time is standard GPS seconds - 1e6 time_offset
 };
 
-/** \brief The public header block of a LAS file, version 1.0 to 1.4.
+/** \brief The public header block of a LAS file, version 1.0 to 1.5.
  *
  * Coordinates are in the unit of the file's CRS, as stored; see LasFile::toMetres().
  * Counts are those that hold: 64-bit where the version has them, the legacy ones otherwise.
@@ -51,8 +52,14 @@ struct LasHeader {
   std::uint64_t waveform_start = 0;  ///< 1.3 and later
   std::uint64_t evlr_start = 0;      ///< 1.4
   std::uint32_t evlr_count = 0;
+  double latest_time = 0.0;       ///< 1.5: GPS time of the points as stored, without zeros
+  double earliest_time = 0.0;     ///< 1.5; both are zero where there is none
+  std::uint16_t time_offset = 0;  ///< 1.5, with kLasTimeOffset: in 1e6 seconds
 
-  /// Bytes of the version's header: 227, 235 (1.3) or 375 (1.4).
+  /// Seconds that are added to a stored GPS time to give adjusted standard GPS time (offset GPS
+  /// time of LAS 1.5), 0 otherwise.
+  double timeShift() const;
+  /// Bytes of the version's header: 227, 235 (1.3), 375 (1.4) or 393 (1.5).
   static std::uint16_t sizeOf(int version_minor);
   /// "LAS 1.4, point format 6"
   std::string describe() const;
@@ -60,10 +67,12 @@ struct LasHeader {
 
 /// Position of the bounding box (max x, min x, max y, min y, max z, min z) in the header block.
 inline constexpr std::size_t kLasBoxPosition = 179;
+/// Bytes of the header of the newest version.
+inline constexpr std::size_t kLargestLasHeader = 393;
 
 /** \brief Reads and checks a header block against the size of its file.
  *
- * \param bytes the first \a available bytes of the file (375 are enough)
+ * \param bytes the first \a available bytes of the file (kLargestLasHeader are enough)
  * \param name the file's name, for messages
  * Every contradiction (no LAS signature, unknown version or format, records shorter than the
  * format, scale or offset that are no numbers, points beyond the end of the file, …) is an

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/point_chunk.h>
+#include <pcl_als/common/time_unit.h>
 
 namespace pcl_als {
 
@@ -26,7 +27,8 @@ void storeLas(std::byte* at, T value) {
   std::memcpy(at, &value, sizeof(T));
 }
 
-/** \brief Byte positions of the fields of a LAS point record (LAS 1.4 R15, tables 7-17).
+/** \brief Byte positions of the fields of a LAS point record (LAS 1.4 R15, tables 7-17), and the
+ * scale of its GPS time.
  *
  * X, Y, Z (int32) lie at 0, 4, 8 and the intensity (uint16) at 12 in every format; -1 where a
  * format lacks a field. Formats 6-10 are `extended`: four-bit return numbers, scan angle in 0.006
@@ -38,6 +40,18 @@ struct LasRecordLayout {
   bool extended = true;
   int classification = 16, scan_angle = 18, user_data = 17, point_source_id = 20;
   int gps_time = 22, rgb = -1, nir = -1, waveform = -1;
+  double time_shift = 0.0;  ///< LasHeader::timeShift(), seconds
+
+  /// GPS time of a record in seconds, of the week or adjusted standard time; 0 where it has none.
+  double timeOf(const std::byte* record) const {
+    if (gps_time < 0) return 0.0;
+    const double seconds = secondsOfTime(loadLas<double>(record + gps_time));
+    return seconds == 0.0 ? 0.0 : seconds + time_shift;
+  }
+  /// Stores what timeOf() returns. The format must have a GPS time.
+  void storeTime(double seconds, std::byte* record) const {
+    storeLas(record + gps_time, seconds == 0.0 ? 0.0 : seconds - time_shift);
+  }
 
   static LasRecordLayout of(int format);  ///< 0 … 10, UsageError otherwise
 };

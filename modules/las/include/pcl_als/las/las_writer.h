@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,13 @@ namespace pcl_als {
 /// What a new LAS file is to be.
 struct LasWriterOptions {
   int version_minor = 4;
-  int point_format = 6;                                      ///< 1.2: 0-3, 1.3: 0-5, 1.4: 0-10
+  int point_format = 6;  ///< 1.2: 0-3, 1.3: 0-5, 1.4: 0-10, 1.5: 6-10
   Eigen::Vector3d scale = Eigen::Vector3d::Constant(0.001);  ///< per step, unit of crs
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();          ///< unit of crs
   std::string crs;  ///< WKT or "EPSG:…"; empty: no record
   TimeKind time_kind = TimeKind::adjusted_standard;
+  /// 1.5: adjusted standard times are stored as GPS seconds less this many million seconds.
+  std::optional<std::uint16_t> time_offset{};
   std::uint16_t file_source_id = 0;         ///< flight line number, 0 for none or several
   std::vector<LasExtraField> extra_fields;  ///< name, type, scale, offset, description
   std::vector<LasVlr> vlrs;                 ///< further records

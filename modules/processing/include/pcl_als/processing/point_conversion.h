@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/common/progress.h>
 #include <pcl_als/io/point_window.h>
+#include <pcl_als/las/las_version.h>
 #include <pcl_als/survey/strip_arrangement.h>
 
 namespace pcl_als {
@@ -29,6 +31,9 @@ struct PointConversionOptions {
   /// Without StripChoice::split: the points of every file are written, with these numbers of their
   /// lines; those between lines get 0. For tiles with wrong ids.
   bool number_lines = false;
+  /// Version of LAS files that are written; empty: that of the input, 1.4 from PCD. Of LAS files
+  /// the whole files are converted (convertLasVersion()): no window and no strips then.
+  std::optional<LasVersion> las_version;
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
@@ -49,7 +54,8 @@ struct PointConversionResult {
  *   LAS -> LAZ -> LAS gives the same bytes. Records that describe the compression of the input
  *   (laszip, COPC) are replaced or left out.
  * - to PCD: the fields of PointLidar, in metres, relative to the centre of the points (PcdWriter).
- * - PCD to LAS or LAZ: version 1.4, point format 6, steps of 0.001 in the unit of the CRS.
+ * - LAS and LAZ to another version of LAS (convertLasVersion()).
+ * - PCD to LAS or LAZ: point format 6, steps of 0.001 in the unit of the CRS.
  *
  * Points are streamed: memory does not grow with the files, except for compressed PCD.
  *
