@@ -185,7 +185,11 @@ TEST(VarianceComponents, AreNearTheMostLikely) {
   const auto cost = [&](const std::array<double, SharedErrorLevels::kCount>& values) {
     const SharedErrorLevels levels = SharedErrorLevels::of(values);
     double sum = block.adjustment.restrictedLikelihood(levels, kSix).deviance;
-    for (const double value : values) sum += 2.0 * std::log1p(std::pow(std::log(value), 2));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      // Of position, roll and pitch, heading, the last is expected to be as that of roll and pitch.
+      const double expected = k % 3 == 2 ? values[k - 1] : 1.0;
+      sum += 2.0 * std::log1p(std::pow(std::log(values[k] / expected), 2));
+    }
     return sum;
   };
   const double lowest = cost(best.values());
@@ -215,13 +219,11 @@ double allOf(const SharedErrorLevels& levels, double SharedErrorLevels::Trajecto
          (1.0 - shares.constant_share - shares.smooth_share) * levels.gauss_markov.*kind;
 }
 
-/// 2026-11: a roll of ten times the standard deviation of the model (a drone without -ins) was
-/// limited to four times, and boresight_roll 8 standard deviations wrong. The heading, which these
-/// observations do not show, is as much worse a priori.
-TEST(VarianceComponents, AttitudeOfAnotherGradeIsFound) {
+/// The components that four strips with errors of the roll give; observations 300 m to both sides
+/// of the flight lines, which do not show errors of the heading.
+SharedErrorLevels levelsOfRoll(double roll_arcsec) {
   constexpr double kAside = 300.0;  // metres from the flight line, to either side
-  constexpr double kRoll = 80.0 * kRadiansPerArcsec;
-  std::vector<AreaObservations> areas = smoothlyWrong(kAside * kRoll, 5);
+  std::vector<AreaObservations> areas = smoothlyWrong(kAside * roll_arcsec * kRadiansPerArcsec, 5);
   for (AreaObservations& area : areas) {
     AreaObservations both;
     for (PairObservation o : area) {
@@ -239,13 +241,27 @@ TEST(VarianceComponents, AttitudeOfAnotherGradeIsFound) {
   const SharedErrors errors(std::vector<TimeSpan>(4, {0.0, 10.0}), errors_model);
   Adjustment adjustment(errors, 1);
   adjustment.accumulate(areas, unitWeights(areas));
-  const SharedErrorLevels found =
-      estimateLevels(adjustment, {P::range_bias, P::boresight_roll}).expected;
+  return estimateLevels(adjustment, {P::range_bias, P::boresight_roll}).expected;
+}
+
+/// 2026-11: a roll of ten times the standard deviation of the model (a drone without -ins) was
+/// limited to four times, and boresight_roll 8 standard deviations wrong. The heading, which these
+/// observations do not show, is as much worse a priori.
+TEST(VarianceComponents, AttitudeOfAnotherGradeIsFound) {
+  const SharedErrorLevels found = levelsOfRoll(80.0);
   // Four strips: a variance is known to a factor of three.
   EXPECT_GT(allOf(found, &SharedErrorLevels::Trajectory::roll_pitch), 30.0);
   EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::roll_pitch), 300.0);
   EXPECT_GT(allOf(found, &SharedErrorLevels::Trajectory::heading), 10.0);
   EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::position), 16.1);
+}
+
+/// Errors of the roll far below the model: those of the heading were expected to be as large as the
+/// model's, and the standard deviation of the boresight heading was three times too large.
+TEST(VarianceComponents, AttitudeOfABetterGradeIsFound) {
+  const SharedErrorLevels found = levelsOfRoll(0.08);
+  EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::roll_pitch), 0.03);
+  EXPECT_LT(allOf(found, &SharedErrorLevels::Trajectory::heading), 0.05);
 }
 
 }  // namespace

@@ -50,22 +50,24 @@ struct Objective {
   SymmetricEigen<Eigen::Dynamic> curvature;
 };
 
-/// Of which component the logarithm of a component is expected a priori to be that of; -1: none.
+/// Of which component a component has the most likely logarithm a priori; -1: that of the model.
 /// Grades of inertial systems differ in roll, pitch and heading alike, and short lines hardly
 /// determine errors of the heading.
 int followedBy(int component) {
-  return component < kComponents - 1 && component % kKinds == 2 ? component - 1 : -1;
+  return component % kKinds == 2 ? component - 1 : -1;
 }
 
 // Largest variance of a logarithm: that of a component that only the prior determines.
 constexpr double kMostVariance = 0.5;
 
-/// Difference of a logarithm from its most likely value a priori: the variances of the model are
-/// expectations, exp(s^2 / 2) times the most likely ones.
+/// The most likely logarithm a priori of a component whose variance is expected to be that of the
+/// model: the variances of the model are expectations, exp(s^2 / 2) times the most likely ones.
+constexpr double kMostLikely = -0.5 * kMostVariance;
+
+/// Difference of a logarithm from its most likely value a priori.
 double fromExpected(const Vector& logarithms, int component) {
   const int followed = followedBy(component);
-  const double centre = followed < 0 ? 0.0 : logarithms[followed];
-  return logarithms[component] - (centre - 0.5 * kMostVariance);
+  return logarithms[component] - (followed < 0 ? kMostLikely : logarithms[followed]);
 }
 
 /// -2 ln of the prior is 2 ln(1 + x^2) for a difference x: Cauchy of scale 1, so that components
