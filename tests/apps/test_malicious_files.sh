@@ -56,7 +56,12 @@ for kind in old new; do
   lie ${kind}_item_size '"laszip encoded"' "$file" $((vlr + 54 + 36)) v 65535
   lie ${kind}_record 'record "laszip encoded" describes points of' "$file" 105 v 65535
   lie ${kind}_vlr 'reaches past the beginning of the points' "$file" $((vlr + 20)) v 65535
-  lie ${kind}_vlrs 'lies past the beginning of the points' "$file" 100 V 0xffffffff
+  # The points are intact: only as many VLRs are read as there is room for.
+  patched "$file" vlrs.laz 100 V 0xffffffff
+  expect 0 'announces 4 294 967 295 VLRs, but there is room for 1' info vlrs.laz
+  expect 0 '' convert "$file" intact.las
+  expect 0 'announces 4 294 967 295 VLRs, but there is room for 1' convert vlrs.laz vlrs.las
+  check "$kind: the points are those of the intact file" cmp vlrs.las intact.las
   lie ${kind}_points 'begin at byte 4294967295' "$file" 96 V 0xffffffff
   # A chunk table that is elsewhere, or larger than the file, is not used: the chunks follow each other.
   expect 0 '250 points' convert "$file" whole.las
