@@ -5,12 +5,13 @@
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/io/survey_census.h>
-#include <pcl_als/processing/scanner_survey.h>
+#include <pcl_als/processing/flight_assessment.h>
 #include <pcl_als/processing/strip_census.h>
 #include <pcl_als/report/census_report.h>
 
 #include "command_line.h"
 #include "flight_options.h"
+#include "remedy_options.h"
 #include "strip_options.h"
 #include "window_options.h"
 
@@ -57,6 +58,12 @@ CensusRequest requestOf(const CommandLine& line, const std::vector<std::string>&
   return request;
 }
 
+void nameOptions(const CommandLine& line, SurveyCensus& survey) {
+  for (FileCensus& file : survey.files) app::nameOptions(line, file.remarks);
+  for (StripCensus& strip : survey.strips) app::nameOptions(line, strip.remarks);
+  app::nameOptions(line, survey.remarks);
+}
+
 int info(const CommandLine& line) {
   const PointWindow window = windowOf(line);
   const double cell = line.number("cell");
@@ -74,15 +81,20 @@ int info(const CommandLine& line) {
     listed = takeCensus(requestOf(line, inputs, window, cell), progress);
   else
     listed.census = takeCensus({inputs.begin(), inputs.end()}, cell, progress, {}, window);
-  const SurveyCensus& survey = listed.census;
+  SurveyCensus& survey = listed.census;
   std::uint64_t points = 0;
   for (const FileCensus& file : survey.files) points += file.statistics.points;
   step.done(grouped(points) + " points");
   remarks(line, listed.notes);
+  nameOptions(line, survey);
   if (!line.quiet()) std::cout << '\n' << censusText(survey, listed.left_out);
-  if (line.has("trajectory"))
-    remarks(line, detectScanners(inputs, window, stripChoice(line), trajectoryFiles(line),
-                                 trajectoryReading(line, {}), line.threads(), flight.scanners));
+  if (line.has("trajectory")) {
+    flight.assessment = assessFlight(inputs, window, stripChoice(line), trajectoryFiles(line),
+                                     trajectoryReading(line, {}), line.threads());
+    if (choosesStrips(line)) flight.assessment.notes.clear();  // those of the strips listed
+    app::nameOptions(line, flight.assessment.warnings);
+    if (!line.quiet()) std::cout << assessmentText(flight.assessment);
+  }
   if (line.has("json")) writeFile(line.text("json"), censusJson(survey, listed.left_out, flight));
   return kDone;
 }

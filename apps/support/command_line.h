@@ -101,6 +101,8 @@ class CommandLine {
 
   /// Whether the tool has an option of this name.
   bool declares(const std::string& name) const { return find(name) != nullptr; }
+  /// Null where it has none.
+  const Option* find(const std::string& name) const;
   const std::deque<Option>& options() const { return options_; }
   const std::vector<Arguments>& forms() const { return forms_; }
   const Arguments& form() const;  ///< of this command
@@ -115,7 +117,6 @@ class CommandLine {
 
  private:
   Option& add(const std::string& name, const std::string& help, Role role);
-  const Option* find(const std::string& name) const;
   const Option& declared(const std::string& name) const;
   void read(const std::vector<std::string>& words);
   std::size_t readOption(const std::vector<std::string>& words, std::size_t at);

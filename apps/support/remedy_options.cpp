@@ -12,6 +12,7 @@ struct RemedyOption {
   Remedy remedy;
   const char* option;
   const char* text;
+  const char* tool = nullptr;  ///< one that has the option, to be named by tools without it
 };
 constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::force, "force", "use -force to continue"},
@@ -34,16 +35,23 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::flight_sigmas, "position_sigma",
      "see -ins, -position_sigma, -roll_pitch_sigma and -heading_sigma"},
     {Remedy::strips, "without", "-strips and -without choose strips"},
-    {Remedy::channels, "channels", "-channels scanner_channel divides them"},
-    {Remedy::user_data, "channels", "-channels user_data divides them"},
+    {Remedy::channels, "channels", "-channels scanner_channel divides them", "pcl_als_calibrate"},
+    {Remedy::user_data, "channels", "-channels user_data divides them", "pcl_als_calibrate"},
+    {Remedy::split, "split", "-split divides the points into flight lines"},
 };
 
-/// The option of the tool; null where it has none.
-const RemedyOption* optionFor(const CommandLine& line, Remedy remedy) {
-  for (const RemedyOption& option : kRemedyOptions) {
-    if (option.remedy == remedy && line.declares(option.option)) return &option;
+/// "; use -force to continue": what serves a remedy; empty where nothing does, and of a flag that
+/// is given already.
+std::string adviceFor(const CommandLine& line, Remedy remedy) {
+  for (const RemedyOption& entry : kRemedyOptions) {
+    if (entry.remedy != remedy) continue;
+    if (const Option* option = line.find(entry.option)) {
+      const bool in_use = option->role == Role::flag && line.given(entry.option);
+      return in_use ? "" : std::string("; ") + entry.text;
+    }
+    if (entry.tool != nullptr) return std::string("; ") + entry.tool + " " + entry.text;
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
@@ -51,14 +59,12 @@ const RemedyOption* optionFor(const CommandLine& line, Remedy remedy) {
 std::string withOption(const CommandLine& line, const Error& error) {
   if (dynamic_cast<const DamagedFile*>(&error) != nullptr)
     return error.what() + std::string("; pcl_als_convert -keep_readable saves what is intact");
-  const RemedyOption* option = optionFor(line, error.remedy());
-  return option == nullptr ? error.what() : std::string(error.what()) + "; " + option->text;
+  return error.what() + adviceFor(line, error.remedy());
 }
 
 void nameOptions(const CommandLine& line, Warnings& warnings) {
   for (Warning& warning : warnings) {
-    const RemedyOption* option = optionFor(line, warning.remedy);
-    if (option != nullptr) warning.text.append("; ").append(option->text);
+    warning.text += adviceFor(line, warning.remedy);
     warning.remedy = Remedy::none;
   }
 }

@@ -8,6 +8,7 @@
 //   whole_seconds     the GPS time of every point rounded down (formats 6-10)
 //   append FILE       the points of another file of the same layout (no lie; formats 6-10)
 //   source_id BYTE    both bytes of the point source id of every point (formats 6-10)
+//   pulse_ids         point source ids count the points from one (formats 6-10)
 //   class CODE        of every point
 //   keep BYTES        only the first bytes
 //   crop_y FROM TO    only the points in that range of northings (no lie; LAS 1.2, 1.3)
@@ -92,6 +93,16 @@ void cutTimes(std::vector<char>& bytes) {
   }
 }
 
+void countInIds(std::vector<char>& bytes) {
+  const std::size_t length = load<std::uint16_t>(bytes, 105);
+  const auto count = load<std::uint64_t>(bytes, 247);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = load<std::uint32_t>(bytes, 96) + i * length + 20;
+    const auto id = static_cast<std::uint16_t>(1 + i % 65535);
+    std::memcpy(bytes.data() + at, &id, sizeof(id));
+  }
+}
+
 /// Sets the class of every record, of any point format.
 void setClasses(std::vector<char>& bytes, int code) {
   const bool old = (bytes[104] & 0x3f) < 6;
@@ -151,6 +162,8 @@ int main(int argc, char** argv) {
       append(bytes, readAll(words[++i]));
     } else if (words[i] == "whole_seconds") {
       cutTimes(bytes);
+    } else if (words[i] == "pulse_ids") {
+      countInIds(bytes);
     } else if (words[i] == "source_id" && i + 1 < words.size()) {
       fillRecords(bytes, 20, 2, std::stoi(words[++i]));
     } else if (words[i] == "crop_y" && i + 2 < words.size()) {

@@ -74,6 +74,12 @@ expect 2 "" calibrate no_points.las "$block/strip2.las" -trajectory "$trajectory
 absent x.json
 expect 0 "no points" info no_points.las
 
+# Ids of pulses: what is wrong is named, and the listing remains one that can be read.
+check "las_damage" "$damage" "$block/strip1.las" pulses.las pulse_ids
+expect 0 "! there are 17 206 point source ids*-split divides the points into flight lines" info pulses.las -json pulses.json
+check "a long list is cut" test "$(wc -l <out.txt)" -lt 400
+check "the JSON file has all strips" test "$(grep -c '"recorded_with"' pulses.json)" = 17206
+
 # An input is never an output.
 cp "$block/strip1.las" mine.las
 expect 1 "mine.las" apply mine.las mine.las -trajectory "$trajectory" -biases range_bias=0.1

@@ -30,6 +30,9 @@ for wrong in feet xy xz far; do
     declare -n command=$tool
     expect 2 "strip *: its points lie * m * the trajectory of this flight" "${command[@]}" -trajectory $wrong.csv
   done
+  # The listing says the same and ends well.
+  expect 0 "! the trajectory would be refused: strip *: its points lie * m * the trajectory of this flight" \
+    info "${strips[@]}" -trajectory $wrong.csv
   absent out.las
 done
 # Likely causes are named; a trajectory in metres and points in feet are never used together.
@@ -42,6 +45,7 @@ while read -r wrong text; do
     declare -n command=$tool
     expect 2 "$text" "${command[@]}" -trajectory "$wrong.csv"
   done
+  expect 0 "! *$text" info "${strips[@]}" -trajectory "$wrong.csv"
   absent out.las
 done <<'CAUSES'
 feet with its coordinates in feet
@@ -62,13 +66,19 @@ awk -F, -v OFS=, -v CONVFMT=%.9f -v OFMT=%.9f 'NR == 1 { print } $1 > 401000 && 
   END { for (s = -40; s <= 40; s += 0.1) print t + s - 18, x + u * s, y + v * s, z, rest }' \
   "$block/trajectory.csv" >utc.csv
 for tool in check intensity apply; do
-  expect 2 'as if the times of the trajectory were UTC' \
+  expect 2 'as if the times of the trajectory were UTC*state them with -leap_seconds' \
     $tool "$block/strip1.las" $([[ $tool == check ]] && echo "$block/strip2.las -output q.json" || echo out.las) \
     $([[ $tool == apply ]] && echo -biases boresight_roll=100) -trajectory utc.csv
 done
+expect 0 '! *as if the times of the trajectory were UTC*state them with -leap_seconds' \
+  info "$block/strip1.las" -trajectory utc.csv
+expect 0 'scanner of 1' info "$block/strip1.las" -trajectory utc.csv -leap_seconds 18 -json utc.json
+check "with the leap seconds nothing is wrong" grep -q '"flight_remarks": \[\]' utc.json
 # Times of another GPS week or of the day.
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 -= 345600 } { print }' "$block/trajectory.csv" >day.csv
 expect 2 'they would overlap 4 day(s) earlier' "${apply[@]}" -trajectory day.csv
+expect 0 '! the trajectory cannot be used with the points: *they would overlap 4 day(s) earlier' \
+  info "$block/strip1.las" -trajectory day.csv
 run simulate -output week -preset small -scale 0.3 -density 0.1 -noise range -seed 5 -time adjusted
 awk -F, -v OFS=, -v OFMT=%.6f -v CONVFMT=%.6f 'NR > 1 { $1 += 1543 * 604800 - 1e9 } { print }' \
   week/trajectory.csv >week.csv
@@ -118,6 +128,7 @@ for tool in check apply intensity; do
   expect 2 'm too high by the recorded scan angles' "${command[@]}" -trajectory tall.csv
 done
 expect 3 'm too high by the recorded scan angles' "${calibrate[@]}" -trajectory tall.csv -quiet
+expect 0 '! *m too high by the recorded scan angles' info "${strips[@]}" -trajectory tall.csv
 # Ellipsoidal heights of the trajectory, points above a geoid: named, and brought together by the undulation.
 awk -F, -v OFS=, -v OFMT=%.9f -v CONVFMT=%.9f 'NR > 1 { $4 += 47 } { print }' "$block/trajectory.csv" >ellipsoidal.csv
 expect 0 '47 m too high*as between ellipsoidal heights and heights above a geoid' "${check[@]}" -trajectory ellipsoidal.csv

@@ -54,9 +54,10 @@ std::filesystem::path write(const std::filesystem::path& path, const std::vector
   return path;
 }
 
-bool has(const std::vector<std::string>& remarks, const std::string& part) {
-  return std::any_of(remarks.begin(), remarks.end(), [&](const std::string& remark) {
-    return remark.find(part) != std::string::npos;
+/// Whether a remark has that text, and that remedy.
+bool has(const Warnings& remarks, const std::string& part, Remedy remedy = Remedy::none) {
+  return std::any_of(remarks.begin(), remarks.end(), [&](const Warning& remark) {
+    return remark.text.find(part) != std::string::npos && remark.remedy == remedy;
   });
 }
 
@@ -104,6 +105,51 @@ TEST(SurveyCensus, FindsGapsInTime) {
   EXPECT_TRUE(has(strip.remarks, "has 1 gap in time"));
 }
 
+TEST(SurveyCensus, AGapInWhichAnAircraftMayTurnSeparatesLines) {
+  const auto folder = test::scratch("census_lines");
+  const auto path =
+      write(folder / "a.las", {field(0, 0, 20, 20, 1, 1000.0), field(0, 30, 20, 20, 1, 1100.0)});
+  EXPECT_TRUE(has(takeCensus({path}).strips[0].remarks, "the longest of 84 s", Remedy::split));
+}
+
+TEST(SurveyCensus, StripsOfTheSameTimesAreNamed) {
+  const auto folder = test::scratch("census_simultaneous");
+  // Ids 1 and 2 share 24 of 32 seconds; 3 follows within a second of 2's end, 4 is flown later.
+  const auto path =
+      write(folder / "a.las", {field(0, 0, 40, 20, 1, 1000.0), field(0, 30, 40, 20, 2, 1008.0),
+                               field(0, 60, 40, 20, 3, 1040.0), field(0, 90, 40, 20, 4, 2000.0)});
+  const SurveyCensus survey = takeCensus({path});
+  ASSERT_EQ(survey.strips.size(), 4U);
+  EXPECT_EQ(survey.strips[0].recorded_with, std::optional<std::size_t>(1));
+  EXPECT_EQ(survey.strips[1].recorded_with, std::optional<std::size_t>(0));
+  EXPECT_FALSE(survey.strips[2].recorded_with || survey.strips[3].recorded_with);
+  EXPECT_TRUE(has(survey.remarks, "2 strips were recorded at the times of others (1 with 2)",
+                  Remedy::split));
+}
+
+TEST(SurveyCensus, NumbersOfPulsesAreNoFlightLines) {
+  const auto folder = test::scratch("census_ids");
+  PointChunk points = field(0, 0, 60, 60, 1);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points.point_source_id[i] = static_cast<std::uint16_t>(1 + i % 1500);
+  const SurveyCensus survey = takeCensus({write(folder / "a.las", {points})});
+  EXPECT_TRUE(has(survey.remarks, "there are 1 500 point source ids", Remedy::split));
+  EXPECT_FALSE(has(survey.remarks, "recorded at the times", Remedy::split));
+}
+
+TEST(SurveyCensus, ChannelsOfTheScannerAreNamed) {
+  const auto folder = test::scratch("census_channels");
+  PointChunk points = field(0, 0, 20, 20, 1);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points.flags[i] = static_cast<std::uint8_t>((i % 2) << 6U);
+  const SurveyCensus survey = takeCensus({write(folder / "a.las", {points})});
+  EXPECT_EQ(survey.files[0].statistics.channels, (std::array<std::uint64_t, 4>{800, 800, 0, 0}));
+  EXPECT_TRUE(
+      has(survey.remarks, "1 strip has points of several scanner channels", Remedy::channels));
+  EXPECT_FALSE(has(takeCensus({write(folder / "b.las", {field(0, 0, 20, 20, 1)})}).remarks,
+                   "scanner channels", Remedy::channels));
+}
+
 TEST(SurveyCensus, JoinsTilesOfAStrip) {
   const auto folder = test::scratch("census_tiles");
   const auto a = write(folder / "a.las", {field(0, 0, 20, 20, 7, 1000.0)});
@@ -114,7 +160,7 @@ TEST(SurveyCensus, JoinsTilesOfAStrip) {
   EXPECT_EQ(survey.strips[0].area, 800.0);
   EXPECT_EQ(survey.strips[0].statistics.maximum.x(), 39.949);
   EXPECT_EQ(survey.files[1].statistics.points, 1600U);
-  EXPECT_TRUE(has(survey.remarks, "one strip only"));
+  EXPECT_TRUE(has(survey.remarks, "one strip only", Remedy::split));
 }
 
 TEST(SurveyCensus, CountsDuplicates) {

@@ -55,12 +55,7 @@ int SystemCalibrationEngine::addStrip(const std::string& id) {
 void SystemCalibrationEngine::survey(int strip, const LidarReturn* points, std::size_t count) {
   map_.add(strip, points, count);
   if (isReference(strip)) return;
-  for (std::size_t i = 0; i < count; ++i) plausibility_.addTime(strip, points[i].time);
-  const double duration = count > 0 ? points[count - 1].time - points[0].time : 0.0;
-  const std::size_t every = plausibility_.spacing(count, duration);
-  for (std::size_t i = 0; i < count; i += every) {
-    plausibility_.add(strip, points[i].time, points[i].position, points[i].scan_angle);
-  }
+  plausibility_.addRun(strip, points, count);
   constexpr std::size_t kEvery = 16;  // points used for the attitude and for the scan planes
   for (std::size_t i = 0; i < count && !scanners_.empty(); i += kEvery)
     scanners_[static_cast<std::size_t>(strip)].add(points[i]);

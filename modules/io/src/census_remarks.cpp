@@ -34,8 +34,8 @@ std::string percentOf(std::uint64_t part, std::uint64_t whole) {
 }
 
 /// "1 point (0.5 %) <one>" or "12 points (0.5 %) <many>" when there are any.
-void remarkCount(std::vector<std::string>& remarks, std::uint64_t part, std::uint64_t whole,
-                 const char* one, const char* many) {
+void remarkCount(Warnings& remarks, std::uint64_t part, std::uint64_t whole, const char* one,
+                 const char* many) {
   if (part > 0)
     remarks.push_back(counted(part, "point") + " (" + percentOf(part, whole) + ") " +
                       (part == 1 ? one : many));
@@ -60,8 +60,7 @@ double timeUnitsOf(const std::filesystem::path& path) {
   return timeUnitsPerSecond(loadLas<double>(record.data() + las.layout().gps_time));
 }
 
-void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
-                 std::vector<std::string>& remarks) {
+void remarkTimes(const PointFileInfo& info, const PointStatistics& s, Warnings& remarks) {
   if (info.time_kind == TimeKind::none) {
     remarks.push_back("the points have no GPS time: they cannot be tied to a trajectory");
     return;
@@ -89,7 +88,7 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s,
         "seconds of the week");
 }
 
-void remarkHeader(const LasHeader& h, const PointStatistics& s, std::vector<std::string>& remarks) {
+void remarkHeader(const LasHeader& h, const PointStatistics& s, Warnings& remarks) {
   const std::size_t numbers = h.version_minor >= 4 && h.point_format >= 6 ? 15 : 5;
   for (std::size_t r = 1; r <= numbers; ++r) {
     if (h.points_by_return[r - 1] == s.returns[std::min<std::size_t>(r, 15)]) continue;
@@ -106,8 +105,7 @@ void remarkHeader(const LasHeader& h, const PointStatistics& s, std::vector<std:
 }
 
 /// The times of the points in the header of LAS 1.5, where it states them.
-void remarkHeaderTimes(const LasHeader& h, const PointStatistics& s,
-                       std::vector<std::string>& remarks) {
+void remarkHeaderTimes(const LasHeader& h, const PointStatistics& s, Warnings& remarks) {
   constexpr double kRounding = 1e-6;  // seconds
   const double first = h.earliest_time + h.timeShift(), last = h.latest_time + h.timeShift();
   if (h.version_minor < 5 || (h.earliest_time == 0.0 && h.latest_time == 0.0) ||
@@ -122,7 +120,7 @@ void remarkHeaderTimes(const LasHeader& h, const PointStatistics& s,
   remarks.push_back(text.str());
 }
 
-void remarkCrs(const PointFileInfo& info, std::vector<std::string>& remarks) {
+void remarkCrs(const PointFileInfo& info, Warnings& remarks) {
   if (info.crs.empty())
     remarks.emplace_back("the coordinate reference system is unknown (no WKT, no EPSG code)");
   if (info.crs_kind == CrsKind::geographic)
@@ -140,7 +138,7 @@ void remarkCrs(const PointFileInfo& info, std::vector<std::string>& remarks) {
 }
 
 /// A trajectory of such points is that of their records, however coarse their times are.
-void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
+void remarkPose(const LasFile& las, Warnings& remarks) {
   const std::string pose = recordedPose(las.extraFields());
   if (pose.empty()) return;
   remarks.push_back("each record holds the pose of the sensor (" + pose +
@@ -149,7 +147,7 @@ void remarkPose(const LasFile& las, std::vector<std::string>& remarks) {
                     "grid north");
 }
 
-void remarkSteps(const FileCensus& file, std::vector<std::string>& remarks) {
+void remarkSteps(const FileCensus& file, Warnings& remarks) {
   constexpr double kCoarser = 1.5;       // times the scale
   constexpr double kNoticeable = 0.005;  // metres
   const Eigen::Vector3d limit = (kCoarser * file.info.resolution).cwiseMax(kNoticeable);
@@ -202,7 +200,7 @@ void remarkRoundedTimes(StripCensus& strip) {
   strip.remarks.push_back("has times in " + rounded + ": too coarse for a trajectory");
 }
 
-void remarkScanAngles(const PointStatistics& s, std::vector<std::string>& remarks) {
+void remarkScanAngles(const PointStatistics& s, Warnings& remarks) {
   const float largest = std::max(std::abs(s.least_scan_angle), std::abs(s.largest_scan_angle));
   if (!(largest >= kLargeScanAngle)) return;
   std::ostringstream text;
@@ -213,15 +211,66 @@ void remarkScanAngles(const PointStatistics& s, std::vector<std::string>& remark
   remarks.push_back(text.str());
 }
 
+/// A gap in which an aircraft may turn lies between two flight lines.
+void remarkGaps(StripCensus& strip) {
+  constexpr double kShortestTurn = 20.0;  // seconds
+  if (strip.gaps.empty()) return;
+  double longest = 0.0;
+  for (const TimeGap& gap : strip.gaps) longest = std::max(longest, gap.to - gap.from);
+  const std::string text = "has " + counted(strip.gaps.size(), "gap") + " in time of more than 1 s";
+  if (longest < kShortestTurn)
+    strip.remarks.emplace_back(text);
+  else
+    strip.remarks.emplace_back(text + ", the longest of " + std::to_string(std::lround(longest)) +
+                                   " s: it may be several flight lines under one id",
+                               Remedy::split);
+}
+
 void remarkStrip(StripCensus& strip, bool has_time) {
   const PointStatistics& s = strip.statistics;
   if (s.points < kFewPoints)
     strip.remarks.push_back("holds only " + counted(s.points, "point") + ", too few to use");
-  if (has_time && !strip.gaps.empty())
-    strip.remarks.push_back("has " + counted(strip.gaps.size(), "gap") +
-                            " in time of more than 1 s");
+  if (has_time) remarkGaps(strip);
   if (has_time) remarkRoundedTimes(strip);
   remarkScanAngles(s, strip.remarks);
+}
+
+/// Numbers that are not those of flight lines.
+void remarkIds(SurveyCensus& survey) {
+  constexpr std::size_t kMostLines = 1000;  // of one survey
+  const std::vector<StripCensus>& strips = survey.strips;
+  const auto simultaneous = std::count_if(
+      strips.begin(), strips.end(), [](const auto& s) { return s.recorded_with.has_value(); });
+  if (strips.size() > kMostLines) {
+    survey.remarks.emplace_back("there are " + grouped(strips.size()) +
+                                    " point source ids, more than a survey has flight lines: they "
+                                    "number something else, such as pulses",
+                                Remedy::split);
+  } else if (simultaneous > 0) {
+    const auto first = std::find_if(strips.begin(), strips.end(),
+                                    [](const auto& s) { return s.recorded_with.has_value(); });
+    survey.remarks.emplace_back(
+        counted(static_cast<std::uint64_t>(simultaneous), "strip") +
+            (simultaneous == 1 ? " was" : " were") + " recorded at the times of others (" +
+            first->id + " with " + strips[*first->recorded_with].id +
+            "): scanners, channels or tiles of one flight line with ids of their own, whose "
+            "trajectory errors are the same",
+        Remedy::split);
+  }
+}
+
+void remarkChannels(SurveyCensus& survey) {
+  const auto ofSeveral = [](const StripCensus& strip) {
+    const auto& channels = strip.statistics.channels;
+    return std::count(channels.begin(), channels.end(), 0U) < 3;
+  };
+  const auto strips = std::count_if(survey.strips.begin(), survey.strips.end(), ofSeveral);
+  if (strips == 0) return;
+  survey.remarks.emplace_back(counted(static_cast<std::uint64_t>(strips), "strip") +
+                                  (strips == 1 ? " has" : " have") +
+                                  " points of several scanner channels, which may have mounting "
+                                  "angles of their own",
+                              Remedy::channels);
 }
 
 }  // namespace
@@ -245,8 +294,11 @@ void addRemarks(SurveyCensus& survey) {
                              counted(survey.duplicates, "point") +
                              (survey.duplicates == 1 ? " repeats" : " repeat") +
                              " another point (place, time, return and source id)");
+  remarkIds(survey);
+  remarkChannels(survey);
   if (survey.strips.size() == 1)
-    survey.remarks.emplace_back("there is one strip only: nothing to compare it with");
+    survey.remarks.emplace_back("there is one strip only: nothing to compare it with",
+                                Remedy::split);
   if (survey.strips.size() > 1 && survey.overlaps.empty())
     survey.remarks.emplace_back("no two strips overlap");
 }

@@ -154,6 +154,7 @@ void SourceTally::addAttributes(const PointChunk& chunk, std::size_t i) {
   statistics_.withheld += (chunk.flags[i] & kWithheld) != 0 ? 1 : 0;
   statistics_.synthetic += (chunk.flags[i] & kSynthetic) != 0 ? 1 : 0;
   statistics_.overlap_flags += (chunk.flags[i] & kOverlap) != 0 ? 1 : 0;
+  ++statistics_.channels[chunk.flags[i] >> 6U];
 }
 
 void SourceTally::add(const SourceTally& other) {
@@ -183,6 +184,7 @@ void mergeStatistics(PointStatistics& into, const PointStatistics& other) {
     into.*count += other.*count;
   for (std::size_t i = 0; i < into.classes.size(); ++i) into.classes[i] += other.classes[i];
   for (std::size_t i = 0; i < into.returns.size(); ++i) into.returns[i] += other.returns[i];
+  for (std::size_t i = 0; i < into.channels.size(); ++i) into.channels[i] += other.channels[i];
 }
 
 }  // namespace pcl_als::detail

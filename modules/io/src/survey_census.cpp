@@ -13,6 +13,7 @@
 
 #include "census_remarks.h"
 #include "duplicate_sample.h"
+#include "simultaneous_strips.h"
 #include "source_tally.h"
 
 namespace pcl_als {
@@ -215,6 +216,7 @@ class Census {
       tally = SourceTally();
     }
     const double cell_area = survey_.cell * survey_.cell;
+    std::vector<std::vector<TimeRange>> times;
     for (const std::string& name : names) {
       SourceTally& tally = strips[name];
       StripCensus strip;
@@ -222,12 +224,16 @@ class Census {
       strip.statistics = tally.statistics();
       strip.gaps = tally.times().gaps(SurveyCensus::kGap);
       strip.times = tally.resolution();
+      times.push_back(tally.times().ranges());
       strip.area = static_cast<double>(tally.cells().occupied()) * cell_area;
       strip.density = tally.cells().typicalCount() / cell_area;
       survey_.strips.push_back(std::move(strip));
       cells_.push_back(std::move(tally.cells()));
       strips.erase(name);
     }
+    const auto companions = detail::simultaneousStrips(times);
+    for (std::size_t s = 0; s < companions.size(); ++s)
+      survey_.strips[s].recorded_with = companions[s];
   }
 
   bool boxesMeet(std::size_t a, std::size_t b) const {

@@ -42,7 +42,7 @@ BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
       courses_(survey.strips().size()),
       used_(survey.strips().size(), true),
       untimed_(survey.strips().size(), false) {
-  if (trajectory_) plausibility_.emplace(trajectory_);
+  if (trajectory_) plausibility_.emplace(trajectory_, TrajectoryPlausibility::Attitude::needed);
   for (const std::string& id : survey.strips()) {
     map_.addStrip();
     if (plausibility_) plausibility_->addStrip(id);
@@ -62,17 +62,6 @@ LidarReturn BlockCheck::pointOf(int strip, const SurveyReader::Run& run, std::si
   return point;
 }
 
-void BlockCheck::compareWithFlight(int strip, const std::vector<LidarReturn>& points) {
-  if (!plausibility_ || points.empty()) return;
-  const double duration = points.back().time - points.front().time;
-  const std::size_t every = plausibility_->spacing(points.size(), duration);
-  for (std::size_t row = 0; row < points.size(); ++row) {
-    const LidarReturn& point = points[row];
-    plausibility_->addTime(strip, point.time);
-    if (row % every == 0) plausibility_->add(strip, point.time, point.position, point.scan_angle);
-  }
-}
-
 void BlockCheck::surveyBlock() {
   survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
     thread_local std::vector<LidarReturn> points;
@@ -84,7 +73,7 @@ void BlockCheck::surveyBlock() {
       const LidarReturn point = pointOf(strip, run, row, cursor);
       if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
     }
-    compareWithFlight(strip, points);
+    if (plausibility_) plausibility_->addRun(strip, points.data(), points.size());
   });
   shareStrips();
   for (std::size_t strip = 0; strip < used_.size(); ++strip) {
@@ -122,12 +111,7 @@ void BlockCheck::checkTrajectory() {
                         plausibility_->timeSteps(strip) +
                         ", too coarse for the trajectory: its scan angles are the file's");
   }
-  try {
-    for (const Warning& warning : plausibility_->check(settings_.force))  // no remedy but of geoids
-      warnings_.push_back(warning.remedy == Remedy::geoid ? warning : Warning(warning.text));
-  } catch (const InputError& error) {
-    throw InputError(error.what());  // there is no model without attitude here
-  }
+  for (const Warning& warning : plausibility_->check(settings_.force)) warnings_.push_back(warning);
 }
 
 double BlockCheck::coveredArea() const {

@@ -17,7 +17,8 @@ namespace {
 /// Whether the points can have been measured from the trajectory, by source id.
 class FlightCheck {
  public:
-  explicit FlightCheck(std::shared_ptr<const Trajectory> flight) : check_(std::move(flight)) {}
+  explicit FlightCheck(std::shared_ptr<const Trajectory> flight)
+      : check_(std::move(flight), TrajectoryPlausibility::Attitude::needed) {}
 
   void add(std::uint16_t source, const LidarReturn& point) {
     check_.add(stripOf(source), point.time, point.position, point.scan_angle);
@@ -28,15 +29,12 @@ class FlightCheck {
     check_.addTime(stripOf(source), point.time);
     check_.addReturn(stripOf(source), point);
   }
-  /// Warnings; a refusal is an InputError that names the file. The model is that of the biases: a
-  /// wrong attitude has no remedy here.
+  /// Warnings; a refusal is an InputError that names the file.
   Warnings result(const std::string& name, bool force) const {
     try {
-      Warnings warnings = check_.check(force);
-      for (Warning& warning : warnings) warning.remedy = Remedy::none;
-      return warnings;
+      return check_.check(force);
     } catch (const InputError& error) {
-      throw InputError(name + ": " + error.what());
+      throw InputError(name + ": " + error.what(), error.remedy());
     }
   }
 

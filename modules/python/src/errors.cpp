@@ -39,6 +39,7 @@ constexpr RemedyName kRemedies[] = {
     {Remedy::strips, "strips"},
     {Remedy::channels, "channels"},
     {Remedy::user_data, "channels"},
+    {Remedy::split, "split"},
 };
 
 const char* nameOf(Remedy remedy) {

@@ -36,6 +36,7 @@ Json statistics(const PointStatistics& s) {
   json["withheld"] = s.withheld;
   json["synthetic"] = s.synthetic;
   json["overlap_flags"] = s.overlap_flags;
+  json["channels"] = s.channels;
   json["returns"] = Json::object();
   for (std::size_t r = 0; r < s.returns.size(); ++r)
     if (s.returns[r] > 0) json["returns"][std::to_string(r)] = s.returns[r];
@@ -96,19 +97,21 @@ Json fileJson(const FileCensus& file) {
   json["header_maximum"] = vector(file.info.maximum);
   if (file.info.format.rfind("PCD", 0) != 0) json["las"] = lasParts(file.info.path);
   json["statistics"] = statistics(file.statistics);
-  json["remarks"] = file.remarks;
+  json["remarks"] = textsOf(file.remarks);
   return json;
 }
 
-Json stripJson(const StripCensus& strip) {
+Json stripJson(const SurveyCensus& survey, const StripCensus& strip) {
   Json json;
   json["id"] = strip.id;
   json["statistics"] = statistics(strip.statistics);
   json["density_per_m2"] = strip.density;
   json["area_m2"] = strip.area;
+  json["recorded_with"] = nullptr;
+  if (strip.recorded_with) json["recorded_with"] = survey.strips[*strip.recorded_with].id;
   json["gaps"] = Json::array();
   for (const TimeGap& gap : strip.gaps) json["gaps"].push_back({gap.from, gap.to});
-  json["remarks"] = strip.remarks;
+  json["remarks"] = textsOf(strip.remarks);
   return json;
 }
 
@@ -123,7 +126,7 @@ std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoin
   json["files"] = Json::array();
   for (const FileCensus& file : survey.files) json["files"].push_back(fileJson(file));
   json["strips"] = Json::array();
-  for (const StripCensus& strip : survey.strips) json["strips"].push_back(stripJson(strip));
+  for (const StripCensus& strip : survey.strips) json["strips"].push_back(stripJson(survey, strip));
   json["left_out"] = leftOutJson(left_out);
   json["overlaps"] = Json::array();
   for (const StripOverlap& overlap : survey.overlaps)
@@ -133,7 +136,7 @@ std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoin
   json["area_m2_by_number_of_strips"] = survey.area_by_strips;
   json["duplicates"] = survey.duplicates;
   json["duplicates_estimated"] = survey.duplicates_estimated;
-  json["remarks"] = survey.remarks;
+  json["remarks"] = textsOf(survey.remarks);
   detail::addFlight(json, flight);
   // Text fields of a file may hold bytes that are no UTF-8.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -17,7 +17,8 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kLongestCrs = 60;
-constexpr std::size_t kMostListed = 20;
+constexpr std::size_t kMostListed = 20;  // gaps of a strip
+constexpr std::size_t kMostLines = 100;  // of a list
 
 double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
@@ -27,9 +28,19 @@ std::string entry(const char* name, const std::string& value) {
   return formatted("  %-12s", name) + value + '\n';
 }
 
-std::string remarksText(const std::vector<std::string>& remarks, const std::string& indent) {
+std::string remarksText(const Warnings& remarks, const std::string& indent) {
   std::string text;
-  for (const std::string& remark : remarks) text.append(indent).append("! " + remark + '\n');
+  for (const Warning& remark : remarks) text.append(indent).append("! " + remark.text + '\n');
+  return text;
+}
+
+/// The lines of a list: of a long one the first, because a file may hold tens of thousands of ids.
+std::string listText(const std::vector<std::string>& lines, const char* what) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMostLines, lines.size()); ++i) text += lines[i];
+  if (lines.size() > kMostLines)
+    text += "  … " + grouped(lines.size() - kMostLines) + " more lines on " + what +
+            ", which the JSON file has\n";
   return text;
 }
 
@@ -58,6 +69,27 @@ std::string returnsText(const PointStatistics& s) {
       text += formatted("%s%zu: %s (%.1f %%)", text.empty() ? "" : ", ", r,
                         grouped(s.returns[r]).c_str(), percent(s.returns[r], s.points));
   return text + formatted("; %.1f %% single", percent(s.single_returns, s.points));
+}
+
+/// Points by scanner channel, where there are several.
+std::string channelsText(const PointStatistics& s) {
+  std::string text;
+  std::size_t present = 0;
+  for (std::size_t channel = 0; channel < s.channels.size(); ++channel) {
+    if (s.channels[channel] == 0) continue;
+    ++present;
+    text += formatted("%s%zu: %s", text.empty() ? "" : ", ", channel,
+                      grouped(s.channels[channel]).c_str());
+  }
+  return present > 1 ? entry("channels", text) : "";
+}
+
+/// The steps of the coordinates as the points show them.
+std::string stepsText(const Eigen::Vector3d& steps) {
+  if (steps.isZero()) return {};
+  const auto axis = [](double step) { return step > 0.0 ? formatted("%.3g m", step) : "none"; };
+  return "; the points have steps of " + axis(steps.x()) + " x " + axis(steps.y()) + " x " +
+         axis(steps.z());
 }
 
 std::string classesText(const PointStatistics& s) {
@@ -111,15 +143,41 @@ std::string fileText(const FileCensus& file) {
   for (const AppliedCorrection& correction : parseCorrections(info.corrections))
     text += entry("corrected", correction.describe());
   text += entry("resolution", formatted("%g m x %g m x %g m", info.resolution.x(),
-                                        info.resolution.y(), info.resolution.z()));
+                                        info.resolution.y(), info.resolution.z()) +
+                                  stepsText(file.steps));
   if (s.points > 0) {
     text += entry("extent", extentText(s));
     text += entry("time", timeText(info, s));
     text += entry("returns", returnsText(s));
+    text += channelsText(s);
     text += entry("classes", classesText(s));
     text += entry("intensity", formatted("%g … %g", s.least_intensity, s.largest_intensity));
   }
   return text + remarksText(file.remarks, "  ");
+}
+
+std::string stripLine(const StripCensus& strip) {
+  const PointStatistics& s = strip.statistics;
+  const double pulses = strip.density * percent(s.first_returns, s.points) / 100.0;
+  return formatted("  %-16s %12s %16.3f %16.3f %5zu %9.2f %9.2f %9.0f %6.1f … %5.1f\n",
+                   strip.id.c_str(), grouped(s.points).c_str(), s.first_time, s.last_time,
+                   strip.gaps.size(), strip.density, pulses, strip.area, s.least_scan_angle,
+                   s.largest_scan_angle);
+}
+
+void addNotes(const StripCensus& strip, std::vector<std::string>& lines) {
+  for (std::size_t g = 0; g < std::min(kMostListed, strip.gaps.size()); ++g)
+    lines.push_back(formatted("  strip %s: no points from %.3f to %.3f s (%.1f s)\n",
+                              strip.id.c_str(), strip.gaps[g].from, strip.gaps[g].to,
+                              strip.gaps[g].to - strip.gaps[g].from));
+  for (const Warning& remark : strip.remarks)
+    lines.push_back("  ! strip " + strip.id + " " + remark.text + '\n');
+  const std::uint64_t unsorted = strip.statistics.unsorted_times;
+  if (unsorted > 0)
+    lines.push_back(
+        formatted("  strip %s: %s earlier than the one before in %s file\n", strip.id.c_str(),
+                  unsorted == 1 ? "1 point is" : (grouped(unsorted) + " points are").c_str(),
+                  unsorted == 1 ? "its" : "their"));
 }
 
 std::string stripsText(const SurveyCensus& survey) {
@@ -127,43 +185,29 @@ std::string stripsText(const SurveyCensus& survey) {
       counted(survey.strips.size(), "strip") + formatted(" (cells of %g m)\n", survey.cell);
   text += formatted("  %-16s %12s %16s %16s %5s %9s %9s %9s %14s\n", "id", "points", "from s",
                     "to s", "gaps", "points/m2", "pulses/m2", "area m2", "scan angle deg");
+  std::vector<std::string> lines, notes;
   for (const StripCensus& strip : survey.strips) {
-    const PointStatistics& s = strip.statistics;
-    const double pulses = strip.density * percent(s.first_returns, s.points) / 100.0;
-    text += formatted("  %-16s %12s %16.3f %16.3f %5zu %9.2f %9.2f %9.0f %6.1f … %5.1f\n",
-                      strip.id.c_str(), grouped(s.points).c_str(), s.first_time, s.last_time,
-                      strip.gaps.size(), strip.density, pulses, strip.area, s.least_scan_angle,
-                      s.largest_scan_angle);
+    lines.push_back(stripLine(strip));
+    addNotes(strip, notes);
   }
-  for (const StripCensus& strip : survey.strips) {
-    for (std::size_t g = 0; g < std::min(kMostListed, strip.gaps.size()); ++g)
-      text +=
-          formatted("  strip %s: no points from %.3f to %.3f s (%.1f s)\n", strip.id.c_str(),
-                    strip.gaps[g].from, strip.gaps[g].to, strip.gaps[g].to - strip.gaps[g].from);
-    for (const std::string& remark : strip.remarks)
-      text += "  ! strip " + strip.id + " " + remark + '\n';
-    const std::uint64_t unsorted = strip.statistics.unsorted_times;
-    if (unsorted > 0)
-      text += formatted("  strip %s: %s earlier than the one before in %s file\n", strip.id.c_str(),
-                        unsorted == 1 ? "1 point is" : (grouped(unsorted) + " points are").c_str(),
-                        unsorted == 1 ? "its" : "their");
-  }
-  return text;
+  return text + listText(lines, "strips") + listText(notes, "strips");
 }
 
 std::string overlapsText(const SurveyCensus& survey) {
-  std::string text;
+  std::vector<std::string> lines;
   for (const StripOverlap& overlap : survey.overlaps)
-    text += formatted("  %s - %s: %.0f m2 (%.0f %% of the smaller)\n",
-                      survey.strips[overlap.a].id.c_str(), survey.strips[overlap.b].id.c_str(),
-                      overlap.area,
-                      100.0 * overlap.area /
-                          std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area));
+    lines.push_back(formatted(
+        "  %s - %s: %.0f m2 (%.0f %% of the smaller)\n", survey.strips[overlap.a].id.c_str(),
+        survey.strips[overlap.b].id.c_str(), overlap.area,
+        100.0 * overlap.area /
+            std::min(survey.strips[overlap.a].area, survey.strips[overlap.b].area)));
+  std::string text = listText(lines, "overlaps");
   if (!text.empty()) text = "Overlaps\n" + text;
-  for (std::size_t n = 0; n < survey.area_by_strips.size(); ++n)
+  const std::vector<double>& areas = survey.area_by_strips;
+  for (std::size_t n = 0; n < std::min(kMostLines, areas.size()); ++n)
     text += formatted("%s%zu: %.0f m2", n == 0 ? "  covered by number of strips: " : ", ", n + 1,
-                      survey.area_by_strips[n]);
-  return text + (survey.area_by_strips.empty() ? "" : "\n");
+                      areas[n]);
+  return text + (areas.empty() ? "" : areas.size() > kMostLines ? ", …\n" : "\n");
 }
 
 }  // namespace

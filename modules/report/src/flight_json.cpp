@@ -78,11 +78,12 @@ void addFlight(Json& json, const ListedFlight& flight) {
   json["trajectories"] = Json::array();
   for (const auto& [path, facts] : flight.trajectories)
     json["trajectories"].push_back(trajectory(path, facts));
-  for (const StripScanner& entry : flight.scanners)
+  for (const StripScanner& entry : flight.assessment.scanners)
     json["scanners"].push_back({{"strip", entry.strip},
                                 {"type", nameOf(entry.scanner.pattern)},
                                 {"channels", entry.scanner.channels},
                                 {"angle_deg", entry.scanner.angle / kRadiansPerDegree}});
+  if (!flight.trajectories.empty()) json["flight_remarks"] = textsOf(flight.assessment.warnings);
   if (flight.accuracy.empty()) return;
   json["accuracies"] = {{"path", flight.accuracy_path},
                         {"records", flight.accuracy.size()},

@@ -75,4 +75,12 @@ std::string flightText(const ListedFlight& flight) {
   return text;
 }
 
+std::string assessmentText(const FlightAssessment& assessment) {
+  std::string text;
+  for (const std::string& scanner : describe(assessment.scanners)) text += "  " + scanner + '\n';
+  for (const std::string& note : assessment.notes) text += "  " + note + '\n';
+  for (const Warning& warning : assessment.warnings) text += "! " + warning.text + '\n';
+  return text;
+}
+
 }  // namespace pcl_als

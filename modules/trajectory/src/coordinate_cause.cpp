@@ -50,15 +50,15 @@ std::string coordinateCause(const Vector3d& sensor, const Vector3d& points) {
   return zoneDifference(sensor.head<2>(), points.head<2>());
 }
 
-std::string timeCause(double seconds_ahead) {
+Warning timeCause(double seconds_ahead) {
   const double seconds = std::abs(seconds_ahead);
-  if (seconds < kFirstLeapSeconds - 0.5 || seconds > kMost + 0.5) return {};
+  if (seconds < kFirstLeapSeconds - 0.5 || seconds > kMost + 0.5) return "";
   char text[160];
   std::snprintf(text, sizeof text,
                 "%.1f s of flight, as if the times of the %s were UTC, which lags GPS time by 18 s "
                 "since 2017",
                 seconds, seconds_ahead > 0.0 ? "points" : "trajectory");
-  return text;
+  return {text, seconds_ahead > 0.0 ? Remedy::none : Remedy::leap_seconds};
 }
 
 }  // namespace pcl_als::detail

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/warning.h>
+
 namespace pcl_als::detail {
 
 /** \brief The likely reason for which a trajectory does not lie above its points: exchanged
@@ -21,7 +23,7 @@ std::string coordinateCause(const Eigen::Vector3d& sensor, const Eigen::Vector3d
 
 /// The likely reason for which points lie ahead of (> 0) or behind where they were measured, by the
 /// seconds that the sensor needs for the distance: UTC against GPS time. Empty for other times.
-std::string timeCause(double seconds_ahead);
+Warning timeCause(double seconds_ahead);
 
 // Undulations of a geoid above the ellipsoid are -107 to 86 m (EGM2008); smaller offsets than 5 m
 // have other causes as often.

@@ -124,16 +124,18 @@ bool RayOffset::exceeds(double share) const {
   return size > kSignificantOffset * std && size > std::max(kLeastOffset, share * height);
 }
 
-std::string RayOffset::cause() const {
+Warning RayOffset::cause() const {
   constexpr double kMostly = 0.1;  // of the offset, across its main direction
   const double size = offset.norm(), up = std::abs(offset.z());
   if (offset.head<2>().norm() < kMostly * up && up > kLeastUndulation && up < kLargestUndulation)
-    return "an offset as between ellipsoidal heights and heights above a geoid, whose undulation "
-           "can be given";
-  if (size * size - along * along > kMostly * size * size) return {};
+    return {
+        "an offset as between ellipsoidal heights and heights above a geoid, whose undulation "
+        "can be given",
+        Remedy::geoid};
+  if (size * size - along * along > kMostly * size * size) return "";
   const double seconds = along / speed;
-  const std::string utc = timeCause(seconds);
-  if (!utc.empty()) return utc;
+  const Warning utc = timeCause(seconds);
+  if (!utc.text.empty()) return utc;
   char text[80];
   std::snprintf(text, sizeof text, "%.2f s of flight, as if two clocks differed by this",
                 std::abs(seconds));

@@ -4,10 +4,10 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/warning.h>
 #include <pcl_als/trajectory/path_evidence.h>
 #include <pcl_als/trajectory/trajectory.h>
 
@@ -25,8 +25,8 @@ struct RayOffset {
 
   /// Whether the offset is significant and larger than lever arms and a share of the height.
   bool exceeds(double share) const;
-  /// The likely cause; empty where none is known.
-  std::string cause() const;
+  /// The likely cause, and what can be stated about it; empty where none is known.
+  Warning cause() const;
 };
 
 /// Of the rays of a strip; none where they are too few or do not determine all directions.

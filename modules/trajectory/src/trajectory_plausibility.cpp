@@ -9,7 +9,6 @@
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
-#include "attitude_comparison.h"
 #include "coordinate_cause.h"
 #include "ray_offset.h"
 
@@ -26,7 +25,6 @@ constexpr double kLongestStep = 1.0;  // seconds: of a strip with one time, whic
 // The firing point is wrong by up to half the way flown in a step; as a share of the height that
 // is an angle of the pulse. A hundredth is 0.6 degrees, as much as AttitudeRecovery corrects.
 constexpr double kCoarseRefused = 0.01, kCoarseSuspicious = 0.001;
-constexpr std::size_t kFewestHeadings = 50;
 constexpr double kLargestDatumShift = 1000.0;  // metres: most national datums against WGS 84
 
 // Shares of the height above ground. A trajectory that is displaced by one percent changes the
@@ -69,6 +67,15 @@ std::size_t TrajectoryPlausibility::spacing(std::size_t count, double duration) 
   const double every = static_cast<double>(count) / (kPointsPerSecond * std::abs(duration));
   return every < kMost ? std::max<std::size_t>(1, static_cast<std::size_t>(every))
                        : static_cast<std::size_t>(kMost);
+}
+
+void TrajectoryPlausibility::addRun(int strip, const LidarReturn* points, std::size_t count) {
+  if (count == 0) return;
+  const std::size_t every = spacing(count, points[count - 1].time - points[0].time);
+  for (std::size_t i = 0; i < count; ++i) {
+    addTime(strip, points[i].time);
+    if (i % every == 0) add(strip, points[i].time, points[i].position, points[i].scan_angle);
+  }
 }
 
 void TrajectoryPlausibility::add(int strip, double time, const Eigen::Vector3d& point,
@@ -159,26 +166,31 @@ std::string TrajectoryPlausibility::objection(const Strip& strip) {
   return {};
 }
 
-std::string TrajectoryPlausibility::causeOf(const Strip& strip) {
+Warning TrajectoryPlausibility::causeOf(const Strip& strip) {
   const auto count = static_cast<double>(strip.count);
-  std::string cause = detail::coordinateCause(strip.sensor_sum / count, strip.point_sum / count);
-  if (cause.empty() && strip.speed_sum > kSlowest * count)
-    cause = detail::timeCause(strip.along_sum / strip.speed_sum);
-  return cause.empty() ? cause : "; " + cause;
+  const std::string place =
+      detail::coordinateCause(strip.sensor_sum / count, strip.point_sum / count);
+  if (!place.empty() || strip.speed_sum <= kSlowest * count) return place;
+  return detail::timeCause(strip.along_sum / strip.speed_sum);
+}
+
+Warning TrajectoryPlausibility::outOfReach(const Strip& strip) {
+  const std::string found = objection(strip);
+  if (found.empty()) return found;
+  Warning cause = causeOf(strip);
+  return {cause.text.empty() ? found : found + "; " + cause.text, cause.remedy};
 }
 
 std::string TrajectoryPlausibility::whyOutOfReach(int strip) const {
-  const Strip& s = strips_[static_cast<std::size_t>(strip)];
-  const std::string found = objection(s);
-  return found.empty() ? found : found + causeOf(s);
+  return outOfReach(strips_[static_cast<std::size_t>(strip)]).text;
 }
 
 void TrajectoryPlausibility::checkStrips(std::vector<Finding>& findings) const {
-  for (std::size_t i = 0; i < strips_.size(); ++i) {
-    if (!strips_[i].used) continue;
-    const std::string found = whyOutOfReach(static_cast<int>(i));
-    if (found.empty()) continue;
-    findings.push_back({true, "strip " + strips_[i].name + ": " + found + kRemedy});
+  for (const Strip& strip : strips_) {
+    if (!strip.used) continue;
+    const Warning found = outOfReach(strip);
+    if (found.text.empty()) continue;
+    findings.push_back({true, {"strip " + strip.name + ": " + found.text + kRemedy, found.remedy}});
   }
 }
 
@@ -285,9 +297,10 @@ void TrajectoryPlausibility::checkRays(std::vector<Finding>& findings) const {
                   strip.name.c_str(), std::lround(found->offset.norm()),
                   std::lround(-found->offset.x()), std::lround(-found->offset.y()),
                   std::lround(-found->offset.z()));
-    const std::string cause = found->cause();
-    findings.push_back({found->exceeds(kDisplacedRefused),
-                        {text + (cause.empty() ? "" : "; " + cause) + kRemedy}});
+    const Warning cause = found->cause();
+    findings.push_back(
+        {found->exceeds(kDisplacedRefused),
+         {text + (cause.text.empty() ? "" : "; " + cause.text) + kRemedy, cause.remedy}});
     return;
   }
 }
@@ -311,46 +324,6 @@ HeightError TrajectoryPlausibility::heightError() const {
   const std::vector<Finding> all = findings();
   const bool found = std::any_of(all.begin(), all.end(), [](const auto& f) { return f.height; });
   return found ? heightOfStrips() : HeightError();
-}
-
-void TrajectoryPlausibility::checkHeading(std::vector<Finding>& findings) const {
-  HeadingCheck all;
-  for (const Strip& strip : strips_) {
-    if (strip.used) all.merge(strip.heading);
-  }
-  if (all.count() < kFewestHeadings || all.followsCourse()) return;
-  const HeadingReading best = all.best();
-  char text[480];
-  if (all.deviation(best) <= HeadingCheck::kLargestCrab && !all.constant()) {
-    std::snprintf(text, sizeof text,
-                  "the heading of the trajectory does not follow its course (%.0f degrees away), "
-                  "but would as %s: give roll, pitch and heading in degrees, heading clockwise "
-                  "from grid north",
-                  all.deviation(HeadingReading::heading), std::string(describe(best)).c_str());
-  } else {
-    std::snprintf(text, sizeof text,
-                  "the heading of the trajectory does not follow its course (%.0f degrees away)%s: "
-                  "give the attitude of this flight in degrees, heading clockwise from grid north",
-                  all.deviation(HeadingReading::heading),
-                  all.constant() ? "; it is the same at all times, a column without values" : "");
-  }
-  findings.push_back(ofAttitude(true, text));
-}
-
-TrajectoryPlausibility::Finding TrajectoryPlausibility::ofAttitude(bool wrong,
-                                                                   const std::string& text) const {
-  if (attitude_ == Attitude::used) return {wrong, {text, Remedy::positions_only}};
-  return {false, text + "; only positions are used here: check that they are those of this flight"};
-}
-
-void TrajectoryPlausibility::checkRollAndPitch(std::vector<Finding>& findings) const {
-  if (!path_) return;
-  detail::AttitudeComparison comparison(*flight_, *path_);
-  for (const Strip& strip : strips_) {
-    if (strip.used) comparison.add(strip.recovery->assess());
-  }
-  const detail::AttitudeComparison::Result found = comparison.result();
-  if (!found.text.empty()) findings.push_back(ofAttitude(found.wrong, found.text));
 }
 
 void TrajectoryPlausibility::nameReconstructed(std::vector<Finding>& findings) {

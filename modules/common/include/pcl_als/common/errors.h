@@ -30,6 +30,7 @@ enum class Remedy {
   strips,            ///< to leave strips out, or to use some only
   channels,          ///< to divide strips by the channel of the scanner
   user_data,         ///< to divide strips by the user data
+  split,             ///< to divide the points into flight lines
 };
 
 /// Base of every exception of this library. what() is one line that names the file, record or

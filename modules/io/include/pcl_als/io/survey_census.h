@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/time_resolution.h>
+#include <pcl_als/common/warning.h>
 #include <pcl_als/io/point_reader.h>
 
 namespace pcl_als {
@@ -35,6 +37,7 @@ struct PointStatistics {
   std::uint64_t invalid_coordinates = 0;  ///< not finite, or past a million kilometres
   std::uint64_t wrong_returns = 0;        ///< return number 0 or above the number of returns
   std::uint64_t withheld = 0, synthetic = 0, overlap_flags = 0;
+  std::array<std::uint64_t, 4> channels{};  ///< by scanner channel; all are 0 in LAS before 1.4
   std::array<std::uint64_t, 256> classes{};
   std::array<std::uint64_t, 16> returns{};  ///< by return number
 };
@@ -44,7 +47,7 @@ struct FileCensus {
   PointStatistics statistics;
   /// Of the coordinates of its first points, metres; zero: unknown; see coordinateSteps().
   Eigen::Vector3d steps = Eigen::Vector3d::Zero();
-  std::vector<std::string> remarks;  ///< suspicious facts in plain words
+  Warnings remarks;  ///< suspicious facts in plain words
 };
 
 struct StripCensus {
@@ -55,7 +58,10 @@ struct StripCensus {
   double area = 0.0;          ///< m2: cells that hold a point
   double density =
       0.0;  ///< points per m2: median over cells whose eight neighbours hold points too
-  std::vector<std::string> remarks;
+  /// A strip that was recorded at the same times: at least half of the seconds of this strip are
+  /// those of other strips, and most of these are of that one. An index; none: empty.
+  std::optional<std::size_t> recorded_with;
+  Warnings remarks;
 };
 
 struct StripOverlap {
@@ -75,7 +81,7 @@ struct SurveyCensus {
   double cell = 0.0;                   ///< metres
   std::uint64_t duplicates = 0;  ///< points equal to another in place, time, return and source id
   bool duplicates_estimated = false;
-  std::vector<std::string> remarks;
+  Warnings remarks;
 };
 
 /// Assignment of points to strips where StripNaming does not determine it (module survey).

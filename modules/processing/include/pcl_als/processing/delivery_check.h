@@ -125,7 +125,6 @@ class BlockCheck {
  private:
   LidarReturn pointOf(int strip, const SurveyReader::Run& run, std::size_t row,
                       std::size_t& cursor) const;
-  void compareWithFlight(int strip, const std::vector<LidarReturn>& points);
   void checkTrajectory();
   void findRoughness();
   void measureAreas();

@@ -9,7 +9,7 @@
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/io/trajectory_io.h>
-#include <pcl_als/processing/scanner_survey.h>
+#include <pcl_als/processing/flight_assessment.h>
 
 namespace pcl_als {
 
@@ -21,7 +21,7 @@ struct ListedFlight {
   std::vector<std::pair<std::string, TrajectoryFacts>> trajectories;  ///< path and facts
   std::string accuracy_path;
   std::vector<TrajectoryAccuracy> accuracy;  ///< empty: no file of accuracies
-  std::vector<StripScanner> scanners;        ///< detected from points and trajectory; may be empty
+  FlightAssessment assessment;               ///< of points and trajectory together; may be empty
 };
 
 /// The census as JSON; its keys are those of the text, lengths in metres, times in seconds.
@@ -31,6 +31,8 @@ std::string censusJson(const SurveyCensus& survey, const std::vector<LeftOutPoin
 /// The facts of trajectory files as text: format, frame and datum, times, attitude against the
 /// course, standard deviations.
 std::string flightText(const ListedFlight& flight);
+/// What the trajectory and the points show together: scanners, and what does not agree.
+std::string assessmentText(const FlightAssessment& assessment);
 
 std::string timeKindName(TimeKind kind);
 

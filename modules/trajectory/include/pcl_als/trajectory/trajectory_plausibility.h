@@ -48,7 +48,8 @@ namespace pcl_als {
 class TrajectoryPlausibility {
  public:
   enum class Attitude {
-    used,      ///< results depend on it: a wrong attitude is refused
+    used,      ///< results depend on it: a wrong attitude is refused; positions alone would do
+    needed,    ///< the same where nothing can be computed without an attitude
     not_used,  ///< a wrong attitude gives a warning, because it may be that of another flight
     not_compared,
   };
@@ -59,6 +60,8 @@ class TrajectoryPlausibility {
   /// \a scan_angle as recorded, degrees; NaN: none
   void add(int strip, double time, const Eigen::Vector3d& point,
            double scan_angle = std::numeric_limits<double>::quiet_NaN());
+  /// As many of consecutive points of a strip as are sufficient for add(), and the times of all.
+  void addRun(int strip, const LidarReturn* points, std::size_t count);
   /// A return of a run of consecutive ones: the rays through several returns of a pulse show where
   /// the points were measured from. Beside add(), which needs single points only.
   void addReturn(int strip, const LidarReturn& point) {
@@ -67,9 +70,6 @@ class TrajectoryPlausibility {
   /// The trajectory was reconstructed from points: findings are of it, and not of one that a user
   /// gave.
   void nameReconstructed() { reconstructed_ = true; }
-  /// Every so many of \a count points from \a duration seconds are sufficient for add(): roll is
-  /// seen at the edges of the swath, for which points of each tenth of a second are needed.
-  std::size_t spacing(std::size_t count, double duration) const;
   /// The time of a point, for the resolution of the times: of all points, or of runs of consecutive
   /// ones.
   void addTime(int strip, double time) {
@@ -147,9 +147,13 @@ class TrajectoryPlausibility {
     double spread = 0.0;        ///< standard deviation of ahead / height
   };
 
+  /// Every so many of \a count points from \a duration seconds are sufficient for add(): roll is
+  /// seen at the edges of the swath, for which points of each tenth of a second are needed.
+  std::size_t spacing(std::size_t count, double duration) const;
   static std::string objection(const Strip& strip);
-  /// The likely cause of an objection, after a semicolon; empty where none is found.
-  static std::string causeOf(const Strip& strip);
+  /// The likely cause of an objection, and what can be stated about it; empty where none is found.
+  static Warning causeOf(const Strip& strip);
+  static Warning outOfReach(const Strip& strip);
   static bool viewOf(const Strip& strip, View& view);
   void checkStrips(std::vector<Finding>& findings) const;
   void checkTimes(std::vector<Finding>& findings) const;
