@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <regex>
 
 #include <gtest/gtest.h>
+#include <pcl/conversions.h>
+#include <pcl/filters/voxel_grid.h>
 #include <pcl/io/pcd_io.h>
 
 #include <pcl_als/common/errors.h>
@@ -129,7 +133,8 @@ TEST(PcdIo, AnEmptyCloudIsNoError) {
 }
 
 const std::string kHead =
-    "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z gps_time\nSIZE 4 4 4 8\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+    "# .PCD v0.7\n# pcl_als strip 7\nVERSION 0.7\nFIELDS x y z gps_time\nSIZE 4 4 4 8\nTYPE F F F "
+    "F\nCOUNT 1 1 1 1\n"
     "WIDTH 2\nHEIGHT 1\nVIEWPOINT 100 200 0 1 0 0 0\nPOINTS 2\nDATA ascii\n";
 const std::string kPoints = "1 2 3 230038.25\n4.5 5 6e0 230039\n";
 
@@ -169,6 +174,121 @@ TEST(PcdIo, DoublesGetAFrameAroundTheirCentre) {
   EXPECT_EQ(strip.frame.origin, Eigen::Vector3d(583400, 5283100, 500));
   EXPECT_EQ(strip.frame.toGround((*strip.cloud)[1].getVector3fMap()),
             Eigen::Vector3d(583396.125, 5283104.25, 502));
+}
+
+/// The text of a PCD of one point.
+std::string onePoint(const std::string& fields, const std::string& sizes, const std::string& types,
+                     const std::string& values, const std::string& viewpoint = "0 0 0 1 0 0 0") {
+  const std::string ones = std::regex_replace(types, std::regex("[A-Z]"), "1");
+  return "FIELDS " + fields + "\nSIZE " + sizes + "\nTYPE " + types + "\nCOUNT " + ones +
+         "\nWIDTH 1\nHEIGHT 1\nVIEWPOINT " + viewpoint + "\nPOINTS 1\nDATA ascii\n" + values + '\n';
+}
+
+TEST(PcdReader, KnowsTheNamesOfOtherWriters) {
+  const auto folder = test::scratch("pcd_names");
+  const std::string sizes = "8 8 8 8 4 4 2 1 1 1 1", types = "F F F F F F U U U U U";
+  const std::string values = "500000.5 5400000.25 100 269347.28 80 -12.5 17 2 3 6 9";
+  for (const char* fields :
+       {"X Y Z GpsTime Intensity ScanAngleRank PointSourceId ReturnNumber NumberOfReturns "
+        "Classification UserData",  // PDAL
+        "x y z gpstime intensity scanangle pointsourceid returnnumber numberofreturns "
+        "classification userdata"}) {  // lasR
+    test::writeBytes(folder / "a.pcd", onePoint(fields, sizes, types, values));
+    const auto reader = PointReader::open(folder / "a.pcd");
+    EXPECT_EQ(reader->info().time_kind, TimeKind::week_seconds);
+    EXPECT_TRUE(reader->remarks().empty());
+    PointChunk p;
+    ASSERT_TRUE(reader->read(p));
+    EXPECT_EQ(p.x[0], 500000.5);
+    EXPECT_EQ(p.gps_time[0], 269347.28);
+    EXPECT_EQ(p.intensity[0], 80.0F);
+    EXPECT_EQ(p.scan_angle[0], -12.5F);
+    EXPECT_EQ(p.point_source_id[0], 17);
+    EXPECT_EQ(p.return_number[0], 2);
+    EXPECT_EQ(p.number_of_returns[0], 3);
+    EXPECT_EQ(p.classification[0], 6);
+    EXPECT_EQ(p.user_data[0], 9);
+  }
+}
+
+TEST(PcdReader, NamesFieldsThatAreNotUsed) {
+  const auto folder = test::scratch("pcd_unused");
+  test::writeBytes(folder / "a.pcd",
+                   onePoint("x y z rgb _ t", "4 4 4 4 1 8", "F F F F U F", "1 2 3 4 5 6"));
+  EXPECT_EQ(PointReader::open(folder / "a.pcd")->remarks(),
+            std::vector<std::string>{"its fields are not used: rgb, t"});
+}
+
+TEST(PcdReader, AFieldWithTheVeryNameIsTheColumn) {
+  const auto folder = test::scratch("pcd_same");
+  const std::string sizes = "4 4 4 8 8", types = "F F F F F", values = "1 2 3 1000 2000";
+  test::writeBytes(folder / "a.pcd", onePoint("x y z GpsTime gps_time", sizes, types, values));
+  const auto reader = PointReader::open(folder / "a.pcd");
+  PointChunk p;
+  ASSERT_TRUE(reader->read(p));
+  EXPECT_EQ(p.gps_time[0], 2000.0);
+  EXPECT_EQ(reader->remarks(), std::vector<std::string>{"its field is not used: GpsTime"});
+  test::writeBytes(folder / "b.pcd", onePoint("x y z GpsTime gpstime", sizes, types, values));
+  try {
+    PointReader::open(folder / "b.pcd");
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("fields GpsTime and gpstime are the same"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(PcdReader, TheViewpointIsAPoseUnlessItCannotBe) {
+  const auto folder = test::scratch("pcd_viewpoint");
+  struct Case {
+    const char *size, *values, *viewpoint;
+    double x;  ///< of the point
+    const char* remark;
+  };
+  for (const Case& c : {
+           Case{"4", "1 2 3", "0 0 100 1 0 0 0", 1.0, "pose of the sensor"},
+           Case{"4", "1 2 3", "500 0 100 0 1 0 0", 1.0, "pose of the sensor"},
+           Case{"4", "1 2 3", "0 0 0 1 0 0 0", 1.0, ""},
+           // What PCL leaves of a cloud with a frame, when it has other fields.
+           Case{"4", "1 2 3", "583390 5283100 500 1 0 0 0", 583391.0, "origin of the coordinates"},
+           // A sensor in the midst of its points.
+           Case{"4", "583000 5283000 3", "583390 5283100 500 1 0 0 0", 583000.0, "pose of the"},
+           Case{"8", "1 2 3", "583390 5283100 500 1 0 0 0", 1.0, "pose of the sensor"},
+       }) {
+    const std::string sizes = std::string(c.size) + " " + c.size + " " + c.size;
+    test::writeBytes(folder / "a.pcd", onePoint("x y z", sizes, "F F F", c.values, c.viewpoint));
+    const auto reader = PointReader::open(folder / "a.pcd");
+    PointChunk p;
+    ASSERT_TRUE(reader->read(p));
+    EXPECT_EQ(p.x[0], c.x) << c.viewpoint;
+    const std::vector<std::string> remarks = reader->remarks();
+    const std::string remark = remarks.empty() ? "" : remarks[0];
+    EXPECT_EQ(remark.empty(), *c.remark == '\0') << remark;
+    EXPECT_NE(remark.find(c.remark), std::string::npos) << remark;
+  }
+}
+
+/// pcl_voxel_grid averages the bytes of all fields as floats.
+TEST(PcdReader, AveragedBytesAreNoTimes) {
+  const auto folder = test::scratch("pcd_averages");
+  pcl::PCLPointCloud2::Ptr cloud(new pcl::PCLPointCloud2);
+  pcl::PCLPointCloud2 thinned;
+  Strip<PointLidar> strip = someStrip(3000);
+  pcl::toPCLPointCloud2(*strip.cloud, *cloud);
+  pcl::VoxelGrid<pcl::PCLPointCloud2> grid;
+  grid.setInputCloud(cloud);
+  grid.setLeafSize(20.0F, 20.0F, 20.0F);
+  grid.filter(thinned);
+  ASSERT_EQ(pcl::io::savePCDFile((folder / "a.pcd").string(), thinned), 0);
+  const auto reader = PointReader::open(folder / "a.pcd");
+  EXPECT_EQ(reader->info().time_kind, TimeKind::none);
+  ASSERT_EQ(reader->remarks().size(), 1U);
+  EXPECT_NE(reader->remarks()[0].find("its GPS times are no times"), std::string::npos);
+  PointChunk p;
+  ASSERT_TRUE(reader->read(p));
+  EXPECT_EQ(*std::max_element(p.gps_time.begin(), p.gps_time.end()), 0.0);
+  EXPECT_EQ((*loadPcd(folder / "a.pcd").cloud)[0].gps_time, 0.0);
 }
 
 struct PcdFault {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/listed_names.h>
 #include <pcl_als/common/time_unit.h>
 
 namespace pcl_als::detail {
@@ -53,11 +54,14 @@ struct Block {
   std::size_t count;
   const std::string& file;
 
-  /// Fills a column from the field of that name, or with \a missing where the file has none.
+  /// Fills a column from the field that holds it, or with \a missing where the file has none.
   template <typename T>
   void column(const char* name, T missing, std::vector<T>& out) const {
+    fill(header.find(name), missing, out);
+  }
+  template <typename T>
+  void fill(const PcdField* field, T missing, std::vector<T>& out) const {
     out.assign(count, missing);
-    const PcdField* field = header.find(name);
     if (field == nullptr || count == 0) return;  // without points, records may be null
     const Element element = elementOf(*field);
     const std::byte* at = records + field->offset;
@@ -76,6 +80,15 @@ struct Block {
                      std::to_string(std::numeric_limits<T>::max()) + ")");
   }
 };
+
+constexpr std::size_t kMostNamed = 20;
+
+/// Whether bytes that are no time were taken for one: a number of seconds beyond any clock, or next
+/// to nothing.
+bool isNoTime(double time) {
+  constexpr double kLargest = 1e12, kLeast = 1e-100;
+  return std::abs(time) > kLargest || (time != 0.0 && std::abs(time) < kLeast);
+}
 
 template <typename T>
 void keepOnly(const std::vector<std::size_t>& rows, std::vector<T>& column) {
@@ -104,6 +117,7 @@ PcdFile::PcdFile(const std::filesystem::path& path, const std::string& channel_f
       header_(readHeader(file_)),
       channel_field_(channel_field == "scanner_channel" ? "" : channel_field) {
   checkFields();
+  readFirst();
   rewind();
 }
 
@@ -120,11 +134,52 @@ void PcdFile::checkFields() const {
     throw InputError(file_.name() +
                      ": the PCD's gps_time is not of type F 8 (double); a float of week seconds "
                      "has steps of 0.03 s, two metres of flight");
-  if (channel_field_.empty() || header_.find(channel_field_.c_str()) != nullptr) return;
+  if (channel_field_.empty() || header_.named(channel_field_) != nullptr) return;
   std::string names;
   for (const PcdField& field : header_.fields) names += (names.empty() ? "" : ", ") + field.name;
   throw InputError(file_.name() + ": has no field '" + channel_field_ +
                    "' with the channel of the scanner; it has " + names);
+}
+
+/// What the first points show of VIEWPOINT and times.
+void PcdFile::readFirst() {
+  constexpr std::size_t kEnough = 4096;
+  constexpr double kFarthestSensor = 1e4;  // metres from the origin of a local system, in plan
+  rewind();
+  PointChunk chunk;
+  std::size_t without = 0;
+  while (chunk.size() == 0 && read(kEnough, chunk)) {
+  }
+  for (const double time : chunk.gps_time) without += isNoTime(time) ? 1 : 0;
+  times_are_averages_ = 2 * without > chunk.size();
+  origin_.setZero();
+  const Eigen::Vector3d& viewpoint = header_.viewpoint;
+  const bool far = viewpoint.head<2>().norm() > kFarthestSensor && !header_.rotated &&
+                   header_.find("x")->size == 4 && chunk.size() > 0 &&
+                   std::hypot(chunk.x[0], chunk.y[0]) <
+                       std::hypot(chunk.x[0] - viewpoint.x(), chunk.y[0] - viewpoint.y());
+  if (header_.of_pcl_als || far) origin_ = viewpoint;
+}
+
+std::vector<std::string> PcdFile::remarks() const {
+  std::vector<std::string> remarks;
+  const std::vector<std::string> unused = header_.unusedFields();
+  if (!unused.empty())
+    remarks.push_back(
+        (unused.size() == 1 ? "its field is not used: " : "its fields are not used: ") +
+        listedNames(unused, kMostNamed));
+  if (!header_.of_pcl_als && !header_.viewpoint.isZero())
+    remarks.emplace_back(origin_.isZero()
+                             ? "its VIEWPOINT is the pose of the sensor, as PCL defines it: it is "
+                               "not added to the coordinates"
+                             : "its VIEWPOINT is taken as the origin of the coordinates, from "
+                               "which no sensor would see them");
+  if (times_are_averages_)
+    remarks.emplace_back(
+        "its GPS times are no times and are not used: a filter such as pcl_voxel_grid averaged the "
+        "bytes of all fields; thin clouds with a filter that keeps points, such as "
+        "pcl::UniformSampling");
+  return remarks;
 }
 
 void PcdFile::rewind() {
@@ -137,12 +192,19 @@ bool PcdFile::read(std::size_t records, PointChunk& chunk) {
   buffer_.resize(count * header_.record_length);
   if (count > 0) records_->next(count, buffer_.data());
   position_ += count;
-  const Block block{header_, buffer_.data(), count, file_.name()};
+  fill(buffer_.data(), count, chunk);
+  dropInvalid(chunk);
+  return count > 0;
+}
+
+void PcdFile::fill(const std::byte* records, std::size_t count, PointChunk& chunk) {
+  const Block block{header_, records, count, file_.name()};
   block.column("x", 0.0, chunk.x);
   block.column("y", 0.0, chunk.y);
   block.column("z", 0.0, chunk.z);
   block.column("gps_time", 0.0, chunk.gps_time);
   for (double& time : chunk.gps_time) {
+    if (times_are_averages_) time = 0.0;
     time_units_ = std::max(time_units_, timeUnitsPerSecond(time));
     time = secondsOfTime(time);
   }
@@ -158,10 +220,8 @@ bool PcdFile::read(std::size_t records, PointChunk& chunk) {
     chunk.channel = chunk.flags;
     for (std::uint8_t& channel : chunk.channel) channel = channel >> 6U;
   } else {
-    block.column(channel_field_.c_str(), std::uint8_t{0}, chunk.channel);
+    block.fill(header_.named(channel_field_), std::uint8_t{0}, chunk.channel);
   }
-  dropInvalid(chunk);
-  return count > 0;
 }
 
 }  // namespace pcl_als::detail

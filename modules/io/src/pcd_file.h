@@ -22,7 +22,15 @@ class PcdRecords {
   virtual void next(std::size_t count, std::byte* out) = 0;
 };
 
-/** \brief The points of a PCD file as columns, coordinates relative to the file's VIEWPOINT.
+/** \brief The points of a PCD file as columns, coordinates relative to origin().
+ *
+ * Clouds of this library have their origin in VIEWPOINT. PCL defines VIEWPOINT as the pose of the
+ * sensor, which is not added to the points of other files, unless it cannot be that: it is farther
+ * than 10 km from zero in plan, and the first point, of single precision, is nearer to zero than
+ * to it.
+ *
+ * GPS times of which most are no times (beyond 1e12 s, or next to zero) are zero here:
+ * pcl::VoxelGrid of pcl::PCLPointCloud2 averages the bytes of doubles as if they were floats.
  *
  * Points without finite coordinates are left out. Constant memory for ascii and binary; a
  * binary_compressed file is one compressed block and is held in memory as a whole.
@@ -36,6 +44,11 @@ class PcdFile {
   PcdFile& operator=(const PcdFile&) = delete;
 
   const PcdHeader& header() const { return header_; }
+  /// Metres, ground frame.
+  const Eigen::Vector3d& origin() const { return origin_; }
+  bool hasTimes() const { return header_.find("gps_time") != nullptr && !times_are_averages_; }
+  /// What is not used of the file, and how its VIEWPOINT is understood.
+  std::vector<std::string> remarks() const;
   const std::string& name() const { return file_.name(); }
   const FileVersion& version() const { return file_.version(); }
   /// The next points out of at most \a records records; false at the end of the file.
@@ -46,6 +59,8 @@ class PcdFile {
 
  private:
   void checkFields() const;
+  void readFirst();
+  void fill(const std::byte* records, std::size_t count, PointChunk& chunk);
 
   InputFile file_;
   PcdHeader header_;
@@ -53,6 +68,8 @@ class PcdFile {
   std::unique_ptr<PcdRecords> records_;
   std::uint64_t position_ = 0;
   double time_units_ = 1.0;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  bool times_are_averages_ = false;
   std::vector<std::byte> buffer_;
 };
 

@@ -3,9 +3,13 @@
 #include "pcd_header.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/text_values.h>
@@ -15,6 +19,25 @@ namespace {
 
 constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
 constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 40U;
+
+/// The columns of PointLidar, with names without case and underscores.
+constexpr std::pair<const char*, const char*> kColumns[] = {
+    {"x", "x"},
+    {"y", "y"},
+    {"z", "z"},
+    {"gpstime", "gps_time"},
+    {"intensity", "intensity"},
+    {"scanangle", "scan_angle"},
+    {"scananglerank", "scan_angle"},
+    {"pointsourceid", "point_source_id"},
+    {"returnnumber", "return_number"},
+    {"numberofreturns", "number_of_returns"},
+    {"classification", "classification"},
+    {"flags", "flags"},
+    {"userdata", "user_data"},
+};
+/// So many: scan_angle has two names.
+constexpr std::size_t kColumnCount = std::size(kColumns) - 1;
 
 /// Goes through the header's lines; one member per key word.
 class HeaderParser {
@@ -44,6 +67,7 @@ class HeaderParser {
     takeComment(line, kPcdCrsComment, header_.crs);
     takeComment(line, kPcdStripComment, header_.strip_id);
     takeComment(line, kPcdCorrectionsComment, header_.corrections);
+    header_.of_pcl_als = header_.of_pcl_als || line.rfind(kPcdComment, 0) == 0;
     if (line.empty() || line[0] == '#') return;
     std::istringstream stream(line);
     std::string key;
@@ -110,8 +134,8 @@ class HeaderParser {
     if (numbers.size() != 7 ||
         !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
       fail("the PCD header's VIEWPOINT is not seven numbers");
-    if (numbers[3] != 1.0 || numbers[4] != 0.0 || numbers[5] != 0.0 || numbers[6] != 0.0)
-      fail("the PCD's VIEWPOINT is rotated; only a shift (… 1 0 0 0) can be the origin of a cloud");
+    header_.rotated =
+        numbers[3] != 1.0 || numbers[4] != 0.0 || numbers[5] != 0.0 || numbers[6] != 0.0;
     header_.viewpoint = {numbers[0], numbers[1], numbers[2]};
   }
 
@@ -139,8 +163,30 @@ class HeaderParser {
       fail("PCD field " + field.name + ": its COUNT is " + std::to_string(field.count));
   }
 
+  /// A field with the very name of a column is that column, whatever others are called.
+  void assignColumns() {
+    std::map<std::string, const PcdField*> holders;
+    for (PcdField& field : header_.fields) {
+      const std::string column = pcdColumnOf(field.name);
+      if (column.empty() || (field.name != column && header_.named(column) != nullptr)) continue;
+      const auto [holder, first] = holders.emplace(column, &field);
+      if (!first)
+        fail("the PCD's fields " + holder->second->name + " and " + field.name +
+             " are the same by their names (" + column + ")");
+      field.column = column;
+    }
+    header_.of_pcl_als =
+        header_.of_pcl_als || (holders.size() == kColumnCount &&
+                               std::all_of(holders.begin(), holders.end(), [](const auto& holder) {
+                                 return holder.first == holder.second->name;
+                               }));
+    if (header_.of_pcl_als && header_.rotated)
+      fail("the PCD's VIEWPOINT is rotated; only a shift (… 1 0 0 0) can be the origin of a cloud");
+  }
+
   void finish() {
     if (header_.fields.empty()) fail("the PCD header has no FIELDS line");
+    assignColumns();
     for (PcdField& field : header_.fields) {
       checkField(field);
       field.offset = header_.record_length;
@@ -181,10 +227,32 @@ class HeaderParser {
 
 }  // namespace
 
-const PcdField* PcdHeader::find(const std::string& name) const {
+const PcdField* PcdHeader::find(const std::string& column) const {
+  const auto field = std::find_if(fields.begin(), fields.end(),
+                                  [&](const PcdField& f) { return f.column == column; });
+  return field == fields.end() ? nullptr : &*field;
+}
+
+const PcdField* PcdHeader::named(const std::string& name) const {
   const auto field =
       std::find_if(fields.begin(), fields.end(), [&](const PcdField& f) { return f.name == name; });
   return field == fields.end() ? nullptr : &*field;
+}
+
+std::vector<std::string> PcdHeader::unusedFields() const {
+  std::vector<std::string> names;
+  for (const PcdField& field : fields)
+    if (field.column.empty() && field.name != "_") names.push_back(field.name);
+  return names;
+}
+
+std::string pcdColumnOf(const std::string& field) {
+  std::string plain;
+  for (const char c : field)
+    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& [name, column] : kColumns)
+    if (plain == name) return column;
+  return {};
 }
 
 const char* PcdHeader::dataName() const {

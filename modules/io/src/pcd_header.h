@@ -14,7 +14,8 @@ namespace pcl_als::detail {
 enum class PcdData { ascii, binary, binary_compressed };
 
 struct PcdField {
-  std::string name;
+  std::string name;        ///< as the file has it
+  std::string column;      ///< field of PointLidar that it is; empty: none
   char type = 'F';         ///< F, I or U
   std::size_t size = 4;    ///< bytes of one element
   std::size_t count = 1;   ///< elements
@@ -26,19 +27,34 @@ struct PcdHeader {
   std::vector<PcdField> fields;
   std::size_t record_length = 0;  ///< bytes of a packed record
   std::uint64_t points = 0;
-  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();  ///< the LocalFrame's origin
+  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  bool rotated = false;  ///< of the viewpoint
+  /// Whether a comment line of ours, or all fields of PointLidar, show that the file was written
+  /// from clouds of this library: then the viewpoint is the origin of their frame.
+  bool of_pcl_als = false;
   PcdData data = PcdData::ascii;
   std::uint64_t data_position = 0;
   std::string crs, strip_id, corrections;  ///< from our comment lines; empty without
 
-  /// The field of that name; null when there is none.
-  const PcdField* find(const std::string& name) const;
+  /// The field that is a column of PointLidar, or the one that a user names; null when there is
+  /// none.
+  const PcdField* find(const std::string& column) const;
+  const PcdField* named(const std::string& name) const;
+  /// Names of the fields that are no column, apart from padding.
+  std::vector<std::string> unusedFields() const;
   const char* dataName() const;
 };
 
+inline constexpr const char* kPcdComment = "# pcl_als ";
 inline constexpr const char* kPcdCrsComment = "# pcl_als crs ";
 inline constexpr const char* kPcdStripComment = "# pcl_als strip ";
 inline constexpr const char* kPcdCorrectionsComment = "# pcl_als corrections ";
+
+/** \brief The column of PointLidar that a field holds by its name; empty where it is none.
+ *
+ * Case and underscores do not count, as other writers have them: PDAL "GpsTime", lasR "gpstime".
+ */
+std::string pcdColumnOf(const std::string& field);
 
 /// Parses the header lines at the beginning of \a text. InputError: "NAME: …".
 PcdHeader parsePcdHeader(const std::string& text, std::uint64_t file_size, const std::string& name);

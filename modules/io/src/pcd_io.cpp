@@ -36,7 +36,7 @@ bool hasDoubles(const detail::PcdHeader& header) {
 
 /// The frame that the file's coordinates are put in: its VIEWPOINT, or the centre of doubles.
 LocalFrame frameOf(detail::PcdFile& file) {
-  LocalFrame frame{file.header().viewpoint, file.header().crs};
+  LocalFrame frame{file.origin(), file.header().crs};
   if (!hasDoubles(file.header())) return frame;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
   PointChunk chunk;
@@ -106,7 +106,7 @@ Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& 
                      "' with the channel of the scanner: use the LAS file that it was made from");
   Strip<PointLidar> strip;
   strip.frame = frameOf(file);
-  const Eigen::Vector3d shift = strip.frame.origin - file.header().viewpoint;
+  const Eigen::Vector3d shift = strip.frame.origin - file.origin();
   strip.cloud->reserve(file.header().points);
   PointChunk chunk;
   while (file.read(PointReader::kChunk, chunk))

@@ -22,8 +22,9 @@ class PcdPointReader : public LocalPointReader {
     info_.units.source = info_.units.vertical_source = "PCD";
     info_.corrections = file_.header().corrections;
     info_.format = std::string("PCD ") + file_.header().dataName();
-    survey(file_.header().viewpoint, file_.header().find("gps_time") != nullptr);
+    survey(file_.origin(), file_.hasTimes());
   }
+  std::vector<std::string> remarks() const override { return file_.remarks(); }
 
  private:
   bool readLocal(PointChunk& chunk) override { return file_.read(kChunk, chunk); }
@@ -39,6 +40,7 @@ class BoundedReader : public PointReader {
       : reader_(std::move(reader)), window_(window), info_(within(window, reader_->info())) {}
 
   const PointFileInfo& info() const override { return info_; }
+  std::vector<std::string> remarks() const override { return reader_->remarks(); }
 
   bool read(PointChunk& chunk) override {
     bool more = reader_->read(chunk);

@@ -88,6 +88,7 @@ class Census {
     const auto reader =
         PointReader::open(survey_.files[f].info.path, survey_.window, kAnyCoordinates);
     if (!reader->damage().empty()) survey_.files[f].remarks.push_back(reader->damage());
+    for (const std::string& text : reader->remarks()) survey_.files[f].remarks.push_back(text);
     PointChunk chunk;
     std::vector<Eigen::Vector3d> first;
     while (reader->read(chunk)) {

@@ -73,6 +73,12 @@ class Source {
     return {chunk_, &las_->file(), las_->records()};
   }
   std::string damage() const { return reader_->damage(); }
+  /// What is not used of the file, with its name.
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> remarks = reader_->remarks();
+    for (std::string& text : remarks) text.insert(0, info().path.string() + ": ");
+    return remarks;
+  }
   /// What the points lose in a file of that name; empty: nothing.
   std::string lossIn(const fs::path& output) const {
     if (las_ == nullptr || detail::isLas(output)) return {};
@@ -290,6 +296,7 @@ class Conversion {
     for (const std::size_t file : files) {
       Source source(inputs_[file], options_.window);
       if (!source.damage().empty()) remarkOnce(source.damage());
+      for (const std::string& text : source.remarks()) remarkOnce(text);
       while (source.read()) {
         const PointChunk& chunk = source.chunk();
         Run run;

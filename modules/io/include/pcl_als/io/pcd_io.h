@@ -29,11 +29,15 @@ struct PcdColumn {
 void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
              const std::vector<PcdColumn>& columns);
 
-/** \brief Reads any PCD with float or double x, y, z; fields are found by name, those that are
- * missing keep PointLidar's defaults, points without finite coordinates are left out.
+/** \brief Reads any PCD with float or double x, y, z; fields are found by name without regard to
+ * case and underscores, those that are missing keep PointLidar's defaults, points without finite
+ * coordinates are left out.
  *
  * The id is that of savePcd; else the point source id where all points have the same and it is not
- * 0; else the file's stem. Coordinates stored as double get a frame around their centre.
+ * 0; else the file's stem. The frame's origin is the VIEWPOINT of files of this library; in others
+ * that is the pose of the sensor, which is not added, unless it cannot be one (the module's README
+ * has the rule). Coordinates stored as double get a frame around their centre. Times that a filter
+ * averaged byte by byte are zero.
  */
 Strip<PointLidar> loadPcd(const std::filesystem::path& path);
 /// The same; InputError where the file, or PointLidar, has no field with the channel of the scanner

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -47,6 +48,8 @@ class PointReader {
   /// What of a damaged file cannot be read (PointWindow::keep_readable), as one line with the name
   /// of the file; empty: nothing.
   virtual std::string damage() const { return {}; }
+  /// What is not used of the file, and what is assumed of it, one line each without its name.
+  virtual std::vector<std::string> remarks() const { return {}; }
   /// Of the box of all points that read() gave: that the header of the file states another one;
   /// empty: it does not. Points in a part of the file must only be within the box of the header.
   virtual std::string boxRemark(const Eigen::AlignedBox3d& /*points*/) const { return {}; }
