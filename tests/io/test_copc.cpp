@@ -70,6 +70,31 @@ TEST(Copc, IsReadAsTheLazFileThatItIs) {
   EXPECT_TRUE(std::memcmp(records.data(), expected.data(), expected.size()) == 0);
 }
 
+/// COPC 1.0 defines files of LAS 1.4; those of LAS 1.5 differ in the length of the header.
+TEST(Copc, OfLas15IsReadAsThatOfLas14) {
+  CopcBytes::Frame frame;
+  frame.version_minor = 5;
+  const auto points = test::copcPoints(20000);
+  const auto folder = test::scratch("copc_15");
+  test::writeBytes(folder / "new.copc.laz", CopcBytes(points, frame).str());
+  test::writeBytes(folder / "old.copc.laz", CopcBytes(points, {}).str());
+  EXPECT_EQ(LasFile(folder / "new.copc.laz").info().format, "LAZ 1.5, point format 6, COPC");
+  PointWindow window = boxed(100.0, 200.0, 180.0, 230.0);
+  const Read part = readPart(folder / "new.copc.laz", window),
+             expected = readPart(folder / "old.copc.laz", window);
+  EXPECT_GT(part.x.size(), 0U);
+  EXPECT_EQ(part.x, expected.x);
+  EXPECT_EQ(part.intensity, expected.intensity);
+  // Stored times are 100e6 s less than standard GPS time, which is 1e9 s more than adjusted time.
+  ASSERT_EQ(part.time.size(), expected.time.size());
+  for (std::size_t i = 0; i < part.time.size(); ++i)
+    EXPECT_NEAR(part.time[i], expected.time[i] + 100e6 - 1e9, 1e-6);
+  window.bounds.reset();
+  window.resolution = frame.spacing();
+  EXPECT_EQ(readPart(folder / "new.copc.laz", window).x,
+            readPart(folder / "old.copc.laz", window).x);
+}
+
 class CopcWindows : public testing::TestWithParam<std::array<double, 4>> {};
 
 /// Points and their order are those of the same window of a copy that is no COPC file.
@@ -173,7 +198,7 @@ std::string changed(std::size_t at, T value) {
 }
 
 TEST(CopcDamage, IsRefusedInOneLine) {
-  const std::size_t info = CopcBytes::kInfoAt, page = block().pageEntries().at(0),
+  const std::size_t info = CopcBytes::infoAt(), page = block().pageEntries().at(0),
                     node = block().entryOf({1, 0, 0, 0});
   const auto expect = [](const std::string& bytes, const std::string& text) {
     const std::string message = refusal(bytes);
@@ -239,7 +264,7 @@ TEST(CopcDamage, LosesNoPointsSilently) {
 
 TEST(CopcDamage, DoesNotConcernTheWholeFile) {
   const fs::path path = test::scratch("copc_damage_whole") / "block.copc.laz";
-  test::writeBytes(path, changed<std::uint64_t>(CopcBytes::kInfoAt + 40, 1ULL << 60U));
+  test::writeBytes(path, changed<std::uint64_t>(CopcBytes::infoAt() + 40, 1ULL << 60U));
   EXPECT_EQ(readPart(path, {}).x.size(), block().inOrder().size());
 }
 

@@ -39,16 +39,18 @@ class CopcBytes {
     double step = 0.01;                                ///< m
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the cube, m
     int deepest = 4;                                   ///< level
+    int version_minor = 4;                             ///< of LAS; 5: times are offset by 1e8 s
     double sideLength() const { return side * step; }
     double spacing() const { return sideLength() / 16; }  ///< of the root node
   };
-  static constexpr std::size_t kInfoAt = 375 + 54;  ///< position of the payload of the info VLR
 
   CopcBytes(const std::vector<Point>& points, const Frame& frame) : frame_(frame) {
     for (const Point& point : points) insert(point);
     write();
   }
 
+  /// Position of the payload of the info VLR, which follows the header.
+  static std::size_t infoAt(int version_minor = 4) { return LasHeader::sizeOf(version_minor) + 54; }
   const Frame& frame() const { return frame_; }
   const std::string& str() const { return bytes_; }
   const std::map<Key, std::vector<Point>>& nodes() const { return nodes_; }
@@ -93,7 +95,8 @@ class CopcBytes {
     const auto payload = schema.serialise();
     const std::string laszip =
         LasBytes::vlr(kLazUser, kLazRecord, std::string(payload.begin(), payload.end()));
-    const std::size_t points_at = kInfoAt + 160 + laszip.size();
+    const std::size_t info_at = infoAt(frame_.version_minor);
+    const std::size_t points_at = info_at + 160 + laszip.size();
     std::map<Key, Chunk> chunks;
     const std::uint64_t evlr = writePoints(schema, points_at, chunks);
     writeHierarchy(evlr, chunks);
@@ -102,8 +105,8 @@ class CopcBytes {
     for (int axis = 0; axis < 3; ++axis) info.f64(frame_.offset[axis] + half);
     info.f64(half).f64(frame_.spacing());
     info.u64(root_page_).u64(root_bytes_).f64(0.0).f64(0.0).raw(std::string(88, '\0'));
-    put(375, LasBytes::vlr("copc", 1, info.str()));
-    put(kInfoAt + 160, laszip);
+    put(info_at - 54, LasBytes::vlr("copc", 1, info.str()));
+    put(info_at + 160, laszip);
     writeHeader(points_at, evlr);
   }
 
@@ -193,6 +196,12 @@ class CopcBytes {
     const std::vector<Point> all = inOrder();
     LasHeader header;
     header.global_encoding = kLasAdjustedStandardTime | kLasWkt;
+    header.version_minor = frame_.version_minor;
+    header.header_size = LasHeader::sizeOf(header.version_minor);
+    if (header.version_minor == 5) {
+      header.global_encoding |= kLasTimeOffset;
+      header.time_offset = 100;
+    }
     header.offset_to_points = static_cast<std::uint32_t>(points_at);
     header.vlr_count = 2;
     header.point_format = 6;
