@@ -159,6 +159,20 @@ TEST(PcdReader, GivesGroundCoordinatesBoxAndKindOfTime) {
   EXPECT_EQ(chunk.size(), 0U);
 }
 
+/// Text that is no CRS, or a code that PROJ does not know, must not be in the way of a LAS file.
+TEST(PcdReader, ACrsThatCannotBeUsedIsNamed) {
+  const auto folder = test::scratch("pcd_crs");
+  const auto infoOf = [&](const std::string& crs) {
+    test::writeBytes(folder / "a.pcd", replaced(kHead, "strip 7", "crs " + crs) + kPoints);
+    EXPECT_EQ(loadPcd(folder / "a.pcd").frame.crs, PointReader::open(folder / "a.pcd")->info().crs);
+    return PointReader::open(folder / "a.pcd")->info();
+  };
+  EXPECT_EQ(infoOf("EPSG:25832").crs, "EPSG:25832");
+  EXPECT_EQ(infoOf("''").crs, "");
+  EXPECT_EQ(infoOf("EPSG:65535").crs, "");
+  EXPECT_EQ(infoOf("EPSG:65535").crs_ignored, "EPSG:65535 is not known to PROJ");
+}
+
 TEST(PcdReader, TimesOutsideTheWeekAreStandardTime) {
   const auto folder = test::scratch("pcd_reader_time");
   test::writeBytes(folder / "a.pcd", kHead + replaced(kPoints, "230039", "380000000"));

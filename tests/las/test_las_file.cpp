@@ -138,6 +138,62 @@ TEST(LasFile, ReadsTheCrsThatTheEncodingPrefers) {
   EXPECT_EQ(LasFile(put("crs.las", las.str())).crs(), "");
 }
 
+/// A key directory of (key, value) for the payload of LASF_Projection 34735.
+std::string keysOf(const std::vector<std::pair<unsigned, unsigned>>& keys) {
+  Bytes bytes;
+  bytes.u16(1).u16(1).u16(0).u16(static_cast<unsigned>(keys.size()));
+  for (const auto& [key, value] : keys) bytes.u16(key).u16(0).u16(1).u16(value);
+  return bytes.str();
+}
+
+PointFileInfo infoWith(const std::vector<std::pair<unsigned, unsigned>>& keys,
+                       const std::string& wkt = {}, const Eigen::Vector3d& offset = {0, 0, 0}) {
+  LasBytes las;
+  las.encoding = 1;
+  las.offset_x = offset.x(), las.offset_y = offset.y(), las.offset_z = offset.z();
+  las.vlrs = {LasBytes::vlr("LASF_Projection", 34735, keysOf(keys))};
+  if (!wkt.empty()) las.vlrs.push_back(LasBytes::vlr("LASF_Projection", 2112, wkt));
+  return LasFile(put("keys.las", las.str())).info();
+}
+
+TEST(LasFile, AUnitKeyDoesNotReplaceTheWkt) {
+  const std::string wkt =
+      "PROJCS[\"a\",GEOGCS[\"b\",DATUM[\"c\",SPHEROID[\"d\",6378137,298.257222101]],"
+      "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],"
+      "PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],"
+      "PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",1],"
+      "PARAMETER[\"false_easting\",0],PARAMETER[\"false_northing\",0],UNIT[\"foot\",0.3048]]";
+  const PointFileInfo same = infoWith({{1024, 1}, {3076, 9002}}, wkt);
+  EXPECT_EQ(same.crs, wkt);
+  EXPECT_EQ(same.units.source, "WKT");
+  const PointFileInfo other = infoWith({{1024, 1}, {3076, 9001}}, wkt);
+  EXPECT_EQ(other.crs, wkt);
+  EXPECT_EQ(other.units.horizontal.metres, 0.3048);
+  EXPECT_EQ(other.units.source, "WKT; GeoTIFF key 3076 states metre, not used");
+}
+
+TEST(LasFile, CodesThatProjDoesNotKnowAreNoCrs) {
+  for (const unsigned code : {65535U, 1234U}) {
+    const PointFileInfo info = infoWith({{1024, 1}, {3072, code}});
+    EXPECT_EQ(info.crs, "");
+    EXPECT_EQ(info.crs_ignored, "EPSG:" + std::to_string(code) + " is not known to PROJ");
+  }
+  EXPECT_EQ(infoWith({{1024, 1}, {3072, 65535}}, "PROJCS[x]").crs, "PROJCS[x]");
+  EXPECT_EQ(infoWith({{1024, 1}}, "''").crs, "");
+  EXPECT_EQ(infoWith({{1024, 1}}, "''").crs_ignored, "");
+}
+
+TEST(LasFile, ACrsThatTheCoordinatesContradictIsIgnored) {
+  const Eigen::Vector3d utm(500000, 5400000, 100), delft(3924687, 301132, 5001910);
+  const PointFileInfo degrees = infoWith({{1024, 2}, {2048, 4326}}, {}, utm);
+  EXPECT_EQ(degrees.crs_kind, CrsKind::unknown);
+  EXPECT_NE(degrees.crs_ignored.find("EPSG:4326 is in degrees"), std::string::npos);
+  const PointFileInfo geocentric = infoWith({{1024, 3}}, {}, utm);
+  EXPECT_EQ(geocentric.crs_kind, CrsKind::unknown);
+  EXPECT_NE(geocentric.crs_ignored.find("is geocentric"), std::string::npos);
+  EXPECT_EQ(infoWith({{1024, 3}}, {}, delft).crs_kind, CrsKind::geocentric);
+}
+
 TEST(LasFile, RecognisesAUtmZoneThatIsSpelledOut) {
   const auto crsOf = [](unsigned model, unsigned zone, double flattening) {
     LasBytes las;
@@ -155,7 +211,10 @@ TEST(LasFile, RecognisesAUtmZoneThatIsSpelledOut) {
   };
   EXPECT_EQ(crsOf(1, 16011, 298.257223563), "EPSG:32611");
   EXPECT_EQ(crsOf(1, 16156, 298.257223563), "EPSG:32756");
-  EXPECT_EQ(crsOf(1, 16011, 298.257222101), "");  // GRS 80: some other datum
+  // GRS 80: some other datum, so that it is the projection only.
+  const std::string other = crsOf(1, 16011, 298.257222101);
+  EXPECT_NE(other.find("PARAMETER[\"central_meridian\",-117]"), std::string::npos) << other;
+  EXPECT_NE(other.find("298.257222101"), std::string::npos) << other;
   EXPECT_EQ(crsOf(1, 12345, 298.257223563), "");
   EXPECT_EQ(crsOf(3, 16011, 298.257223563), "");  // geocentric
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -235,6 +237,39 @@ std::string crsAsWkt([[maybe_unused]] const std::string& crs) {
 #else
   return {};
 #endif
+}
+
+std::string projectedCrs([[maybe_unused]] const std::string& geographic,
+                         [[maybe_unused]] unsigned projection,
+                         [[maybe_unused]] const LengthUnit& unit) {
+#ifdef PCL_ALS_HAVE_PROJ
+  const ProjContext context = quietProjContext();
+  PJ_CONTEXT* const c = context.get();
+  const ProjObject base(proj_create(c, geographic.c_str()));
+  const ProjObject conversion(proj_create_from_database(
+      c, "EPSG", std::to_string(projection).c_str(), PJ_CATEGORY_COORDINATE_OPERATION, 0, nullptr));
+  if (!base || !conversion || proj_get_type(conversion.get()) != PJ_TYPE_CONVERSION) return {};
+  const ProjObject axes(
+      proj_create_cartesian_2D_cs(c, PJ_CART2D_EASTING_NORTHING, unit.name.c_str(), unit.metres));
+  const ProjObject crs(
+      proj_create_projected_crs(c, "unknown", base.get(), conversion.get(), axes.get()));
+  const char* const options[] = {"MULTILINE=NO", nullptr};
+  const char* text = crs ? proj_as_wkt(c, crs.get(), PJ_WKT1_GDAL, options) : nullptr;
+  return text == nullptr ? "" : text;
+#else
+  return {};
+#endif
+}
+
+StatedCrs usableCrs(const std::string& stated) {
+  const bool says_something = std::any_of(stated.begin(), stated.end(),
+                                          [](unsigned char c) { return std::isalnum(c) != 0; });
+  if (!says_something) return {};
+#ifdef PCL_ALS_HAVE_PROJ
+  if (stated.rfind("EPSG:", 0) == 0 && describeCrs(stated).name.empty())
+    return {{}, stated + " is not known to PROJ"};
+#endif
+  return {stated, {}};
 }
 
 std::optional<LengthUnit> unitOfEpsgCode(unsigned code) {

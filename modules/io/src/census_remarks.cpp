@@ -122,7 +122,10 @@ void remarkHeaderTimes(const LasHeader& h, const PointStatistics& s, Warnings& r
 
 void remarkCrs(const PointFileInfo& info, Warnings& remarks) {
   if (info.crs.empty())
-    remarks.emplace_back("the coordinate reference system is unknown (no WKT, no EPSG code)");
+    remarks.emplace_back(
+        "the coordinate reference system is unknown (" +
+            (info.crs_ignored.empty() ? "no WKT, no EPSG code" : info.crs_ignored) + ")",
+        Remedy::crs);
   if (info.crs_kind == CrsKind::geographic)
     remarks.emplace_back(
         "the coordinates are degrees: project them to a metric system first; lengths and areas "

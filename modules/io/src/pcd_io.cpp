@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/pcd_io.h>
 
 #include "pcd_file.h"
@@ -36,7 +37,7 @@ bool hasDoubles(const detail::PcdHeader& header) {
 
 /// The frame that the file's coordinates are put in: its VIEWPOINT, or the centre of doubles.
 LocalFrame frameOf(detail::PcdFile& file) {
-  LocalFrame frame{file.origin(), file.header().crs};
+  LocalFrame frame{file.origin(), usableCrs(file.header().crs).crs};
   if (!hasDoubles(file.header())) return frame;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(HUGE_VAL), high = -low;
   PointChunk chunk;

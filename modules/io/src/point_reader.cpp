@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/io/las_point_reader.h>
 #include <pcl_als/io/local_point_reader.h>
 #include <pcl_als/io/point_reader.h>
@@ -18,7 +19,9 @@ class PcdPointReader : public LocalPointReader {
       : file_(path, window.channel_field) {
     info_.path = path;
     info_.version = file_.version();
-    info_.crs = file_.header().crs;
+    StatedCrs stated = usableCrs(file_.header().crs);
+    info_.crs = std::move(stated.crs);
+    info_.crs_ignored = std::move(stated.ignored);
     info_.units.source = info_.units.vertical_source = "PCD";
     info_.corrections = file_.header().corrections;
     info_.format = std::string("PCD ") + file_.header().dataName();

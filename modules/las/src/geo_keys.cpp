@@ -8,58 +8,27 @@
 
 #include <pcl_als/crs/crs.h>
 
+#include "geo_key_projection.h"
 #include "las_bytes.h"
 
 namespace pcl_als::detail {
 namespace {
 
-constexpr std::uint16_t kModelType = 1024, kGeographic = 2048, kEllipsoid = 2056;
-constexpr std::uint16_t kGeodeticUnit = 2052, kGeodeticUnitSize = 2053;
-constexpr std::uint16_t kSemiMajorAxis = 2057, kInverseFlattening = 2059;
-constexpr std::uint16_t kProjected = 3072, kProjection = 3074;
-constexpr std::uint16_t kProjectedUnit = 3076, kProjectedUnitSize = 3077;
-constexpr std::uint16_t kVertical = 4096, kVerticalUnit = 4099;
+using namespace geo_key;
+
 constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kModelGeocentric = 3;
-constexpr std::uint16_t kUserDefined = 32767;
-constexpr std::uint16_t kDoublesRecord = 34736;
 constexpr std::uint16_t kWgs84 = 4326, kWgs84Ellipsoid = 7030;
 constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;
 
-/// A directory of (key, place, count, value); the value is an index where it lies in a record.
-class Directory {
- public:
-  Directory(const std::vector<std::byte>& directory, const std::vector<std::byte>& doubles)
-      : directory_(directory), doubles_(doubles) {}
-
-  /// 0 where the key is absent.
-  std::uint16_t code(std::uint16_t key) const { return valueAt(key, 0); }
-
-  double number(std::uint16_t key) const {
-    const std::size_t at = 8U * valueAt(key, kDoublesRecord, 0xFFFF);
-    return at + 8 <= doubles_.size() ? loadLas<double>(&doubles_[at]) : 0.0;
-  }
-
- private:
-  std::uint16_t valueAt(std::uint16_t key, std::uint16_t place, std::uint16_t absent = 0) const {
-    for (std::size_t at = 8; at + 8 <= directory_.size(); at += 8)
-      if (loadLas<std::uint16_t>(&directory_[at]) == key &&
-          loadLas<std::uint16_t>(&directory_[at + 2]) == place)
-        return loadLas<std::uint16_t>(&directory_[at + 6]);
-    return absent;
-  }
-
-  const std::vector<std::byte>&directory_, &doubles_;
-};
-
-bool isWgs84(const Directory& keys) {
+bool isWgs84(const GeoKeyDirectory& keys) {
   if (keys.code(kGeographic) == kWgs84 || keys.code(kEllipsoid) == kWgs84Ellipsoid) return true;
   // GRS 80 differs by 1.5e-6 in the inverse flattening.
-  return std::abs(keys.number(kSemiMajorAxis) - 6378137.0) < 1e-3 &&
-         std::abs(keys.number(kInverseFlattening) - 298.257223563) < 1e-7;
+  return std::abs(keys.number(kSemiMajorAxis).value_or(0.0) - 6378137.0) < 1e-3 &&
+         std::abs(keys.number(kInverseFlattening).value_or(0.0) - 298.257223563) < 1e-7;
 }
 
 /// 326zz or 327zz; 0 when it is no UTM zone on WGS 84.
-unsigned utmCode(const Directory& keys) {
+unsigned utmCode(const GeoKeyDirectory& keys) {
   const unsigned projection = keys.code(kProjection);
   if (!isWgs84(keys)) return 0;
   if (projection > 16000 && projection <= 16060) return 32600 + (projection - 16000);
@@ -68,25 +37,25 @@ unsigned utmCode(const Directory& keys) {
 }
 
 std::string epsg(unsigned code) {
-  return code == 0 || code == kUserDefined ? std::string() : "EPSG:" + std::to_string(code);
+  return code == 0 || code == kUserDefinedKey ? std::string() : "EPSG:" + std::to_string(code);
 }
 
 /// The unit that a key states by code, or \a size_key by its length in metres (0: no such key).
-std::optional<StatedUnit> statedUnit(const Directory& keys, std::uint16_t key,
+std::optional<StatedUnit> statedUnit(const GeoKeyDirectory& keys, std::uint16_t key,
                                      std::uint16_t size_key) {
   const std::uint16_t code = keys.code(key);
   if (code == 0) return std::nullopt;
-  if (code != kUserDefined) {
+  if (code != kUserDefinedKey) {
     const auto unit = unitOfEpsgCode(code);
     if (!unit) return std::nullopt;
     return StatedUnit{*unit, "GeoTIFF key " + std::to_string(key)};
   }
-  const double metres = size_key == 0 ? 0.0 : keys.number(size_key);
+  const double metres = size_key == 0 ? 0.0 : keys.number(size_key).value_or(0.0);
   if (!(std::isfinite(metres) && metres > 0.0)) return std::nullopt;
   return StatedUnit{lengthUnitOf(metres), "GeoTIFF key " + std::to_string(size_key)};
 }
 
-std::optional<StatedUnit> verticalUnit(const Directory& keys) {
+std::optional<StatedUnit> verticalUnit(const GeoKeyDirectory& keys) {
   if (auto unit = statedUnit(keys, kVerticalUnit, 0)) return unit;
   // Codes of GeoTIFF 1.0 that stand for a datum only are no CRS to PROJ.
   const std::string crs = epsg(keys.code(kVertical));
@@ -95,7 +64,7 @@ std::optional<StatedUnit> verticalUnit(const Directory& keys) {
   return StatedUnit{*description.vertical, "GeoTIFF key 4096 (" + crs + ")"};
 }
 
-CrsKind kindOf(const Directory& keys) {
+CrsKind kindOf(const GeoKeyDirectory& keys) {
   switch (keys.code(kModelType)) {
     case kModelProjected:
       return CrsKind::projected;
@@ -125,13 +94,13 @@ std::uint16_t codeOfUnit(const LengthUnit& unit) {
 
 GeoKeys readGeoKeys(const std::vector<std::byte>& directory,
                     const std::vector<std::byte>& doubles) {
-  const Directory keys(directory, doubles);
+  const GeoKeyDirectory keys(directory, doubles);
   GeoKeys found;
   found.kind = kindOf(keys);
   unsigned code = 0;  // a geocentric system's is that of its datum
   if (found.kind == CrsKind::projected) {
     code = keys.code(kProjected);
-    if (code == 0 || code == kUserDefined) code = utmCode(keys);
+    if (code == 0 || code == kUserDefinedKey) code = utmCode(keys);
   } else if (found.kind == CrsKind::geographic) {
     code = keys.code(kGeographic);
   }
@@ -139,6 +108,9 @@ GeoKeys readGeoKeys(const std::vector<std::byte>& directory,
   found.horizontal = statedUnit(keys, kProjectedUnit, kProjectedUnitSize);
   if (!found.horizontal && found.crs.empty())
     found.horizontal = statedUnit(keys, kGeodeticUnit, kGeodeticUnitSize);
+  if (found.kind == CrsKind::projected && found.crs.empty())
+    found.crs =
+        userDefinedProjection(keys, found.horizontal ? found.horizontal->unit : LengthUnit());
   found.vertical = verticalUnit(keys);
   return found;
 }

@@ -20,9 +20,8 @@ struct StatedUnit {
 /// What GeoTIFF keys say.
 struct GeoKeys {
   CrsKind kind = CrsKind::unknown;  ///< by the model type, or by the code that is given
-  /// "EPSG:n"; empty where the keys do not tell a code. Besides a code, UTM zones on WGS 84 that
-  /// are spelled out as user-defined (projection 16001-16060 or 16101-16160 with the ellipsoid's
-  /// axes) are recognised, as some writers leave them.
+  /// "EPSG:n", or WKT of a system whose projection is user-defined (userDefinedProjection());
+  /// empty where the keys define none. UTM zones on WGS 84 that are spelled out have their code.
   std::string crs;
   std::optional<StatedUnit> horizontal;  ///< keys 3076 and 3077; else 2052 and 2053
   std::optional<StatedUnit> vertical;    ///< key 4099; else that of the vertical CRS, key 4096

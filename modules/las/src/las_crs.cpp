@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/crs/crs.h>
@@ -32,7 +33,7 @@ std::string wktOf(const LasFile& file) {
   const std::vector<std::byte> bytes = file.payload(*vlr, kLargestRecord);
   std::string wkt = textField(bytes.data(), bytes.size());
   while (!wkt.empty() && std::isspace(static_cast<unsigned char>(wkt.back())) != 0) wkt.pop_back();
-  return wkt;
+  return usableCrs(wkt).crs;
 }
 
 GeoKeys geoKeysOf(const LasFile& file) {
@@ -82,48 +83,59 @@ void setVertical(const GeoKeys& keys, LasReference& reference) {
 
 LasReference referenceOfKeys(const GeoKeys& keys) {
   LasReference reference;
-  reference.crs = keys.crs;
+  StatedCrs stated = usableCrs(keys.crs);
+  reference.crs = std::move(stated.crs);
+  reference.ignored = std::move(stated.ignored);
   reference.kind = keys.kind;
   // A code says more than the model type beside it.
-  const CrsKind kind = describeCrs(keys.crs).kind;
+  const CrsKind kind = describeCrs(reference.crs).kind;
   if (kind != CrsKind::unknown) reference.kind = kind;
   if (reference.kind == CrsKind::geographic || reference.kind == CrsKind::geocentric)
     return reference;
-  reference.units = unitsOfCrs(keys.crs);
+  reference.units = unitsOfCrs(reference.crs);
   if (keys.horizontal) setHorizontal(*keys.horizontal, reference);
   setVertical(keys, reference);
   return reference;
 }
 
-/// The plan box of the first and last points in the unit of the file; empty where they cannot be
-/// read.
-Eigen::AlignedBox2d boxOfSomePoints(const LasFile& file) {
+/// The box of the first and last points in the unit of the file; that of the header where they
+/// cannot be read.
+Eigen::AlignedBox3d boxOfSomePoints(const LasFile& file) {
   const LasHeader& h = file.header();
+  const Eigen::AlignedBox3d stated(h.minimum, h.maximum);
   const std::size_t length = h.record_length;
   const auto count = std::min<std::uint64_t>(h.point_count / 2 + 1, 256);
   std::vector<std::byte> records(2 * count * length);
-  Eigen::AlignedBox2d box;
-  if (h.point_count == 0) return box;
+  if (h.point_count == 0) return stated;
   try {
     file.readRanges({{0, count}, {h.point_count - count, count}}, records.data());
   } catch (const InputError&) {
-    return box;  // damaged points are refused where they are needed
+    return stated;  // damaged points are refused where they are needed
   }
+  Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < 2 * count; ++i) {
-    const Eigen::Vector2d raw(loadLas<std::int32_t>(&records[i * length]),
-                              loadLas<std::int32_t>(&records[i * length + 4]));
-    box.extend(Eigen::Vector2d(raw.cwiseProduct(h.scale.head<2>()) + h.offset.head<2>()));
+    Eigen::Vector3d raw;
+    for (int axis = 0; axis < 3; ++axis)
+      raw[axis] = loadLas<std::int32_t>(&records[i * length + 4 * static_cast<std::size_t>(axis)]);
+    box.extend(Eigen::Vector3d(raw.cwiseProduct(h.scale) + h.offset));
   }
   return box;
 }
 
 /// By the points, because the box in the header may be wrong. Longitudes may run to 360 degrees.
 bool mayBeDegrees(const LasFile& file) {
-  const LasHeader& h = file.header();
-  Eigen::AlignedBox2d box = boxOfSomePoints(file);
-  if (box.isEmpty()) box = {h.minimum.head<2>().eval(), h.maximum.head<2>().eval()};
+  const Eigen::AlignedBox3d box = boxOfSomePoints(file);
   return box.min().x() >= -360.0 && box.max().x() <= 360.0 && box.min().y() >= -90.0 &&
          box.max().y() <= 90.0;
+}
+
+/// Whether the points lie near the ellipsoid, seen from the centre of the Earth.
+bool mayBeGeocentric(const LasFile& file) {
+  constexpr double kEquator = 6378137.0, kFlattening = 1.0 / 298.257;  // metres
+  constexpr double kReach = 2e4;  // metres: mountains, and areas of some hundred kilometres
+  const Eigen::Vector3d centre = boxOfSomePoints(file).center();
+  const double distance = centre.norm(), sine = centre.z() / distance;
+  return std::abs(distance - kEquator * (1.0 - kFlattening * sine * sine)) < kReach;
 }
 
 /// Coordinates in steps of a micrometre with heights in steps of a millimetre are no lengths.
@@ -134,9 +146,17 @@ bool hasStepsOfDegrees(const LasHeader& h) {
   return step <= kLargestStep && steps.z() >= kLeastRatio * step;
 }
 
-void checkDegrees(const LasFile& file, LasReference& reference) {
-  if (reference.kind == CrsKind::geographic && !mayBeDegrees(file)) {
+/// A CRS that the coordinates contradict is not used.
+void checkCoordinates(const LasFile& file, LasReference& reference) {
+  const bool degrees = reference.kind == CrsKind::geographic && !mayBeDegrees(file);
+  if (degrees || (reference.kind == CrsKind::geocentric && !mayBeGeocentric(file))) {
+    const std::string stated = reference.crs.empty()
+                                   ? std::string(degrees ? "a geographic CRS" : "a geocentric CRS")
+                                   : shortCrsName(reference.crs);
     reference = LasReference();
+    reference.ignored =
+        stated + (degrees ? " is in degrees, which the coordinates cannot be"
+                          : " is geocentric, but the points are not at the surface of the Earth");
   } else if (reference.kind == CrsKind::unknown && !reference.units.known() &&
              hasStepsOfDegrees(file.header()) && mayBeDegrees(file)) {
     reference.kind = CrsKind::geographic;
@@ -162,7 +182,7 @@ LasReference readLasReference(const LasFile& file) {
   const std::string wkt = wktOf(file);
   const GeoKeys keys = geoKeysOf(file);
   const bool keys_tell = !keys.crs.empty() || keys.horizontal;
-  const bool by_wkt = !wkt.empty() && (prefers_wkt || !keys_tell);
+  const bool by_wkt = !wkt.empty() && (prefers_wkt || usableCrs(keys.crs).crs.empty());
   LasReference reference = by_wkt ? referenceOfWkt(wkt) : referenceOfKeys(keys);
   // The records that the encoding does not prefer may tell what the others leave open.
   if (by_wkt && reference.kind == CrsKind::unknown && keys_tell) {
@@ -171,7 +191,11 @@ LasReference readLasReference(const LasFile& file) {
     reference.units = by_keys.units;
   }
   if (by_wkt && !reference.units.verticalKnown()) setVertical(keys, reference);
-  checkDegrees(file, reference);
+  if (by_wkt && keys.horizontal && reference.units.known() &&
+      keys.horizontal->unit.metres != reference.units.horizontal.metres)
+    reference.units.source +=
+        "; " + keys.horizontal->source + " states " + keys.horizontal->unit.name + ", not used";
+  checkCoordinates(file, reference);
   return reference;
 }
 

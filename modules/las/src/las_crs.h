@@ -18,15 +18,17 @@ struct LasReference {
   std::string crs;  ///< WKT or "EPSG:n"; empty when there is none
   CrsKind kind = CrsKind::unknown;
   LinearUnits units;
+  std::string ignored;  ///< PointFileInfo::crs_ignored
 };
 
 /** \brief Reads the reference of a file, as its global encoding prefers.
  *
  * A unit that GeoTIFF keys state stands above the one that the EPSG code implies
- * (GeoTIFF 1.1, 7.5); the CRS is given with that unit then. A CRS in degrees is ignored for
- * coordinates that cannot be degrees; coordinates within the range of degrees with steps of a
- * micrometre at most, a thousandth of the step of the heights, are degrees where no CRS says
- * otherwise.
+ * (GeoTIFF 1.1, 7.5); the CRS is given with that unit then. Keys without a CRS do not replace the
+ * WKT. A CRS in degrees is ignored for coordinates that cannot be degrees, a geocentric one for
+ * coordinates that are not at the surface of the Earth; coordinates within the range of degrees
+ * with steps of a micrometre at most, a thousandth of the step of the heights, are degrees where no
+ * CRS says otherwise.
  */
 LasReference readLasReference(const LasFile& file);
 

@@ -227,6 +227,7 @@ PointFileInfo LasFile::info() const {
   info.maximum = h.maximum.cwiseProduct(metres);
   info.resolution = h.scale.cwiseAbs().cwiseProduct(metres);
   info.crs = crs();
+  info.crs_ignored = state_->reference.ignored;
   info.crs_kind = crsKind();
   info.units = units();
   if (layout().gps_time >= 0)

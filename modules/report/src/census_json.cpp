@@ -85,6 +85,7 @@ Json fileJson(const FileCensus& file) {
   json["path"] = file.info.path.string();
   json["format"] = file.info.format;
   json["crs"] = file.info.crs;
+  json["crs_ignored"] = file.info.crs_ignored;
   json["units"] = unitsJson(file.info);
   json["time_kind"] = timeKindName(file.info.time_kind);
   json["time_shift_s"] = file.info.time_shift;

@@ -135,7 +135,7 @@ std::string fileText(const FileCensus& file) {
   text += entry("format", info.format);
   if (info.format.rfind("PCD", 0) != 0) text += lasText(info.path);
   text += entry("points", grouped(s.points));
-  text += entry("CRS", crs);
+  text += entry("CRS", crs + (info.crs_ignored.empty() ? "" : "; " + info.crs_ignored));
   if (!info.crs.empty() && !describeCrs(info.crs).name.empty())
     text += entry("CRS name", describeCrs(info.crs).name);
   text += entry(

@@ -34,6 +34,9 @@ struct PointFileInfo {
   Eigen::Vector3d maximum = Eigen::Vector3d::Zero();
   Eigen::Vector3d resolution = Eigen::Vector3d::Constant(0.001);  ///< coordinate step, metres
   std::string crs;  ///< WKT or "EPSG:…", of the file's own unit; empty when unknown
+  /// A CRS that the file states and that cannot be used, and why: "EPSG:65535 is not known to
+  /// PROJ".
+  std::string crs_ignored;
   CrsKind crs_kind = CrsKind::unknown;
   LinearUnits units;  ///< of the file; everything else here is in metres
   TimeKind time_kind = TimeKind::none;

@@ -83,6 +83,23 @@ void requireMapCoordinates(const PointFileInfo& info);
  */
 std::string crsAsWkt(const std::string& crs);
 
+/** \brief WKT 1 of a projected CRS from a geographic one (WKT) and the EPSG code of a projection
+ * (16031: UTM zone 31N), with axes in that unit; empty where PROJ does not know them, and in a
+ * build without PROJ.
+ */
+std::string projectedCrs(const std::string& geographic, unsigned projection,
+                         const LengthUnit& unit);
+
+/// The CRS that a file states, where it can be used.
+struct StatedCrs {
+  std::string crs;      ///< empty where none can be used
+  std::string ignored;  ///< what is stated and why it is not used; empty otherwise
+};
+
+/// A text without a letter or digit states no CRS, and an EPSG code that PROJ does not know none
+/// that can be used. Other texts are kept, also those that PROJ does not know.
+StatedCrs usableCrs(const std::string& stated);
+
 /// The unit of an EPSG code of units of length (9001 is the metre); without PROJ those of metre,
 /// foot and US survey foot.
 std::optional<LengthUnit> unitOfEpsgCode(unsigned code);
