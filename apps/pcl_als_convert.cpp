@@ -19,8 +19,11 @@ using app::CommandLine;
 /// The names of the files where OUT is a folder, as the conversion chooses them. Those of strips
 /// are known when the points are read: the conversion checks them then.
 std::optional<std::vector<std::string>> filesInFolder(const CommandLine& line) {
-  if (!isConversionFolder(line.output())) return std::nullopt;
-  if (line.has("split")) return std::vector<std::string>();
+  if (line.has("split")) {
+    requireStripFolder(line.output());
+    return std::vector<std::string>();
+  }
+  if (!isConversionFolder(line.output(), line.inputs().size() != 1)) return std::nullopt;
   std::vector<std::string> names;
   for (const std::string& input : line.inputs())
     names.push_back(convertedName(input, line.has("format") ? line.text("format") : ""));

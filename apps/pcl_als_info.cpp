@@ -6,6 +6,7 @@
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/processing/flight_assessment.h>
+#include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/strip_census.h>
 #include <pcl_als/report/census_report.h>
 
@@ -23,9 +24,7 @@ ListedFlight flightOf(const CommandLine& line) {
   if (line.has("accuracy")) flight.accuracy_path = line.text("accuracy");
   flight.accuracy = accuracies(line);
   if (!line.has("trajectory")) return flight;
-  const TrajectoryReading reading = trajectoryReading(line, {});
-  for (const auto& file : trajectoryPaths(trajectoryFiles(line)))
-    flight.trajectories.emplace_back(file.string(), inspectTrajectory(file, reading));
+  flight.trajectories = inspectFlight(trajectoryFiles(line), trajectoryReading(line, {}));
   return flight;
 }
 

@@ -78,10 +78,12 @@ void addTrajectoryOptions(CommandLine& line, const std::string& use) {
                "used (default: by its header)");
   line.addChoice("trajectory_angles", "unit of trajectory angles that state none (default: deg)",
                  {"deg", "rad", "gon"});
-  line.addChoice("trajectory_axes",
-                 "ned: roll right wing down, pitch nose up, heading clockwise from north; enu: "
-                 "pitch nose down, yaw counter-clockwise from east (default: ned)",
-                 {"ned", "enu"});
+  line.addChoice(
+      "trajectory_axes",
+      "ned: roll right wing down, pitch nose up, heading clockwise from north; enu: "
+      "pitch nose down, yaw counter-clockwise from east; of quaternions what they turn the "
+      "body to (default: ned; of a yaw and of quaternions as the course shows)",
+      {"ned", "enu"});
   line.addChoice("trajectory_north",
                  "north that headings count from (default: grid for map coordinates, else true)",
                  {"true", "grid"});

@@ -23,6 +23,8 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::positions_only, "model", "or use -model quasi_rigorous, which needs no attitude"},
     {Remedy::recover_attitude, "vertical", "without -vertical they are recovered from the points"},
     {Remedy::crs, "crs", "give one with -crs"},
+    {Remedy::accuracy, "accuracy", "this file is one for -accuracy"},
+    {Remedy::axes, "trajectory_axes", "state them with -trajectory_axes"},
     {Remedy::columns, "columns", "or name the columns with -columns"},
     {Remedy::leap_seconds, "leap_seconds", "state them with -leap_seconds"},
     {Remedy::geoid, "geoid", "-geoid subtracts the undulation"},

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <new>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/printable.h>
 
 #include "command_line.h"
 #include "interruption.h"
@@ -26,7 +26,7 @@ LengthUnit unitOption(const CommandLine& line, const std::string& of) {
 }
 
 void remark(const CommandLine& line, const std::string& text) {
-  if (!text.empty() && !line.quiet()) std::cout << "  " << text << std::endl;
+  if (!text.empty() && !line.quiet()) std::cout << "  " << printable(text) << std::endl;
 }
 
 void remarks(const CommandLine& line, const std::vector<std::string>& texts) {
@@ -46,11 +46,8 @@ int conclude(const CommandLine& line, const std::string& why) {
 }
 
 int reportFailure(const CommandLine& line, const std::exception_ptr& failure) {
-  const auto failed = [&line](std::string message, int status) {
-    // What a file holds in place of text must not reach the terminal.
-    const auto control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-    std::replace_if(message.begin(), message.end(), control, '?');
-    std::cerr << line.tool() << ": " << message << std::endl;
+  const auto failed = [&line](const std::string& message, int status) {
+    std::cerr << line.tool() << ": " << printable(message) << std::endl;
     return status;
   };
   try {

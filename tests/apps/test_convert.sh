@@ -39,6 +39,19 @@ check "the other strip" test -s chosen/strip2.laz
 # A file for each strip, also of one file with all of them.
 expect 0 "lines/1.laz" convert "$block"/strip*.las lines -split -format laz
 expect 1 "needs a folder" convert "$block"/strip*.las lines.las -split
+# A dot is a part of many names of folders.
+expect 0 "lines.v2/1.laz" convert "$block"/strip*.las lines.v2 -split -format laz
+check "the same files" cmp lines.v2/1.laz lines/1.laz
+expect 0 "lines.v2/1.laz" convert "$block"/strip*.las lines.v2 -split -format laz  # a folder by now
+expect 0 "" convert "$block"/strip1.las "$block"/strip2.las both.2026 -format pcd
+check "two files in a folder" test -s both.2026/strip2.pcd
+echo text >notes.v3
+for file in notes.v3 lines.laz lines.PCD lines.ply; do
+  expect 1 "needs a folder" convert "$block"/strip1.las $file -split
+done
+check "the file is as it was" test "$(<notes.v3)" = text
+expect 1 "does not end in" convert "$strip" one.v2
+absent one.v2 lines.laz lines.PCD lines.ply
 expect 1 "several inputs need a folder" convert "$block"/strip1.las "$block"/strip2.las both.las
 
 # Lines that share a point source id get numbers of their own: in a file each, or in their tiles.

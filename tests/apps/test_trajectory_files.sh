@@ -43,7 +43,8 @@ expect 1 'a.csv is given twice' "${apply[@]}" -trajectory gap/a.csv gap/a.csv
 # Without a header; angles in gon; another order with a column that means nothing.
 awk -F, 'NR > 1 { printf "%s 77 %s %s %s %.10f %.10f %.10f\n", $1, $3, $2, $4, $5 / 0.9, $6 / 0.9, $7 / 0.9 }' \
   "$csv" >gon.txt
-expect 2 "accepted names * or name the columns with -columns" "${apply[@]}" -trajectory gon.txt
+expect 2 "gon.txt: line 1 holds 8 numbers, but the file has no header line: * or name the columns with -columns" \
+  "${apply[@]}" -trajectory gon.txt
 columns=time,skip,northing,easting,height,roll,pitch,heading
 rm -f out.las
 expect 0 '' "${apply[@]}" -trajectory gon.txt -columns $columns -trajectory_angles gon

@@ -108,7 +108,7 @@ TEST(ClassNames, AreWhatTheFilesCanKeep) {
 TEST(ClassNames, FaultsAreToldWithTheirPlace) {
   EXPECT_NE(test::messageOf<InputError>([] {
               readClassSites(fileOf("latin1.csv", "x,y,class\n1,2,tree\n3,4,B\xE4ume\n"));
-            }).find("line 3, column 'class': 'B\xE4ume' is not UTF-8"),
+            }).find("line 3, column 'class': 'B?ume' is not UTF-8"),
             std::string::npos);
   EXPECT_NE(test::messageOf<InputError>([] {
               readClassSites(
@@ -152,6 +152,16 @@ TEST(CheckedSites, ComeBackAsTheyWere) {
   EXPECT_EQ(sites[0].place, Eigen::Vector2d(512000.125, 5403000.5));
   EXPECT_EQ(sites[0].classified, "soil");
   EXPECT_EQ(sites[1].classified, "");
+}
+
+TEST(CountTable, OfNumberedClassesHasAHeader) {
+  EXPECT_EQ(readCountTable(fileOf("n.csv", ",1,2\n1,5,6\n2,7,8\n")).classes,
+            (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(readCountTable(fileOf("n.csv", "class,1,2\n1,5,6\n2,7,8\n")).classes.size(), 2U);
+  EXPECT_NE(test::messageOf<InputError>([&] {
+              readCountTable(fileOf("n.csv", "5,6\n7,8\n"));
+            }).find("line 1 holds 2 numbers, but the file has no header line"),
+            std::string::npos);
 }
 
 }  // namespace

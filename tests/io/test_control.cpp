@@ -96,5 +96,20 @@ TEST(Control, ErrorsNameLineAndColumn) {
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
 }
 
+// 2026-11: the numbers of the first line were taken for names of columns.
+TEST(Control, AsksForAMissingHeader) {
+  EXPECT_NE(refusal("1,5,5,3\n2,6,5,3\n")
+                .find("control.csv: line 1 holds 4 numbers, but the file has no header line"),
+            std::string::npos);
+  EXPECT_NE(refusal("# made by hand\n1;5;5;3;\n").find("line 2 holds 4 numbers"),
+            std::string::npos);
+  for (const char* text : {"GCP01,700223.687,5659983.470,990.548\n", "GCP01,5,5,3\n"}) {
+    EXPECT_NE(refusal(text).find("is the line with the names of the columns missing?"),
+              std::string::npos)
+        << refusal(text);
+  }
+  EXPECT_EQ(refusal("id,x,y\na,1,2\n").find("missing?"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pcl_als

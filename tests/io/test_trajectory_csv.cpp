@@ -97,9 +97,10 @@ TEST(TrajectoryCsv, SaysWhichColumnsItTook) {
   EXPECT_EQ(readTrajectoryFile(file("time,X,Y,z\n1,2,3,4\n")).columns, "");
   const TrajectoryFile taken = readTrajectoryFile(file("GpsTime,Y,X,Z,Yaw\n1,20,10,4,5\n"));
   EXPECT_EQ(taken.columns, "columns: time from GpsTime, heading from Yaw");
-  EXPECT_TRUE(taken.heading_is_yaw);
+  EXPECT_EQ(taken.attitude, AttitudeForm::yaw);
   EXPECT_EQ(taken.samples[0].position, Eigen::Vector3d(10, 20, 4));  // Y stands before X
-  EXPECT_FALSE(readTrajectoryFile(file("time,x,y,z,azimuth\n1,2,3,4,5\n")).heading_is_yaw);
+  EXPECT_EQ(readTrajectoryFile(file("time,x,y,z,azimuth\n1,2,3,4,5\n")).attitude,
+            AttitudeForm::heading);
 }
 
 TEST(TrajectoryCsv, SkipsByteOrderMarkCommentsAndEmptyLines) {
@@ -142,6 +143,13 @@ TEST(TrajectoryCsv, ErrorsNameFileLineAndColumn) {
       {"time,x (ft),y,z\n1,2,3,4\n", "column 'x (ft)': the unit ft is not supported"},
       {"a,x,y,z\n1,2,3,4\n", "accepted names (in any case): time, gps_time, "},
       {"time,x,y,x\n1,2,3,4\n", "line 1: column 'x' appears twice"},
+      {"0,5,5,3\n1,6,5,3\n",
+       "line 1 holds 4 numbers, but the file has no header line: name the columns"},
+      {"\n# flight 7\n0 5 6 3 1 2 nan\n", "line 3 holds 7 numbers, but the file has no header"},
+      {"0;5;6;3;\n", "line 1 holds 4 numbers, but the file has no header"},
+      {"2020-01-02,5,6,3\n",
+       "no column 'time' in the header '2020-01-02,5,6,3'; is the line with "
+       "the names of the columns missing?; accepted names"},
       {"time,x,y,z\n1,2,3,4\n2,2,abc,4\n", "line 3, column 'y': 'abc' is not a number"},
       {"time,x,y,z\n1,2,3,4m\n", "line 2, column 'z': '4m' is not a number"},
       {"time;x;y;z\n1;2,5;3;4\n", "line 2, column 'x': '2,5' is not a number"},
@@ -152,7 +160,6 @@ TEST(TrajectoryCsv, ErrorsNameFileLineAndColumn) {
       {"time,x,y,z\n1,inf,3,4\n", "line 2, column 'x': 'inf' is not a finite number"},
       {"time,x,y,z\n1,1e999,3,4\n", "line 2, column 'x': '1e999' is not a number"},
       {"time,x,y,z,roll\n1,2,3,4,-inf\n", "column 'roll': '-inf' is not a finite number"},
-      {"1,2,3,4\n2,2,3,4\n", "no column 'time'"},
   };
   for (const auto& row : cases) {
     const std::string message = refusal(row.text);

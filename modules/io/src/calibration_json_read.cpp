@@ -33,7 +33,8 @@ ParameterStatus statusOf(const Node& node) {
        {ParameterStatus::estimated, ParameterStatus::fixed, ParameterStatus::not_estimable}) {
     if (text == toString(status)) return status;
   }
-  node.refuse("is '" + text + "'; it must be estimated, fixed or not_estimable");
+  node.refuse("is '" + printable(text, kLongestQuotation) +
+              "'; it must be estimated, fixed or not_estimable");
 }
 
 /// The model by its name, and the source of the attitude where the file says it.
@@ -44,7 +45,8 @@ AttitudeSource attitudeOf(const Node& root) {
     if (model == modelName(AttitudeSource::trajectory)) {
       attitude = AttitudeSource::trajectory;
     } else if (model != modelName(AttitudeSource::none)) {
-      root["model"].refuse("is '" + model + "'; it must be quasi_rigorous or rigorous");
+      root["model"].refuse("is '" + printable(model, kLongestQuotation) +
+                           "'; it must be quasi_rigorous or rigorous");
     }
   }
   if (!root.has("attitude")) return attitude;
@@ -54,7 +56,7 @@ AttitudeSource attitudeOf(const Node& root) {
                             AttitudeSource::trajectory, AttitudeSource::nominal}) {
     if (text == toString(source) && modelName(source) == modelName(attitude)) return source;
   }
-  node.refuse("is '" + text +
+  node.refuse("is '" + printable(text, kLongestQuotation) +
               "'; it must be none or points (quasi_rigorous), trajectory or nominal (rigorous)");
 }
 
@@ -65,7 +67,8 @@ void readParameters(const Node& parameters,
     ParameterEstimate& estimate = estimates[static_cast<std::size_t>(indexOf(info.parameter))];
     const std::string unit = node["unit"].text();
     if (unit != info.unit) {
-      node["unit"].refuse("is '" + unit + "'; it must be '" + std::string(info.unit) + "'");
+      node["unit"].refuse("is '" + printable(unit, kLongestQuotation) + "'; it must be '" +
+                          std::string(info.unit) + "'");
     }
     estimate.bias = node["bias"].number() * info.internal_per_unit;
     const std::string refused = refusedBias(info.parameter, estimate.bias);

@@ -18,10 +18,6 @@ namespace {
 
 constexpr int kMostHeaderLines = 1000;
 
-bool isNumber(std::string_view text) {
-  return valueIn<double>(text).has_value();
-}
-
 bool anyNumber(const std::vector<std::string_view>& fields) {
   return std::any_of(fields.begin(), fields.end(), isNumber);
 }
@@ -80,7 +76,10 @@ std::size_t fieldsOf(const std::string& unit) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path, const Header& header)
-    : name_(path.string()), content_(readWholeFile(path, kTableLimits)), rest_(content_) {
+    : name_(path.string()),
+      content_(readWholeFile(path, kTableLimits)),
+      rest_(content_),
+      no_header_(header.no_header) {
   if (!header.columns.empty()) {
     skipToNumbers(header);
   } else if (findHeader(header)) {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/common/text_values.h>
 
 namespace pcl_als::detail {
@@ -38,14 +40,9 @@ std::string lowered(std::string_view text) {
   return lower;
 }
 
-/// A piece of a file that is fit for a message: short, printable.
+/// A piece of a file that is fit for a message.
 std::string quotable(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string quoted(text.substr(0, kLongest));
-  for (char& c : quoted) {
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  }
-  return text.size() > kLongest ? quoted + "..." : quoted;
+  return printable(text, kLongestQuotation);
 }
 
 char separatorOf(std::string_view header) {
@@ -56,6 +53,10 @@ char separatorOf(std::string_view header) {
 }
 
 }  // namespace
+
+bool isNumber(std::string_view text) {
+  return valueIn<double>(text).has_value();
+}
 
 CsvTable::CsvTable(const std::filesystem::path& path)
     : name_(path.string()), content_(readWholeFile(path, kTableLimits)), rest_(content_) {
@@ -68,14 +69,37 @@ void CsvTable::readFirstLine() {
   if (!nextLine(header)) throw InputError(name_ + ": is empty; a header line is needed");
   separator_ = separatorOf(header);
   split(header);
+  refuseNumbers();
   header_ = fields_;
   for (const std::string_view field : fields_) columns_.push_back(lowered(field));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const auto first = std::find(columns_.begin(), columns_.end(), columns_[i]);
     if (columns_[i].empty() || first == columns_.begin() + static_cast<std::ptrdiff_t>(i)) continue;
-    throw InputError(name_ + ": line " + std::to_string(line_) + ": column '" +
-                     quotable(columns_[i]) + "' appears twice");
+    refuseHeader("column '" + quotable(columns_[i]) + "' appears twice" + hintOfNumbers());
   }
+}
+
+/// A line of numbers in the place of the header is a record. The first cell of a header may be
+/// empty, as in a matrix of numbered classes; further ones of a record may be.
+void CsvTable::refuseNumbers() const {
+  const auto number_or_empty = [](std::string_view field) {
+    return field.empty() || isNumber(field);
+  };
+  if (!isNumber(fields_.front()) || !std::all_of(fields_.begin(), fields_.end(), number_or_empty))
+    return;
+  const auto count = std::count_if(fields_.begin(), fields_.end(), isNumber);
+  throw InputError(name_ + ": line " + std::to_string(line_) + " holds " +
+                       counted(static_cast<std::uint64_t>(count), "number") +
+                       ", but the file has no header line: name the columns in a line above it",
+                   no_header_);
+}
+
+/// Asks for the header where some of what stands in its place are numbers, as in records that begin
+/// with a name.
+std::string CsvTable::hintOfNumbers() const {
+  return std::any_of(header_.begin(), header_.end(), isNumber)
+             ? "; is the line with the names of the columns missing?"
+             : "";
 }
 
 std::size_t CsvTable::optional(std::string_view name) const {
@@ -86,7 +110,12 @@ std::size_t CsvTable::optional(std::string_view name) const {
 std::size_t CsvTable::required(std::string_view name) const {
   const std::size_t column = optional(name);
   if (column != npos) return column;
-  refuseHeader("no column '" + std::string(name) + "' in the header '" + headerText() + "'");
+  refuseHeader(lackOf(name));
+}
+
+std::string CsvTable::lackOf(std::string_view name) const {
+  return "no column '" + std::string(name) + "' in the header '" + headerText() + "'" +
+         hintOfNumbers();
 }
 
 std::string CsvTable::headerText() const {
@@ -173,8 +202,8 @@ double CsvTable::numberOrNan(std::size_t column) const {
 }
 
 void CsvTable::refuse(std::size_t column, const std::string& what) const {
-  throw InputError(name_ + ": line " + std::to_string(line_) + ", column '" + columns_[column] +
-                   "': '" + quotable(fields_[column]) + "' " + what);
+  throw InputError(name_ + ": line " + std::to_string(line_) + ", column '" +
+                   quotable(columns_[column]) + "': '" + quotable(fields_[column]) + "' " + what);
 }
 
 }  // namespace pcl_als::detail

@@ -9,14 +9,19 @@
 #include <string_view>
 #include <vector>
 
+#include <pcl_als/common/errors.h>
+
 namespace pcl_als::detail {
+
+/// Whether a field is a number, in whatever range.
+bool isNumber(std::string_view text);
 
 /** \brief A text table with a header line, read record by record.
  *
  * Separator , ; tab or blanks, as the header has it; columns are found by name (case ignored,
  * quotes and blanks around a field dropped). A UTF-8 byte order mark, CRLF line ends, empty lines
  * and lines that begin with # are skipped. Every error is an InputError that names file, line and
- * column.
+ * column. A first line of numbers is refused as a record without a header.
  */
 class CsvTable {
  public:
@@ -30,6 +35,8 @@ class CsvTable {
     std::function<bool(std::string_view)> geodetic;
     /// Names given by the caller: lines before the first numbers are skipped.
     std::vector<std::string> columns;
+    /// What a caller may set where the file has no header.
+    Remedy no_header = Remedy::none;
   };
   /// The same with a header that stands below other lines, maybe as a comment, and a line of units
   /// below it. Columns may repeat a name. Fields of degrees, minutes and seconds are one field.
@@ -63,6 +70,8 @@ class CsvTable {
   double numberOrNan(std::size_t column) const;
   /// The header as one line, fit for a message.
   std::string headerText() const;
+  /// "no column 'NAME' in the header '…'"
+  std::string lackOf(std::string_view name) const;
   /// "FILE: line L: WHAT", of the line that was read last.
   std::string at(const std::string& what) const;
   /// Throws the InputError "FILE: line L: WHAT" about the header.
@@ -75,6 +84,8 @@ class CsvTable {
   bool rawLine(std::string_view& line);
   void split(std::string_view line);
   void readFirstLine();
+  void refuseNumbers() const;
+  std::string hintOfNumbers() const;
   bool findHeader(const Header& header);
   void takeUnits();
   void skipToNumbers(const Header& header);
@@ -84,6 +95,7 @@ class CsvTable {
   std::string name_, content_;
   std::string_view rest_;
   std::size_t line_ = 0;
+  Remedy no_header_ = Remedy::none;
   char separator_ = ',';
   std::vector<std::string> columns_;
   std::vector<std::string_view> header_;

@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/io/plan_io.h>
 
@@ -34,7 +35,7 @@ class Words {
     if (word.empty()) refuse("ends before " + std::string(what));
     const auto value = valueIn<double>(word);
     if (!value || !std::isfinite(*value)) {
-      refuse("'" + std::string(word.substr(0, 40)) + "' is not a finite number (" +
+      refuse("'" + printable(word, kLongestQuotation) + "' is not a finite number (" +
              std::string(what) + ")");
     }
     return *value;
@@ -68,7 +69,8 @@ Header readHeader(Words& words) {
        key = lowered(words.peek())) {
     if (key == "nan" || key == "inf") break;  // a value
     words.next();
-    if (header.count(key) != 0) words.refuse("'" + key + "' appears twice");
+    if (header.count(key) != 0)
+      words.refuse("'" + printable(key, kLongestQuotation) + "' appears twice");
     header[key] = words.number(key);
   }
   return header;

@@ -23,7 +23,8 @@ class OpenObjects {
     if (event != Json::parse_event_t::key) return true;
     const std::string key = parsed.get<std::string>();
     if (!keys_.back().insert(key).second) {
-      throw InputError(file_ + ": the key '" + key + "' stands twice in one object");
+      throw InputError(file_ + ": the key '" + printable(key, kLongestQuotation) +
+                       "' stands twice in one object");
     }
     return true;
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/common/text_values.h>
 
 namespace pcl_als::detail {
@@ -66,6 +67,7 @@ class HeaderParser {
   void takeLine(const std::string& line) {
     takeComment(line, kPcdCrsComment, header_.crs);
     takeComment(line, kPcdStripComment, header_.strip_id);
+    header_.strip_id = printable(header_.strip_id);  // is shown, and names files
     takeComment(line, kPcdCorrectionsComment, header_.corrections);
     header_.of_pcl_als = header_.of_pcl_als || line.rfind(kPcdComment, 0) == 0;
     if (line.empty() || line[0] == '#') return;
@@ -98,12 +100,13 @@ class HeaderParser {
     if (key == "POINTS") return takeCount(values, points_);
     if (key == "VIEWPOINT") return takeViewpoint(values);
     if (key == "DATA") return takeData(values);
-    fail("is not a PCD file (unknown header line '" + key.substr(0, 32) + "')");
+    fail("is not a PCD file (unknown header line '" + printable(key, kLongestQuotation) + "')");
   }
 
   std::uint64_t count(const std::string& text) const {
     const auto value = valueIn<std::uint64_t>(text);
-    if (!value) fail("the PCD header has '" + text.substr(0, 32) + "' where a count belongs");
+    if (!value)
+      fail("the PCD header has '" + printable(text, kLongestQuotation) + "' where a count belongs");
     return *value;
   }
 
@@ -148,7 +151,7 @@ class HeaderParser {
     else if (kind == "binary_compressed")
       header_.data = PcdData::binary_compressed;
     else
-      fail("the PCD header's DATA is '" + kind.substr(0, 32) + "'");
+      fail("the PCD header's DATA is '" + printable(kind, kLongestQuotation) + "'");
     complete_ = true;
   }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/common/text_values.h>
 
 #include "lzf.h"
@@ -124,7 +125,7 @@ class AsciiRecords : public PcdRecords {
                        std::to_string(header_.points) + " (truncated copy?)");
     if (!putElement(token, field, out))
       throw InputError(file_.name() + ": point " + std::to_string(point_) + ", field " +
-                       field.name + ": '" + std::string(token.substr(0, 32)) +
+                       field.name + ": '" + printable(token, kLongestQuotation) +
                        "' is no value of its type");
   }
 

@@ -186,7 +186,7 @@ struct PoqExtent {
 };
 PoqExtent poqExtent(const std::string& content, const std::string& name) {
   const std::size_t version = kPoqSignature.size();
-  if (content.compare(0, version, kPoqSignature) != 0 || content.size() < kPoqHeader)
+  if (!isRieglAccuracy(content) || content.size() < kPoqHeader)
     throw InputError(name +
                      ": is not a RIEGL accuracy file, which begins with RIEGL "
                      "POSITION&ORIENTATION QUALITY and a header of 67 bytes");
@@ -227,6 +227,10 @@ TrajectoryRecords readRieglTrajectory(const fs::path& path, const TrajectoryRead
     records.accuracy.push_back(accuracyAt(known, sample.time));
   records.remarks.push_back("standard deviations from " + quality.filename().string());
   return records;
+}
+
+bool isRieglAccuracy(const std::string& content) {
+  return content.compare(0, kPoqSignature.size(), kPoqSignature) == 0;
 }
 
 std::vector<TrajectoryAccuracy> readRieglAccuracies(const fs::path& path) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "trajectory_records.h"
@@ -21,6 +22,9 @@ namespace pcl_als::detail {
  */
 TrajectoryRecords readRieglTrajectory(const std::filesystem::path& path,
                                       const TrajectoryReading& reading);
+
+/// Whether the bytes are those of a RIEGL accuracy file (.poq) by their beginning.
+bool isRieglAccuracy(const std::string& content);
 
 /** \brief Reads the standard deviations of a RIEGL trajectory (.poq).
  *

@@ -16,22 +16,37 @@
 namespace pcl_als {
 
 namespace detail {
+namespace {
+
+TrajectoryRecords readByExtension(const std::filesystem::path& path,
+                                  const TrajectoryReading& reading) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".out" || extension == ".sbet") return readSbet(path, reading);
+  if (extension == ".trj") return readTerrascanTrajectory(path, reading);
+  if (extension == ".pof") return readRieglTrajectory(path, reading);
+  if (extension == ".sol") return readLeicaTrajectory(path, reading);
+  return readTextTrajectory(path, reading);
+}
+
+/// What is no trajectory may be the file of its standard deviations, which stands beside it.
+TrajectoryRecords readOrRecognise(const std::filesystem::path& path,
+                                  const TrajectoryReading& reading) {
+  try {
+    return readByExtension(path, reading);
+  } catch (const InputError&) {
+    if (!holdsAccuracies(path)) throw;
+  }
+  throw InputError(path.string() +
+                       ": holds the standard deviations of a trajectory, not its positions: give "
+                       "the trajectory itself as the trajectory",
+                   Remedy::accuracy);
+}
+
+}  // namespace
 
 TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
                                         const TrajectoryReading& reading) {
-  const std::string extension = lowerExtension(path);
-  TrajectoryRecords records;
-  if (extension == ".out" || extension == ".sbet") {
-    records = readSbet(path, reading);
-  } else if (extension == ".trj") {
-    records = readTerrascanTrajectory(path, reading);
-  } else if (extension == ".pof") {
-    records = readRieglTrajectory(path, reading);
-  } else if (extension == ".sol") {
-    records = readLeicaTrajectory(path, reading);
-  } else {
-    records = readTextTrajectory(path, reading);
-  }
+  TrajectoryRecords records = readOrRecognise(path, reading);
   if (!records.places.lines) {
     records.places.numbers.resize(records.samples.size());
     std::iota(records.places.numbers.begin(), records.places.numbers.end(), 1U);

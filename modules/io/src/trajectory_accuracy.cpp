@@ -14,6 +14,7 @@
 #include <pcl_als/io/trajectory_accuracy.h>
 
 #include "riegl_pof.h"
+#include "trajectory_records.h"
 #include "week_rollover.h"
 
 namespace pcl_als {
@@ -122,20 +123,21 @@ std::string describe(const AccuracySummary& summary) {
   return text.empty() ? "no standard deviations" : text;
 }
 
-std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path) {
-  if (lowerExtension(path) == ".poq") return detail::readRieglAccuracies(path);
+namespace {
+
+/// The records of an smrmsg file; InputError where it is none.
+std::vector<TrajectoryAccuracy> recordsOf(const std::string& content, const std::string& name) {
   constexpr std::size_t kBytes = sizeof(AccuracyRecord);
-  const std::string content = readWholeFile(path, kBinaryLimits);
-  if (content.empty()) throw InputError(path.string() + ": is empty");
+  if (content.empty()) throw InputError(name + ": is empty");
   if (content.size() % kBytes != 0) {
-    throw InputError(path.string() + ": its size, " + std::to_string(content.size()) +
+    throw InputError(name + ": its size, " + std::to_string(content.size()) +
                      " bytes, is not a multiple of the 80 of an accuracy record (smrmsg)");
   }
   std::vector<TrajectoryAccuracy> accuracies;
   double weeks = 0.0;  // seconds that run on past the end of the week
   for (std::size_t at = 0; at < content.size(); at += kBytes) {
     const auto refuse = [&](const char* why) {
-      throw InputError(path.string() + ": record " + std::to_string(at / kBytes + 1) + ": " + why);
+      throw InputError(name + ": record " + std::to_string(at / kBytes + 1) + ": " + why);
     };
     AccuracyRecord record;
     std::memcpy(record.data(), content.data() + at, kBytes);
@@ -155,4 +157,36 @@ std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path
   return accuracies;
 }
 
+}  // namespace
+
+std::vector<TrajectoryAccuracy> readAccuracies(const std::filesystem::path& path) {
+  if (lowerExtension(path) == ".poq") return detail::readRieglAccuracies(path);
+  return recordsOf(readWholeFile(path, kBinaryLimits), path.string());
+}
+
+namespace detail {
+
+bool isNamedAsAccuracy(const std::filesystem::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name.find("smrmsg") != std::string::npos;
+}
+
+bool holdsAccuracies(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  if (isNamedAsAccuracy(path) || lowerExtension(path) == ".poq") return true;
+  const std::string content = readWholeFile(path, kBinaryLimits);
+  // The characters of a text would make numbers near zero.
+  if (content.find('\0') == std::string::npos) return false;
+  if (isRieglAccuracy(content)) return true;
+  try {
+    return !recordsOf(content, path.string()).empty();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace detail
 }  // namespace pcl_als

@@ -6,12 +6,13 @@
 #include <string_view>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als::detail {
 namespace {
 
-enum class UnitKind { second, metre, angle, week, date };
+enum class UnitKind { second, metre, angle, week, date, one };
 
 struct QuantityInfo {
   const char* name;  ///< as in this project's own files
@@ -26,17 +27,21 @@ const std::array<QuantityInfo, kTrajectoryQuantities>& quantities() {
        UnitKind::second,
        {"time", "gps_time", "gps_seconds", "seconds_of_week", "week_seconds", "sow", "tow",
         "gps_tow", "time_of_week", "gps_sow", "corr_time", "timestamp"}},
-      {"x", UnitKind::metre, {"x", "easting", "east"}},
-      {"y", UnitKind::metre, {"y", "northing", "north"}},
+      {"x", UnitKind::metre, {"x", "easting", "east", "tx"}},
+      {"y", UnitKind::metre, {"y", "northing", "north", "ty"}},
       {"z",
        UnitKind::metre,
        {"z", "height", "elevation", "altitude", "alt", "ellipsoidal_height", "ellipsoid_height",
-        "h_ell", "hght", "h"}},
+        "h_ell", "hght", "h", "tz"}},
       {"roll", UnitKind::angle, {"roll"}},
       {"pitch", UnitKind::angle, {"pitch"}},
       {"heading",
        UnitKind::angle,
        {"heading", "azimuth", "yaw", "hdg", "head", "true_heading", "heading_true"}},
+      {"qw", UnitKind::one, {"qw", "q0", "quat_w", "quaternion_w", "orientation_w", "rot_w"}},
+      {"qx", UnitKind::one, {"qx", "q1", "quat_x", "quaternion_x", "orientation_x", "rot_x"}},
+      {"qy", UnitKind::one, {"qy", "q2", "quat_y", "quaternion_y", "orientation_y", "rot_y"}},
+      {"qz", UnitKind::one, {"qz", "q3", "quat_z", "quaternion_z", "orientation_z", "rot_z"}},
       {"latitude", UnitKind::angle, {"latitude", "lat"}},
       {"longitude", UnitKind::angle, {"longitude", "lon", "long", "lng"}},
       {"geocentric X", UnitKind::metre, {"x_ecef", "ecef_x", "geocentric_x"}},
@@ -111,6 +116,8 @@ double factorOf(UnitKind kind, const std::string& unit, AngleUnit angles) {
       return any({"", "s", "sec", "second", "seconds"}) ? 1.0 : 0.0;
     case UnitKind::metre:
       return any({"", "m", "metre", "meter", "metres", "meters"}) ? 1.0 : 0.0;
+    case UnitKind::one:
+      return any({"", "1"}) ? 1.0 : 0.0;
     case UnitKind::week:
     case UnitKind::date:
       return 1.0;
@@ -169,6 +176,7 @@ bool TrajectoryColumns::isGeodetic(std::string_view name) {
 
 TrajectoryColumns::TrajectoryColumns(const CsvTable& table, AngleUnit angles, bool projects) {
   for (std::size_t index = 0; index < table.header().size(); ++index) assign(table, index, angles);
+  chooseAttitude(table);
   chooseCoordinates(table, projects);
 }
 
@@ -202,9 +210,31 @@ void TrajectoryColumns::assign(const CsvTable& table, std::size_t index, AngleUn
                        "so: roll_rad)");
   }
   if (q == static_cast<std::size_t>(TrajectoryQuantity::heading)) {
-    heading_is_yaw_ = found.name == "yaw";
+    if (found.name == "yaw") attitude_ = AttitudeForm::yaw;
     heading_is_true_ = found.name == "trueheading" || found.name == "headingtrue";
   }
+}
+
+/// Roll, pitch and heading say more than a quaternion, which does not name its axes; what is not
+/// used is dropped.
+void TrajectoryColumns::chooseAttitude(const CsvTable& table) {
+  using Q = TrajectoryQuantity;
+  const std::array<Q, 4> quaternion = {Q::quaternion_w, Q::quaternion_x, Q::quaternion_y,
+                                       Q::quaternion_z};
+  const auto drop = [this](Q quantity) { columns_[static_cast<std::size_t>(quantity)] = {}; };
+  const auto count = std::count_if(quaternion.begin(), quaternion.end(),
+                                   [this](Q quantity) { return has(quantity); });
+  const bool angles = has(Q::roll) && has(Q::pitch) && has(Q::heading);
+  if (count == 3 && !angles)
+    refuseIncomplete(table, *std::find_if_not(quaternion.begin(), quaternion.end(),
+                                              [this](Q quantity) { return has(quantity); }));
+  if (count == 4 && !angles) {
+    for (const Q angle : {Q::roll, Q::pitch, Q::heading}) drop(angle);
+    attitude_ = AttitudeForm::quaternion;
+    heading_is_true_ = false;
+    return;
+  }
+  for (const Q part : quaternion) drop(part);
 }
 
 bool TrajectoryColumns::orthometric() const {
@@ -244,10 +274,9 @@ void TrajectoryColumns::chooseCoordinates(const CsvTable& table, bool projects) 
 
 void TrajectoryColumns::refuseIncomplete(const CsvTable& table, TrajectoryQuantity missing) const {
   const QuantityInfo& info = quantities()[static_cast<std::size_t>(missing)];
-  throw InputError(
-      table.at(std::string("no column '") + info.name + "' in the header '" + table.headerText() +
-               "'; accepted names (in any case): " + listOf(info.accepted)),
-      Remedy::columns);
+  throw InputError(table.at(table.lackOf(info.name) +
+                            "; accepted names (in any case): " + listOf(info.accepted)),
+                   Remedy::columns);
 }
 
 std::string TrajectoryColumns::describe() const {
@@ -256,7 +285,7 @@ std::string TrajectoryColumns::describe() const {
     const TrajectoryColumn& column = columns_[q];
     if (!column.present() || plain(column.name) == quantities()[q].name) continue;
     text.append(text.empty() ? "columns: " : ", ").append(quantities()[q].name);
-    text.append(" from ").append(column.name);
+    text.append(" from ").append(printable(column.name, kLongestQuotation));
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/io/trajectory_io.h>
 
 #include "csv_table.h"
@@ -22,6 +23,10 @@ enum class TrajectoryQuantity {
   roll,
   pitch,
   heading,
+  quaternion_w,
+  quaternion_x,
+  quaternion_y,
+  quaternion_z,
   latitude,
   longitude,
   geocentric_x,
@@ -39,7 +44,7 @@ enum class TrajectoryQuantity {
   sd_heading,
   reconstructed,  ///< any value: the trajectory was reconstructed from points
 };
-constexpr std::size_t kTrajectoryQuantities = 23;
+constexpr std::size_t kTrajectoryQuantities = 27;
 
 /// A column that was recognised: where it stands, its name in the file, and the factor to internal
 /// units (radians for angles, otherwise 1).
@@ -78,8 +83,8 @@ class TrajectoryColumns {
   bool orthometric() const;
   /// The three columns of the place: x, y, z; latitude, longitude, height; or X, Y, Z.
   std::array<TrajectoryQuantity, 3> place() const;
-  /// Whether the heading's column is called yaw, which some write counter-clockwise from east.
-  bool headingIsYaw() const { return heading_is_yaw_; }
+  /// By the names of the columns: roll, pitch and heading, or a quaternion where one of them lacks.
+  AttitudeForm attitude() const { return attitude_; }
   bool headingIsTrue() const { return heading_is_true_; }
   /// "columns: time from GpsTime, heading from Azimuth"; empty where all have their plain names.
   std::string describe() const;
@@ -88,12 +93,14 @@ class TrajectoryColumns {
   void assign(const CsvTable& table, std::size_t index, AngleUnit angles);
   bool mayRepeat(std::size_t quantity) const;
   void chooseCoordinates(const CsvTable& table, bool projects);
+  void chooseAttitude(const CsvTable& table);
   [[noreturn]] void refuseIncomplete(const CsvTable& table, TrajectoryQuantity missing) const;
   bool has(TrajectoryQuantity quantity) const { return (*this)[quantity].present(); }
 
   std::array<TrajectoryColumn, kTrajectoryQuantities> columns_;
   TrajectoryCoordinates coordinates_ = TrajectoryCoordinates::map;
-  bool heading_is_yaw_ = false, heading_is_true_ = false;
+  AttitudeForm attitude_ = AttitudeForm::heading;
+  bool heading_is_true_ = false;
 };
 
 }  // namespace pcl_als::detail

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numeric>
 #include <set>
 
@@ -34,13 +35,6 @@ struct Part {
   double first = 0.0, last = 0.0, step = 0.0;  ///< seconds
 };
 
-bool isAccuracyFile(const fs::path& path) {
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name.find("smrmsg") != std::string::npos;
-}
-
 double medianStep(const std::vector<TrajectorySample>& samples) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < samples.size(); ++i)
@@ -56,16 +50,23 @@ std::vector<std::size_t> orderInTime(const std::vector<TrajectorySample>& sample
   return order;
 }
 
+/// Values of samples in another order; without values nothing.
+template <typename Value>
+void arrange(std::vector<Value>& values, const std::vector<std::size_t>& order) {
+  if (values.empty()) return;
+  std::vector<Value> arranged;
+  arranged.reserve(order.size());
+  for (const std::size_t i : order) arranged.push_back(values[i]);
+  values = std::move(arranged);
+}
+
 Part sortedPart(const fs::path& path, TrajectoryFile file) {
   Part part{path, std::move(file)};
   std::vector<TrajectorySample>& samples = part.file.samples;
   const std::vector<std::size_t> order = orderInTime(samples);
-  const std::vector<TrajectorySample> before = samples;
-  const std::vector<TrajectoryAccuracy> accuracy = part.file.accuracy;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    samples[i] = before[order[i]];
-    if (!accuracy.empty()) part.file.accuracy[i] = accuracy[order[i]];
-  }
+  arrange(samples, order);
+  arrange(part.file.accuracy, order);
+  arrange(part.file.turns, order);
   part.first = samples.front().time, part.last = samples.back().time;
   part.step = medianStep(samples);
   return part;
@@ -136,40 +137,46 @@ class Joined {
     const bool stated = !part.file.accuracy.empty();
     const double gap = std::max(1.0, 5.0 * std::max(part.step, step_));
     std::size_t kept = 0;
-    const std::size_t before = samples_.size();
+    const std::size_t before = entries_.size();
     std::size_t after = 0;
-    std::vector<TrajectorySample> added;
-    std::vector<TrajectoryAccuracy> added_accuracy;
+    std::vector<Entry> added;
     for (std::size_t i = 0; i < part.file.samples.size(); ++i) {
       const TrajectorySample& sample = part.file.samples[i];
-      while (after < before && samples_[after].time < sample.time) ++after;
+      while (after < before && timeOf(after) < sample.time) ++after;
       if (covered(after, before, sample, gap)) {
         check(after, sample, part);
         ++kept;
         continue;
       }
-      added.push_back(sample);
-      added_accuracy.push_back(stated ? part.file.accuracy[i] : unknownAt(sample.time));
+      added.push_back({sample, stated ? part.file.accuracy[i] : unknownAt(sample.time),
+                       part.file.turns.empty() ? 0.0 : part.file.turns[i], sources_.size()});
     }
     if (kept > 0) {
       remarks_.push_back(part.path.filename().string() + ": " + std::to_string(kept) +
                          " samples repeat those of other files and are left out");
     }
     any_accuracy_ = any_accuracy_ || stated;
-    insert(added, added_accuracy, part.path);
+    insert(added);
+    sources_.push_back(part.path);
     step_ = std::max(step_, part.step);
   }
 
   TrajectoryFile result(const std::vector<Part>& parts) {
     TrajectoryFile file = parts.front().file;
-    file.samples = std::move(samples_);
+    // What is open in some of the files only, the course of all cannot show.
+    for (const Part& part : parts)
+      if (part.file.attitude != file.attitude) file.attitude = AttitudeForm::heading;
+    file.samples.clear(), file.accuracy.clear(), file.turns.clear();
+    for (const Entry& entry : entries_) {
+      file.samples.push_back(entry.sample);
+      if (any_accuracy_) file.accuracy.push_back(entry.accuracy);
+      if (file.attitude != AttitudeForm::heading) file.turns.push_back(entry.turn);
+    }
     file.places = {};
-    if (!any_accuracy_) accuracy_.clear();
-    file.accuracy = std::move(accuracy_);
     file.remarks.clear();
     for (const Part& part : parts) {
       if (part.file.format != parts.front().file.format) file.format = "several formats";
-      file.heading_is_yaw = file.heading_is_yaw || part.file.heading_is_yaw;
+      if (file.axes.empty()) file.axes = part.file.axes;
       for (const std::string& text : part.file.remarks) {
         if (std::find(file.remarks.begin(), file.remarks.end(), text) == file.remarks.end())
           file.remarks.push_back(text);
@@ -180,6 +187,14 @@ class Joined {
   }
 
  private:
+  /// A sample with what belongs to it.
+  struct Entry {
+    TrajectorySample sample;
+    TrajectoryAccuracy accuracy;
+    double turn = 0.0;
+    std::size_t source = 0;
+  };
+
   static TrajectoryAccuracy unknownAt(double time) {
     TrajectoryAccuracy accuracy;
     accuracy.time = time;
@@ -189,42 +204,31 @@ class Joined {
   bool covered(std::size_t after, std::size_t count, const TrajectorySample& sample,
                double gap) const {
     if (after == count) return false;
-    if (samples_[after].time == sample.time) return true;
-    return after > 0 && samples_[after].time - samples_[after - 1].time <= gap;
+    if (timeOf(after) == sample.time) return true;
+    return after > 0 && timeOf(after) - timeOf(after - 1) <= gap;
   }
   void check(std::size_t after, const TrajectorySample& sample, const Part& part) const {
-    const TrajectorySample& b = samples_[after];
-    const TrajectorySample& a = b.time == sample.time ? b : samples_[after - 1];
+    const TrajectorySample& b = entries_[after].sample;
+    const TrajectorySample& a = b.time == sample.time ? b : entries_[after - 1].sample;
     const std::string why = contradiction(a, b, sample);
     if (why.empty()) return;
-    throw InputError(part.path.string() + " and " + sources_[source_[after]].string() + " " + why +
+    throw InputError(part.path.string() + " and " + sources_[entries_[after].source].string() +
+                     " " + why +
                      ": they are not one trajectory; leave one of them out, or cut them where they "
                      "overlap");
   }
-  void insert(const std::vector<TrajectorySample>& added,
-              const std::vector<TrajectoryAccuracy>& accuracy, const fs::path& path) {
-    sources_.push_back(path);
-    std::vector<TrajectorySample> samples;
-    std::vector<TrajectoryAccuracy> accuracies;
-    std::vector<std::size_t> source;
-    std::size_t old = 0;
-    for (std::size_t i = 0; i <= added.size(); ++i) {
-      while (old < samples_.size() && (i == added.size() || samples_[old].time < added[i].time)) {
-        samples.push_back(samples_[old]);
-        accuracies.push_back(accuracy_[old]);
-        source.push_back(source_[old++]);
-      }
-      if (i == added.size()) break;
-      samples.push_back(added[i]);
-      accuracies.push_back(accuracy[i]);
-      source.push_back(sources_.size() - 1);
-    }
-    samples_ = std::move(samples), accuracy_ = std::move(accuracies), source_ = std::move(source);
+  double timeOf(std::size_t entry) const { return entries_[entry].sample.time; }
+  /// Of equal times the added ones come first.
+  void insert(std::vector<Entry>& added) {
+    std::vector<Entry> merged;
+    merged.reserve(entries_.size() + added.size());
+    std::merge(added.begin(), added.end(), entries_.begin(), entries_.end(),
+               std::back_inserter(merged),
+               [](const Entry& a, const Entry& b) { return a.sample.time < b.sample.time; });
+    entries_ = std::move(merged);
   }
 
-  std::vector<TrajectorySample> samples_;
-  std::vector<TrajectoryAccuracy> accuracy_;
-  std::vector<std::size_t> source_;  ///< of each sample
+  std::vector<Entry> entries_;  ///< in order of time
   std::vector<fs::path> sources_;
   std::vector<std::string> remarks_;
   double step_ = 0.0;
@@ -243,7 +247,7 @@ std::string timeKindOf(const TimeRange& times) {
 bool isTrajectoryFile(const fs::path& path) {
   static const std::set<std::string> kExtensions = {".csv", ".txt", ".sbet", ".out", ".pos",
                                                     ".asc", ".trj", ".pof",  ".sol"};
-  return kExtensions.count(lowerExtension(path)) != 0 && !isAccuracyFile(path);
+  return kExtensions.count(lowerExtension(path)) != 0 && !detail::isNamedAsAccuracy(path);
 }
 
 std::vector<fs::path> trajectoryPaths(const std::vector<fs::path>& paths) {
@@ -308,11 +312,14 @@ TrajectoryFacts inspectTrajectory(const fs::path& path, const TrajectoryReading&
   facts.samples = records.samples.size();
   facts.attitude = std::all_of(records.samples.begin(), records.samples.end(),
                                [](const TrajectorySample& s) { return s.hasAttitude(); });
+  if (reading.axes == AttitudeAxes::by_course) facts.attitude_form = records.attitude;
   facts.accuracy = records.accuracy;
   std::vector<TrajectorySample>& samples = facts.local;
   facts.places.lines = records.places.lines;
   for (const std::size_t i : orderInTime(records.samples)) {
     samples.push_back(records.samples[i]);
+    if (reading.axes == AttitudeAxes::enu)
+      takeAsEastNorthUp(samples.back(), AttitudeForm::heading, 0.0);
     facts.places.numbers.push_back(records.places.numbers[i]);
   }
   for (const TrajectorySample& sample : samples) facts.times.add(sample.time);

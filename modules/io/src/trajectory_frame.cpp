@@ -17,13 +17,6 @@
 namespace pcl_als::detail {
 namespace {
 
-/// An angle in [0, 2 pi).
-double wrapped(double angle) {
-  const double turn = 2.0 * kPi;
-  const double rest = std::fmod(angle, turn);
-  return rest < 0.0 ? rest + turn : rest;
-}
-
 /// Undulations to subtract: a number of metres or a grid.
 class Undulation {
  public:
@@ -69,17 +62,19 @@ class FrameChange {
   void apply() {
     for (std::size_t i = 0; i < records_.samples.size(); ++i) {
       TrajectorySample& sample = records_.samples[i];
-      changeAxes(sample);
+      if (reading_.axes == AttitudeAxes::enu) takeAsEastNorthUp(sample, AttitudeForm::heading, 0.0);
       const double turn = place(sample);
       if (!sample.position.allFinite()) {
         throw InputError(path_.string() + ": record " + std::to_string(i + 1) +
                          ": the position is outside the CRS");
       }
+      if (records_.attitude != AttitudeForm::heading) records_.turns.push_back(turn);
       if (!std::isnan(sample.heading)) {
-        if (turn != 0.0 || projection_) sample.heading = wrapped(sample.heading + turn);
+        if (turn != 0.0 || projection_) sample.heading = wholeTurn(sample.heading + turn);
         largest_turn_ = std::max(largest_turn_, std::abs(turn));
       }
     }
+    if (largest_turn_ == 0.0) records_.turns.clear();
     remark();
   }
 
@@ -98,12 +93,6 @@ class FrameChange {
   std::string sourceCrs() const {
     if (!reading_.own_crs.empty()) return reading_.own_crs;
     return records_.coordinates == TrajectoryCoordinates::geocentric ? "EPSG:4978" : "";
-  }
-
-  void changeAxes(TrajectorySample& sample) const {
-    if (reading_.axes != AttitudeAxes::enu) return;
-    sample.pitch = -sample.pitch;
-    sample.heading = wrapped(0.5 * kPi - sample.heading);
   }
 
   /// Moves a sample into the frame; the return value is what its heading is turned by.
@@ -192,8 +181,11 @@ TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::pa
   file.format = records.format;
   file.columns = records.columns;
   file.frame = frameText(records, reading);
-  file.heading_is_yaw = records.heading_is_yaw && reading.axes == AttitudeAxes::ned;
   FrameChange(records, path, reading).apply();
+  if (reading.axes == AttitudeAxes::by_course && records.attitude != AttitudeForm::heading) {
+    file.attitude = records.attitude;
+    file.turns = std::move(records.turns);
+  }
   file.samples = std::move(records.samples);
   file.places = std::move(records.places);
   file.accuracy = std::move(records.accuracy);

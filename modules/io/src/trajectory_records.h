@@ -14,11 +14,12 @@ namespace pcl_als::detail {
 struct TrajectoryRecords {
   std::string format, columns;
   TrajectoryCoordinates coordinates = TrajectoryCoordinates::map;
-  bool heading_is_yaw = false;
+  AttitudeForm attitude = AttitudeForm::heading;
   bool heading_is_true = false;              ///< stated by the name of the column
   bool orthometric = false;                  ///< heights are above a geoid
   std::vector<TrajectorySample> samples;     ///< positions: metres, or latitude, longitude (rad)
   SamplePlaces places;                       ///< of the samples
+  std::vector<double> turns;                 ///< as in TrajectoryFile
   std::vector<TrajectoryAccuracy> accuracy;  ///< of the samples, or empty
   std::vector<std::string> remarks;
 };
@@ -30,6 +31,12 @@ TrajectoryRecords readTrajectoryRecords(const std::filesystem::path& path,
 
 TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
                                      const TrajectoryReading& reading);
+
+/// Whether a file is one of standard deviations (smrmsg) by its name.
+bool isNamedAsAccuracy(const std::filesystem::path& path);
+/// Whether a file that is no trajectory holds standard deviations of one: by its name or its
+/// records (smrmsg, .poq).
+bool holdsAccuracies(const std::filesystem::path& path);
 
 /// The records in the frame of the points. \a path: for messages.
 TrajectoryFile inPointFrame(TrajectoryRecords records, const std::filesystem::path& path,

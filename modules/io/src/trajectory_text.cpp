@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include <pcl_als/common/errors.h>
@@ -12,6 +13,7 @@
 #include "calendar_date.h"
 #include "csv_table.h"
 #include "leap_seconds.h"
+#include "quaternion_attitude.h"
 #include "trajectory_columns.h"
 #include "trajectory_records.h"
 
@@ -47,6 +49,10 @@ class RecordReader {
       sample.position[axis] =
           (angle ? table_.sexagesimal(column.index) : table_.number(column.index)) * column.factor;
     }
+    if (columns_.attitude() == AttitudeForm::quaternion) {
+      takeQuaternion(sample);
+      return sample;
+    }
     angle(Quantity::roll, sample.roll);
     angle(Quantity::pitch, sample.pitch);
     angle(Quantity::heading, sample.heading);
@@ -73,8 +79,10 @@ class RecordReader {
     const bool utc = !columns_[Quantity::time].present();
     double time =
         secondsOfTime(table_.number(columns_[utc ? Quantity::utc_time : Quantity::time].index));
-    if (columns_[Quantity::date].present() && time < 2.0 * kSecondsPerWeek) time += dayOf(time);
-    if (probableTimeScales({time, time}).front() == TimeScale::unix_time) return time;
+    if (columns_[Quantity::date].present() && time < 2.0 * kSecondsPerWeek)
+      time += dayOf(time);  // GPS seconds, whatever their size
+    else if (probableTimeScales({time, time}).front() == TimeScale::unix_time)
+      return time;
     // A time beyond two weeks holds its week already.
     if (hasWeek() && std::abs(time) < 2.0 * kSecondsPerWeek)
       time += table_.number(columns_[Quantity::week].index) * kSecondsPerWeek;
@@ -97,6 +105,24 @@ class RecordReader {
       table_.refuse(column.index, "is not the day of the week of its time");
     return static_cast<double>(*day) * kDay - (*of_week_ ? since_sunday : 0.0);
   }
+  /// Roll, pitch and heading as those of north, east, down.
+  void takeQuaternion(TrajectorySample& sample) const {
+    Eigen::Vector4d wxyz;
+    for (int i = 0; i < 4; ++i) {
+      const auto part = static_cast<Quantity>(static_cast<int>(Quantity::quaternion_w) + i);
+      wxyz[i] = table_.numberOrNan(columns_[part].index);
+    }
+    if (wxyz.hasNaN()) return;  // an unknown attitude
+    const std::optional<Eigen::Vector3d> angles = anglesOfQuaternion(wxyz);
+    if (!angles) {
+      char text[120];
+      std::snprintf(text, sizeof text,
+                    "the norm of its quaternion is %.4g, not 1: these are no attitudes",
+                    wxyz.norm());
+      throw InputError(table_.at(text));
+    }
+    sample.roll = angles->x(), sample.pitch = angles->y(), sample.heading = angles->z();
+  }
   void angle(Quantity quantity, double& value) const {
     const TrajectoryColumn& column = columns_[quantity];
     if (column.present()) value = table_.numberOrNan(column.index) * column.factor;
@@ -113,14 +139,14 @@ class RecordReader {
 
 TrajectoryRecords readTextTrajectory(const std::filesystem::path& path,
                                      const TrajectoryReading& reading) {
-  CsvTable table(path,
-                 {&TrajectoryColumns::recognise, &TrajectoryColumns::isGeodetic, reading.columns});
+  CsvTable table(path, {&TrajectoryColumns::recognise, &TrajectoryColumns::isGeodetic,
+                        reading.columns, Remedy::columns});
   const TrajectoryColumns columns(table, reading.angles, !reading.crs.empty());
   const RecordReader reader(table, columns, reading);
   TrajectoryRecords records;
   records.format = columns[Quantity::reconstructed].present() ? kReconstructedFormat : "text";
   records.coordinates = columns.coordinates();
-  records.heading_is_yaw = columns.headingIsYaw();
+  records.attitude = columns.attitude();
   records.heading_is_true = columns.headingIsTrue();
   records.orthometric = columns.orthometric();
   records.columns = columns.describe();

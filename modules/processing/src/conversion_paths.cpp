@@ -22,6 +22,14 @@ bool isPointFormat(const std::string& extension) {
   return extension == ".las" || extension == ".laz" || extension == ".pcd";
 }
 
+/// Whether a name is that of a file of points, also in a format that is not written.
+bool isPointFileName(const fs::path& path) {
+  static const std::set<std::string> kOthers = {".asc", ".csv", ".e57", ".ply", ".pts",
+                                                ".ptx", ".txt", ".xyz", ".zlas"};
+  const std::string extension = lowerExtension(path);
+  return isPointFormat(extension) || kOthers.count(extension) != 0;
+}
+
 bool isCopcName(const fs::path& path) {
   return lowerExtension(path) == ".laz" && lowerExtension(path.stem()) == ".copc";
 }
@@ -79,7 +87,7 @@ std::string fileName(std::string strip) {
 std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs::path& output,
                                   const std::string& format) {
   std::vector<fs::path> outputs;
-  if (isConversionFolder(output)) {
+  if (isConversionFolder(output, inputs.size() != 1)) {
     for (const fs::path& input : inputs) outputs.push_back(output / convertedName(input, format));
     check(inputs, outputs, true);
     makeFolder(output);
@@ -100,8 +108,7 @@ std::vector<fs::path> outputPaths(const std::vector<fs::path>& inputs, const fs:
 std::vector<fs::path> stripPaths(const std::vector<fs::path>& inputs, const fs::path& folder,
                                  const std::string& format,
                                  const std::vector<std::string>& strips) {
-  if (!isConversionFolder(folder))
-    throw UsageError(folder.string() + ": is a file; a file for each strip needs a folder");
+  requireStripFolder(folder);
   const std::string extension = extensionFor(inputs.at(0), format);
   std::vector<fs::path> outputs;
   for (const std::string& strip : strips) outputs.push_back(folder / (fileName(strip) + extension));
@@ -135,8 +142,16 @@ std::vector<std::uint16_t> lineNumbers(const std::vector<std::string>& strips) {
 
 namespace pcl_als {
 
-bool isConversionFolder(const std::filesystem::path& output) {
-  return std::filesystem::is_directory(output) || output.extension().empty();
+bool isConversionFolder(const std::filesystem::path& output, bool folder_needed) {
+  if (std::filesystem::is_directory(output)) return true;
+  if (!folder_needed) return output.extension().empty();
+  // A dot belongs to many names of folders; what is or looks like a file is refused.
+  return !std::filesystem::exists(output) && !detail::isPointFileName(output);
+}
+
+void requireStripFolder(const std::filesystem::path& output) {
+  if (!isConversionFolder(output, true))
+    throw UsageError(output.string() + ": is a file; a file for each strip needs a folder");
 }
 
 std::string convertedName(const std::filesystem::path& input, const std::string& format) {

@@ -1,26 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <limits>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/trajectory/heading_check.h>
+#include <pcl_als/trajectory/attitude_axes.h>
 #include <pcl_als/trajectory/trajectory_screening.h>
 
 namespace pcl_als {
 namespace {
 
-/// A column called yaw is clockwise from north or counter-clockwise from east: the course decides.
-std::string decideYaw(TrajectoryFile& file) {
-  if (!file.heading_is_yaw) return {};
-  const HeadingCheck check = headingCheck(file.samples);
-  constexpr auto kFromEast = HeadingReading::from_east_counter_clockwise;
-  if (check.followsCourse() || check.deviation(kFromEast) > HeadingCheck::kLargestCrab) return {};
-  for (TrajectorySample& sample : file.samples) {
-    sample.heading = headingFrom(kFromEast, sample.heading);
+bool hasAttitude(const std::vector<TrajectorySample>& samples) {
+  return !samples.empty() && std::all_of(samples.begin(), samples.end(),
+                                         [](const TrajectorySample& s) { return s.hasAttitude(); });
+}
+
+/// Settles what files leave open of their attitudes; what the course does not show is refused where
+/// the attitude may be used, and unknown where it is not.
+void settleAttitudes(const std::vector<TrajectoryFile*>& files,
+                     const std::vector<std::string>& names, AttitudeUse use) {
+  std::vector<OpenAttitude> attitudes;
+  for (TrajectoryFile* file : files)
+    attitudes.push_back({file->attitude, file->samples, file->turns});
+  const std::vector<AxesByCourse> found = settleAxes(attitudes);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    TrajectoryFile& file = *files[i];
+    if (file.attitude == AttitudeForm::heading) continue;
+    const std::string text = describe(found[i], file.attitude);
+    if (found[i] != AxesByCourse::undecided) {
+      file.axes = text;
+    } else if (hasAttitude(file.samples) &&
+               (use == AttitudeUse::where_given || use == AttitudeUse::needed)) {
+      throw InputError(names[i] + ": " + text, Remedy::axes);
+    } else {
+      for (TrajectorySample& sample : file.samples)
+        sample.roll = sample.pitch = sample.heading = std::numeric_limits<double>::quiet_NaN();
+    }
+    file.attitude = AttitudeForm::heading;
+    file.turns.clear();
   }
-  return "yaw is counter-clockwise from east, as the course shows: heading = 90 degrees - yaw";
 }
 
 /// Leaves out samples that contradict their neighbours.
@@ -35,17 +55,24 @@ void leaveOutOutliers(TrajectoryFile& file, const std::filesystem::path& path) {
   removeAt(file.samples, outliers);
   removeAt(file.places.numbers, outliers);
   if (!file.accuracy.empty()) removeAt(file.accuracy, outliers);
+  if (!file.turns.empty()) removeAt(file.turns, outliers);
 }
 
-/// Each file is screened by itself, before its samples are compared with those of the others.
+/// Each file is screened by itself, before its samples are compared with those of the others; so
+/// are its attitudes settled.
 TrajectoryFile readScreened(const std::vector<std::filesystem::path>& paths,
-                            const TrajectoryReading& reading) {
+                            const FlightFileOptions& options) {
   const std::vector<std::filesystem::path> files = trajectoryPaths(paths);
   std::vector<TrajectoryFile> parts;
+  std::vector<std::string> names;
   for (const std::filesystem::path& path : files) {
-    parts.push_back(readTrajectoryFile(path, reading));
+    parts.push_back(readTrajectoryFile(path, options));
     leaveOutOutliers(parts.back(), path);
+    names.push_back(path.string());
   }
+  std::vector<TrajectoryFile*> all;
+  for (TrajectoryFile& part : parts) all.push_back(&part);
+  settleAttitudes(all, names, options.attitude);
   return joinTrajectoryFiles(std::move(parts), files);
 }
 
@@ -81,10 +108,8 @@ FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
 
 FlightFile flightOf(TrajectoryFile file, const std::string& name,
                     const FlightFileOptions& options) {
-  const std::string yaw = decideYaw(file);
-  const bool complete = !file.samples.empty() &&
-                        std::all_of(file.samples.begin(), file.samples.end(),
-                                    [](const TrajectorySample& s) { return s.hasAttitude(); });
+  settleAttitudes({&file}, {name}, options.attitude);
+  const bool complete = hasAttitude(file.samples);
   if (options.attitude == AttitudeUse::needed && !complete) {
     throw InputError(name +
                      ": has no roll, pitch and heading for every sample; the rigorous model "
@@ -104,9 +129,27 @@ FlightFile flightOf(TrajectoryFile file, const std::string& name,
   flight.accuracy = std::move(file.accuracy);
   flight.remarks = std::move(file.remarks);
   if (!file.columns.empty()) flight.remarks.insert(flight.remarks.begin(), file.columns);
-  if (use.use_attitude && !yaw.empty()) flight.remarks.push_back(yaw);
+  if (use.use_attitude && !file.axes.empty()) flight.remarks.push_back(file.axes);
   const std::vector<std::string>& repairs = flight.trajectory->repairs();
   flight.remarks.insert(flight.remarks.end(), repairs.begin(), repairs.end());
+  return flight;
+}
+
+std::vector<std::pair<std::string, TrajectoryFacts>> inspectFlight(
+    const std::vector<std::filesystem::path>& paths, const TrajectoryReading& reading) {
+  std::vector<std::pair<std::string, TrajectoryFacts>> flight;
+  for (const std::filesystem::path& path : trajectoryPaths(paths))
+    flight.emplace_back(path.string(), inspectTrajectory(path, reading));
+  const std::vector<double> no_turns;  // local coordinates have the north of the file
+  std::vector<OpenAttitude> attitudes;
+  for (auto& [path, facts] : flight)
+    attitudes.push_back({facts.attitude_form, facts.local, no_turns});
+  const std::vector<AxesByCourse> found = settleAxes(attitudes);
+  for (std::size_t i = 0; i < flight.size(); ++i) {
+    TrajectoryFacts& facts = flight[i].second;
+    facts.axes = describe(found[i], facts.attitude_form);
+    if (found[i] != AxesByCourse::undecided) facts.attitude_form = AttitudeForm::heading;
+  }
   return flight;
 }
 

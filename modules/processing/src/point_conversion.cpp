@@ -392,7 +392,8 @@ PointConversionResult convertPointFiles(const std::vector<fs::path>& inputs, con
                                         const ProgressCallback& progress) {
   const UnchangedInputs unchanged;
   FileProtection protection(inputs);
-  if (isConversionFolder(output)) protection.guard(output);
+  if (isConversionFolder(output, options.strips.split || inputs.size() != 1))
+    protection.guard(output);
   return Conversion(inputs, options, progress).run(output);
 }
 

@@ -1342,13 +1342,15 @@ def read_strips(files: Union[_Path, Iterable[_Path]], *, extra: Union[bool, Iter
     y_min, x_max, y_max in the ground frame, m, of the points that are read; window: more of
     that kind. InputError for files that cannot be read or that do not belong together."""
 
-def read_trajectory(paths: Union[_Path, Iterable[_Path]], *, crs: str = '', own_crs: str = '', attitude: str = 'where_given', columns: Iterable[str] = [], leap_seconds: Optional[float] = None, geoid: str = '') -> Flight:
+def read_trajectory(paths: Union[_Path, Iterable[_Path]], *, crs: str = '', own_crs: str = '', attitude: str = 'where_given', columns: Iterable[str] = [], leap_seconds: Optional[float] = None, geoid: str = '', axes: str = 'by_course') -> Flight:
     """Reads a trajectory from a file, several files or a folder: text with named columns, SBET,
     TerraScan .trj, RIEGL .pof, Leica .sol. crs: of the points, needed for geographic and
     geocentric coordinates; own_crs: of the files; attitude: 'where_given', 'needed', 'ignore'
     or 'nominal' (level, heading along the course); columns: names of the columns of text files;
-    leap_seconds: added to times in UTC, s; geoid: undulation in m or path of a grid. InputError
-    names the file and line."""
+    leap_seconds: added to times in UTC, s; geoid: undulation in m or path of a grid; axes:
+    'ned' (roll right wing down, pitch nose up, heading clockwise from north), 'enu' (pitch nose
+    down, yaw counter-clockwise from east), or 'by_course': ned, of a yaw and of quaternions as
+    the course shows. InputError names the file and line."""
 
 def reconstruct_trajectory(points: Union[Union[_Path, Iterable[_Path]], Survey, Iterable[Strip]], *, output: Optional[_Path] = None, attitude: bool = False, strips: Union[StripChoice, Iterable[str]] = ..., threads: int = 0, progress: Optional[Callable[[Progress], Any]] = None) -> Flight:
     """Reconstructs the trajectory from the points, as pcl_als_trajectory does: from rays

@@ -275,6 +275,7 @@ _REMEDIES = {
     "positions_only": ("attitude", "'ignore'", "needs no attitude"),
     "recover_attitude": ("recover_attitude", "True", "recovers them from the points"),
     "crs": ("crs", "...", "states it"),
+    "axes": ("axes", "'ned' or 'enu'", "states them"),
     "columns": ("columns", "...", "names the columns"),
     "leap_seconds": ("leap_seconds", "...", "states them"),
     "geoid": ("geoid", "...", "subtracts the undulation"),

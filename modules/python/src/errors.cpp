@@ -29,6 +29,7 @@ constexpr RemedyName kRemedies[] = {
     {Remedy::positions_only, "positions_only"},
     {Remedy::recover_attitude, "recover_attitude"},
     {Remedy::crs, "crs"},
+    {Remedy::axes, "axes"},
     {Remedy::columns, "columns"},
     {Remedy::leap_seconds, "leap_seconds"},
     {Remedy::geoid, "geoid"},

@@ -27,6 +27,9 @@ constexpr Word<AttitudeUse> kAttitudeUses[] = {{"where_given", AttitudeUse::wher
                                                {"ignore", AttitudeUse::ignore},
                                                {"nominal", AttitudeUse::nominal}};
 
+constexpr Word<AttitudeAxes> kAttitudeAxes[] = {
+    {"by_course", AttitudeAxes::by_course}, {"ned", AttitudeAxes::ned}, {"enu", AttitudeAxes::enu}};
+
 /// One column for each of time, x, y, z, roll, pitch, heading.
 py::array_t<double> samplesOf(const FlightFile& flight) {
   py::array_t<double> values({static_cast<py::ssize_t>(flight.samples.size()), py::ssize_t{7}});
@@ -200,23 +203,26 @@ void bindTrajectory(py::module_& m) {
       "read_trajectory",
       [](const Files& paths, const std::string& crs, const std::string& own_crs,
          const std::string& attitude, const std::vector<std::string>& columns,
-         std::optional<double> leap_seconds, const std::string& geoid) {
+         std::optional<double> leap_seconds, const std::string& geoid, const std::string& axes) {
         FlightFileOptions options;
         options.crs = crs, options.own_crs = own_crs, options.columns = columns;
         options.leap_seconds = leap_seconds, options.geoid = geoid;
         options.attitude = valueOf(kAttitudeUses, attitude, "attitude");
+        options.axes = valueOf(kAttitudeAxes, axes, "axes");
         options.keep_samples = true;
         return readFlightFiles(paths, options);
       },
       py::arg("paths"), py::kw_only(), py::arg("crs") = "", py::arg("own_crs") = "",
       py::arg("attitude") = "where_given", py::arg("columns") = std::vector<std::string>(),
-      py::arg("leap_seconds") = py::none(), py::arg("geoid") = "",
+      py::arg("leap_seconds") = py::none(), py::arg("geoid") = "", py::arg("axes") = "by_course",
       "Reads a trajectory from a file, several files or a folder: text with named columns, SBET, "
       "TerraScan .trj, RIEGL .pof, Leica .sol. crs: of the points, needed for geographic and "
       "geocentric coordinates; own_crs: of the files; attitude: 'where_given', 'needed', 'ignore' "
       "or 'nominal' (level, heading along the course); columns: names of the columns of text "
-      "files; leap_seconds: added to times in UTC, s; geoid: undulation in m or path of a grid. "
-      "InputError names the file and line.");
+      "files; leap_seconds: added to times in UTC, s; geoid: undulation in m or path of a grid; "
+      "axes: 'ned' (roll right wing down, pitch nose up, heading clockwise from north), 'enu' "
+      "(pitch nose down, yaw counter-clockwise from east), or 'by_course': ned, of a yaw and of "
+      "quaternions as the course shows. InputError names the file and line.");
 }
 
 }  // namespace pcl_als::python

@@ -5,6 +5,7 @@
 
 #include <pcl_als/common/class_name.h>
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/point_reference.h>
@@ -25,12 +26,13 @@ double percent(std::uint64_t part, std::uint64_t whole) {
 }
 
 std::string entry(const char* name, const std::string& value) {
-  return formatted("  %-12s", name) + value + '\n';
+  return formatted("  %-12s", name) + printable(value) + '\n';
 }
 
 std::string remarksText(const Warnings& remarks, const std::string& indent) {
   std::string text;
-  for (const Warning& remark : remarks) text.append(indent).append("! " + remark.text + '\n');
+  for (const Warning& remark : remarks)
+    text.append(indent).append("! " + printable(remark.text) + '\n');
   return text;
 }
 

@@ -26,6 +26,11 @@ Json deviations(const std::vector<TrajectoryAccuracy>& accuracies) {
 /// How the heading agrees with the course; null without attitude or motion.
 Json heading(const TrajectoryFacts& facts) {
   if (!facts.attitude) return nullptr;
+  if (facts.attitude_form == AttitudeForm::quaternion)  // still open
+    return {{"from_course_deg", nullptr},
+            {"follows_course", nullptr},
+            {"would_follow_as", nullptr},
+            {"axes", facts.axes}};
   const HeadingCheck check = headingCheck(facts.local);
   if (check.count() == 0) return nullptr;
   const HeadingReading best = check.best();
@@ -34,6 +39,7 @@ Json heading(const TrajectoryFacts& facts) {
             {"would_follow_as", nullptr}};
   if (!check.followsCourse() && best != HeadingReading::heading)
     json["would_follow_as"] = std::string(describe(best));
+  if (!facts.axes.empty()) json["axes"] = facts.axes;
   return json;
 }
 

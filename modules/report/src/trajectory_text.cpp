@@ -14,13 +14,14 @@ namespace {
 
 /// How the heading agrees with the course, where the sensor moves.
 std::string headingText(const TrajectoryFacts& facts) {
+  if (facts.attitude_form == AttitudeForm::quaternion) return facts.axes;  // still open
   const HeadingCheck check = headingCheck(facts.local);
   if (check.count() == 0) return {};
   char text[200];
   const HeadingReading best = check.best();
   std::snprintf(text, sizeof text, "heading within %.0f degrees of the course",
                 check.deviation(HeadingReading::heading));
-  if (check.followsCourse()) return text;
+  if (check.followsCourse()) return text + (facts.axes.empty() ? "" : "; " + facts.axes);
   std::snprintf(text, sizeof text, "heading %.0f degrees from the course%s%s",
                 check.deviation(HeadingReading::heading),
                 best == HeadingReading::heading ? "" : "; it would follow it as ",

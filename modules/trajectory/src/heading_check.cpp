@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/heading_check.h>
@@ -94,6 +95,14 @@ double HeadingCheck::deviation(HeadingReading reading) const {
     if (4 * below >= 3 * count_) return static_cast<double>(i);
   }
   return 180.0;
+}
+
+double HeadingCheck::shareBeyondCrab(HeadingReading reading) const {
+  if (count_ == 0) return 0.0;
+  const auto& histogram = histograms_[static_cast<std::size_t>(reading)];
+  const auto first = histogram.begin() + static_cast<std::ptrdiff_t>(kLargestCrab) + 1;
+  return static_cast<double>(std::accumulate(first, histogram.end(), std::size_t{0})) /
+         static_cast<double>(count_);
 }
 
 HeadingReading HeadingCheck::best() const {

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <pcl_als/common/printable.h>
+
 namespace pcl_als {
 
 /// What a caller may set to go on where an input is refused, or to follow a warning. Messages do
@@ -18,6 +20,8 @@ enum class Remedy {
   positions_only,    ///< the model that uses the positions of the trajectory only
   recover_attitude,  ///< to recover pitch and crab instead of taking the sensor as vertical
   crs,               ///< to state the CRS of the points
+  accuracy,          ///< to give a file of standard deviations as such
+  axes,              ///< to state the axes of a trajectory's attitude
   columns,           ///< to name the columns of a trajectory
   leap_seconds,      ///< to state the leap seconds of a trajectory in UTC
   geoid,             ///< to give the geoid undulation of a trajectory's heights
@@ -34,11 +38,11 @@ enum class Remedy {
 };
 
 /// Base of every exception of this library. what() is one line that names the file, record or
-/// option and what to do.
+/// option and what to do, printable() whatever it quotes.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, Remedy remedy = Remedy::none)
-      : std::runtime_error(message), remedy_(remedy) {}
+      : std::runtime_error(printable(message)), remedy_(remedy) {}
   Remedy remedy() const { return remedy_; }
 
  private:

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/attitude_form.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_units.h>
 #include <pcl_als/common/survey_types.h>
@@ -39,8 +40,9 @@ enum class AngleUnit { stated, degrees, radians, gon };
 
 /// Meaning of roll, pitch and heading.
 enum class AttitudeAxes {
-  ned,  ///< roll right wing down, pitch nose up, heading clockwise from north
-  enu,  ///< body forward-left-up: pitch nose down, yaw counter-clockwise from east
+  by_course,  ///< ned; of a yaw or a quaternion those under which the heading follows the course
+  ned,        ///< roll right wing down, pitch nose up, heading clockwise from north
+  enu,        ///< body forward-left-up: pitch nose down, yaw counter-clockwise from east
 };
 
 /// The north that headings count from.
@@ -59,7 +61,7 @@ struct TrajectoryReading {
   /// by the header of the file.
   std::vector<std::string> columns;
   AngleUnit angles = AngleUnit::stated;  ///< degrees where nothing is stated
-  AttitudeAxes axes = AttitudeAxes::ned;
+  AttitudeAxes axes = AttitudeAxes::by_course;
   NorthReference north = NorthReference::by_coordinates;
   /// Times are UTC: seconds that are added. Without it a column of UTC is used only where a GPS
   /// week beside it gives the leap seconds.
@@ -88,9 +90,13 @@ struct SamplePlaces {
 struct TrajectoryFile {
   std::vector<TrajectorySample> samples;  ///< in the order of the file
   SamplePlaces places;                    ///< of the samples; empty where files were joined
-  /// The heading's column is called yaw. Some write yaw counter-clockwise from east; the samples
-  /// hold it as a heading, clockwise from north, until the course shows otherwise.
-  bool heading_is_yaw = false;
+  /// What the file and the caller leave open: the samples hold the attitude as one of north, east,
+  /// down until the course shows otherwise (settleAxes() of module trajectory).
+  AttitudeForm attitude = AttitudeForm::heading;
+  /// What the headings of the samples were turned by on their way to grid north, radians, where the
+  /// attitude leaves something open; empty: nothing.
+  std::vector<double> turns;
+  std::string axes;  ///< remark on the axes that the course showed; empty where nothing was open
   /// "columns: time from GpsTime, heading from Azimuth"; empty where all have their plain names.
   std::string columns;
   std::string format;                        ///< "SBET", "text"
@@ -135,9 +141,12 @@ struct TrajectoryFacts {
   std::string format, frame, columns;
   std::size_t samples = 0;
   TimeRange times;
-  std::string time_kind;                     ///< "seconds of the GPS week"
-  double median_step = 0.0;                  ///< seconds
-  bool attitude = false;                     ///< of every sample
+  std::string time_kind;     ///< "seconds of the GPS week"
+  double median_step = 0.0;  ///< seconds
+  bool attitude = false;     ///< of every sample
+  /// As in TrajectoryFile, of \a local.
+  AttitudeForm attitude_form = AttitudeForm::heading;
+  std::string axes;                          ///< remark on the axes of the attitude
   std::vector<TrajectoryAccuracy> accuracy;  ///< empty where none is stated
   /// In order of time, positions east, north and up of the first sample, metres; of geographic
   /// coordinates on a sphere, of geocentric ones zero.

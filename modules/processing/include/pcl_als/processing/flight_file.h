@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
@@ -45,8 +46,9 @@ struct FlightFile {
 };
 
 /// Reads a trajectory from files or folders of any format (readTrajectoryFiles()). Whether a column
-/// named yaw is clockwise from north or counter-clockwise from east is determined from the course.
-/// InputError naming the file.
+/// named yaw is clockwise from north or counter-clockwise from east, and which axes a quaternion
+/// refers to, is determined from the course (settleAxes()). InputError naming the file; with the
+/// remedy to state the axes where the course does not show those of a quaternion.
 FlightFile readFlight(const std::vector<std::filesystem::path>& paths,
                       const FlightFileOptions& options = {});
 FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions& options = {});
@@ -55,5 +57,9 @@ FlightFile readFlight(const std::filesystem::path& path, const FlightFileOptions
 /// messages.
 FlightFile flightOf(TrajectoryFile file, const std::string& name,
                     const FlightFileOptions& options = {});
+
+/// The facts of each file (inspectTrajectory()), with the axes that the course shows.
+std::vector<std::pair<std::string, TrajectoryFacts>> inspectFlight(
+    const std::vector<std::filesystem::path>& paths, const TrajectoryReading& reading);
 
 }  // namespace pcl_als

@@ -72,8 +72,12 @@ PointConversionResult convertPointFiles(const std::vector<std::filesystem::path>
                                         const PointConversionOptions& options = {},
                                         const ProgressCallback& progress = {});
 
-/// Whether an output is a folder: it exists as one, or its name has no extension.
-bool isConversionFolder(const std::filesystem::path& output);
+/// Whether an output is a folder: it exists as one, or its name has no extension. \a folder_needed
+/// (several inputs, a file for each strip): any name that is neither that of a file that exists nor
+/// ends as those of point files do.
+bool isConversionFolder(const std::filesystem::path& output, bool folder_needed);
+/// UsageError where an output of a file for each strip is no folder.
+void requireStripFolder(const std::filesystem::path& output);
 /// The name in an output folder of the file that an input becomes; \a format as in the options.
 std::string convertedName(const std::filesystem::path& input, const std::string& format);
 

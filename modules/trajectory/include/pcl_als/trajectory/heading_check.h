@@ -48,6 +48,8 @@ class HeadingCheck {
   std::size_t count() const { return count_; }
   /// Upper quartile of the absolute difference to the course, degrees.
   double deviation(HeadingReading reading) const;
+  /// Share of the values that differ from the course by more than kLargestCrab.
+  double shareBeyondCrab(HeadingReading reading) const;
   bool followsCourse() const { return deviation(HeadingReading::heading) <= kLargestCrab; }
   /// The interpretation that agrees best with the course.
   HeadingReading best() const;
