@@ -126,8 +126,8 @@ TEST(MeasuredBox, GivesTheCellsOfTheCensus) {
     EXPECT_EQ(census.strips[0].area, right.strips[0].area) << wrong.name;
     const auto& remarks = census.files[0].remarks;
     EXPECT_EQ(std::count_if(remarks.begin(), remarks.end(),
-                            [](const std::string& remark) {
-                              return remark.find("bounding box is wrong") != std::string::npos;
+                            [](const Warning& remark) {
+                              return remark.text.find("bounding box is wrong") != std::string::npos;
                             }),
               1)
         << wrong.name;

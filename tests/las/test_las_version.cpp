@@ -181,9 +181,12 @@ TEST(LasVersion, OlderFormatsGetTheirFields) {
     const LasRecordLayout layout = out.layout();
     EXPECT_EQ(record.size(), layout.length + 3);
     EXPECT_EQ(record[layout.length + 2], std::byte{0xA2});
-    if (las.hasColour()) EXPECT_EQ(loadLas<std::uint16_t>(&record[layout.rgb + 2]), 2007);
-    if (las.hasWaveform())
+    if (las.hasColour()) {
+      EXPECT_EQ(loadLas<std::uint16_t>(&record[layout.rgb + 2]), 2007);
+    }
+    if (las.hasWaveform()) {
       EXPECT_EQ(loadLas<std::uint64_t>(&record[layout.waveform + 1]), 60U + 256 * 7);
+    }
   }
 }
 
