@@ -294,7 +294,7 @@ TEST(SurveyCensus, SaysWhatIsWrongInTheHeader) {
   const auto remarks = takeCensus({folder / "a.las"}).files[0].remarks;
   EXPECT_TRUE(has(remarks, "bounding box is wrong: it says"));
   EXPECT_TRUE(has(remarks, "return 1: it says 99, there are 2"));
-  EXPECT_TRUE(has(remarks, "coordinate reference system is unknown"));
+  EXPECT_TRUE(has(remarks, "coordinate reference system is unknown", Remedy::crs));
   las.count = 0;
   test::writeBytes(folder / "none.las", las.str());
   const SurveyCensus none = takeCensus({folder / "none.las"});
