@@ -47,6 +47,30 @@ Element elementOf(const PcdField& field) {
   }
 }
 
+/// Whether bytes that are no time were taken for one: a number of seconds beyond any clock, or next
+/// to nothing.
+bool isNoTime(double time) {
+  constexpr double kLargest = 1e12, kLeast = 1e-100;
+  return std::abs(time) > kLargest || (time != 0.0 && std::abs(time) < kLeast);
+}
+
+/** Whether the upper half of a double is the float of the field behind it.
+ *
+ * pcl::VoxelGrid of pcl::PCLPointCloud2 holds one float for every field. It stores as many bytes of
+ * them as the field has: for a double that of the next field, too, whose mean decides what the
+ * time seems to be. With intensities of some tens these are times that could be true. In text both
+ * are rounded, the half by one step at most, the float by some.
+ */
+bool endsWithNext(const std::byte* time, const std::byte* next) {
+  constexpr std::uint32_t kRounding = 16;
+  std::uint64_t bits = 0;
+  std::uint32_t value = 0;
+  std::memcpy(&bits, time, sizeof bits);
+  std::memcpy(&value, next, sizeof value);
+  const auto upper = static_cast<std::uint32_t>(bits >> 32U);
+  return upper != 0 && value != 0 && std::max(upper, value) - std::min(upper, value) <= kRounding;
+}
+
 /// A block of packed records of one file.
 struct Block {
   const PcdHeader& header;
@@ -69,6 +93,21 @@ struct Block {
       out[i] = fitting<T>(element(at), *field);
   }
 
+  /// Number of times that are averages of bytes, or no times at all.
+  std::size_t countNoTimes() const {
+    const PcdField* time = header.find("gps_time");
+    if (time == nullptr) return 0;
+    const PcdField* next = header.following(*time);
+    if (next != nullptr && (next->type != 'F' || next->size != sizeof(float))) next = nullptr;
+    std::size_t found = 0;
+    for (const std::byte *at = records, *end = at + count * header.record_length; at != end;
+         at += header.record_length)
+      if (isNoTime(secondsOfTime(elementAs<double>(at + time->offset))) ||
+          (next != nullptr && endsWithNext(at + time->offset, at + next->offset)))
+        ++found;
+    return found;
+  }
+
  private:
   template <typename T>
   T fitting(double value, const PcdField& field) const {
@@ -82,13 +121,6 @@ struct Block {
 };
 
 constexpr std::size_t kMostNamed = 20;
-
-/// Whether bytes that are no time were taken for one: a number of seconds beyond any clock, or next
-/// to nothing.
-bool isNoTime(double time) {
-  constexpr double kLargest = 1e12, kLeast = 1e-100;
-  return std::abs(time) > kLargest || (time != 0.0 && std::abs(time) < kLeast);
-}
 
 template <typename T>
 void keepOnly(const std::vector<std::size_t>& rows, std::vector<T>& column) {
@@ -147,11 +179,11 @@ void PcdFile::readFirst() {
   constexpr double kFarthestSensor = 1e4;  // metres from the origin of a local system, in plan
   rewind();
   PointChunk chunk;
-  std::size_t without = 0;
   while (chunk.size() == 0 && read(kEnough, chunk)) {
   }
-  for (const double time : chunk.gps_time) without += isNoTime(time) ? 1 : 0;
-  times_are_averages_ = 2 * without > chunk.size();
+  const Block block{header_, buffer_.data(), buffer_.size() / header_.record_length, file_.name()};
+  times_are_averages_ = 2 * block.countNoTimes() > block.count;
+  time_units_ = 1.0;  // those of averages are none
   origin_.setZero();
   const Eigen::Vector3d& viewpoint = header_.viewpoint;
   const bool far = viewpoint.head<2>().norm() > kFarthestSensor && !header_.rotated &&
@@ -161,9 +193,17 @@ void PcdFile::readFirst() {
   if (header_.of_pcl_als || far) origin_ = viewpoint;
 }
 
+std::string PcdFile::timeFault() const {
+  if (!times_are_averages_) return {};
+  return "its GPS times are not used, they are averages of bytes: pcl_voxel_grid makes them of "
+         "double fields; thin the original with pcl::VoxelGrid<PointLidar> or "
+         "pcl::UniformSampling, which keep times";
+}
+
 std::vector<std::string> PcdFile::remarks() const {
   std::vector<std::string> remarks;
-  const std::vector<std::string> unused = header_.unusedFields();
+  const PcdField* channel = channel_field_.empty() ? nullptr : header_.named(channel_field_);
+  const std::vector<std::string> unused = header_.unusedFields(channel);
   if (!unused.empty())
     remarks.push_back(
         (unused.size() == 1 ? "its field is not used: " : "its fields are not used: ") +
@@ -174,11 +214,7 @@ std::vector<std::string> PcdFile::remarks() const {
                                "not added to the coordinates"
                              : "its VIEWPOINT is taken as the origin of the coordinates, from "
                                "which no sensor would see them");
-  if (times_are_averages_)
-    remarks.emplace_back(
-        "its GPS times are no times and are not used: a filter such as pcl_voxel_grid averaged the "
-        "bytes of all fields; thin clouds with a filter that keeps points, such as "
-        "pcl::UniformSampling");
+  if (times_are_averages_) remarks.push_back(timeFault());
   return remarks;
 }
 

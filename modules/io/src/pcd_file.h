@@ -29,8 +29,7 @@ class PcdRecords {
  * than 10 km from zero in plan, and the first point, of single precision, is nearer to zero than
  * to it.
  *
- * GPS times of which most are no times (beyond 1e12 s, or next to zero) are zero here:
- * pcl::VoxelGrid of pcl::PCLPointCloud2 averages the bytes of doubles as if they were floats.
+ * GPS times are zero here where most are averages of bytes (timeFault()).
  *
  * Points without finite coordinates are left out. Constant memory for ascii and binary; a
  * binary_compressed file is one compressed block and is held in memory as a whole.
@@ -47,6 +46,8 @@ class PcdFile {
   /// Metres, ground frame.
   const Eigen::Vector3d& origin() const { return origin_; }
   bool hasTimes() const { return header_.find("gps_time") != nullptr && !times_are_averages_; }
+  /// Why its times are not used (PointFileInfo::time_fault).
+  std::string timeFault() const;
   /// What is not used of the file, and how its VIEWPOINT is understood.
   std::vector<std::string> remarks() const;
   const std::string& name() const { return file_.name(); }

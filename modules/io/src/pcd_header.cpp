@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kLargestRecord = std::size_t{1} << 20;
 constexpr std::uint64_t kMostPoints = std::uint64_t{1} << 40U;
+constexpr const char* kPadding = "_";  // as PCL calls it
 
 /// The columns of PointLidar, with names without case and underscores.
 constexpr std::pair<const char*, const char*> kColumns[] = {
@@ -39,6 +40,14 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
 };
 /// So many: scan_angle has two names.
 constexpr std::size_t kColumnCount = std::size(kColumns) - 1;
+
+/// A name as it is compared: without case and underscores.
+std::string plainName(const std::string& name) {
+  std::string plain;
+  for (const char c : name)
+    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return plain;
+}
 
 /// Goes through the header's lines; one member per key word.
 class HeaderParser {
@@ -166,12 +175,17 @@ class HeaderParser {
       fail("PCD field " + field.name + ": its COUNT is " + std::to_string(field.count));
   }
 
+  bool hasVeryName(const std::string& name) const {
+    return std::any_of(header_.fields.begin(), header_.fields.end(),
+                       [&](const PcdField& field) { return field.name == name; });
+  }
+
   /// A field with the very name of a column is that column, whatever others are called.
   void assignColumns() {
     std::map<std::string, const PcdField*> holders;
     for (PcdField& field : header_.fields) {
       const std::string column = pcdColumnOf(field.name);
-      if (column.empty() || (field.name != column && header_.named(column) != nullptr)) continue;
+      if (column.empty() || (field.name != column && hasVeryName(column))) continue;
       const auto [holder, first] = holders.emplace(column, &field);
       if (!first)
         fail("the PCD's fields " + holder->second->name + " and " + field.name +
@@ -237,22 +251,34 @@ const PcdField* PcdHeader::find(const std::string& column) const {
 }
 
 const PcdField* PcdHeader::named(const std::string& name) const {
-  const auto field =
-      std::find_if(fields.begin(), fields.end(), [&](const PcdField& f) { return f.name == name; });
-  return field == fields.end() ? nullptr : &*field;
+  const PcdField* like = nullptr;
+  std::size_t alike = 0;
+  for (const PcdField& field : fields) {
+    if (field.name == name) return &field;
+    if (plainName(field.name) != plainName(name)) continue;
+    like = &field;
+    ++alike;
+  }
+  return alike == 1 ? like : nullptr;
 }
 
-std::vector<std::string> PcdHeader::unusedFields() const {
+const PcdField* PcdHeader::following(const PcdField& field) const {
+  const auto next = std::find_if(fields.begin(), fields.end(), [&](const PcdField& f) {
+    return f.offset > field.offset && f.name != kPadding;
+  });
+  return next == fields.end() ? nullptr : &*next;
+}
+
+std::vector<std::string> PcdHeader::unusedFields(const PcdField* channel) const {
   std::vector<std::string> names;
   for (const PcdField& field : fields)
-    if (field.column.empty() && field.name != "_") names.push_back(field.name);
+    if (field.column.empty() && field.name != kPadding && &field != channel)
+      names.push_back(field.name);
   return names;
 }
 
 std::string pcdColumnOf(const std::string& field) {
-  std::string plain;
-  for (const char c : field)
-    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string plain = plainName(field);
   for (const auto& [name, column] : kColumns)
     if (plain == name) return column;
   return {};

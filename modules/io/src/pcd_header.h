@@ -36,16 +36,22 @@ struct PcdHeader {
   std::uint64_t data_position = 0;
   std::string crs, strip_id, corrections;  ///< from our comment lines; empty without
 
-  /// The field that is a column of PointLidar, or the one that a user names; null when there is
-  /// none.
+  /// The field that is a column of PointLidar; null when there is none.
   const PcdField* find(const std::string& column) const;
+  /// The field that a user names: the one with the very name, or else the only one with that name
+  /// without case and underscores; null when there is none.
   const PcdField* named(const std::string& name) const;
-  /// Names of the fields that are no column, apart from padding.
-  std::vector<std::string> unusedFields() const;
+  /// The field behind another one in the record, apart from padding; null behind the last one.
+  const PcdField* following(const PcdField& field) const;
+  /// Names of the fields that are no column, apart from padding and the field of the channel.
+  std::vector<std::string> unusedFields(const PcdField* channel) const;
   const char* dataName() const;
 };
 
 inline constexpr const char* kPcdComment = "# pcl_als ";
+/// Every file has it, as others of the comments may be missing.
+inline constexpr const char* kPcdFrameComment =
+    "# pcl_als frame: VIEWPOINT is the origin of the coordinates";
 inline constexpr const char* kPcdCrsComment = "# pcl_als crs ";
 inline constexpr const char* kPcdStripComment = "# pcl_als strip ";
 inline constexpr const char* kPcdCorrectionsComment = "# pcl_als corrections ";

@@ -101,10 +101,17 @@ Strip<PointLidar> loadPcd(const std::filesystem::path& path) {
 }
 
 Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field) {
+  PcdFindings ignored;
+  return loadPcd(path, channel_field, ignored);
+}
+
+Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field,
+                          PcdFindings& findings) {
   detail::PcdFile file(path, channel_field);
   if (!channel_field.empty() && channel_field != "scanner_channel" && channel_field != "user_data")
     throw InputError(file.name() + ": clouds do not keep the field '" + channel_field +
                      "' with the channel of the scanner: use the LAS file that it was made from");
+  findings = {file.remarks(), file.timeFault()};
   Strip<PointLidar> strip;
   strip.frame = frameOf(file);
   const Eigen::Vector3d shift = strip.frame.origin - file.origin();

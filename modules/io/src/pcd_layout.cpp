@@ -48,7 +48,7 @@ std::string pcdHeaderText(const PcdDescription& d) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(17);
-  text << "# .PCD v0.7 - Point Cloud Data file format\n";
+  text << "# .PCD v0.7 - Point Cloud Data file format\n" << kPcdFrameComment << '\n';
   if (!d.strip_id.empty()) text << kPcdStripComment << oneLine(d.strip_id) << '\n';
   if (!d.frame.crs.empty()) text << kPcdCrsComment << oneLine(d.frame.crs) << '\n';
   if (!d.corrections.empty()) text << kPcdCorrectionsComment << oneLine(d.corrections) << '\n';

@@ -25,6 +25,7 @@ class PcdPointReader : public LocalPointReader {
     info_.units.source = info_.units.vertical_source = "PCD";
     info_.corrections = file_.header().corrections;
     info_.format = std::string("PCD ") + file_.header().dataName();
+    info_.time_fault = file_.timeFault();
     survey(file_.origin(), file_.hasTimes());
   }
   std::vector<std::string> remarks() const override { return file_.remarks(); }

@@ -127,6 +127,12 @@ TimeAlignment reconcileTimes(const std::string& name, const TimeRange& points, T
   return alignment;
 }
 
+TimeAlignment reconcileTimes(const PointFileInfo& file, const TimeRange& points,
+                             const TimeRange& trajectory, std::optional<int> gps_week) {
+  if (!file.time_fault.empty()) throw InputError(file.path.string() + ": " + file.time_fault);
+  return reconcileTimes(file.path.string(), points, file.time_kind, trajectory, gps_week);
+}
+
 namespace detail {
 
 void unwrapWeek(std::vector<TrajectorySample>& samples) {

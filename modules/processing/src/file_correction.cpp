@@ -285,7 +285,11 @@ void correctPcd(Job& job) {
   if (fs::equivalent(job.input, job.output, absent)) {
     throw UsageError(job.output.string() + ": input and output are the same file");
   }
-  Strip<PointLidar> strip = loadPcd(job.input, SystemLookup(job.calibration).channelField());
+  PcdFindings findings;
+  Strip<PointLidar> strip =
+      loadPcd(job.input, SystemLookup(job.calibration).channelField(), findings);
+  if (!findings.time_fault.empty()) throw InputError(job.name() + ": " + findings.time_fault);
+  job.result.copy_remarks = findings.remarks;
   recordCorrection(job, strip.corrections);
   strip.corrections = job.corrections;
   job.result.points = strip.cloud->size();

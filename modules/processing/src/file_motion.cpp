@@ -65,13 +65,14 @@ MovedFile moveLas(const fs::path& input, const fs::path& output, const RigidMoti
 }
 
 MovedFile movePcd(const fs::path& input, const fs::path& output, const RigidMotion& motion) {
-  Strip<PointLidar> strip = loadPcd(input);
+  PcdFindings findings;
+  Strip<PointLidar> strip = loadPcd(input, {}, findings);
   const Eigen::Affine3d local = motion.transformation(strip.frame.origin, strip.frame.origin);
   for (PointLidar& point : *strip.cloud)
     point.getVector3fMap() = (local * point.getVector3fMap().cast<double>()).cast<float>();
   strip.corrections = recordOf(motion, strip.corrections, input);
   savePcd(output, strip);
-  return {strip.cloud->size(), {}};
+  return {strip.cloud->size(), std::move(findings.remarks)};
 }
 
 }  // namespace

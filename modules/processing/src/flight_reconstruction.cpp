@@ -94,6 +94,17 @@ void collectFindings(ReconstructedFlight& flight, ProgressReport& progress) {
                             : reason;
 }
 
+/// Files whose times are not used have no part in a trajectory: where all are such, it has none.
+void checkTimes(const SurveyReader& survey, ProgressReport& progress) {
+  std::vector<std::string> faults;
+  for (const SurveyedFile& file : survey.files()) {
+    const PointFileInfo& info = file.sources.info;
+    if (!info.time_fault.empty()) faults.push_back(info.path.string() + ": " + info.time_fault);
+  }
+  if (!faults.empty() && faults.size() == survey.files().size()) throw InputError(faults.front());
+  for (const std::string& text : faults) progress.remark("warning: " + text);
+}
+
 }  // namespace
 
 ReconstructedFlight reconstructFlight(SurveyReader& survey, const ReconstructionOptions& options,
@@ -105,6 +116,7 @@ ReconstructedFlight reconstructFlight(SurveyReader& survey, const Reconstruction
   strips.divide_lines = true;
   for (const std::string& text : survey.choose(strips, {nullptr, std::nullopt, false}))
     progress.remark(text);
+  checkTimes(survey, progress);
   TrajectoryReconstruction reconstruction(options.settings);
   progress.begin("Collecting rays and scan angles");
   readPoints(survey, options.observer, reconstruction);

@@ -275,7 +275,8 @@ void writeRangeOnly(const IntensityRun& run, std::size_t file, const std::filesy
       checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
   outcome.addRemarks(las.path(), extendLas(las, path, extensionOf(run, file, wanted.fields), edit,
-                                           run.settings().threads));
+                                           run.settings().threads)
+                                     .remarks);
 }
 
 void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
@@ -313,7 +314,8 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
     if (done == all) checkCounts(las.path().string(), counts, run.settings().keep_uncovered);
   };
   outcome.addRemarks(las.path(), extendLas(las, path, extensionOf(run, file, wanted.fields), edit,
-                                           run.settings().threads));
+                                           run.settings().threads)
+                                     .remarks);
 }
 
 void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,
@@ -346,13 +348,14 @@ void writePcd(const IntensityRun& run, std::size_t file, const std::filesystem::
   checkCounts(run.input(file).path(), outcome.counts[file], run.settings().keep_uncovered);
   corrected.corrections = recordOf(run, strip.corrections, run.input(file).path());
   savePcd(path, corrected, columns);
+  outcome.addRemarks(run.input(file).path(), run.input(file).remarks());
 }
 
 }  // namespace
 
 void IntensityOutcome::addRemarks(const std::filesystem::path& path,
-                                  const LasRewriteResult& written) {
-  for (const std::string& text : written.remarks) remarks.push_back(path.string() + ": " + text);
+                                  const std::vector<std::string>& written) {
+  for (const std::string& text : written) remarks.push_back(path.string() + ": " + text);
 }
 
 void writeCorrected(const IntensityRun& run, std::size_t file, const std::filesystem::path& path,

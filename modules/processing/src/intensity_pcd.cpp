@@ -18,7 +18,7 @@ namespace {
 class PcdInput : public IntensityInput {
  public:
   PcdInput(const std::string& path, const Options& options)
-      : IntensityInput(path), strip_(loadPcd(path)) {
+      : IntensityInput(path), strip_(loadPcd(path, {}, findings_)) {
     if (!options.gain_control.empty())
       throw UsageError(path + ": is a PCD; gain control is read from LAS");
     survey_.sources.info = PointReader::open(path)->info();
@@ -40,6 +40,7 @@ class PcdInput : public IntensityInput {
 
   std::size_t windows() const override { return strip_.cloud->empty() ? 0 : 1; }
   const Strip<PointLidar>* strip() const override { return &strip_; }
+  std::vector<std::string> remarks() const override { return findings_.remarks; }
 
   void load(std::size_t, const WindowRequest& request, IntensityWindow& out) const override {
     out.origin = strip_.frame.origin;
@@ -79,6 +80,7 @@ class PcdInput : public IntensityInput {
     return run;
   }
 
+  PcdFindings findings_;  // filled with the strip, so before it
   Strip<PointLidar> strip_;
 };
 

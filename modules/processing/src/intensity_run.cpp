@@ -139,8 +139,8 @@ void IntensityRun::alignTimes() {
     const IntensitySurvey& survey = input->survey();
     if (survey.sources.sources.empty()) continue;
     try {
-      alignment = reconcileTimes(input->path(), {survey.first_time, survey.last_time},
-                                 survey.sources.info.time_kind, flight, settings_.gps_week);
+      alignment = reconcileTimes(survey.sources.info, {survey.first_time, survey.last_time}, flight,
+                                 settings_.gps_week);
       ++met;
     } catch (const InputError& error) {
       if (objection.empty()) objection = error.what();

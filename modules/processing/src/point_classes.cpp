@@ -56,7 +56,8 @@ class UsedPoints {
 PointClassCounts classifyPcd(const std::filesystem::path& input,
                              const std::filesystem::path& output, PointClasses& classes,
                              UsedPoints used) {
-  const Strip<PointLidar> strip = loadPcd(input);
+  PcdFindings findings;
+  const Strip<PointLidar> strip = loadPcd(input, {}, findings);
   std::vector<PointClasses::Point> points;
   for (const PointLidar& point : *strip.cloud) {
     const Eigen::Vector3d place = strip.frame.toGround({point.x, point.y, point.z});
@@ -64,7 +65,7 @@ PointClassCounts classifyPcd(const std::filesystem::path& input,
   }
   const std::vector<int> found = classes.classify(points);
   const std::vector<std::uint8_t> codes = codesOf(classes.model());
-  PointClassCounts counts{points.size(), 0, {}};
+  PointClassCounts counts{points.size(), 0, findings.remarks};
   for (std::size_t i = 0; i < found.size(); ++i) {
     PointLidar& point = (*strip.cloud)[i];
     auto& code = point.classification;

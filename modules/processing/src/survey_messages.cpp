@@ -18,7 +18,7 @@ void get(ByteReader& in, LengthUnit& unit) {
 void put(ByteWriter& out, const PointFileInfo& info) {
   out.put(info.path.string()).put(info.point_count).put(info.minimum).put(info.maximum);
   out.put(info.resolution).put(info.crs).put(info.crs_kind).put(info.time_kind).put(info.format);
-  out.put(info.corrections).put(info.crs_ignored).put(info.time_shift);
+  out.put(info.corrections).put(info.crs_ignored).put(info.time_shift).put(info.time_fault);
   put(out, info.units.horizontal);
   put(out, info.units.vertical);
   out.put(info.units.source).put(info.units.vertical_source);
@@ -28,7 +28,7 @@ void get(ByteReader& in, PointFileInfo& info) {
   info.path = in.take<std::string>();
   in.get(info.point_count).get(info.minimum).get(info.maximum);
   in.get(info.resolution).get(info.crs).get(info.crs_kind).get(info.time_kind).get(info.format);
-  in.get(info.corrections).get(info.crs_ignored).get(info.time_shift);
+  in.get(info.corrections).get(info.crs_ignored).get(info.time_shift).get(info.time_fault);
   get(in, info.units.horizontal);
   get(in, info.units.vertical);
   in.get(info.units.source).get(info.units.vertical_source);

@@ -159,8 +159,7 @@ void SurveyReader::alignTimes(const Flight& flight, std::vector<std::string>& re
     const PointFileInfo& info = files_[file].sources.info;
     if (range.empty() && info.point_count > 0) range = {0.0, 0.0};
     try {
-      times_[file] =
-          reconcileTimes(info.path.string(), range, info.time_kind, flown, flight.gps_week);
+      times_[file] = reconcileTimes(info, range, flown, flight.gps_week);
       ++met;
     } catch (const InputError& error) {
       // Its points are then left out, with the others of their strips in mind: see the tally.

@@ -43,6 +43,9 @@ struct PointFileInfo {
   /// Added to the times that the file stores (offset GPS time of LAS 1.5), seconds; those of its
   /// points contain it.
   double time_shift = 0.0;
+  /// Why the times that the file has are not used, without its name: "its GPS times are …"; empty:
+  /// they are used, or it has none.
+  std::string time_fault;
   FileVersion version;  ///< of the file when it was opened
   std::string format;   ///< "LAS 1.4, point format 6", "PCD binary"
   /// Record of the corrections that were applied to the points (io/applied_correction.h), as the

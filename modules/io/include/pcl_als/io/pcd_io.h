@@ -37,11 +37,20 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
  * 0; else the file's stem. The frame's origin is the VIEWPOINT of files of this library; in others
  * that is the pose of the sensor, which is not added, unless it cannot be one (the module's README
  * has the rule). Coordinates stored as double get a frame around their centre. Times that a filter
- * averaged byte by byte are zero.
+ * averaged byte by byte are zero (PcdFindings::time_fault).
  */
 Strip<PointLidar> loadPcd(const std::filesystem::path& path);
 /// The same; InputError where the file, or PointLidar, has no field with the channel of the scanner
 /// of that name (PointWindow::channel_field; empty: it is not needed).
 Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field);
+
+/// What a cloud does not show of the file that it was read from.
+struct PcdFindings {
+  std::vector<std::string> remarks;  ///< PointReader::remarks()
+  std::string time_fault;            ///< PointFileInfo::time_fault
+};
+/// The same, for jobs that tell it.
+Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field,
+                          PcdFindings& findings);
 
 }  // namespace pcl_als

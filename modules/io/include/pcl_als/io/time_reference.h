@@ -25,5 +25,8 @@ inline constexpr double kAdjustedOffset = 1e9;
  */
 TimeAlignment reconcileTimes(const std::string& name, const TimeRange& points, TimeKind kind,
                              const TimeRange& trajectory, std::optional<int> gps_week = {});
+/// The same of a file. InputError also where its times are not used, with the reason.
+TimeAlignment reconcileTimes(const PointFileInfo& file, const TimeRange& points,
+                             const TimeRange& trajectory, std::optional<int> gps_week = {});
 
 }  // namespace pcl_als

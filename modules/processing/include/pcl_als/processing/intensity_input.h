@@ -97,6 +97,8 @@ class IntensityInput {
   virtual const LasFile* las() const { return nullptr; }
   /// The whole cloud; null for a LAS.
   virtual const Strip<PointLidar>* strip() const { return nullptr; }
+  /// What a copy of the file loses, and what is assumed of it (PointReader::remarks()).
+  virtual std::vector<std::string> remarks() const { return {}; }
 
  protected:
   explicit IntensityInput(std::string path) : path_(std::move(path)) {}

@@ -35,7 +35,7 @@ struct IntensityOutcome {
   /// Called with every point, one at a time; may be empty.
   std::function<void(int strip, const Eigen::Vector3d& place)> seen;
 
-  void addRemarks(const std::filesystem::path& path, const LasRewriteResult& written);
+  void addRemarks(const std::filesystem::path& path, const std::vector<std::string>& written);
 };
 
 /** \brief Writes a file of the job with corrected intensities.
