@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/io/plan_io.h>
 #include <pcl_als/planning/flight_plan.h>
 #include <pcl_als/processing/planned_strips.h>

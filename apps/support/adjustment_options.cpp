@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
 

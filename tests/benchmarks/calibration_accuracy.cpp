@@ -136,7 +136,7 @@ void printDifference(const Options& given, int seed, const test::SimulatedSurvey
                      bench::AccuracyTable& differences) {
   request.settings.candidates = static_cast<std::size_t>(given.against);
   request.settings.pair_budget = 0;
-  const CalibrationResult other = survey.loaded(request)->calibrate();
+  const CalibrationResult other = survey.calibrate(request).result;
   char rest[80];
   std::snprintf(rest, sizeof rest, "%zu of %zu pairs", result.iterations.back().correspondences,
                 other.iterations.back().correspondences);
@@ -160,17 +160,17 @@ void runSeed(const Options& given, int seed, bench::AccuracyTable& table,
     request.settings.diagnose = false;
   }
   const double start = secondsNow();
-  const auto calibration = survey.loaded(request);
-  const CalibrationResult result = calibration->calibrate();
+  const Block chosen = survey.block(request);
+  const CalibrationResult result = survey.calibrate(chosen).result;
   const double elapsed = secondsNow() - start;
   const auto [plan, height] =
-      systematicError(simulation::Simulator(options), *calibration->trajectory(), result.biases());
+      systematicError(simulation::Simulator(options), chosen.trajectory(), result.biases());
   char rest[80];
   std::snprintf(rest, sizeof rest, "%.4f / %.4f | %.1f", plan, height, elapsed);
   table.printRow(std::to_string(seed), result, survey.bias, rest);
   if (given.against > 0) printDifference(given, seed, survey, request, result, differences);
   if (!given.bound || options.noise.range == 0.0) return;
-  bench::MatchedBlock block(survey, *calibration, request);
+  bench::MatchedBlock block(survey, chosen);
   block.correct(survey.bias);
   table.addBound(bench::fisherBound(block, options.noise.range, result.correlation_order));
 }

@@ -12,16 +12,14 @@
 
 namespace pcl_als::bench {
 
-MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey,
-                           const SystemCalibrationEngine& calibration,
-                           const test::SimulatedSurvey::Request& request)
-    : flight_(calibration.trajectory()),
-      pairs_(calibration.pairs()),
-      control_(request.control),
-      pair_areas_(calibration.areas().size() - request.control.size()),
-      limits_(request.settings.patches) {
-  load(survey, calibration.areas());
-  prepare(request.settings);
+MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey, const Block& block)
+    : flight_(block.flight.trajectory),
+      pairs_(block.pairs),
+      control_(block.request.control),
+      pair_areas_(block.pairAreas()),
+      limits_(block.settings().patches) {
+  load(survey, block.areas);
+  prepare(block.settings());
   limitRoughness();
 }
 

@@ -10,13 +10,12 @@
 namespace pcl_als::bench {
 
 /** \brief The areas of a calibration with TINs and candidates of their own, to look at its pairs
- * from outside: prepared as SystemCalibrationEngine prepares them.
+ * from outside: prepared as AreaSample prepares them.
  */
 class MatchedBlock {
  public:
-  /// \a calibration: one that has read the survey, see test::SimulatedSurvey::loaded().
-  MatchedBlock(const test::SimulatedSurvey& survey, const SystemCalibrationEngine& calibration,
-               const test::SimulatedSurvey::Request& request);
+  /// \a block: that of the survey, see test::SimulatedSurvey::block().
+  MatchedBlock(const test::SimulatedSurvey& survey, const Block& block);
 
   /// Reconstructs the points of all areas with Eq. (13).
   void correct(const SystemVector& biases);

@@ -96,13 +96,13 @@ void runSeed(const Options& given, int seed, PaperTables& tables) {
   std::unique_ptr<MatchedBlock> block;
   for (int experiment = 0; experiment < kExperiments; ++experiment) {
     const Request request = requestOf(experiment, given, options, survey);
-    const auto calibration = survey.loaded(request);
-    const CalibrationResult result = calibration->calibrate();
+    const Block chosen = survey.block(request);
+    const CalibrationResult result = survey.calibrate(chosen).result;
     std::fprintf(stderr, "seed %d, experiment %s: %s\n", seed, kStateNames[experiment + 1],
                  result.converged ? "converged" : "NOT CONVERGED");
     tables.addResult(experiment, result);
     states.push_back(result.biases());
-    if (experiment == 0) block = std::make_unique<MatchedBlock>(survey, *calibration, request);
+    if (experiment == 0) block = std::make_unique<MatchedBlock>(survey, chosen);
   }
   for (int state = 0; state < kStates; ++state) {
     block->correct(states[static_cast<std::size_t>(state)]);

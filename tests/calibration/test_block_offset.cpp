@@ -38,7 +38,7 @@ CalibrationResult calibrated(const SimulatedSurvey& survey,
   request.settings.shared_errors = SharedErrorModel::ofGrade("tactical");
   request.settings.fixed = fixed;
   if (fixed.empty()) request.control = survey.control;
-  return survey.loaded(request)->calibrate();
+  return survey.calibrate(request).result;
 }
 
 ErrorFinding findingOf(const CalibrationResult& result, ErrorSource source) {
@@ -147,7 +147,7 @@ TEST(BlockOffset, OnlyTheSumIsDeterminedAtOneHeight) {
   request.control = survey.control;
   request.settings.shared_errors = SharedErrorModel::ofGrade("tactical");
   survey.strips.resize(2);
-  const CalibrationResult result = survey.loaded(request)->calibrate();
+  const CalibrationResult result = survey.calibrate(request).result;
   const ParameterEstimate& range = result[P::range_bias];
   const double offset = result.sources[indexOf(ErrorSource::height_offset)];
   EXPECT_NEAR(offset - range.bias, -0.3, 0.05);
@@ -183,7 +183,7 @@ TEST(Probe, DISABLED_Seeds) {
     request.rigorous = true;
     request.control = survey.control;
     request.settings.shared_errors = SharedErrorModel::ofGrade(grade);
-    const CalibrationResult r = survey.loaded(request)->calibrate();
+    const CalibrationResult r = survey.calibrate(request).result;
     printf("seed %u %s rb %.3f+-%.3f%s dS %.2e+-%.2e%s (true rb %.3f dS %.2e)\n", seed,
            r.verdict.usable() ? "usable" : "NOT", r[P::range_bias].bias, r[P::range_bias].std,
            r[P::range_bias].status != ParameterStatus::estimated ? " NE"

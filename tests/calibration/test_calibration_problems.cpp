@@ -187,7 +187,7 @@ std::string refusalOf(const SimulatedSurvey& survey, bool force = false) {
   request.control = survey.control;
   request.settings.force = force;
   try {
-    survey.loaded(request);
+    survey.block(request);
   } catch (const InputError& error) {
     return error.what();
   }

@@ -27,7 +27,7 @@ class ConicalBlock : public testing::TestWithParam<std::uint64_t> {
     SimulatedSurvey::Request request;
     request.rigorous = true;
     request.settings.candidates = 30'000;
-    return survey_->loaded(request)->calibrate();
+    return survey_->calibrate(request).result;
   }
   std::optional<SimulatedSurvey> survey_;
 };
@@ -67,7 +67,7 @@ TEST(ScannerAboutAnAxis, HasAScaleOfItsDeflection) {
     request.rigorous = true;
     request.control = survey.control;
     request.settings.candidates = 30'000;
-    const CalibrationResult result = survey.loaded(request)->calibrate();
+    const CalibrationResult result = survey.calibrate(request).result;
     EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
     test::expectTruth(result, survey.bias);
     const auto scale = std::find_if(
@@ -94,7 +94,7 @@ TEST(SeveralScanPlanes, HaveTheScaleOfTheirOwnAngle) {
     request.control = survey.control;
     request.settings.candidates = 30'000;
     request.settings.diagnose = false;
-    const CalibrationResult result = survey.loaded(request)->calibrate();
+    const CalibrationResult result = survey.calibrate(request).result;
     EXPECT_EQ(result.scan_planes.size(), 2U);
     test::expectTruth(result, survey.bias);
     // The differences between the models are several times as large.

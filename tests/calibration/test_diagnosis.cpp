@@ -24,7 +24,7 @@ CalibrationResult calibrated(const std::string& errors, unsigned seed, bool diag
   request.control = survey.control;
   request.rigorous = true;
   request.settings.diagnose = diagnose;
-  return survey.loaded(request)->calibrate();
+  return survey.calibrate(request).result;
 }
 
 std::map<std::string, ErrorFinding> findingsOf(const CalibrationResult& result) {
@@ -114,7 +114,7 @@ TEST(Diagnosis, NamesWhatTheBlockCannotDetermine) {
   test::SimulatedSurvey::Request request;
   request.control = survey.control;
   request.settings.recover_attitude = false;
-  const auto findings = findingsOf(survey.loaded(request)->calibrate());
+  const auto findings = findingsOf(survey.calibrate(request).result);
   const ErrorFinding& offset = findings.at("time_offset");
   EXPECT_FALSE(offset.determined);
   EXPECT_FALSE(offset.corrected);
@@ -134,7 +134,7 @@ std::map<std::string, ErrorFinding> findingsOfTwoDays(const std::string& errors)
   request.rigorous = true;
   request.settings.candidates = 10'000;
   request.settings.selection.point_budget = 200'000;
-  return findingsOf(survey.loaded(request)->calibrate());
+  return findingsOf(survey.calibrate(request).result);
 }
 
 /// Strip 3 is wrong by a jump in its middle, the second day by its heights: each is found with its

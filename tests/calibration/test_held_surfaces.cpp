@@ -71,7 +71,7 @@ CalibrationResult calibrated(const SimulatedSurvey& survey, std::vector<std::str
   request.settings = quick();
   request.settings.fixed = std::move(fixed);
   request.settings.fixed_sigma = sigma;
-  return survey.loaded(request)->calibrate();
+  return survey.calibrate(request).result;
 }
 
 TEST(FixedStrips, DetermineTheRangeBias) {
@@ -163,21 +163,21 @@ struct Compared {
 };
 
 CalibrationResult calibratedWith(const SimulatedSurvey& survey, const Compared& with) {
-  SystemCalibrationEngine calibration(survey.flight(true), quick(), survey.corner());
+  BlockIndex index(survey.flight(true), survey.corner());
   std::vector<std::size_t> strips = with.strips;
   for (std::size_t i = 0; with.strips.empty() && i < survey.strips.size(); ++i) strips.push_back(i);
-  for (const std::size_t i : strips) calibration.addStrip(std::to_string(i + 1));
-  const int reference = calibration.addReference(with.surface);
-  calibration.setControl(with.control);
+  for (const std::size_t i : strips) index.addStrip(std::to_string(i + 1));
+  const int reference = index.addReference(with.surface);
   const auto each = [&](const auto& use) {
     for (std::size_t k = 0; k < strips.size(); ++k)
       use(static_cast<int>(k), survey.strips[strips[k]].data(), survey.strips[strips[k]].size());
     use(reference, with.points.data(), with.points.size());
   };
-  each([&](int strip, const LidarReturn* p, std::size_t n) { calibration.survey(strip, p, n); });
-  calibration.chooseAreas();
-  each([&](int strip, const LidarReturn* p, std::size_t n) { calibration.load(strip, p, n); });
-  return calibration.calibrate();
+  each([&](int strip, const LidarReturn* p, std::size_t n) { index.add(strip, p, n); });
+  const Block block = chooseAreas(std::move(index), {quick(), with.control, {}});
+  AreaSample sample(block);
+  each([&](int strip, const LidarReturn* p, std::size_t n) { sample.add(strip, p, n); });
+  return calibrate(sample).result;
 }
 
 TEST(ReferenceSurfaces, DetermineTheAbsoluteParameters) {
@@ -307,7 +307,7 @@ TEST(ControlPatches, AreUsedAlongTheirNormals) {
   request.settings = quick();
   request.control = roofs(options);
   ASSERT_GT(request.control.size(), 10U);
-  const CalibrationResult result = survey.loaded(request)->calibrate();
+  const CalibrationResult result = survey.calibrate(request).result;
   EXPECT_TRUE(result.verdict.usable()) << result.verdict.text();
   expectTruth(result, survey.bias);
   ASSERT_EQ(result[P::range_bias].status, ParameterStatus::estimated);

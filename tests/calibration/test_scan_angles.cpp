@@ -23,7 +23,7 @@ CalibrationResult calibrated(const SimulatedSurvey& survey) {
   SimulatedSurvey::Request request;
   request.rigorous = true;
   request.control = survey.control;
-  return survey.loaded(request)->calibrate();
+  return survey.calibrate(request).result;
 }
 
 SimulationOptions block(const std::string& error, unsigned seed) {

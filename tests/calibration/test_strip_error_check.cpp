@@ -126,7 +126,7 @@ TEST(StripErrorCheck, EffectsAreThoseOfAnEnlargedPrior) {
   choice.estimate = kSix;
   choice.solution = adjustment.solve(kSix, SystemVector::Zero());
   const std::vector<StripErrorSize> large{{"1", 0, 0.3, model().position}};
-  const auto found = priorEffects(large, {"0", "1"}, errors, adjustment, choice);
+  const auto found = priorEffects(large, {"0", "1"}, adjustment, choice);
   ASSERT_EQ(found.size(), kSix.size());
   // Afterwards all is as before.
   EXPECT_TRUE(adjustment.solve(kSix, SystemVector::Zero()).biases.isApprox(choice.solution.biases));

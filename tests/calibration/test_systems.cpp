@@ -126,7 +126,7 @@ class TwoSessions : public ::testing::Test {
     request.control = survey().control;
     request.rigorous = true;
     request.settings.systems = systems;
-    return survey().loaded(request)->calibrate();
+    return survey().calibrate(request).result;
   }
 };
 

@@ -177,7 +177,7 @@ CalibrationResult calibrated(const SimulatedSurvey& survey) {
   request.settings.threads = 1;
   request.settings.diagnose = false;
   request.control = survey.control;
-  return survey.loaded(request)->calibrate();
+  return survey.calibrate(request).result;
 }
 
 TEST(Targets, FitWithinTheirStandardDeviations) {

@@ -20,15 +20,14 @@ TEST(DescribeObservability, OfACalibratedBlockNamesFactsAndDeterminedDirections)
   request.settings.candidates = 10'000;
   request.control = survey.control;
   request.rigorous = true;
-  const auto calibration = survey.loaded(request);
-  EXPECT_TRUE(
-      describeObservability(*calibration, CalibrationResult()).empty());  // not yet adjusted
-  const CalibrationResult result = calibration->calibrate();
-  const std::vector<std::string> lines = describeObservability(*calibration, result);
+  const Block chosen = survey.block(request);
+  EXPECT_TRUE(describeObservability(chosen, BlockCalibration()).empty());  // without pairs
+  const BlockCalibration calibration = survey.calibrate(chosen);
+  const std::vector<std::string> lines = describeObservability(chosen, calibration);
   ASSERT_FALSE(lines.empty());
   EXPECT_NE(lines.front().find("opposite lines"), std::string::npos) << lines.front();
 
-  const ObservedBlock block = observedBlock(calibration->adjusted(), *calibration->trajectory());
+  const ObservedBlock block = observedBlock(calibration.adjusted, chosen.trajectory());
   ASSERT_EQ(block.strips.size(), survey.strips.size());
   // A sample of the pairs of the last adjustment.
   EXPECT_GT(block.observationCount(), kRepresentative / 2);

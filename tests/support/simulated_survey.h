@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/simulation/simulator.h>
 
 namespace pcl_als::test {
@@ -76,22 +76,22 @@ struct SimulatedSurvey {
     return corner;
   }
 
-  /// A calibration that has read all strips, named "1", "2" …, and is ready to calibrate().
-  std::unique_ptr<SystemCalibrationEngine> loaded(const Request& request) const {
-    auto calibration = std::make_unique<SystemCalibrationEngine>(flight(request.rigorous),
-                                                                 request.settings, corner());
-    for (std::size_t i = 0; i < strips.size(); ++i) {
-      const int strip = calibration->addStrip(std::to_string(i + 1));
-      calibration->survey(strip, strips[i].data(), strips[i].size());
-    }
-    if (!request.control.empty()) calibration->setControl(request.control);
-    if (!request.pairs.empty()) calibration->setPairs(request.pairs);
-    calibration->chooseAreas();
-    for (std::size_t i = 0; i < strips.size(); ++i) {
-      calibration->load(static_cast<int>(i), strips[i].data(), strips[i].size());
-    }
-    return calibration;
+  /// The block of these strips, named "1", "2" …
+  Block block(const Request& request) const {
+    BlockIndex index(flight(request.rigorous), corner());
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      index.add(index.addStrip(std::to_string(i + 1)), strips[i].data(), strips[i].size());
+    return chooseAreas(std::move(index), {request.settings, request.control, request.pairs});
   }
+
+  BlockCalibration calibrate(const Block& chosen) const {
+    AreaSample sample(chosen);
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      sample.add(static_cast<int>(i), strips[i].data(), strips[i].size());
+    return pcl_als::calibrate(sample);
+  }
+
+  BlockCalibration calibrate(const Request& request) const { return calibrate(block(request)); }
 
   CalibrationResult calibrate(const CalibrationSettings& settings = CalibrationSettings(),
                               bool with_control = true, bool rigorous = false) const {
@@ -99,7 +99,7 @@ struct SimulatedSurvey {
     request.settings = settings;
     request.rigorous = rigorous;
     if (with_control) request.control = control;
-    return loaded(request)->calibrate();
+    return calibrate(request).result;
   }
 };
 

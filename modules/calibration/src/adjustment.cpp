@@ -39,29 +39,34 @@ SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double
 }  // namespace
 
 Adjustment::Adjustment(const SharedErrors& errors, int threads)
-    : errors_(errors), threads_(threads) {}
+    : errors_(errors), threads_(threads), areas_(std::make_shared<const Areas>()) {}
 Adjustment::~Adjustment() = default;
+Adjustment::Adjustment(const Adjustment&) = default;
+Adjustment& Adjustment::operator=(const Adjustment&) = default;
 
 Adjustment::Adjustment(const Adjustment& whole, const std::vector<bool>& areas)
     : errors_(whole.errors_), threads_(whole.threads_) {
+  Areas some;
   for (std::size_t area = 0; area < areas.size(); ++area) {
     if (!areas[area]) continue;
-    area_normals_.push_back(whole.area_normals_[area]);
-    slope_noise_.push_back(whole.slope_noise_[area]);
+    some.normals.push_back(whole.areas_->normals[area]);
+    some.slope_noise.push_back(whole.areas_->slope_noise[area]);
   }
+  areas_ = std::make_shared<const Areas>(std::move(some));
   setLevels(whole.levels_);
 }
 
 void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
                             const std::vector<std::vector<double>>& weights) {
   std::vector<std::unique_ptr<AreaNormal>> normals(areas.size());
-  slope_noise_.resize(areas.size());
+  Areas all;
+  all.slope_noise.resize(areas.size());
   parallelFor(areas.size(), threads_, [&](std::size_t area) {
     normals[area] = std::make_unique<AreaNormal>(areas[area], weights[area], errors_);
-    slope_noise_[area] = slopeNoiseOf(areas[area], weights[area]);
+    all.slope_noise[area] = slopeNoiseOf(areas[area], weights[area]);
   });
-  area_normals_.clear();
-  for (auto& normal : normals) area_normals_.push_back(std::move(*normal));
+  for (auto& normal : normals) all.normals.push_back(std::move(*normal));
+  areas_ = std::make_shared<const Areas>(std::move(all));
   setLevels(levels_);
 }
 
@@ -71,19 +76,24 @@ std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) c
   normal->gg.diagonal() += prior.information;
   normal->right_g += prior.information.cwiseProduct(prior.mean);
   computeInOrder(
-      area_normals_.size(), threads_,
-      [&](std::size_t area) { return area_normals_[area].reduced(shift_variance); },
+      areas_->normals.size(), threads_,
+      [&](std::size_t area) { return areas_->normals[area].reduced(shift_variance); },
       [&](std::size_t area, const AreaNormal::Reduced& reduced) {
-        normal->add(reduced, area_normals_[area].knots());
+        normal->add(reduced, areas_->normals[area].knots());
       });
   return normal;
 }
 
 void Adjustment::setLevels(const SharedErrorLevels& levels) {
   levels_ = levels;
-  if (area_normals_.empty()) return;
+  if (areas_->normals.empty()) return;
   normal_ = assemble(errors_.localVariance(levels_));
-  reduced_ = std::make_unique<Reduced>(reduce(*normal_, levels_));
+  reduced_ = std::make_shared<const Reduced>(reduce(*normal_, levels_));
+}
+
+void Adjustment::setErrors(const SharedErrors& errors, const SharedErrorLevels& levels) {
+  errors_ = errors;
+  setLevels(levels);
 }
 
 Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
@@ -140,8 +150,8 @@ double Adjustment::residual(const PairObservation& observation,
 Adjustment::Share Adjustment::shareOf(std::size_t area, const AdjustmentSolution& solution) const {
   // From the normal equations of the area: h - N (parameters, knots), reduced by the elimination of
   // the knots.
-  const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
-  const std::vector<int>& knots = area_normals_[area].knots();
+  const AreaNormal::Reduced own = areas_->normals[area].reduced(errors_.localVariance(levels_));
+  const std::vector<int>& knots = areas_->normals[area].knots();
   Eigen::VectorXd unknowns(own.right.size());
   Eigen::MatrixXd reduction(own.right.size(), kGlobal);
   unknowns.head<kGlobal>() = solution.biases;
@@ -157,7 +167,7 @@ Adjustment::Share Adjustment::shareOf(std::size_t area, const AdjustmentSolution
 
 std::vector<double> Adjustment::informationShares(
     const std::vector<SystemParameter>& estimate) const {
-  std::vector<double> shares(area_normals_.size(), 0.0);
+  std::vector<double> shares(areas_->normals.size(), 0.0);
   Eigen::MatrixXd inverse;
   double ignored = 0.0;
   if (estimate.empty() || !invert(sub(reduced_->normal, estimate), inverse, ignored)) return shares;
@@ -174,7 +184,7 @@ SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
                                    const std::vector<SystemParameter>& estimate,
                                    const SystemMatrix& all) const {
   const Eigen::MatrixXd normal = sub(all, estimate);
-  std::vector<Eigen::VectorXd> moves(area_normals_.size());
+  std::vector<Eigen::VectorXd> moves(areas_->normals.size());
   parallelFor(moves.size(), threads_, [&](std::size_t area) {
     const Share share = shareOf(area, solution);
     Eigen::VectorXd score(estimate.size());
@@ -190,7 +200,7 @@ SystemMatrix Adjustment::jackknife(const AdjustmentSolution& solution,
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(normal.rows(), normal.rows());
   double groups = 0.0;
   for (std::size_t area = 0; area < moves.size(); ++area) {
-    if (!area_normals_[area].knots().empty()) groups += 1.0;
+    if (!areas_->normals[area].knots().empty()) groups += 1.0;
     scatter += moves[area] * moves[area].transpose();
   }
   if (groups > 1.0) scatter *= (groups - 1.0) / groups;
@@ -202,8 +212,8 @@ Eigen::VectorXd Adjustment::slopeNoise(const Eigen::MatrixXd& independent,
   constexpr double kCaution = 2.0, kLeast = 1e-4;
   const Eigen::VectorXd scale = independent.diagonal().cwiseSqrt().cwiseInverse();
   const CholeskyFactor cholesky(scale.asDiagonal() * independent * scale.asDiagonal());
-  const SystemMatrix sum =
-      std::accumulate(slope_noise_.begin(), slope_noise_.end(), SystemMatrix(SystemMatrix::Zero()));
+  const SystemMatrix sum = std::accumulate(areas_->slope_noise.begin(), areas_->slope_noise.end(),
+                                           SystemMatrix(SystemMatrix::Zero()));
   const Eigen::MatrixXd noise = scale.asDiagonal() * sub(sum, estimate) * scale.asDiagonal();
   const Eigen::MatrixXd half = cholesky.solveLower(noise);
   const Eigen::MatrixXd share = cholesky.solveLower(Eigen::MatrixXd(half.transpose()));
@@ -229,8 +239,8 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
   const SystemVector known = prior_information + errors_.model().biases.information;
   SystemMatrix independent = known.asDiagonal(), normal = reduced_->normal;
   normal.diagonal() += prior_information;
-  for (std::size_t area = 0; area < area_normals_.size(); ++area)
-    independent += area_normals_[area].parameters();
+  for (std::size_t area = 0; area < areas_->normals.size(); ++area)
+    independent += areas_->normals[area].parameters();
   Eigen::MatrixXd inverse, formal;
   double ignored = 0.0;
   if (!invert(sub(normal, estimate), inverse, ignored) ||
@@ -289,10 +299,10 @@ SystemVector Adjustment::derivativeBySource(ErrorSource source,
 
 std::vector<Eigen::VectorXd> Adjustment::areaScores(const Influence& influence,
                                                     const AdjustmentSolution& solution) const {
-  std::vector<Eigen::VectorXd> scores(area_normals_.size());
+  std::vector<Eigen::VectorXd> scores(areas_->normals.size());
   parallelFor(scores.size(), threads_, [&](std::size_t area) {
-    const AreaNormal::Reduced own = area_normals_[area].reduced(errors_.localVariance(levels_));
-    const std::vector<int>& knots = area_normals_[area].knots();
+    const AreaNormal::Reduced own = areas_->normals[area].reduced(errors_.localVariance(levels_));
+    const std::vector<int>& knots = areas_->normals[area].knots();
     Eigen::VectorXd unknowns(own.right.size());
     Eigen::MatrixXd on_values(own.right.size(), influence.biases.cols());
     unknowns.head<kGlobal>() = solution.biases;

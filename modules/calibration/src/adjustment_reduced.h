@@ -2,9 +2,13 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include <pcl_als/calibration/adjustment.h>
+
+#include "area_normal.h"
 
 namespace pcl_als {
 
@@ -17,6 +21,12 @@ struct Adjustment::Reduced {
   /// N_tt^-1, columns of the error sources, and of the blocks of the systems.
   Eigen::Matrix<double, Eigen::Dynamic, kErrorSourceCount> with_sources;
   Eigen::MatrixXd with_systems;
+};
+
+/// By area.
+struct Adjustment::Areas {
+  std::vector<AreaNormal> normals;
+  std::vector<SystemMatrix> slope_noise;  ///< information that may stem from noise
 };
 
 }  // namespace pcl_als

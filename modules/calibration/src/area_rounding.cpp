@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// Coordinates that were rounded to large steps (AreaMatcher, SystemCalibrationEngine).
+// Coordinates that were rounded to large steps (AreaMatcher, AreaSample).
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
-#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/calibration/area_sample.h>
 #include <pcl_als/common/coordinate_steps.h>
-#include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/statistics.h>
 
 #include "area_matcher.h"
@@ -67,15 +66,14 @@ void AreaMatcher::distribute(int strip, const Eigen::Vector3d& steps) {
   part.rounding = kVariance * steps.cwiseAbs2();
 }
 
-void SystemCalibrationEngine::distributeRounded() {
+Warnings AreaSample::distributeRounded() {
   constexpr double kNoticeable = 0.25;  // rounding error over the noise of ranges
-  std::vector<std::vector<Eigen::Vector3d>> found(matchers_.size());
-  forOwnAreas([&](std::size_t i) { found[i] = matchers_[i].steps(); });
-  shareVectors(processes_, area_shares_, found);
-  const double limit = kNoticeable * settings_.noise.range * std::sqrt(12.0);
+  const auto found = collect<Eigen::Vector3d>(
+      [&](std::size_t i, std::vector<Eigen::Vector3d>& of) { of = matchers_[i].steps(); });
+  const double limit = kNoticeable * block_.settings().noise.range * std::sqrt(12.0);
   Eigen::Vector3d largest = Eigen::Vector3d::Zero();
   std::size_t rounded = 0;
-  for (std::size_t strip = 0; strip < ids_.size(); ++strip) {
+  for (std::size_t strip = 0; strip < block_.strips.size(); ++strip) {
     Eigen::Vector3d steps = Eigen::Vector3d::Zero();
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<double> values;  // of the areas that show them
@@ -85,16 +83,19 @@ void SystemCalibrationEngine::distributeRounded() {
       if (step > limit) steps[axis] = step;
     }
     if (steps.isZero(0.0)) continue;
-    forOwnAreas([&](std::size_t i) { matchers_[i].distribute(static_cast<int>(strip), steps); });
+    forAreas([&](std::size_t i) { matchers_[i].distribute(static_cast<int>(strip), steps); });
     largest = largest.cwiseMax(steps);
     ++rounded;
   }
-  if (rounded == 0) return;
-  warnings_.push_back(
-      "the coordinates of " + std::to_string(rounded) + " of " + std::to_string(ids_.size()) +
-      " strips have steps of " + describeSteps(largest, Eigen::Vector3d::Zero()) +
-      ": they passed single precision or a coarse scale; their rounding errors are part of the "
-      "noise, give the points as delivered by the system for a better result");
+  Warnings warnings;
+  if (rounded > 0)
+    warnings.push_back("the coordinates of " + std::to_string(rounded) + " of " +
+                       std::to_string(block_.strips.size()) + " strips have steps of " +
+                       describeSteps(largest, Eigen::Vector3d::Zero()) +
+                       ": they passed single precision or a coarse scale; their rounding errors "
+                       "are part of the noise, give the points as delivered by the system for a "
+                       "better result");
+  return warnings;
 }
 
 }  // namespace pcl_als

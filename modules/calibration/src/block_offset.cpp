@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 
-// Offsets of the coordinates of the whole block from control or from surfaces that
-// SystemCalibrationEngine holds fixed.
+// Offsets of the coordinates of the whole block from control or from surfaces that are held fixed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/calibration/system_calibration_engine.h>
-#include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/statistics.h>
 
-#include "calibration_state.h"
+#include "block_diagnosis.h"
+#include "block_estimate.h"
 #include "error_diagnosis.h"
 #include "system_groups.h"
 
@@ -44,22 +42,22 @@ SystemVector onHeight() {
   return effect;
 }
 
-}  // namespace
-
-std::vector<double> SystemCalibrationEngine::heightsAboveKnown(const State& state) const {
-  std::vector<std::vector<double>> found(matchers_.size());
-  forOwnAreas([&](std::size_t i) {
-    if (i >= pair_areas_) {
-      if (control_[i - pair_areas_].kind == ControlPoint::Kind::target) return;
-      for (const PairObservation& o : matchControl(i, kFarthestControl))
-        found[i].push_back(o.aboveControl(o.misclosure));
+/// Heights of the strips, as delivered, above control points; above surfaces that are held fixed
+/// where there is no control.
+std::vector<double> heightsAboveKnown(const AreaSample& sample, const PairSet& pairs) {
+  const Block& block = sample.block();
+  const auto found = sample.collect<double>([&](std::size_t i, std::vector<double>& heights) {
+    if (block.isControl(i)) {
+      if (block.controlOf(i).kind == ControlPoint::Kind::target) return;
+      for (const PairObservation& o : matchControl(sample, i, kFarthestControl))
+        heights.push_back(o.aboveControl(o.misclosure));
       return;
     }
-    for (const PairObservation& o : state.observations[i])
-      if (isHeld(o)) found[i].push_back((isHeld(o.b) ? 1.0 : -1.0) * o.misclosure / o.normal.z());
+    for (const PairObservation& o : pairs.observations[i])
+      if (block.strips.isHeld(o))
+        heights.push_back((block.strips.isHeld(o.b) ? 1.0 : -1.0) * o.misclosure / o.normal.z());
   });
-  shareVectors(processes_, area_shares_, found);
-  const auto first = found.begin() + static_cast<std::ptrdiff_t>(pair_areas_);
+  const auto first = found.begin() + static_cast<std::ptrdiff_t>(block.pairAreas());
   const bool control = std::any_of(first, found.end(), [](const auto& v) { return !v.empty(); });
   std::vector<double> heights;
   for (auto area = control ? first : found.begin(); area != found.end(); ++area)
@@ -67,37 +65,34 @@ std::vector<double> SystemCalibrationEngine::heightsAboveKnown(const State& stat
   return heights;
 }
 
-void SystemCalibrationEngine::startWithBlockOffset(State& state) {
-  state.differences = systemDifferences(state.errors, state.choice.solution.shared);
-  if (!settings_.diagnose) return;
-  std::vector<double> heights = heightsAboveKnown(state);
-  if (heights.size() < kFewestHeights) return;
+}  // namespace
+
+double startingOffset(const AreaSample& sample, const PairSet& pairs) {
+  std::vector<double> heights = heightsAboveKnown(sample, pairs);
+  if (heights.size() < kFewestHeights) return 0.0;
   const double common = medianInPlace(heights);
   for (double& height : heights) height = std::abs(height - common);
   const double spread = 1.4826 * medianInPlace(heights);
-  const double distortion = std::abs(common) * (1.0 - std::cos(swathEdge(state.observations).beta));
-  const bool is_large =
-      std::abs(common) > kLargestOfSystem || distortion > kNoticeable * settings_.noise.range;
-  if (!is_large || spread > kSpread * std::abs(common)) return;
-  state.errors.considerSources({ErrorSource::slope_ranging, ErrorSource::height_offset});
-  state.choice.solution.shared[state.errors.sourceUnknown(ErrorSource::height_offset)] = common;
-  formPairs(state);
+  const double distortion = std::abs(common) * (1.0 - std::cos(swathEdge(pairs.observations).beta));
+  const bool is_large = std::abs(common) > kLargestOfSystem ||
+                        distortion > kNoticeable * sample.block().settings().noise.range;
+  return is_large && spread <= kSpread * std::abs(common) ? common : 0.0;
 }
 
-void SystemCalibrationEngine::judgeBlockOffset(const State& state,
-                                               CalibrationResult& result) const {
+void judgeBlockOffset(const BlockEstimate& estimated, CalibrationResult& result) {
   constexpr int kHeight = indexOf(ErrorSource::height_offset);
-  const AdjustmentSolution& diagnosed = state.diagnosed;
-  if (!source_scale_.to_control || !diagnosed.solved || !state.choice.solution.solved ||
+  const AdjustmentSolution& diagnosed = estimated.diagnosed;
+  const ParameterChoice& choice = estimated.solution.choice;
+  if (!estimated.scale.to_control || !diagnosed.solved || !choice.solution.solved ||
       result.sources[kHeight] != 0.0)
     return;
   // What the parameters would be if the block had the offset as well.
   const SystemVector change =
-      state.adjustment.derivativeBySource(ErrorSource::height_offset, state.choice.estimate);
+      estimated.solution.adjustment.derivativeBySource(ErrorSource::height_offset, choice.estimate);
   const double offset = diagnosed.source_value[kHeight], offset_std = diagnosed.source_std[kHeight];
   std::vector<SystemParameter> inseparable;
   std::string names;
-  for (const SystemParameter p : state.choice.estimate) {
+  for (const SystemParameter p : choice.estimate) {
     const ParameterEstimate& estimate = result[p];
     const double moved = std::abs(change[indexOf(p)]) * offset_std;
     const double other = estimate.bias + change[indexOf(p)] * offset;
@@ -111,7 +106,7 @@ void SystemCalibrationEngine::judgeBlockOffset(const State& state,
   if (std::none_of(inseparable.begin(), inseparable.end(),
                    [&](SystemParameter p) { return on_height[indexOf(p)] != 0.0; }))
     return;
-  const SystemMatrix& covariance = state.choice.solution.covariance;
+  const SystemMatrix& covariance = choice.solution.covariance;
   const double sum = on_height.dot(result.biases());
   const std::string reason =
       "the data cannot tell it from a height offset of the block (antenna height, geoid, datum); "

@@ -10,12 +10,9 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/survey_types.h>
 
-namespace pcl_als {
+#include "pair_set.h"
 
-/// Whether observations of an area have a weight: of heights and strips, and of targets in plan.
-struct AreaUse {
-  bool heights = false, plan = false;
-};
+namespace pcl_als {
 
 /// Fills a CalibrationResult and adds the warnings.
 class CalibrationReport {

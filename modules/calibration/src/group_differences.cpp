@@ -141,24 +141,23 @@ std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
 
 void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t strips,
                          const ScanGeometry& edge, const ParameterChoice& choice,
-                         SharedErrors& errors, Adjustment& adjustment,
-                         std::vector<ErrorFinding>& diagnosis) {
-  const SharedErrorLevels levels = adjustment.levels();
+                         const Adjustment& adjustment, std::vector<ErrorFinding>& diagnosis) {
   const double freedom = std::max(
       1.0, kPriorFreedom + static_cast<double>(strips) - static_cast<double>(groups.size()));
   for (std::size_t k = 1; k < groups.size(); ++k) {
     const bool session = groups[k].name.find("session") != std::string::npos;
     const std::vector<DifferenceUnknown> unknowns = differenceUnknowns(session);
     const int system = static_cast<int>(k);
+    SharedErrors errors = adjustment.errors();
     for (const DifferenceUnknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
-    adjustment.setLevels(levels);
-    estimateLevels(adjustment, choice.estimate, levels);
-    const AdjustmentSolution solution = adjustment.solve(choice.estimate, choice.solution.biases);
+    Adjustment other = adjustment;
+    other.setErrors(errors, adjustment.levels());
+    estimateLevels(other, choice.estimate, adjustment.levels());
+    const AdjustmentSolution solution = other.solve(choice.estimate, choice.solution.biases);
     const SpikeAndSlab mixture =
-        mixtureOf(unknowns, adjustment.systemPosterior(system, choice.estimate, solution), freedom);
+        mixtureOf(unknowns, other.systemPosterior(system, choice.estimate, solution), freedom);
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
       const DifferenceUnknown& u = unknowns[i];
-      errors.share(system, u.index);
       ErrorFinding finding = differenceFinding(u, mixture, static_cast<Eigen::Index>(i), edge);
       finding.source = groups[k].name + "_" + u.name;
       finding.title =
@@ -171,7 +170,6 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
       diagnosis.push_back(std::move(finding));
     }
   }
-  adjustment.setLevels(levels);
 }
 
 void judgeDifferences(std::size_t first, double relevant, Remedy remedy,

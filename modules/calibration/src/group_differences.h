@@ -53,13 +53,11 @@ std::vector<StripGroup> comparedGroups(const std::vector<std::string>& ids,
  * The adjustment is solved with all differences of a group as unknowns and with variance components
  * estimated together with them: without them, differences inflate these. Presence follows from the
  * one solution (SpikeAndSlab), with Student's t distribution for the number of strips, to which the
- * prior of the trajectory errors contributes four degrees of freedom. Adjustment and errors are
- * restored; nothing is corrected.
+ * prior of the trajectory errors contributes four degrees of freedom. Nothing is corrected.
  */
 void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t strips,
                          const ScanGeometry& edge, const ParameterChoice& choice,
-                         SharedErrors& errors, Adjustment& adjustment,
-                         std::vector<ErrorFinding>& diagnosis);
+                         const Adjustment& adjustment, std::vector<ErrorFinding>& diagnosis);
 
 /** \brief Warns of differences that are supported (determined, probability above 0.9), and objects
  * to a result whose parameters cannot be those of all groups.

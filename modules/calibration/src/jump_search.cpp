@@ -103,15 +103,15 @@ ErrorFinding emptyFinding() {
 
 }  // namespace
 
-JumpSearch::JumpSearch(const SharedErrors& errors, const Adjustment& adjustment,
-                       const AdjustmentSolution& solution, const std::vector<Strip>& strips)
+JumpSearch::JumpSearch(const Adjustment& adjustment, const AdjustmentSolution& solution,
+                       const std::vector<Strip>& strips)
     : finding_(emptyFinding()) {
   const auto covariance = adjustment.stripCovariance(solution);
   if (!covariance) return;
   std::vector<Change> changes;
   for (std::size_t i = 0; i < strips.size(); ++i)
-    addChanges(errors, adjustment, *covariance, solution, static_cast<int>(i), strips[i].index,
-               changes);
+    addChanges(adjustment.errors(), adjustment, *covariance, solution, static_cast<int>(i),
+               strips[i].index, changes);
   if (changes.empty()) return;
   std::vector<double> deviations;
   for (const Change& change : changes) deviations.push_back(change.deviation());

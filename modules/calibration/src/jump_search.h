@@ -28,8 +28,8 @@ class JumpSearch {
     std::string id;
   };
   /// \param solution of \a adjustment; \param strips one of each pass
-  JumpSearch(const SharedErrors& errors, const Adjustment& adjustment,
-             const AdjustmentSolution& solution, const std::vector<Strip>& strips);
+  JumpSearch(const Adjustment& adjustment, const AdjustmentSolution& solution,
+             const std::vector<Strip>& strips);
 
   /// The probability of a jump anywhere, with place and size of the most probable one.
   const ErrorFinding& finding() const { return finding_; }

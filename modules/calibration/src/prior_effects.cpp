@@ -24,24 +24,21 @@ bool PriorEffect::affected() const {
 }
 
 std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
-                                      const std::vector<std::string>& strips, SharedErrors& errors,
-                                      Adjustment& adjustment, const ParameterChoice& choice) {
+                                      const std::vector<std::string>& strips,
+                                      const Adjustment& adjustment, const ParameterChoice& choice) {
   std::vector<PriorEffect> effects;
   if (large.empty() || choice.estimate.empty()) return effects;
   const SharedErrorLevels levels = adjustment.levels();
+  SharedErrors errors = adjustment.errors();
   const SharedErrors::Variances priors = errors.variances(SharedErrorLevels());
   const SharedErrors::Variances adjusted = errors.variances(levels);
-  const auto setFactors = [&](bool enlarged) {
-    for (const StripErrorSize& e : large) {
-      const double factor = e.ratio() * e.ratio() * priors[e.component] / adjusted[e.component];
-      errors.setVarianceFactor(indexOfStrip(strips, e.strip), e.component,
-                               enlarged ? std::max(1.0, factor) : 1.0);
-    }
-    adjustment.setLevels(levels);
-  };
-  setFactors(true);
-  const AdjustmentSolution other = adjustment.solve(choice.estimate, choice.solution.biases);
-  setFactors(false);
+  for (const StripErrorSize& e : large) {
+    const double factor = e.ratio() * e.ratio() * priors[e.component] / adjusted[e.component];
+    errors.setVarianceFactor(indexOfStrip(strips, e.strip), e.component, std::max(1.0, factor));
+  }
+  Adjustment enlarged = adjustment;
+  enlarged.setErrors(errors, levels);
+  const AdjustmentSolution other = enlarged.solve(choice.estimate, choice.solution.biases);
   for (const SystemParameter p : choice.estimate) {
     const int i = indexOf(p);
     PriorEffect effect{p, 0.0, std::sqrt(choice.solution.covariance(i, i)),

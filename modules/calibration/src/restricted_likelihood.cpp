@@ -7,6 +7,7 @@
 #include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/ordered_results.h>
 
+#include "adjustment_reduced.h"
 #include "block_cholesky.h"
 #include "chosen_parameters.h"
 #include "error_normal.h"
@@ -188,7 +189,7 @@ RestrictedLikelihood Adjustment::restrictedLikelihood(const SharedErrorLevels& l
   if (!equations.solved()) return result;
   result.deviance = equations.deviance();
   if (result.deviance < differentiated_below)
-    equations.differentiate(area_normals_, threads_, result);
+    equations.differentiate(areas_->normals, threads_, result);
   return result;
 }
 

@@ -48,11 +48,11 @@ struct PriorEffect {
  *
  * The adjustment is solved again with the a priori standard deviation of each component in \a large
  * enlarged to the size of the correction (RMS over the strip); observations and weights are
- * unchanged. \a errors and \a adjustment are restored.
+ * unchanged.
  */
 std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
-                                      const std::vector<std::string>& strips, SharedErrors& errors,
-                                      Adjustment& adjustment, const ParameterChoice& choice);
+                                      const std::vector<std::string>& strips,
+                                      const Adjustment& adjustment, const ParameterChoice& choice);
 
 /** \brief Reports estimated trajectory errors (strip corrections) that contradict the model.
  *

@@ -78,18 +78,14 @@ std::vector<SystemUnknowns> systemDifferences(const SharedErrors& errors,
   return differences;
 }
 
-void setSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
-                      std::vector<AreaObservations>& observations) {
-  if (differences.size() < 2) return;
+double effectOfSystems(const StripSystems& systems, const std::vector<SystemUnknowns>& differences,
+                       const PairObservation& o) {
+  if (differences.size() < 2) return 0.0;
   const auto of = [&](int strip) -> const SystemUnknowns& {
-    return differences[static_cast<std::size_t>(errors.systems().of(strip))];
+    return differences[static_cast<std::size_t>(systems.of(strip))];
   };
-  for (AreaObservations& area : observations) {
-    for (PairObservation& o : area) {
-      o.further = -o.effectAtPatch(of(o.b));
-      if (o.a != PairObservation::kControl) o.further += o.effectAtPoint(of(o.a));
-    }
-  }
+  const double at_patch = -o.effectAtPatch(of(o.b));
+  return o.a == PairObservation::kControl ? at_patch : at_patch + o.effectAtPoint(of(o.a));
 }
 
 bool shareUndetermined(const Adjustment& adjustment, const ParameterChoice& choice,

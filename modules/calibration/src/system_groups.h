@@ -22,9 +22,9 @@ StripSystems stripSystems(const std::vector<StripGroup>& groups, const OwnUnknow
 std::vector<SystemUnknowns> systemDifferences(const SharedErrors& errors,
                                               const Eigen::VectorXd& shared);
 
-/// Sets PairObservation::further to the effect of the differences between systems.
-void setSystemEffects(const SharedErrors& errors, const std::vector<SystemUnknowns>& differences,
-                      std::vector<AreaObservations>& observations);
+/// Effect on the distance of a pair of the differences of the systems to the first one, metres.
+double effectOfSystems(const StripSystems& systems, const std::vector<SystemUnknowns>& differences,
+                       const PairObservation& observation);
 
 /// Lets systems share unknowns whose differences to the first system are less well determined than
 /// the limits, the worst one of each system. Returns whether there were any.

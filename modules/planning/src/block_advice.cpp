@@ -300,17 +300,18 @@ std::string controlText(const CalibrationResult& result) {
 
 }  // namespace
 
-std::vector<std::string> describeObservability(const SystemCalibrationEngine& calibration,
-                                               const CalibrationResult& result) {
-  ObservedBlock block = observedBlock(calibration.adjusted(), *calibration.trajectory());
+std::vector<std::string> describeObservability(const Block& calibrated,
+                                               const BlockCalibration& calibration) {
+  const CalibrationResult& result = calibration.result;
+  ObservedBlock block = observedBlock(calibration.adjusted, calibrated.trajectory());
   block.control_text = controlText(result);
   if (block.observationCount() == 0) return {};
-  const CalibrationSettings& given = calibration.settings();
+  const CalibrationSettings& given = calibrated.settings();
   ObservabilitySettings settings;
   settings.estimate = given.estimate;
   settings.limits = given.limits;
   settings.shared_errors = given.shared_errors;
-  settings.levels = calibration.adjusted().levels;
+  settings.levels = calibration.adjusted.levels;
   settings.threads = given.threads;
   settings.pairs.noise = given.noise;
   settings.pairs.selection = given.selection;

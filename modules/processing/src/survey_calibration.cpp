@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/calibration/system_calibration_engine.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
@@ -112,17 +112,16 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
   return commonReference(alone).remarks;
 }
 
-void surveyBlock(const SurveyReader& survey, const SurveyCalibrationOptions& options,
-                 const References& references, SystemCalibrationEngine& calibration,
-                 ProgressReport& progress) {
-  const SurveyObserver& observer = options.observer;
-  progress.begin("Surveying the block");
-  for (const std::string& id : survey.strips()) calibration.addStrip(id);
-  for (const ReferenceSource& reference : references.sources)
-    calibration.addReference(reference.surface);
+/// First pass over all points.
+Block indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
+              const BlockRequest& request, const References& references,
+              const SurveyObserver& observer) {
+  BlockIndex index(flight, survey.corner());
+  for (const std::string& id : survey.strips()) index.addStrip(id);
+  for (const ReferenceSource& reference : references.sources) index.addReference(reference.surface);
   if (observer.begin) observer.begin(survey);
   const auto add = [&](int strip, const LidarReturn* points, std::size_t count) {
-    calibration.survey(strip, points, count);
+    index.add(strip, points, count);
   };
   survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
     add(strip, points, count);
@@ -130,41 +129,56 @@ void surveyBlock(const SurveyReader& survey, const SurveyCalibrationOptions& opt
   });
   references.read(add);
   if (observer.points && areShared(survey.processes())) survey.readAtRoot(observer.points);
+  shareIndex(survey.processes(), survey.stripShares(), index);
   try {
-    calibration.chooseAreas();
+    return chooseAreas(std::move(index), request);
   } catch (const InputError& error) {
     throw InputError(error.what() + leftOutText(survey.leftOut()), error.remedy());
   }
-  progress.end(counted(calibration.pairs().size(), "overlapping pair") + ", " +
-               counted(calibration.areas().size(), "area"));
-  for (const std::string& text : calibration.attitudeRemarks()) progress.remark(text);
 }
 
-void loadAreas(const SurveyReader& survey, const References& references,
-               SystemCalibrationEngine& calibration, ProgressReport& progress) {
-  progress.begin("Reading the areas");
+/// Second pass over all points.
+void loadAreas(const SurveyReader& survey, const References& references, AreaSample& sample) {
   const auto load = [&](int strip, const LidarReturn* points, std::size_t count) {
-    calibration.load(strip, points, count);
+    sample.add(strip, points, count);
   };
   survey.read(load);
   references.read(load);
-  calibration.shareAreas();
-  progress.end(grouped(calibration.loadedPoints()) + " points");
+  sample.distribute(survey.processes(), survey.stripShares());
 }
 
-CalibrationResult adjusted(SystemCalibrationEngine& calibration, ProgressReport& progress) {
+BlockCalibration adjusted(AreaSample& sample, ProgressReport& progress) {
   progress.begin("Adjusting");
   int iteration = 0;
-  calibration.setProgress([&](const CalibrationIteration& last) {
+  BlockCalibration calibration = calibrate(sample, [&](const CalibrationIteration& last) {
     progress.remark("iteration " + std::to_string(++iteration) + ": " +
                     grouped(last.correspondences) + " pairs, sigma0 " +
                     std::to_string(last.sigma0) + ", largest update " +
                     std::to_string(1000.0 * last.largest_update) + " mm");
   });
-  CalibrationResult result = calibration.calibrate();
-  result.observability = describeObservability(calibration, result);
-  progress.end(result.converged ? "converged" : "not converged");
-  return result;
+  calibration.result.observability = describeObservability(sample.block(), calibration);
+  progress.end(calibration.result.converged ? "converged" : "not converged");
+  return calibration;
+}
+
+BlockCalibration calibrateBlock(const SurveyReader& survey,
+                                const std::shared_ptr<const Trajectory>& flight,
+                                const SurveyCalibrationOptions& options,
+                                const BlockRequest& request, ProgressReport& progress,
+                                SurveyCalibration& made) {
+  const References references(survey, options.references);
+  progress.begin("Surveying the block");
+  const Block block = indexed(survey, flight, request, references, options.observer);
+  progress.end(counted(block.pairs.size(), "overlapping pair") + ", " +
+               counted(block.areas.size(), "area"));
+  for (const std::string& text : block.flight.remarks) progress.remark(text);
+  progress.begin("Reading the areas");
+  AreaSample sample(block);
+  loadAreas(survey, references, sample);
+  progress.end(grouped(sample.pointCount()) + " points");
+  made.areas = block.areas;
+  made.flight = block.flight.trajectory;
+  return adjusted(sample, progress);
 }
 
 /// The errors of a strip's trajectory are those of the whole flight solution: what its accuracy
@@ -233,17 +247,14 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   if (options.reconstructed)
     settings.reconstructed_height_std = heightStd(options.path_accuracy, survey);
   progress.remark(setPriors(options, survey, settings.shared_errors));
-  SystemCalibrationEngine calibration(flight, settings, survey.corner());
-  calibration.setProcesses(survey.processes(), survey.stripShares());
   Warnings warnings;
-  calibration.setPairs(usablePairs(options.pairs, survey, warnings));
-  calibration.setControl(options.control);
+  const BlockRequest request{settings, options.control,
+                             usablePairs(options.pairs, survey, warnings)};
   for (const std::string& text : checkReferences(survey, options.references)) progress.remark(text);
-  const References references(survey, options.references);
-  surveyBlock(survey, options, references, calibration, progress);
-  loadAreas(survey, references, calibration, progress);
   SurveyCalibration made;
-  made.result = adjusted(calibration, progress);
+  BlockCalibration calibration = calibrateBlock(survey, flight, options, request, progress, made);
+  made.result = std::move(calibration.result);
+  made.information = std::move(calibration.information);
   for (const LeftOutPoints& part : survey.leftOut()) {
     made.result.left_out.push_back(part);
     made.result.warnings.push_back(describe(part));
@@ -264,9 +275,6 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
     made.result.inputs.push_back(reference.info.path.string());
   if (!settings.systems.empty() || !settings.fixed.empty())
     made.result.channel_field = survey.channelField();
-  made.areas = calibration.areas();
-  made.information = calibration.informationShares();
-  made.flight = calibration.trajectory();
   return made;
 }
 

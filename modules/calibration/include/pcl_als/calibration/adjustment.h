@@ -70,12 +70,19 @@ class Adjustment {
   /// components. Its normal equations are not computed again.
   Adjustment(const Adjustment& whole, const std::vector<bool>& areas);
   ~Adjustment();
+  /// A copy has the same normal equations, which are not computed again.
+  Adjustment(const Adjustment&);
+  Adjustment& operator=(const Adjustment&);
 
   /// \param weights one for every observation of every area: robust weight / noise scale^2
   void accumulate(const std::vector<AreaObservations>& areas,
                   const std::vector<std::vector<double>>& weights);
   void setLevels(const SharedErrorLevels& levels);
   const SharedErrorLevels& levels() const { return levels_; }
+  /// The shared errors with other priors or other error sources considered, for the observations
+  /// that are accumulated; the unknowns remain the same.
+  void setErrors(const SharedErrors& errors, const SharedErrorLevels& levels);
+  const SharedErrors& errors() const { return errors_; }
 
   /// Likelihood of variance components after accumulate(); the parameters in \a estimate are
   /// integrated out. Computes a factor of the normal matrix and the entries of its inverse where
@@ -141,6 +148,7 @@ class Adjustment {
 
  private:
   struct Reduced;  // normal equations with the shared errors eliminated
+  struct Areas;    // normal equations of the areas
 
   std::unique_ptr<const ErrorNormal> assemble(double shift_variance) const;
   Reduced reduce(const ErrorNormal& normal, const SharedErrorLevels& levels) const;
@@ -184,13 +192,12 @@ class Adjustment {
                          const std::vector<SystemParameter>& estimate,
                          const SystemMatrix& all) const;
 
-  const SharedErrors& errors_;
+  SharedErrors errors_;
   int threads_;
   SharedErrorLevels levels_;
-  std::vector<AreaNormal> area_normals_;
-  std::vector<SystemMatrix> slope_noise_;  ///< by area: information that may stem from noise
-  std::unique_ptr<const ErrorNormal> normal_;
-  std::unique_ptr<Reduced> reduced_;
+  std::shared_ptr<const Areas> areas_;
+  std::shared_ptr<const ErrorNormal> normal_;
+  std::shared_ptr<const Reduced> reduced_;
 };
 
 /// Variance components estimated from the observations.

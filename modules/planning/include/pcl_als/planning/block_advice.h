@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <pcl_als/calibration/adjustment.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/system_calibration_engine.h>
 #include <pcl_als/planning/observability.h>
 #include <pcl_als/planning/synthetic_pairs.h>
 
@@ -106,10 +106,8 @@ ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& traj
 
 /** \brief What a calibrated block determines, the causes of weak determination, and the effect of
  * additional lines or control: the lines of CalibrationResult::observability.
- *
- * \param calibration after calibrate(), which returned \a result
  */
-std::vector<std::string> describeObservability(const SystemCalibrationEngine& calibration,
-                                               const CalibrationResult& result);
+std::vector<std::string> describeObservability(const Block& calibrated,
+                                               const BlockCalibration& calibration);
 
 }  // namespace pcl_als

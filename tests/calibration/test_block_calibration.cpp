@@ -60,7 +60,7 @@ void expectRecovered(const CalibrationResult& result, const SystemVector& truth,
   }
 }
 
-TEST(SystemCalibrationEngine, RecoversEveryBiasFromExactPoints) {
+TEST(BlockCalibration, RecoversEveryBiasFromExactPoints) {
   SimulationOptions options = block("none", true, 1);
   options.bias[indexOf(P::boresight_heading)] = 30.0 * kRadiansPerArcsec;
   const SimulatedSurvey survey(options);
@@ -69,7 +69,7 @@ TEST(SystemCalibrationEngine, RecoversEveryBiasFromExactPoints) {
   expectRecovered(survey.calibrate(), survey.bias, {1e-3, 0.3, 1.0, 1.2e-3, 5e-6});
 }
 
-TEST(SystemCalibrationEngine, RecoversEveryBiasFromNoisyRanges) {
+TEST(BlockCalibration, RecoversEveryBiasFromNoisyRanges) {
   SimulationOptions options = block("range", true, 2);
   options.bias[indexOf(P::boresight_heading)] = 30.0 * kRadiansPerArcsec;
   const SimulatedSurvey survey(options);
@@ -78,7 +78,7 @@ TEST(SystemCalibrationEngine, RecoversEveryBiasFromNoisyRanges) {
   expectRecovered(survey.calibrate(), survey.bias, {0.02, 2.0, 5.0, 4e-3, 2e-5});
 }
 
-TEST(SystemCalibrationEngine, IsWithinItsIntervalsUnderTrajectoryErrors) {
+TEST(BlockCalibration, IsWithinItsIntervalsUnderTrajectoryErrors) {
   const SimulatedSurvey survey(block("realistic", false, 3));
   const CalibrationResult result = survey.calibrate();
   ASSERT_TRUE(result.converged);
@@ -92,7 +92,7 @@ TEST(SystemCalibrationEngine, IsWithinItsIntervalsUnderTrajectoryErrors) {
   }
 }
 
-TEST(SystemCalibrationEngine, MakesStripsAndControlFit) {
+TEST(BlockCalibration, MakesStripsAndControlFit) {
   const SimulatedSurvey survey(block("range", false, 4));
   const CalibrationResult result = survey.calibrate();
   // All pairs that are no further apart than 2.5 RMS are in the histogram: of distances that are
@@ -114,7 +114,7 @@ TEST(SystemCalibrationEngine, MakesStripsAndControlFit) {
   }
 }
 
-TEST(SystemCalibrationEngine, GivesTheSameAnswerElsewhereOnEarth) {
+TEST(BlockCalibration, GivesTheSameAnswerElsewhereOnEarth) {
   // Whether a pair at the limit of acceptance is used may depend on the last digit, which moves the
   // estimates by a thousandth of a standard deviation; in this block no pair is that close.
   SimulatedSurvey survey(block("range", false, 7));
@@ -127,7 +127,7 @@ TEST(SystemCalibrationEngine, GivesTheSameAnswerElsewhereOnEarth) {
   }
 }
 
-TEST(SystemCalibrationEngine, DoesNotDependOnTheNumberOfThreads) {
+TEST(BlockCalibration, DoesNotDependOnTheNumberOfThreads) {
   const SimulatedSurvey survey(block("range", false, 6));
   CalibrationSettings settings;
   settings.threads = 1;
@@ -136,7 +136,7 @@ TEST(SystemCalibrationEngine, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.biases(), survey.calibrate(settings).biases());
 }
 
-TEST(SystemCalibrationEngine, WithoutControlLeavesTheRangeBiasAlone) {
+TEST(BlockCalibration, WithoutControlLeavesTheRangeBiasAlone) {
   const SimulatedSurvey survey(block("range", true, 7));
   const CalibrationResult result = survey.calibrate(CalibrationSettings(), false);
   EXPECT_EQ(result[P::range_bias].status, ParameterStatus::not_estimable);
@@ -146,7 +146,7 @@ TEST(SystemCalibrationEngine, WithoutControlLeavesTheRangeBiasAlone) {
               3.0 * kRadiansPerArcsec);
 }
 
-TEST(SystemCalibrationEngine, OnAPlaneNamesWhatCannotBeDetermined) {
+TEST(BlockCalibration, OnAPlaneNamesWhatCannotBeDetermined) {
   SimulationOptions options = block("range", true, 8);
   options.scene.relief = options.scene.buildings = options.scene.trees = 0.0;
   const CalibrationResult result = SimulatedSurvey(options).calibrate();
@@ -161,7 +161,7 @@ TEST(SystemCalibrationEngine, OnAPlaneNamesWhatCannotBeDetermined) {
               4.0 * result[P::boresight_roll].std);
 }
 
-TEST(SystemCalibrationEngine, AskedForTheImpossibleSaysSo) {
+TEST(BlockCalibration, AskedForTheImpossibleSaysSo) {
   SimulationOptions options = block("range", true, 9);
   options.scene.relief = options.scene.buildings = options.scene.trees = 0.0;
   CalibrationSettings settings;
@@ -172,7 +172,7 @@ TEST(SystemCalibrationEngine, AskedForTheImpossibleSaysSo) {
   EXPECT_FALSE(result.warnings.empty());
 }
 
-TEST(SystemCalibrationEngine, ConvergesFromHalfADegreeAndAMetre) {
+TEST(BlockCalibration, ConvergesFromHalfADegreeAndAMetre) {
   SimulationOptions options = block("range", false, 11);
   const double angle = 0.5 * kRadiansPerDegree;
   options.bias << 1.0, -1.0, 0.0, angle, -angle, angle, 1.0, 1e-3;
@@ -202,14 +202,14 @@ void expectRefused(const SimulatedSurvey& survey, bool rigorous, const std::stri
   }
 }
 
-TEST(SystemCalibrationEngine, RefusesATrajectoryOfAnotherFlight) {
+TEST(BlockCalibration, RefusesATrajectoryOfAnotherFlight) {
   SimulatedSurvey survey(block("range", true, 10));
   for (TrajectorySample& sample : survey.trajectory) sample.time += 90000.0;
   expectRefused(survey, false, "the trajectory covers");
 }
 
 /// What is left of a change of datum that was forgotten.
-TEST(SystemCalibrationEngine, RefusesATrajectoryBesideItsPlace) {
+TEST(BlockCalibration, RefusesATrajectoryBesideItsPlace) {
   for (const bool rigorous : {false, true}) {
     SimulatedSurvey survey(block("realistic", false, 10));
     for (TrajectorySample& sample : survey.trajectory)
@@ -218,7 +218,7 @@ TEST(SystemCalibrationEngine, RefusesATrajectoryBesideItsPlace) {
   }
 }
 
-TEST(SystemCalibrationEngine, RefusesASingleStripWithoutControl) {
+TEST(BlockCalibration, RefusesASingleStripWithoutControl) {
   SimulatedSurvey survey(block("range", true, 11));
   survey.strips.resize(1);
   EXPECT_THROW(survey.calibrate(CalibrationSettings(), false), InputError);

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// Diagnosis of a block after its estimation.
+#include "block_diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <pcl_als/common/listed_names.h>
+
+#include "angle_curve.h"
+#include "area_matcher.h"
+#include "control_consistency.h"
+#include "error_diagnosis.h"
+#include "group_differences.h"
+#include "jump_search.h"
+#include "part_consistency.h"
+#include "strip_consistency.h"
+
+namespace pcl_als {
+namespace {
+
+/// One strip of each pass whose trajectory errors are estimated.
+std::vector<JumpSearch::Strip> correctedPasses(const Block& block) {
+  const std::vector<bool> corrected = block.strips.corrected();
+  std::vector<JumpSearch::Strip> passes;
+  for (std::size_t i = 0; i < corrected.size(); ++i) {
+    const int strip = static_cast<int>(i);
+    if (corrected[i] && block.systems.pass[i] == strip)
+      passes.push_back({strip, block.strips.ids[i]});
+  }
+  return passes;
+}
+
+void addJump(const std::vector<JumpSearch::Strip>& strips, const BlockEstimate& estimate,
+             CalibrationResult& result) {
+  const BlockSolution& solution = estimate.solution;
+  const JumpSearch jumps(solution.adjustment,
+                         solveForAllParameters(solution.adjustment, solution.choice.estimate,
+                                               estimate.scale.to_control),
+                         strips);
+  const ErrorFinding& jump = jumps.finding();
+  result.diagnosis.push_back(jump);
+  if (jump.determined && jump.probability > kSupported)
+    result.warnings.push_back(jump.title + ": " + jump.evidence + "; " + jump.remedy);
+}
+
+/// An error of the scan angle as a function of it.
+void diagnoseAngles(const Block& block, const BlockEstimate& estimate, const ScanGeometry& edge,
+                    CalibrationResult& result) {
+  const CalibrationSettings& settings = block.settings();
+  // Other beams have no single angle, and parts of such blocks have parameters of their own.
+  if (!result.converged || !block.scanner.isLinear() || !block.trajectory().scanPlanes().empty() ||
+      !block.strips.held.empty() || !settings.systems.empty() ||
+      !(estimate.scale.largest_angle > 0.0))
+    return;
+  const BlockSolution& solution = estimate.solution;
+  const AdjustedBlock adjusted{block.flownTimes(), settings.shared_errors,
+                               solution.adjustment.levels(), solution.choice.estimate,
+                               settings.threads};
+  judgeAngleCurve(angleCurve(adjusted, {estimate.pairs.observations, solution.weights.weights()},
+                             solution.adjustment.errors().consideredSources(),
+                             estimate.scale.largest_angle, edge),
+                  settings.shared_errors.position, result);
+}
+
+}  // namespace
+
+void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
+                   CalibrationResult& result) {
+  if (result.diagnosis.empty()) return;  // not asked for, or not solved
+  const Block& block = sample.block();
+  const ScanGeometry edge = swathEdge(estimate.pairs.observations);
+  const std::vector<JumpSearch::Strip> strips = correctedPasses(block);
+  addJump(strips, estimate, result);
+  const std::size_t before = result.diagnosis.size();
+  if (!block.compared.empty())
+    addGroupDifferences(block.compared, strips.size(), edge, estimate.solution.choice,
+                        estimate.solution.adjustment, result.diagnosis);
+  judgeDifferences(before, block.settings().shared_errors.position, Remedy::none, result);
+  diagnoseFields(sample, estimate, edge, result);
+  diagnoseAngles(block, estimate, edge, result);
+}
+
+void warnOfTargets(const AreaSample& sample, CalibrationResult& result) {
+  const Block& block = sample.block();
+  const CalibrationSettings& settings = block.settings();
+  const auto found =
+      sample.collect<TargetInStrip>([&](std::size_t area, std::vector<TargetInStrip>& targets) {
+        if (!block.isControl(area) || block.controlOf(area).kind != ControlPoint::Kind::target)
+          return;
+        targets = sample.area(area).targetsIn(block.controlOf(area), settings.max_normal_distance,
+                                              block.trajectory(), settings.noise);
+      });
+  std::map<TargetStatus, std::vector<std::string>> missing;
+  for (std::size_t area = block.pairAreas(); area < found.size(); ++area) {
+    std::map<TargetStatus, std::string> strips;
+    for (const TargetInStrip& target : found[area]) {
+      std::string& list = strips[target.status];
+      list += (list.empty() ? "" : "+") + block.strips.ids[static_cast<std::size_t>(target.strip)];
+    }
+    for (const auto& [status, list] : strips)
+      missing[status].push_back(block.controlOf(area).id + " in strip " + list);
+  }
+  missing.erase(TargetStatus::located);
+  for (const auto& [status, list] : missing)
+    result.warnings.push_back("targets that were not located (" + std::string(reasonOf(status)) +
+                              "): " + listedNames(list));
+}
+
+void assessControl(const Block& block, const BlockEstimate& estimate, CalibrationResult& result) {
+  const ControlConsistency control(result.control_points);
+  SystemVector spread = SystemVector::Zero();
+  if (control.two_groups) {
+    BlockSolution solution = estimate.solution;
+    weigh(estimate.pairs, true, block.settings().threads, solution);  // of pairs added for the fits
+    ControlledAdjustment adjustment{solution.adjustment.errors(),
+                                    solution.adjustment.levels(),
+                                    estimate.pairs.observations,
+                                    solution.weights.weights(),
+                                    block.pairAreas(),
+                                    {},
+                                    solution.choice.estimate,
+                                    block.settings().threads};
+    for (const ControlPoint& point : block.request.control) adjustment.control.push_back(point.id);
+    spread = controlSpread(control, adjustment);
+  }
+  warnOfBlockOffset(result);
+  judgeControl(control, spread, result);
+}
+
+void assessParts(const Block& block, const BlockEstimate& estimate, CalibrationResult& result) {
+  const BlockSolution& solution = estimate.solution;
+  if (solution.choice.estimate.empty()) return;
+  AreaAdjustment adjustment{solution.adjustment, {}, {}, solution.choice.estimate};
+  for (const AreaObservations& area : estimate.pairs.observations)
+    adjustment.pairs.push_back(area.size());
+  for (const SurveyArea& area : block.areas)
+    adjustment.places.emplace_back(area.minimum + Eigen::Vector2d::Constant(0.5 * area.size));
+  judgeParts(partDifferences(adjustment), result);
+}
+
+void diagnoseStrips(const Block& block, CalibrationResult& result) {
+  const std::vector<bool> corrected = block.strips.corrected();
+  std::vector<StripFacts> strips;
+  for (std::size_t i = 0; i < corrected.size(); ++i) {
+    const SurveyedStrip& strip = block.surveyed[i];
+    if (corrected[i])
+      strips.push_back({block.strips.ids[i], strip.span.first, strip.span.second, strip.height});
+  }
+  const SharedErrorModel& errors = block.settings().shared_errors;
+  const StripConsistency consistency(strips, result.pairs,
+                                     {errors.position, errors.correlation_time});
+  result.strip_offsets = consistency.offsets();
+  const auto& found = consistency.warnings();
+  result.warnings.insert(result.warnings.end(), found.begin(), found.end());
+}
+
+}  // namespace pcl_als

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <vector>
+
+#include <pcl_als/calibration/area_sample.h>
+
+#include "area_matcher.h"
+
+namespace pcl_als {
+
+/// Corrections for the systems of a block, as the corrections of its strips.
+class StripCorrections {
+ public:
+  StripCorrections(const Block& block, const Corrections& corrections);
+  StripCorrections(const StripCorrections&) = delete;
+  StripCorrections& operator=(const StripCorrections&) = delete;
+
+  const std::vector<AreaMatcher::StripCorrection>& strips() const { return strips_; }
+
+ private:
+  std::vector<BiasEvaluator> of_systems_;
+  std::vector<AreaMatcher::StripCorrection> strips_;
+};
+
+}  // namespace pcl_als
