@@ -160,7 +160,7 @@ void runSeed(const Options& given, int seed, bench::AccuracyTable& table,
     request.settings.diagnose = false;
   }
   const double start = secondsNow();
-  const Block chosen = survey.block(request);
+  const SurveyBlock chosen = survey.block(request);
   const CalibrationResult result = survey.calibrate(chosen).result;
   const double elapsed = secondsNow() - start;
   const auto [plan, height] =

@@ -12,7 +12,7 @@
 
 namespace pcl_als::bench {
 
-MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey, const Block& block)
+MatchedBlock::MatchedBlock(const test::SimulatedSurvey& survey, const SurveyBlock& block)
     : flight_(block.flight.trajectory),
       pairs_(block.pairs),
       control_(block.request.control),

@@ -15,7 +15,7 @@ namespace pcl_als::bench {
 class MatchedBlock {
  public:
   /// \a block: that of the survey, see test::SimulatedSurvey::block().
-  MatchedBlock(const test::SimulatedSurvey& survey, const Block& block);
+  MatchedBlock(const test::SimulatedSurvey& survey, const SurveyBlock& block);
 
   /// Reconstructs the points of all areas with Eq. (13).
   void correct(const SystemVector& biases);

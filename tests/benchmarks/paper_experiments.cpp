@@ -96,7 +96,7 @@ void runSeed(const Options& given, int seed, PaperTables& tables) {
   std::unique_ptr<MatchedBlock> block;
   for (int experiment = 0; experiment < kExperiments; ++experiment) {
     const Request request = requestOf(experiment, given, options, survey);
-    const Block chosen = survey.block(request);
+    const SurveyBlock chosen = survey.block(request);
     const CalibrationResult result = survey.calibrate(chosen).result;
     std::fprintf(stderr, "seed %d, experiment %s: %s\n", seed, kStateNames[experiment + 1],
                  result.converged ? "converged" : "NOT CONVERGED");

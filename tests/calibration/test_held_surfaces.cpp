@@ -174,7 +174,7 @@ CalibrationResult calibratedWith(const SimulatedSurvey& survey, const Compared& 
     use(reference, with.points.data(), with.points.size());
   };
   each([&](int strip, const LidarReturn* p, std::size_t n) { index.add(strip, p, n); });
-  const Block block = chooseAreas(std::move(index), {quick(), with.control, {}});
+  const SurveyBlock block = chooseAreas(std::move(index), {quick(), with.control, {}});
   AreaSample sample(block);
   each([&](int strip, const LidarReturn* p, std::size_t n) { sample.add(strip, p, n); });
   return calibrate(sample).result;

@@ -20,7 +20,7 @@ TEST(DescribeObservability, OfACalibratedBlockNamesFactsAndDeterminedDirections)
   request.settings.candidates = 10'000;
   request.control = survey.control;
   request.rigorous = true;
-  const Block chosen = survey.block(request);
+  const SurveyBlock chosen = survey.block(request);
   EXPECT_TRUE(describeObservability(chosen, BlockCalibration()).empty());  // without pairs
   const BlockCalibration calibration = survey.calibrate(chosen);
   const std::vector<std::string> lines = describeObservability(chosen, calibration);

@@ -77,14 +77,14 @@ struct SimulatedSurvey {
   }
 
   /// The block of these strips, named "1", "2" …
-  Block block(const Request& request) const {
+  SurveyBlock block(const Request& request) const {
     BlockIndex index(flight(request.rigorous), corner());
     for (std::size_t i = 0; i < strips.size(); ++i)
       index.add(index.addStrip(std::to_string(i + 1)), strips[i].data(), strips[i].size());
     return chooseAreas(std::move(index), {request.settings, request.control, request.pairs});
   }
 
-  BlockCalibration calibrate(const Block& chosen) const {
+  BlockCalibration calibrate(const SurveyBlock& chosen) const {
     AreaSample sample(chosen);
     for (std::size_t i = 0; i < strips.size(); ++i)
       sample.add(static_cast<int>(i), strips[i].data(), strips[i].size());

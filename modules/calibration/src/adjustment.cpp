@@ -91,11 +91,6 @@ void Adjustment::setLevels(const SharedErrorLevels& levels) {
   reduced_ = std::make_shared<const Reduced>(reduce(*normal_, levels_));
 }
 
-void Adjustment::setErrors(const SharedErrors& errors, const SharedErrorLevels& levels) {
-  errors_ = errors;
-  setLevels(levels);
-}
-
 Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
                                        const SharedErrorLevels& levels) const {
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels);

@@ -73,6 +73,7 @@ class CurveAdjustment {
         adjustment_(errors_, block.threads),
         estimate_(block.estimate) {
     errors_.considerSources(considered);
+    adjustment_.setErrors(errors_);
     adjustment_.setLevels(block.levels);
     adjustment_.accumulate(parts.observations, parts.weights);
     // Its effect is a linear curve.
@@ -119,6 +120,7 @@ class CurveAdjustment {
  private:
   void setSize(double arcsec) {
     for (int k = 1; k < kClasses; ++k) errors_.setOwn(k, kRoll, arcsec * kRadiansPerArcsec);
+    adjustment_.setErrors(errors_);
   }
 
   std::vector<TimeSpan> spans_;

@@ -35,7 +35,7 @@ bool Corrections::isZero() const {
                      [](const SystemUnknowns& difference) { return difference.isZero(0.0); });
 }
 
-StripCorrections::StripCorrections(const Block& block, const Corrections& corrections) {
+StripCorrections::StripCorrections(const SurveyBlock& block, const Corrections& corrections) {
   for (const SystemUnknowns& difference : corrections.differences)
     of_systems_.emplace_back(block.flight.trajectory,
                              corrections.biases + difference.head<kSystemParameterCount>());
@@ -45,7 +45,7 @@ StripCorrections::StripCorrections(const Block& block, const Corrections& correc
   }
 }
 
-AreaSample::AreaSample(const Block& block) : block_(block), index_(block.areas) {
+AreaSample::AreaSample(const SurveyBlock& block) : block_(block), index_(block.areas) {
   for (const SurveyArea& area : block.areas) matchers_.push_back(matcherOf(area, block.strips));
   shares_ = SharedItems(nullptr, std::vector<double>(matchers_.size(), 1.0));
 }

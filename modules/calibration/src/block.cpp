@@ -53,7 +53,7 @@ std::string checkControl(const BlockStrips& strips, const SurveyMap& map,
 }
 
 /// The strips with their systems, which are compared by session and channel where none are given.
-void assignSystems(Block& block) {
+void assignSystems(SurveyBlock& block) {
   const CalibrationSettings& settings = block.settings();
   if (settings.systems.empty() && settings.diagnose)
     block.compared = comparedGroups(block.strips.ids, block.flownTimes());
@@ -71,17 +71,17 @@ double highest(const std::vector<SurveyedStrip>& strips) {
 
 }  // namespace
 
-std::vector<TimeSpan> Block::flownTimes() const {
+std::vector<TimeSpan> SurveyBlock::flownTimes() const {
   std::vector<TimeSpan> spans;
   for (std::size_t i = 0; i < strips.size(); ++i)
     spans.push_back(strips.isFlown(static_cast<int>(i)) ? surveyed[i].span : TimeSpan(0.0, 0.0));
   return spans;
 }
 
-Block chooseAreas(BlockIndex&& given, const BlockRequest& request) {
+SurveyBlock chooseAreas(BlockIndex&& given, const BlockRequest& request) {
   BlockIndex index = std::move(given);
   const SurveyMap& map = index.map();
-  Block block;
+  SurveyBlock block;
   block.request = request;
   block.strips = index.strips();
   block.surveyed = surveyedStrips(index);

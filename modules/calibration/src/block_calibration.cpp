@@ -36,7 +36,7 @@ void measureStrips(const std::vector<AreaObservations>& observations,
 }
 
 /// Surfaces that are held fixed become control in the pairs, which then are to be formed anew.
-AdjustedSurvey adjustedSurvey(const Block& block, const BlockSolution& solution, PairSet& pairs) {
+AdjustedSurvey adjustedSurvey(const SurveyBlock& block, const BlockSolution& solution, PairSet& pairs) {
   AdjustedSurvey adjusted;
   const std::vector<TimeSpan> spans = block.flownTimes();
   for (std::size_t i = 0; i < block.strips.size(); ++i) {
@@ -55,7 +55,7 @@ AdjustedSurvey adjustedSurvey(const Block& block, const BlockSolution& solution,
 }
 
 /// Of the strips, metres per second.
-double meanSpeed(const Block& block) {
+double meanSpeed(const SurveyBlock& block) {
   double length = 0.0, duration = 0.0;
   for (const auto& [from, to] : block.flownTimes()) {
     SensorPose start, end;
@@ -88,7 +88,7 @@ ErrorLevels errorLevels(const NoiseModel& noise, const BlockSolution& solution) 
 }
 
 /// The pairs of strips that were to be compared, with their height offsets.
-std::vector<OverlappingPair> overlappingPairs(const Block& block) {
+std::vector<OverlappingPair> overlappingPairs(const SurveyBlock& block) {
   std::vector<OverlappingPair> found;
   for (std::size_t i = 0; i < block.pairs.size(); ++i) {
     const auto [a, b] = block.pairs[i];
@@ -100,7 +100,7 @@ std::vector<OverlappingPair> overlappingPairs(const Block& block) {
 }
 
 /// What the block and its adjustment say of the system.
-void describeSolution(const Block& block, const BlockEstimate& estimate,
+void describeSolution(const SurveyBlock& block, const BlockEstimate& estimate,
                       const CalibrationReport& report, CalibrationResult& result) {
   const CalibrationSettings& settings = block.settings();
   const BlockSolution& solution = estimate.solution;
@@ -145,7 +145,7 @@ void setStatedEffects(const BlockSolution& solution, const ErrorSourceVector& he
 /// Adds the fits of all pairs, which become those of the estimate.
 void addFits(AreaSample& sample, const CalibrationReport& report, BlockEstimate& estimate,
              CalibrationResult& result) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const BlockSolution& solution = estimate.solution;
   PairSet& pairs = estimate.pairs;
   const std::vector<AreaUse> used = pairs.used(solution.weights.weights());
@@ -161,7 +161,7 @@ void addFits(AreaSample& sample, const CalibrationReport& report, BlockEstimate&
 }
 
 /// Adds warnings and the verdict.
-void judge(const Block& block, const BlockEstimate& estimate,
+void judge(const SurveyBlock& block, const BlockEstimate& estimate,
            const std::vector<PriorEffect>& effects, CalibrationResult& result) {
   const CalibrationSettings& settings = block.settings();
   const HeightError& height = block.flight.height_error;
@@ -180,7 +180,7 @@ void judge(const Block& block, const BlockEstimate& estimate,
 
 BlockCalibration calibrate(AreaSample& sample,
                            const std::function<void(const CalibrationIteration&)>& progress) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   BlockCalibration made;
   CalibrationResult& result = made.result;

@@ -23,7 +23,7 @@ namespace pcl_als {
 namespace {
 
 /// One strip of each pass whose trajectory errors are estimated.
-std::vector<JumpSearch::Strip> correctedPasses(const Block& block) {
+std::vector<JumpSearch::Strip> correctedPasses(const SurveyBlock& block) {
   const std::vector<bool> corrected = block.strips.corrected();
   std::vector<JumpSearch::Strip> passes;
   for (std::size_t i = 0; i < corrected.size(); ++i) {
@@ -48,7 +48,7 @@ void addJump(const std::vector<JumpSearch::Strip>& strips, const BlockEstimate& 
 }
 
 /// An error of the scan angle as a function of it.
-void diagnoseAngles(const Block& block, const BlockEstimate& estimate, const ScanGeometry& edge,
+void diagnoseAngles(const SurveyBlock& block, const BlockEstimate& estimate, const ScanGeometry& edge,
                     CalibrationResult& result) {
   const CalibrationSettings& settings = block.settings();
   // Other beams have no single angle, and parts of such blocks have parameters of their own.
@@ -71,7 +71,7 @@ void diagnoseAngles(const Block& block, const BlockEstimate& estimate, const Sca
 void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
                    CalibrationResult& result) {
   if (result.diagnosis.empty()) return;  // not asked for, or not solved
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const ScanGeometry edge = swathEdge(estimate.pairs.observations);
   const std::vector<JumpSearch::Strip> strips = correctedPasses(block);
   addJump(strips, estimate, result);
@@ -85,7 +85,7 @@ void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
 }
 
 void warnOfTargets(const AreaSample& sample, CalibrationResult& result) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const auto found =
       sample.collect<TargetInStrip>([&](std::size_t area, std::vector<TargetInStrip>& targets) {
@@ -110,7 +110,7 @@ void warnOfTargets(const AreaSample& sample, CalibrationResult& result) {
                               "): " + listedNames(list));
 }
 
-void assessControl(const Block& block, const BlockEstimate& estimate, CalibrationResult& result) {
+void assessControl(const SurveyBlock& block, const BlockEstimate& estimate, CalibrationResult& result) {
   const ControlConsistency control(result.control_points);
   SystemVector spread = SystemVector::Zero();
   if (control.two_groups) {
@@ -131,7 +131,7 @@ void assessControl(const Block& block, const BlockEstimate& estimate, Calibratio
   judgeControl(control, spread, result);
 }
 
-void assessParts(const Block& block, const BlockEstimate& estimate, CalibrationResult& result) {
+void assessParts(const SurveyBlock& block, const BlockEstimate& estimate, CalibrationResult& result) {
   const BlockSolution& solution = estimate.solution;
   if (solution.choice.estimate.empty()) return;
   AreaAdjustment adjustment{solution.adjustment, {}, {}, solution.choice.estimate};
@@ -142,7 +142,7 @@ void assessParts(const Block& block, const BlockEstimate& estimate, CalibrationR
   judgeParts(partDifferences(adjustment), result);
 }
 
-void diagnoseStrips(const Block& block, CalibrationResult& result) {
+void diagnoseStrips(const SurveyBlock& block, CalibrationResult& result) {
   const std::vector<bool> corrected = block.strips.corrected();
   std::vector<StripFacts> strips;
   for (std::size_t i = 0; i < corrected.size(); ++i) {

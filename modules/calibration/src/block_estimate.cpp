@@ -59,7 +59,8 @@ void selectPairs(AreaSample& sample, BlockEstimate& estimate) {
 void considerSources(const std::vector<ErrorSource>& sources, BlockSolution& solution) {
   SharedErrors errors = solution.adjustment.errors();
   errors.considerSources(sources);
-  solution.adjustment.setErrors(errors, solution.adjustment.levels());
+  solution.adjustment.setErrors(errors);
+  solution.adjustment.setLevels(solution.adjustment.levels());
 }
 
 /** \brief Finds the error sources that the data support, by an adjustment with all of them, and
@@ -179,7 +180,7 @@ AdjustmentSolution solveForAllParameters(const Adjustment& adjustment,
 
 BlockEstimate startOf(AreaSample& sample) {
   constexpr std::size_t kEnoughForMisfit = 100'000;  // pairs of the points as delivered
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const std::vector<std::vector<TimeSpan>> observed = measuredTimes(sample);
   const SharedErrors errors(block.flownTimes(), settings.shared_errors.withKnotsFor(observed),

@@ -45,7 +45,7 @@ SystemVector onHeight() {
 /// Heights of the strips, as delivered, above control points; above surfaces that are held fixed
 /// where there is no control.
 std::vector<double> heightsAboveKnown(const AreaSample& sample, const PairSet& pairs) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const auto found = sample.collect<double>([&](std::size_t i, std::vector<double>& heights) {
     if (block.isControl(i)) {
       if (block.controlOf(i).kind == ControlPoint::Kind::target) return;

@@ -94,7 +94,8 @@ void choose(const ChoiceRules& rules, BlockSolution& solution) {
   SharedErrors errors = adjustment.errors();
   while (!rules.coarse && errors.systems().count > 1 &&
          shareUndetermined(adjustment, solution.choice, rules.settings.limits, errors)) {
-    adjustment.setErrors(errors, adjustment.levels());
+    adjustment.setErrors(errors);
+    adjustment.setLevels(adjustment.levels());
     chooseParametersOf(rules, solution);
   }
   solution.differences = systemDifferences(errors, solution.solution().shared);

@@ -39,7 +39,7 @@ void removeCorrections(const std::vector<AreaMatcher::StripCorrection>& correcti
 }
 
 FieldDivision divisionBy(PointField field, const AreaSample& sample) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const auto counts =
       sample.collect<ValueCount>([&](std::size_t i, std::vector<ValueCount>& found) {
         if (block.isControl(i)) return;
@@ -53,7 +53,7 @@ FieldDivision divisionBy(PointField field, const AreaSample& sample) {
 }
 
 /// All pairs of the parts of divided strips.
-std::vector<StripPair> pairsOfParts(const FieldDivision& division, const Block& block) {
+std::vector<StripPair> pairsOfParts(const FieldDivision& division, const SurveyBlock& block) {
   const std::vector<bool> corrected = block.strips.corrected();
   std::vector<int> strips;
   for (std::size_t i = 0; i < corrected.size(); ++i)
@@ -71,7 +71,7 @@ std::vector<AreaObservations> observationsOf(const FieldDivision& division,
                                              const AreaSample& sample,
                                              const Corrections& corrections) {
   constexpr std::size_t kLeastCandidates = 20;  // of a part, in an area
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const StripCorrections of_strips(block, corrections);
   const auto of_parts = division.repeated(of_strips.strips());
@@ -93,7 +93,7 @@ std::vector<AreaObservations> observationsOf(const FieldDivision& division,
 
 void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,
                     const ScanGeometry& edge, CalibrationResult& result) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const BlockSolution& solution = estimate.solution;
   for (const PointField field :

@@ -109,6 +109,7 @@ std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
   std::vector<ErrorFinding> findings;
   if (!weighJointly(observations, block.estimate, block.threads, adjustment)) return findings;
   set_own(false);
+  adjustment.setErrors(errors);
   adjustment.setLevels(block.levels);
   ParameterChoice choice;
   choice.estimate = block.estimate;
@@ -118,7 +119,7 @@ std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
   std::set<int> strips;
   for (const AreaObservations& area : observations)
     for (const PairObservation& o : area) strips.insert(o.b / errors.systems().count);
-  addGroupDifferences(groups, strips.size(), edge, choice, errors, adjustment, findings);
+  addGroupDifferences(groups, strips.size(), edge, choice, adjustment, findings);
   return findings;
 }
 

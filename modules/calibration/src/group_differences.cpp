@@ -151,7 +151,8 @@ void addGroupDifferences(const std::vector<StripGroup>& groups, std::size_t stri
     SharedErrors errors = adjustment.errors();
     for (const DifferenceUnknown& u : unknowns) errors.setOwn(system, u.index, u.slab);
     Adjustment other = adjustment;
-    other.setErrors(errors, adjustment.levels());
+    other.setErrors(errors);
+    other.setLevels(adjustment.levels());
     estimateLevels(other, choice.estimate, adjustment.levels());
     const AdjustmentSolution solution = other.solve(choice.estimate, choice.solution.biases);
     const SpikeAndSlab mixture =

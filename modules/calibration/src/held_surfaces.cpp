@@ -29,7 +29,7 @@ std::string metres(const char* format, double value) {
 
 }  // namespace
 
-void addHeldFit(const Block& block, const PairSet& pairs, const SystemVector& biases, bool after,
+void addHeldFit(const SurveyBlock& block, const PairSet& pairs, const SystemVector& biases, bool after,
                 CalibrationResult& result) {
   const BlockStrips& strips = block.strips;
   std::vector<RunningStatistics> fits(strips.held.size());
@@ -100,7 +100,7 @@ void judgeHeight(const HeldSurface& surface, const ParameterChoice& choice,
 
 }  // namespace
 
-void checkHeldHeights(const Block& block, const BlockSolution& solution,
+void checkHeldHeights(const SurveyBlock& block, const BlockSolution& solution,
                       CalibrationResult& result) {
   if (!solution.solution().solved) return;
   const std::vector<SystemParameter>& estimate = solution.choice.estimate;
@@ -109,7 +109,8 @@ void checkHeldHeights(const Block& block, const BlockSolution& solution,
     SharedErrors errors = solution.adjustment.errors();
     errors.setHeldOffset(k, kUnknownHeight);
     Adjustment adjustment = solution.adjustment;
-    adjustment.setErrors(errors, solution.adjustment.levels());
+    adjustment.setErrors(errors);
+    adjustment.setLevels(solution.adjustment.levels());
     const AdjustmentSolution other = adjustment.solve(estimate, solution.solution().biases);
     const Adjustment::SystemSolution found =
         adjustment.systemSolution(errors.systems().heldSystem(k), estimate, other);

@@ -18,7 +18,7 @@ bool isSeen(const AreaObservations& area) {
                      [](const PairObservation& o) { return !o.isInPlan(); });
 }
 
-bool isAnyPointSeen(const PairSet& pairs, const Block& block) {
+bool isAnyPointSeen(const PairSet& pairs, const SurveyBlock& block) {
   const auto first = pairs.observations.begin() + static_cast<std::ptrdiff_t>(block.pairAreas());
   return std::any_of(first, pairs.observations.end(), isSeen);
 }
@@ -43,7 +43,7 @@ std::vector<AreaUse> PairSet::used(const std::vector<std::vector<double>>& weigh
 }
 
 AreaObservations matchControl(const AreaSample& sample, std::size_t area, double threshold) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const ControlPoint& point = block.controlOf(area);
   // Strips that agree with each other may all be displaced in plan.
@@ -54,7 +54,7 @@ AreaObservations matchControl(const AreaSample& sample, std::size_t area, double
 
 PairSet formPairs(AreaSample& sample, const Corrections& corrections, const PairRules& rules) {
   sample.correct(corrections);
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const AreaMatcher::DistanceLimits limits{rules.threshold, settings.max_normal_distance};
   const AreaMatcher::Points points =
@@ -79,7 +79,7 @@ PairSet formPairs(AreaSample& sample, const Corrections& corrections, const Pair
 }
 
 void addFarPairs(AreaSample& sample, const Corrections& corrections, PairSet& pairs) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   PairRules rules = pairs.rules;
   rules.threshold = block.settings().max_normal_distance;
   if (!rules.isComplete() || pairs.isOutdated()) {
@@ -101,7 +101,7 @@ void addFarPairs(AreaSample& sample, const Corrections& corrections, PairSet& pa
   }
 }
 
-bool isControlCovered(const PairSet& pairs, const Block& block) {
+bool isControlCovered(const PairSet& pairs, const SurveyBlock& block) {
   const auto end = pairs.observations.begin() + static_cast<std::ptrdiff_t>(block.pairAreas());
   return isAnyPointSeen(pairs, block) ||
          std::any_of(pairs.observations.begin(), end, [&](const AreaObservations& area) {
@@ -110,7 +110,7 @@ bool isControlCovered(const PairSet& pairs, const Block& block) {
          });
 }
 
-Warnings warningsOfControl(const PairSet& pairs, const Block& block) {
+Warnings warningsOfControl(const PairSet& pairs, const SurveyBlock& block) {
   Warnings warnings;
   const std::size_t points = block.request.control.size();
   if (points == 0 || isAnyPointSeen(pairs, block)) return warnings;
@@ -122,7 +122,7 @@ Warnings warningsOfControl(const PairSet& pairs, const Block& block) {
 }
 
 ErrorSourceScale sourceScale(const AreaSample& sample, bool to_control) {
-  const Block& block = sample.block();
+  const SurveyBlock& block = sample.block();
   // For each area of pairs the largest angle, then intensities.
   const auto found = sample.collect<double>([&](std::size_t i, std::vector<double>& values) {
     if (block.isControl(i)) return;

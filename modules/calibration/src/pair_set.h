@@ -63,9 +63,9 @@ AreaObservations matchControl(const AreaSample& sample, std::size_t area, double
 
 /// Whether any control point lies on a smooth surface of a strip; strips on surfaces that are held
 /// fixed count, too.
-bool isControlCovered(const PairSet& pairs, const Block& block);
+bool isControlCovered(const PairSet& pairs, const SurveyBlock& block);
 /// A warning where no strip has a smooth surface at any control point.
-Warnings warningsOfControl(const PairSet& pairs, const Block& block);
+Warnings warningsOfControl(const PairSet& pairs, const SurveyBlock& block);
 
 /// The scale of the error sources: largest scan angle and median intensity. Collective.
 ErrorSourceScale sourceScale(const AreaSample& sample, bool to_control);

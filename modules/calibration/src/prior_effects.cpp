@@ -37,7 +37,8 @@ std::vector<PriorEffect> priorEffects(const std::vector<StripErrorSize>& large,
     errors.setVarianceFactor(indexOfStrip(strips, e.strip), e.component, std::max(1.0, factor));
   }
   Adjustment enlarged = adjustment;
-  enlarged.setErrors(errors, levels);
+  enlarged.setErrors(errors);
+  enlarged.setLevels(levels);
   const AdjustmentSolution other = enlarged.solve(choice.estimate, choice.solution.biases);
   for (const SystemParameter p : choice.estimate) {
     const int i = indexOf(p);

@@ -13,7 +13,7 @@ namespace pcl_als {
 /// Corrections for the systems of a block, as the corrections of its strips.
 class StripCorrections {
  public:
-  StripCorrections(const Block& block, const Corrections& corrections);
+  StripCorrections(const SurveyBlock& block, const Corrections& corrections);
   StripCorrections(const StripCorrections&) = delete;
   StripCorrections& operator=(const StripCorrections&) = delete;
 

@@ -300,7 +300,7 @@ std::string controlText(const CalibrationResult& result) {
 
 }  // namespace
 
-std::vector<std::string> describeObservability(const Block& calibrated,
+std::vector<std::string> describeObservability(const SurveyBlock& calibrated,
                                                const BlockCalibration& calibration) {
   const CalibrationResult& result = calibration.result;
   ObservedBlock block = observedBlock(calibration.adjusted, calibrated.trajectory());

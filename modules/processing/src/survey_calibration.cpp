@@ -113,7 +113,7 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
 }
 
 /// First pass over all points.
-Block indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
+SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
               const BlockRequest& request, const References& references,
               const SurveyObserver& observer) {
   BlockIndex index(flight, survey.corner());
@@ -168,7 +168,7 @@ BlockCalibration calibrateBlock(const SurveyReader& survey,
                                 SurveyCalibration& made) {
   const References references(survey, options.references);
   progress.begin("Surveying the block");
-  const Block block = indexed(survey, flight, request, references, options.observer);
+  const SurveyBlock block = indexed(survey, flight, request, references, options.observer);
   progress.end(counted(block.pairs.size(), "overlapping pair") + ", " +
                counted(block.areas.size(), "area"));
   for (const std::string& text : block.flight.remarks) progress.remark(text);

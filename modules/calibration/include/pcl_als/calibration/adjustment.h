@@ -79,9 +79,9 @@ class Adjustment {
                   const std::vector<std::vector<double>>& weights);
   void setLevels(const SharedErrorLevels& levels);
   const SharedErrorLevels& levels() const { return levels_; }
-  /// The shared errors with other priors or other error sources considered, for the observations
-  /// that are accumulated; the unknowns remain the same.
-  void setErrors(const SharedErrors& errors, const SharedErrorLevels& levels);
+  /// The same unknowns with other priors, or other error sources considered. Solutions are those of
+  /// the new ones after the next setLevels() or accumulate(), restrictedLikelihood() at once.
+  void setErrors(const SharedErrors& errors) { errors_ = errors; }
   const SharedErrors& errors() const { return errors_; }
 
   /// Likelihood of variance components after accumulate(); the parameters in \a estimate are

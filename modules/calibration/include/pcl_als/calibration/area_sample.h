@@ -37,7 +37,7 @@ struct Corrections {
 class AreaSample {
  public:
   /// \param block must exist as long as this object.
-  explicit AreaSample(const Block& block);
+  explicit AreaSample(const SurveyBlock& block);
   ~AreaSample();
   AreaSample(const AreaSample&) = delete;
   AreaSample& operator=(const AreaSample&) = delete;
@@ -62,7 +62,7 @@ class AreaSample {
   /// From now on pairs have the effects of all error sources.
   void considerSources(const ErrorSourceScale& scale);
 
-  const Block& block() const { return block_; }
+  const SurveyBlock& block() const { return block_; }
   const AreaMatcher& area(std::size_t index) const;
   AreaMatcher& area(std::size_t index);
   /// Does the work for the areas of this process, in parallel.
@@ -85,7 +85,7 @@ class AreaSample {
   void chooseCandidates();
   Warnings distributeRounded();
 
-  const Block& block_;
+  const SurveyBlock& block_;
   AreaIndex index_;
   std::vector<AreaMatcher> matchers_;
   std::size_t candidates_ = 0, expected_pairs_ = 0;

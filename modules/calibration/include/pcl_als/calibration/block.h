@@ -47,7 +47,7 @@ struct SurveyedStrip {
 };
 
 /** \brief A block whose strips, pairs and areas are chosen; constant from then on. */
-struct Block {
+struct SurveyBlock {
   BlockRequest request;  ///< with limits of determination for the flying height
   BlockStrips strips;
   std::vector<SurveyedStrip> surveyed;  ///< by strip
@@ -86,6 +86,6 @@ struct Block {
  * a strip begins before the trajectory or ends after it: such points are to be left out by the
  * caller. Points in gaps of the trajectory are not used. UsageError for unknown strips.
  */
-Block chooseAreas(BlockIndex&& index, const BlockRequest& request);
+SurveyBlock chooseAreas(BlockIndex&& index, const BlockRequest& request);
 
 }  // namespace pcl_als

@@ -52,7 +52,7 @@ struct BlockCalibration {
  * BlockIndex index(trajectory, south_west_corner);
  * const int strip = index.addStrip("1");   // for every strip
  * index.add(strip, points, count);         // first pass, all points
- * const Block block = chooseAreas(std::move(index), request);
+ * const SurveyBlock block = chooseAreas(std::move(index), request);
  * AreaSample sample(block);
  * sample.add(strip, points, count);        // second pass, all points again
  * const BlockCalibration calibration = calibrate(sample);

@@ -107,7 +107,7 @@ ObservedBlock observedBlock(const AdjustedSurvey& survey, const Trajectory& traj
 /** \brief What a calibrated block determines, the causes of weak determination, and the effect of
  * additional lines or control: the lines of CalibrationResult::observability.
  */
-std::vector<std::string> describeObservability(const Block& calibrated,
+std::vector<std::string> describeObservability(const SurveyBlock& calibrated,
                                                const BlockCalibration& calibration);
 
 }  // namespace pcl_als

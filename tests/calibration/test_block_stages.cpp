@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+
+// The stages of a calibration with blocks made by hand: what each of them says of given points.
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <pcl_als/calibration/area_sample.h>
+#include <pcl_als/calibration/block.h>
+#include <pcl_als/common/errors.h>
+
+#include "area_matcher.h"
+#include "block_solution.h"
+#include "pair_set.h"
+
+namespace pcl_als {
+namespace {
+
+using P = SystemParameter;
+
+constexpr double kHeight = 500.0;   // metres above ground
+constexpr double kSpeed = 50.0;     // metres per second
+constexpr double kHalfSwath = 80.0;
+constexpr double kLength = 200.0;
+
+/// Strips along north above x = 0 that follow each other in time, every second one to the south.
+struct HandMadeBlock {
+  std::shared_ptr<const Trajectory> trajectory;
+  std::vector<std::vector<LidarReturn>> strips;
+};
+
+double startOf(std::size_t strip) {
+  return 100.0 * static_cast<double>(strip);
+}
+
+std::shared_ptr<const Trajectory> flightOf(std::size_t strips) {
+  std::vector<TrajectorySample> samples;
+  for (std::size_t strip = 0; strip < strips; ++strip) {
+    const bool south = strip % 2 == 1;
+    for (double t = -2.0; t <= kLength / kSpeed + 2.0; t += 0.02) {
+      TrajectorySample sample;
+      sample.time = startOf(strip) + t;
+      const double along = kSpeed * t;
+      sample.position = {0.0, south ? kLength - along : along, kHeight};
+      sample.roll = sample.pitch = 0.0;
+      sample.heading = south ? M_PI : 0.0;
+      samples.push_back(sample);
+    }
+  }
+  Trajectory::Options options;
+  options.use_attitude = true;
+  return std::make_shared<const Trajectory>(samples, options);
+}
+
+/// A grid of 1 m on the surface z = height + rise |x|, with a pulse every \a spacing metres.
+std::vector<LidarReturn> pointsOf(std::size_t strip, double height, double slope,
+                                  double spacing = 1.0) {
+  const bool south = strip % 2 == 1;
+  std::vector<LidarReturn> points;
+  for (double along = 0.5; along < kLength; along += spacing) {
+    const double offset = 0.37 * static_cast<double>(strip);  // other points in every strip
+    for (double x = -kHalfSwath + offset; x < kHalfSwath; x += spacing) {
+      LidarReturn point;
+      const double y = south ? kLength - along : along;
+      point.position = {x, y, height + slope * x};
+      point.time = startOf(strip) + along / kSpeed;
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+HandMadeBlock planes(const std::vector<double>& heights, double slope = 0.0) {
+  HandMadeBlock block{flightOf(heights.size()), {}};
+  for (std::size_t strip = 0; strip < heights.size(); ++strip)
+    block.strips.push_back(pointsOf(strip, heights[strip], slope));
+  return block;
+}
+
+BlockIndex indexOf(const HandMadeBlock& given) {
+  BlockIndex index(given.trajectory, Eigen::Vector2d(-kHalfSwath, 0.0));
+  for (std::size_t strip = 0; strip < given.strips.size(); ++strip)
+    index.add(index.addStrip(std::to_string(strip + 1)), given.strips[strip].data(),
+              given.strips[strip].size());
+  return index;
+}
+
+BlockRequest requestOf() {
+  BlockRequest request;
+  request.settings.threads = 1;
+  return request;
+}
+
+SurveyBlock chosen(const HandMadeBlock& given, const BlockRequest& request = requestOf()) {
+  return chooseAreas(indexOf(given), request);
+}
+
+void load(const HandMadeBlock& given, AreaSample& sample) {
+  for (std::size_t strip = 0; strip < given.strips.size(); ++strip)
+    sample.add(static_cast<int>(strip), given.strips[strip].data(), given.strips[strip].size());
+  sample.prepare();
+}
+
+std::string refusalOf(const HandMadeBlock& given, const BlockRequest& request) {
+  try {
+    chosen(given, request);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BlockIndex, MergesTheStripsOfOtherIndices) {
+  const HandMadeBlock given = planes({0.0, 0.1});
+  const BlockIndex all = indexOf(given);
+  // One index has the points of the first strip, the other those of the second.
+  BlockIndex first(given.trajectory, Eigen::Vector2d(-kHalfSwath, 0.0)), second = first;
+  for (BlockIndex* index : {&first, &second}) {
+    index->addStrip("1");
+    index->addStrip("2");
+  }
+  first.add(0, given.strips[0].data(), given.strips[0].size());
+  second.add(1, given.strips[1].data(), given.strips[1].size());
+  ByteWriter out;
+  second.putStrip(1, out);
+  const std::string bytes = out.take();
+  ByteReader in(bytes);
+  first.getStrip(1, in);
+  for (const int strip : {0, 1}) {
+    EXPECT_EQ(first.map().pointCount(strip), all.map().pointCount(strip));
+    EXPECT_EQ(first.map().startTime(strip), all.map().startTime(strip));
+    EXPECT_EQ(first.plausibility().meanHeight(strip), all.plausibility().meanHeight(strip));
+  }
+  const SurveyBlock merged = chooseAreas(std::move(first), requestOf());
+  const SurveyBlock block = chosen(given);
+  ASSERT_EQ(merged.areas.size(), block.areas.size());
+  for (std::size_t i = 0; i < block.areas.size(); ++i)
+    EXPECT_EQ(merged.areas[i].minimum, block.areas[i].minimum);
+}
+
+TEST(SurveyBlock, HasThePairsAndAreasThatStripsHaveInCommon) {
+  const SurveyBlock block = chosen(planes({0.0, 0.1}));
+  ASSERT_EQ(block.pairs.size(), 1U);
+  EXPECT_EQ(block.pairs[0], StripPair(0, 1));
+  EXPECT_NEAR(block.pair_heights[0].offset, -0.1, 1e-9);  // of the first above the second
+  EXPECT_EQ(block.surveyed[0].points, 160U * 200U);
+  EXPECT_NEAR(block.surveyed[0].height, kHeight, 1e-6);
+  EXPECT_NEAR(block.surveyed[1].height, kHeight - 0.1, 1e-6);
+  EXPECT_NEAR(block.flownTimes()[1].first, 100.01, 1e-9);
+  EXPECT_EQ(block.pairAreas(), block.areas.size());
+  EXPECT_FALSE(block.areas.empty());
+  EXPECT_TRUE(block.scanner.isLinear());
+  EXPECT_EQ(block.flight.attitude, AttitudeSource::trajectory);
+}
+
+TEST(SurveyBlock, HasAnAreaForEveryControlPoint) {
+  BlockRequest request = requestOf();
+  ControlPoint point;
+  point.id = "c";
+  point.position = {10.0, 50.0, 0.0};
+  request.control = {point};
+  const SurveyBlock block = chosen(planes({0.0, 0.1}), request);
+  ASSERT_EQ(block.areas.size(), block.pairAreas() + 1);
+  EXPECT_TRUE(block.isControl(block.pairAreas()));
+  EXPECT_EQ(block.controlOf(block.pairAreas()).id, "c");
+  EXPECT_TRUE(block.areas.back().contains(point.position));
+}
+
+TEST(SurveyBlock, LeavesOutStripsWithFewPoints) {
+  HandMadeBlock given = planes({0.0, 0.1, 0.2});
+  given.strips[1].resize(500);
+  const SurveyBlock block = chosen(given);
+  EXPECT_EQ(block.strips.used, (std::vector<bool>{true, false, true}));
+  ASSERT_EQ(block.left_out.size(), 1U);
+  EXPECT_EQ(block.left_out[0].strip, "2");
+  EXPECT_EQ(block.left_out[0].reason, LeftOutReason::too_few_points);
+  ASSERT_EQ(block.pairs.size(), 1U);
+  EXPECT_EQ(block.pairs[0], StripPair(0, 2));
+  EXPECT_EQ(block.flownTimes()[1], TimeSpan(0.0, 0.0));
+}
+
+TEST(SurveyBlock, RefusesWhatCannotBeCompared) {
+  const HandMadeBlock given = planes({0.0, 0.1});
+  BlockRequest request = requestOf();
+  request.pairs = {{"1", "7"}};
+  EXPECT_EQ(refusalOf(given, request), "pairs name strip '7', but the strips are 1, 2");
+  request.pairs = {{"1", "1"}};
+  EXPECT_EQ(refusalOf(given, request), "pairs name strip '1' with itself");
+  request.pairs.clear();
+  request.settings.fixed = {"1", "2"};
+  EXPECT_EQ(refusalOf(given, request),
+            "all strips are held fixed: there is nothing to calibrate");
+  request.settings.fixed = {"9"};
+  EXPECT_EQ(refusalOf(given, request), "there is no strip 9 to be held fixed");
+  HandMadeBlock late = given;
+  for (LidarReturn& point : late.strips[1]) point.time += 50.0;
+  EXPECT_NE(refusalOf(late, requestOf()).find("the trajectory covers"), std::string::npos);
+}
+
+TEST(SurveyBlock, GivesFixedStripsASystemWithoutUnknowns) {
+  BlockRequest request = requestOf();
+  request.settings.fixed = {"2"};
+  const SurveyBlock block = chosen(planes({0.0, 0.1, 0.2}), request);
+  EXPECT_EQ(block.systems.count, 2);
+  EXPECT_EQ(block.systems.of(0), 0);
+  EXPECT_EQ(block.systems.of(1), 1);
+  ASSERT_EQ(block.systems.held.size(), 1U);
+  EXPECT_EQ(block.systems.held[0].offset, request.settings.fixed_sigma);
+  EXPECT_EQ(block.strips.corrected(), (std::vector<bool>{true, false, true}));
+}
+
+TEST(PairSet, HasTheDistancesBetweenTheStrips) {
+  const HandMadeBlock given = planes({0.0, 0.1});
+  const SurveyBlock block = chosen(given);
+  AreaSample sample(block);
+  load(given, sample);
+  const PairSet pairs = formPairs(sample, {SystemVector::Zero(), {}, ErrorSourceVector::Zero()},
+                                  PairRules());
+  ASSERT_GT(pairs.count(), 1000U);
+  for (const AreaObservations& area : pairs.observations) {
+    for (const PairObservation& o : area) {
+      EXPECT_NEAR(o.misclosure, o.a == 0 ? -0.1 : 0.1, 1e-9);
+      EXPECT_NEAR(o.normal.z(), 1.0, 1e-9);
+      EXPECT_NEAR(o.height, kHeight, 0.2);
+      // n'A of the lever arm and of the range: the height; the same for both strips.
+      EXPECT_NEAR(o.row_a[indexOf(P::lever_arm_z)], 1.0, 1e-6);
+      EXPECT_NEAR(o.row()[indexOf(P::lever_arm_z)], 0.0, 1e-6);
+    }
+  }
+  // Nothing lies farther apart.
+  for (const AreaObservations& area : pairs.far) EXPECT_TRUE(area.empty());
+}
+
+TEST(PairSet, KeepsPairsBeyondTheThresholdApart) {
+  const HandMadeBlock given = planes({0.0, 0.1});
+  const SurveyBlock block = chosen(given);
+  AreaSample sample(block);
+  load(given, sample);
+  PairRules rules;
+  rules.threshold = 0.05;
+  PairSet pairs = formPairs(sample, {}, rules);
+  EXPECT_EQ(pairs.count(), 0U);
+  addFarPairs(sample, {}, pairs);
+  EXPECT_GT(pairs.count(), 1000U);
+}
+
+TEST(PairSet, IsThatOfCorrectedPoints) {
+  // The strips are of two systems, and the coordinates of the second one are corrected.
+  const HandMadeBlock given = planes({0.0, 0.1});
+  BlockRequest request = requestOf();
+  request.settings.systems = {{"a", {"1"}}, {"b", {"2"}}};
+  const SurveyBlock block = chosen(given, request);
+  AreaSample sample(block);
+  load(given, sample);
+  Corrections corrections;
+  corrections.differences.assign(2, SystemUnknowns::Zero());
+  corrections.differences[1][kSystemUnknownCount - 1] = 0.1;  // its heights are too large
+  const PairSet pairs = formPairs(sample, corrections, PairRules());
+  ASSERT_GT(pairs.count(), 1000U);
+  for (const AreaObservations& area : pairs.observations) {
+    for (const PairObservation& o : area) {
+      // The misclosure contains the effect of what the points were corrected for.
+      EXPECT_NEAR(o.misclosure, o.a == 0 ? -0.1 : 0.1, 1e-6);
+    }
+  }
+}
+
+TEST(PairSet, IsOutdatedAfterAMovementOfACentimetre) {
+  PairSet pairs;
+  pairs.moved = 0.009;
+  EXPECT_FALSE(pairs.isOutdated());
+  pairs.moved = 0.011;
+  EXPECT_TRUE(pairs.isOutdated());
+}
+
+TEST(PairSet, NamesTheAreasWhoseObservationsHaveAWeight) {
+  PairSet pairs;
+  PairObservation height, plan;
+  plan.control_error = PairObservation::ControlError::plan;
+  pairs.observations = {{height, plan}, {height}, {plan}};
+  const std::vector<AreaUse> used = pairs.used({{1.0, 0.0}, {0.0}, {2.0}});
+  EXPECT_TRUE(used[0].heights && !used[0].plan);
+  EXPECT_TRUE(!used[1].heights && !used[1].plan);
+  EXPECT_TRUE(!used[2].heights && used[2].plan);
+}
+
+TEST(BlockSolution, AttributesAnOffsetBetweenOppositeStripsToTheirErrors) {
+  // Two parallel planes: nothing tells parameters of the system, and all of the offset is an error
+  // of the strips. Robust weights are those of observations without outliers.
+  const HandMadeBlock given = planes({0.0, 0.02});
+  const SurveyBlock block = chosen(given);
+  AreaSample sample(block);
+  load(given, sample);
+  const PairSet pairs = formPairs(sample, {}, PairRules());
+  const SharedErrors errors(block.flownTimes(), block.settings().shared_errors,
+                            measuredTimes(sample), block.systems);
+  BlockSolution solution(errors, 1);
+  ChoiceRules rules{block.settings(), false, false, {}};
+  adjust(pairs, rules, true, solution);
+  EXPECT_TRUE(solution.choice.estimate.empty());
+  weigh(pairs, true, 1, solution);
+  EXPECT_EQ(solution.weights.kept(), pairs.count());
+  double largest = 0.0;
+  for (const AreaObservations& area : pairs.observations)
+    for (const PairObservation& o : area)
+      largest = std::max(largest,
+                         std::abs(solution.adjustment.residual(o, solution.solution())));
+  EXPECT_LT(largest, 0.002);
+}
+
+TEST(BlockSolution, GivesAnOutlierNoWeight) {
+  HandMadeBlock given = planes({0.0, 0.02});
+  const SurveyBlock block = chosen(given);
+  AreaSample sample(block);
+  load(given, sample);
+  PairSet pairs = formPairs(sample, {}, PairRules());
+  pairs.observations[0][0].misclosure += 1.0;
+  const SharedErrors errors(block.flownTimes(), block.settings().shared_errors,
+                            measuredTimes(sample), block.systems);
+  BlockSolution solution(errors, 1);
+  const ChoiceRules rules{block.settings(), false, true, {}};
+  adjust(pairs, rules, true, solution);
+  weigh(pairs, true, 1, solution);
+  EXPECT_EQ(solution.weights.weights()[0][0], 0.0);
+  EXPECT_EQ(solution.weights.kept(), pairs.count() - 1);
+}
+
+}  // namespace
+}  // namespace pcl_als
