@@ -118,7 +118,7 @@ void AreaSample::forAreas(const std::function<void(std::size_t area)>& work) con
   });
 }
 
-void AreaSample::chooseCandidates() {
+AreaSample::Candidates AreaSample::candidates() const {
   const auto counts = collect<std::size_t>([&](std::size_t area, std::vector<std::size_t>& count) {
     count.push_back(matchers_[area].stripCount());
   });
@@ -131,18 +131,18 @@ void AreaSample::chooseCandidates() {
     strips += count;
     if (count > 0) pairs += count * (looks * count - 1);
   }
-  candidates_ = pcl_als::candidatesPerStrip(block_.settings().candidates, strips, pairs);
-  expected_pairs_ = candidates_ * pairs;
+  const std::size_t per_strip = candidatesPerStrip(block_.settings().candidates, strips, pairs);
+  return {per_strip, per_strip * pairs};
 }
 
 Warnings AreaSample::prepare() {
   const Warnings warnings = distributeRounded();
-  chooseCandidates();
+  const std::size_t candidates = this->candidates().per_strip;
   const CalibrationSettings& settings = block_.settings();
   const auto roughness = collect<double>([&](std::size_t i, std::vector<double>& values) {
     const bool control = block_.isControl(i);
     if (block_.scanner.rosette && !control) matchers_[i].evenOut();
-    matchers_[i].prepare(settings.patches, control ? 0 : candidates_, settings.resolution,
+    matchers_[i].prepare(settings.patches, control ? 0 : candidates, settings.resolution,
                          block_.trajectory());
     matchers_[i].collectRoughness(values);
   });

@@ -190,7 +190,7 @@ BlockEstimate startOf(AreaSample& sample) {
   estimate.scale.about_axis = block.scanner.about_axis;
   PairRules& rules = estimate.pairs.rules;
   rules.threshold = settings.max_normal_distance;
-  rules.sampling = std::max<std::size_t>(1, sample.expectedPairs() / kEnoughForMisfit);
+  rules.sampling = std::max<std::size_t>(1, sample.candidates().pairs / kEnoughForMisfit);
   formAgain(sample, estimate);
   const double offset = settings.diagnose ? startingOffset(sample, estimate.pairs) : 0.0;
   if (offset == 0.0) return estimate;

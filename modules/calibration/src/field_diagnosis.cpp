@@ -78,7 +78,7 @@ std::vector<AreaObservations> observationsOf(const FieldDivision& division,
   const std::vector<StripPair> pairs = pairsOfParts(division, block);
   // Every part forms pairs with every part of another strip: about as many in all as whole strips.
   const std::size_t candidates = std::max(
-      kLeastCandidates, sample.candidatesPerStrip() / (division.parts() * division.parts()));
+      kLeastCandidates, sample.candidates().per_strip / (division.parts() * division.parts()));
   return sample.collect<PairObservation>([&](std::size_t i, AreaObservations& found) {
     if (block.isControl(i)) return;
     AreaMatcher matcher =

@@ -52,10 +52,12 @@ class AreaSample {
   /// Builds the TINs and chooses the points for which patches are searched. Returns warnings on
   /// rounded coordinates.
   Warnings prepare();
-  /// Points of a strip in an area for which patches are searched, and the pairs that all may form;
-  /// after prepare().
-  std::size_t candidatesPerStrip() const { return candidates_; }
-  std::size_t expectedPairs() const { return expected_pairs_; }
+  /// Points for which patches are searched.
+  struct Candidates {
+    std::size_t per_strip = 0;  ///< in an area
+    std::size_t pairs = 0;      ///< that all of them may form
+  };
+  Candidates candidates() const;  ///< collective
 
   /// Lets the points be those corrected for these values.
   void correct(const Corrections& corrections);
@@ -82,13 +84,11 @@ class AreaSample {
   }
 
  private:
-  void chooseCandidates();
   Warnings distributeRounded();
 
   const SurveyBlock& block_;
   AreaIndex index_;
   std::vector<AreaMatcher> matchers_;
-  std::size_t candidates_ = 0, expected_pairs_ = 0;
   Corrections corrected_;  ///< of the points
   Communicator* processes_ = nullptr;
   SharedItems shares_;             ///< which processes form the pairs of an area
