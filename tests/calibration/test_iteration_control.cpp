@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 
 // The phases of the iteration, driven by hand.
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,7 +35,10 @@ class Driven {
   /// metres.
   IterationControl::Step step(double deviations, double metres, bool changes_components = false) {
     const IterationControl::Step step = control_.next(!pairs_.rules.selected);
-    if (step.all_pairs) pairs_.rules.selected = false;
+    // Pairs that were just selected from all are to be formed.
+    const bool selects = settings_.pair_budget > 0 && (step.all_pairs || !pairs_.rules.selected);
+    pairs_.rules.selected = selects || pairs_.rules.selected;
+    if (selects) pairs_.moved = HUGE_VAL;
     const SystemVector before = solution_.solution().biases;
     solution_.choice.solution.biases[indexOf(P::boresight_roll)] += deviations;
     if (step.components) {
@@ -43,6 +47,7 @@ class Driven {
       control_.recordComponents(SharedErrorLevels(), levels);
     }
     control_.record(before, {metres, metres, 0.0}, pairs_, solution_);
+    if (selects) pairs_.moved = 0.0;
     return step;
   }
 
@@ -146,12 +151,10 @@ TEST(IterationControl, SelectsPairsAgainBeforeItEnds) {
   Driven iteration(settings);
   iteration.step(100.0, 1.0);
   iteration.step(1.0, 0.001);
-  iteration.step(0.01, 1e-5);
-  iteration.pairs().rules.selected = true;
-  iteration.step(0.01, 1e-5);
+  EXPECT_TRUE(iteration.step(0.01, 1e-5).all_pairs);   // components are those of all pairs
+  EXPECT_FALSE(iteration.step(0.01, 1e-5).all_pairs);  // a negligible update of the selection
   EXPECT_FALSE(iteration.control().isConverged());
-  EXPECT_TRUE(iteration.step(0.01, 1e-5).all_pairs);  // the selection is made from all
-  iteration.pairs().rules.selected = true;
+  EXPECT_TRUE(iteration.step(0.01, 1e-5).all_pairs);  // the final selection is made from all
   EXPECT_FALSE(iteration.control().isConverged());
   EXPECT_FALSE(iteration.step(0.01, 1e-5).all_pairs);
   EXPECT_TRUE(iteration.control().isConverged());
@@ -159,8 +162,8 @@ TEST(IterationControl, SelectsPairsAgainBeforeItEnds) {
 
 TEST(IterationControl, SaysWhatStillChanges) {
   Driven iteration;
-  EXPECT_EQ(iteration.control().reasonNotConverged(BlockSolution(
-                SharedErrors({{0.0, 10.0}}, SharedErrorModel()), 1)),
+  EXPECT_EQ(iteration.control().reasonNotConverged(
+                BlockSolution(SharedErrors({{0.0, 10.0}}, SharedErrorModel()), 1)),
             "no point has a patch in another strip or at control");
 }
 

@@ -36,7 +36,8 @@ void measureStrips(const std::vector<AreaObservations>& observations,
 }
 
 /// Surfaces that are held fixed become control in the pairs, which then are to be formed anew.
-AdjustedSurvey adjustedSurvey(const SurveyBlock& block, const BlockSolution& solution, PairSet& pairs) {
+AdjustedSurvey adjustedSurvey(const SurveyBlock& block, const BlockSolution& solution,
+                              PairSet& pairs) {
   AdjustedSurvey adjusted;
   const std::vector<TimeSpan> spans = block.flownTimes();
   for (std::size_t i = 0; i < block.strips.size(); ++i) {

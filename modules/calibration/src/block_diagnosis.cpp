@@ -48,8 +48,8 @@ void addJump(const std::vector<JumpSearch::Strip>& strips, const BlockEstimate& 
 }
 
 /// An error of the scan angle as a function of it.
-void diagnoseAngles(const SurveyBlock& block, const BlockEstimate& estimate, const ScanGeometry& edge,
-                    CalibrationResult& result) {
+void diagnoseAngles(const SurveyBlock& block, const BlockEstimate& estimate,
+                    const ScanGeometry& edge, CalibrationResult& result) {
   const CalibrationSettings& settings = block.settings();
   // Other beams have no single angle, and parts of such blocks have parameters of their own.
   if (!result.converged || !block.scanner.isLinear() || !block.trajectory().scanPlanes().empty() ||
@@ -110,7 +110,8 @@ void warnOfTargets(const AreaSample& sample, CalibrationResult& result) {
                               "): " + listedNames(list));
 }
 
-void assessControl(const SurveyBlock& block, const BlockEstimate& estimate, CalibrationResult& result) {
+void assessControl(const SurveyBlock& block, const BlockEstimate& estimate,
+                   CalibrationResult& result) {
   const ControlConsistency control(result.control_points);
   SystemVector spread = SystemVector::Zero();
   if (control.two_groups) {
@@ -131,7 +132,8 @@ void assessControl(const SurveyBlock& block, const BlockEstimate& estimate, Cali
   judgeControl(control, spread, result);
 }
 
-void assessParts(const SurveyBlock& block, const BlockEstimate& estimate, CalibrationResult& result) {
+void assessParts(const SurveyBlock& block, const BlockEstimate& estimate,
+                 CalibrationResult& result) {
   const BlockSolution& solution = estimate.solution;
   if (solution.choice.estimate.empty()) return;
   AreaAdjustment adjustment{solution.adjustment, {}, {}, solution.choice.estimate};

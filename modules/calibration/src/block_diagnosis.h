@@ -17,11 +17,12 @@ namespace pcl_als {
 // Surfaces that are held fixed.
 
 /// The fit of the held surfaces for some biases: \a after selects the values that are set.
-void addHeldFit(const SurveyBlock& block, const PairSet& pairs, const SystemVector& biases, bool after,
-                CalibrationResult& result);
+void addHeldFit(const SurveyBlock& block, const PairSet& pairs, const SystemVector& biases,
+                bool after, CalibrationResult& result);
 /// The height of each held surface above the rest of the block, by an adjustment in which it is
 /// unknown, with its judgement.
-void checkHeldHeights(const SurveyBlock& block, const BlockSolution& solution, CalibrationResult& result);
+void checkHeldHeights(const SurveyBlock& block, const BlockSolution& solution,
+                      CalibrationResult& result);
 /// Lets observations be those of a block without held surfaces: these become control.
 void replaceHeld(const BlockStrips& strips, std::vector<AreaObservations>& observations);
 
@@ -39,7 +40,8 @@ void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
 void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,
                     const ScanGeometry& edge, CalibrationResult& result);
 /// Parameters that differ between halves of the block.
-void assessParts(const SurveyBlock& block, const BlockEstimate& estimate, CalibrationResult& result);
+void assessParts(const SurveyBlock& block, const BlockEstimate& estimate,
+                 CalibrationResult& result);
 /// Strips that do not fit the others.
 void diagnoseStrips(const SurveyBlock& block, CalibrationResult& result);
 
@@ -48,6 +50,7 @@ void diagnoseStrips(const SurveyBlock& block, CalibrationResult& result);
 /// The strips that cover a target that was not located there. Collective.
 void warnOfTargets(const AreaSample& sample, CalibrationResult& result);
 /// Residuals of control, and the parameters that depend on contradictory control.
-void assessControl(const SurveyBlock& block, const BlockEstimate& estimate, CalibrationResult& result);
+void assessControl(const SurveyBlock& block, const BlockEstimate& estimate,
+                   CalibrationResult& result);
 
 }  // namespace pcl_als

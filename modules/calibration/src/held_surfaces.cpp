@@ -29,8 +29,8 @@ std::string metres(const char* format, double value) {
 
 }  // namespace
 
-void addHeldFit(const SurveyBlock& block, const PairSet& pairs, const SystemVector& biases, bool after,
-                CalibrationResult& result) {
+void addHeldFit(const SurveyBlock& block, const PairSet& pairs, const SystemVector& biases,
+                bool after, CalibrationResult& result) {
   const BlockStrips& strips = block.strips;
   std::vector<RunningStatistics> fits(strips.held.size());
   for (const AreaObservations& area : pairs.observations) {

@@ -114,8 +114,8 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
 
 /// First pass over all points.
 SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
-              const BlockRequest& request, const References& references,
-              const SurveyObserver& observer) {
+                    const BlockRequest& request, const References& references,
+                    const SurveyObserver& observer) {
   BlockIndex index(flight, survey.corner());
   for (const std::string& id : survey.strips()) index.addStrip(id);
   for (const ReferenceSource& reference : references.sources) index.addReference(reference.surface);
