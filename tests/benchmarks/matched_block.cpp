@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/survey/area_index.h>

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/area_sample.h>
 #include <pcl_als/calibration/block.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/errors.h>
 
 #include "area_matcher.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/orientation_classes.h>
 #include <pcl_als/trajectory/source_effect.h>

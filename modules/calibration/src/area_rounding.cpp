@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include <pcl_als/calibration/area_sample.h>
+#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/coordinate_steps.h>
 #include <pcl_als/common/statistics.h>
 

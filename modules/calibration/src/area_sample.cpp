@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/area_sample.h>
-#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/block_calibration.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include <pcl_als/calibration/area_sample.h>
+#include <pcl_als/calibration/block_calibration.h>
 
 #include "block_solution.h"
 #include "iteration_control.h"

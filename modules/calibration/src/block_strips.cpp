@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/block_strips.h>
+#include <pcl_als/calibration/block.h>
 #include <pcl_als/common/errors.h>
 
 namespace pcl_als {

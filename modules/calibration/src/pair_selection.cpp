@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/tin/orientation_classes.h>
 

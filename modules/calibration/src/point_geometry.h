@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/trajectory/source_effect.h>
 
 #include "area_matcher.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/area_sample.h>
+#include <pcl_als/calibration/block_calibration.h>
 
 #include "area_matcher.h"
 

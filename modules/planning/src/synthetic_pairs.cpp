@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include <pcl_als/calibration/pairing_rules.h>
+#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/planning/synthetic_pairs.h>
 #include <pcl_als/tin/orientation_classes.h>
 

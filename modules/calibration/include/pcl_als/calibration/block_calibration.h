@@ -2,14 +2,103 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/area_sample.h>
+#include <pcl_als/calibration/block.h>
 #include <pcl_als/common/calibration_result.h>
+#include <pcl_als/common/shared_vectors.h>
+#include <pcl_als/common/shared_work.h>
+#include <pcl_als/survey/area_index.h>
 
 namespace pcl_als {
+
+class AreaMatcher;
+
+/// What the coordinates of points are corrected for.
+struct Corrections {
+  SystemVector biases = SystemVector::Zero();  ///< of the first system
+  std::vector<SystemUnknowns> differences;     ///< of the systems to the first one
+  ErrorSourceVector sources = ErrorSourceVector::Zero();
+
+  bool isZero() const;
+  bool operator==(const Corrections& other) const {
+    return biases == other.biases && differences == other.differences && sources == other.sources;
+  }
+};
+
+/** \brief The points of the chosen areas with the TINs of every strip in each of them: the result
+ * of the second pass over all points.
+ *
+ * Points of different strips may be added from several threads, then distribute() (with several
+ * processes) and prepare() are called once. Memory: about 200 bytes per point in an area.
+ */
+class AreaSample {
+ public:
+  /// \param block must exist as long as this object.
+  explicit AreaSample(const SurveyBlock& block);
+  ~AreaSample();
+  AreaSample(const AreaSample&) = delete;
+  AreaSample& operator=(const AreaSample&) = delete;
+
+  /// Points of a strip, ground frame; those outside the areas are ignored.
+  void add(int strip, const LidarReturn* points, std::size_t count);
+  /// Collective: gives each process the points of its share of the areas. \a strips: which process
+  /// added which strips.
+  void distribute(Communicator* processes, const SharedItems& strips);
+  std::size_t pointCount() const;  ///< of all processes
+
+  /// Builds the TINs and chooses the points for which patches are searched. Returns warnings on
+  /// rounded coordinates.
+  Warnings prepare();
+  /// Points for which patches are searched.
+  struct Candidates {
+    std::size_t per_strip = 0;  ///< in an area
+    std::size_t pairs = 0;      ///< that all of them may form
+  };
+  Candidates candidates() const;  ///< collective
+
+  /// Lets the points be those corrected for these values.
+  void correct(const Corrections& corrections);
+  /// From now on pairs have the effects of all error sources.
+  void considerSources(const ErrorSourceScale& scale);
+
+  const SurveyBlock& block() const { return block_; }
+  const AreaMatcher& area(std::size_t index) const;
+  AreaMatcher& area(std::size_t index);
+  /// Does the work for the areas of this process, in parallel.
+  void forAreas(const std::function<void(std::size_t area)>& work) const;
+  /// Collective: for each area the vector to which \a work(area, vector) appends, in all processes.
+  template <typename T, typename Work>
+  std::vector<std::vector<T>> collect(const Work& work) const {
+    std::vector<std::vector<T>> found(block_.areas.size());
+    forAreas([&](std::size_t area) { work(area, found[area]); });
+    share(found);
+    return found;
+  }
+  /// Collective: gives all processes the vectors of all areas.
+  template <typename T>
+  void share(std::vector<std::vector<T>>& of_areas) const {
+    shareVectors(processes_, shares_, of_areas);
+  }
+
+ private:
+  Warnings distributeRounded();
+
+  const SurveyBlock& block_;
+  AreaIndex index_;
+  std::vector<AreaMatcher> matchers_;
+  Corrections corrected_;  ///< of the points
+  Communicator* processes_ = nullptr;
+  SharedItems shares_;             ///< which processes form the pairs of an area
+  std::size_t loaded_points_ = 0;  ///< of all processes
+};
+
+/// Times at which each strip was measured in the areas, a span for every crossing. Collective.
+std::vector<std::vector<TimeSpan>> measuredTimes(const AreaSample& sample);
 
 /// A strip as measured.
 struct FlownStrip {
