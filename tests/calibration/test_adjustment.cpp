@@ -182,7 +182,7 @@ struct DenseSystem {
           if (!o.mixed_times) break;
           SystemRow turn = SystemRow::Zero();
           turn.segment<3>(3) = vertex.turn.cast<double>();
-          place(o.b, o.time_b + vertex.after, turn, -double{vertex.weight});
+          place(o.b, vertex.time, turn, -double{vertex.weight});
         }
         row[instrument] = ranging ? o.sources[indexOf(ErrorSource::slope_ranging)] : 0.0;
         normal += row * row.transpose() / o.variance;
@@ -236,7 +236,7 @@ TEST(Adjustment, EqualsTheDenseSolutionForPatchesOfMixedTimes) {
                   second = static_cast<float>(uniform(random)) * (1.0F - first);
       const float weights[3] = {first, second, 1.0F - first - second};
       for (int k = 0; k < 3; ++k) {
-        o.vertices[k].after = static_cast<float>(20.0 * (uniform(random) - 0.5));
+        o.vertices[k].time = o.time_b + 20.0 * (uniform(random) - 0.5);
         o.vertices[k].weight = weights[k];
         for (int axis = 0; axis < 3; ++axis)
           o.vertices[k].turn[axis] = static_cast<float>(300.0 * (uniform(random) - 0.5));

@@ -24,6 +24,18 @@ TEST(TimeGaps, DivideSpans) {
             (Spans{{1.0, 18.9}, {29.0, 29.0}, {kDay, kDay}}));
 }
 
+/// The mean time of a patch of two days is that of neither.
+TEST(TimeGaps, LieBetweenTheVerticesOfPatches) {
+  PairObservation o;
+  o.time_b = 0.4 * kDay;
+  o.mixed_times = true;
+  o.vertices[0].time = 1.0;
+  o.vertices[1].time = kDay + 3.0;
+  o.vertices[2].time = kDay + 2.0;
+  using Spans = std::vector<TimeSpan>;
+  EXPECT_EQ(observedTimes({{o}}, 1), (std::vector<Spans>{{{1.0, 1.0}, {kDay + 2.0, kDay + 3.0}}}));
+}
+
 TEST(TimeGaps, HaveNoKnots) {
   constexpr double kLater = 44.0 * kDay;
   const SharedErrors errors({{0.0, kLater + 30.0}}, model(),

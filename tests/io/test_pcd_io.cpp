@@ -266,6 +266,7 @@ TEST(PcdReader, TheViewpointIsAPoseUnlessItCannotBe) {
            Case{"4", "1 2 3", "0 0 0 1 0 0 0", 1.0, ""},
            // What PCL leaves of a cloud with a frame, when it has other fields.
            Case{"4", "1 2 3", "583390 5283100 500 1 0 0 0", 583391.0, "origin of the coordinates"},
+           Case{"4", "1 2 3", "583390 5283100 500 0 0 0 0", 583391.0, "origin of the coordinates"},
            // A sensor in the midst of its points.
            Case{"4", "583000 5283000 3", "583390 5283100 500 1 0 0 0", 583000.0, "pose of the"},
            Case{"8", "1 2 3", "583390 5283100 500 1 0 0 0", 1.0, "pose of the sensor"},
@@ -320,7 +321,8 @@ const PcdFault kFaults[] = {
     {"NoCount", "FIELDS x\nSIZE 4\nTYPE F\nDATA ascii\n", "how many points"},
     {"NoZ", replaced(kHead, "y z", "y h") + kPoints, "no field z of type F"},
     {"IntegerX", replaced(kHead, "TYPE F", "TYPE I") + kPoints, "no field x of type F"},
-    {"FloatTime", replaced(kHead, "4 4 4 8", "4 4 4 4") + kPoints, "gps_time is not of type F 8"},
+    {"FloatTime", replaced(kHead, "4 4 4 8", "4 4 4 4") + kPoints,
+     "gps_time is of 4 bytes, not of 8"},
     {"SizesShort", replaced(kHead, "4 4 4 8", "4 4 4") + kPoints, "SIZE line has 3 entries for 4"},
     {"SizeWord", replaced(kHead, "4 4 4 8", "4 4 4 eight") + kPoints, "'eight' where a count"},
     {"SizeThree", replaced(kHead, "4 4 4 8", "4 4 3 8") + kPoints, "type F of 3 bytes"},

@@ -135,6 +135,9 @@ TEST(SurveyCensus, NumbersOfPulsesAreNoFlightLines) {
   const SurveyCensus survey = takeCensus({write(folder / "a.las", {points})});
   EXPECT_TRUE(has(survey.remarks, "there are 1 500 point source ids", Remedy::split));
   EXPECT_FALSE(has(survey.remarks, "recorded at the times", Remedy::split));
+  // A million pairs of them, or a thousand million of what number pulses, tell nothing.
+  EXPECT_TRUE(survey.overlaps.empty());
+  EXPECT_FALSE(has(survey.remarks, "no two strips overlap"));
 }
 
 TEST(SurveyCensus, ChannelsOfTheScannerAreNamed) {
@@ -210,9 +213,17 @@ TEST(SurveyCensus, SaysWhatIsSuspiciousAboutTimes) {
                   "1 point (0.0625 %) has GPS time zero"));
   EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = NAN; }, week),
                   "GPS time that is no number"));
-  EXPECT_TRUE(has(remarksFor(keep, standard), "look like seconds of the week"));
+  EXPECT_TRUE(has(remarksFor(keep, standard), "look like seconds of the GPS week"));
   EXPECT_TRUE(has(remarksFor([](PointChunk& p) { p.gps_time[3] = 3e8; }, week),
-                  "probably adjusted standard time"));
+                  "look like adjusted standard GPS time"));
+  const auto shifted = [](double by) {
+    return [by](PointChunk& p) {
+      for (double& time : p.gps_time) time += by;
+    };
+  };
+  EXPECT_TRUE(has(remarksFor(shifted(1.39e9), week),
+                  "look like GPS seconds (2024-01-22), not like seconds of the GPS week"));
+  EXPECT_TRUE(has(remarksFor(shifted(1.39e9), standard), "not like adjusted standard GPS time"));
   EXPECT_TRUE(remarksFor(keep, week).empty());
 }
 

@@ -58,7 +58,7 @@ TEST(TrajectoryCsv, AnglesBecomeRadians) {
 
 TEST(TrajectoryCsv, AcceptsEverySeparatorAndLineEnd) {
   for (const std::string separator : {",", ";", "\t", " ", "   ", " , "}) {
-    for (const std::string end : {"\n", "\r\n"}) {
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
       std::string text = "Time,\"X\",y,Z";
       text += end + "401000.005,700402.3197,5661069.72,-2.5" + end + "401000.01,+1e5,2,3" + end;
       std::string replaced;
@@ -107,6 +107,15 @@ TEST(TrajectoryCsv, SkipsByteOrderMarkCommentsAndEmptyLines) {
   expectTwoSamples(
       readTrajectory(file("\xEF\xBB\xBF# made by hand\n\ntime,x,y,z\n# first\n"
                           "401000.005,700402.3197,5661069.72,-2.5,\n\n401000.01,1e5,2,3")));
+  for (const std::string mark : {"#", "%", "//", "% ", "// "}) {
+    SCOPED_TRACE(mark);
+    const std::string records =
+        "401000.005 700402.3197 5661069.72 -2.5\n401000.01 1e5 2 3\n" + mark + "the end\n";
+    expectTwoSamples(readTrajectory(file(mark + "flight 7\ntime x y z\n" + records)));
+    expectTwoSamples(readTrajectory(file(mark + "time x y z\n" + records)));
+    EXPECT_NE(refusal(mark + "flight 7\n" + records).find("line 2 holds 4 numbers"),
+              std::string::npos);
+  }
 }
 
 TEST(TrajectoryCsv, UnknownAttitudeIsNan) {

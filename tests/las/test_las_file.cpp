@@ -8,6 +8,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/point_flag.h>
+#include <pcl_als/crs/crs.h>
 #include <pcl_als/las/las_file.h>
 
 #include "las_bytes.h"
@@ -181,6 +182,16 @@ TEST(LasFile, CodesThatProjDoesNotKnowAreNoCrs) {
   EXPECT_EQ(infoWith({{1024, 1}, {3072, 65535}}, "PROJCS[x]").crs, "PROJCS[x]");
   EXPECT_EQ(infoWith({{1024, 1}}, "''").crs, "");
   EXPECT_EQ(infoWith({{1024, 1}}, "''").crs_ignored, "");
+  EXPECT_EQ(infoWith({{1024, 1}}, "EPSG:65535").crs_ignored, "EPSG:65535 is not known to PROJ");
+  EXPECT_EQ(infoWith({{1024, 1}, {3072, 32767}, {3075, 99}}).crs_ignored,
+            "the definition in its GeoTIFF keys is not known");
+}
+
+TEST(LasFile, AnEmptyWktHidesNoOther) {
+  LasBytes las;
+  las.vlrs = {LasBytes::vlr("LASF_Projection", 2112, std::string(1, '\0')),
+              LasBytes::vlr("LASF_Projection", 2112, "PROJCS[x]")};
+  EXPECT_EQ(LasFile(put("wkts.las", las.str())).crs(), "PROJCS[x]");
 }
 
 TEST(LasFile, ACrsThatTheCoordinatesContradictIsIgnored) {
@@ -192,6 +203,12 @@ TEST(LasFile, ACrsThatTheCoordinatesContradictIsIgnored) {
   EXPECT_EQ(geocentric.crs_kind, CrsKind::unknown);
   EXPECT_NE(geocentric.crs_ignored.find("is geocentric"), std::string::npos);
   EXPECT_EQ(infoWith({{1024, 3}}, {}, delft).crs_kind, CrsKind::geocentric);
+  EXPECT_EQ(infoWith({{1024, 3}, {2048, 4978}}, {}, delft).crs, "EPSG:4978");
+  // Whichever of two records the encoding prefers.
+  const PointFileInfo right = infoWith({{1024, 2}, {2048, 4326}}, crsAsWkt("EPSG:32632"), utm);
+  EXPECT_EQ(right.crs, crsAsWkt("EPSG:32632"));
+  EXPECT_EQ(right.crs_kind, CrsKind::projected);
+  EXPECT_NE(right.crs_ignored.find("EPSG:4326 is in degrees"), std::string::npos);
 }
 
 TEST(LasFile, RecognisesAUtmZoneThatIsSpelledOut) {

@@ -201,6 +201,31 @@ TEST(LasVersion, RefusesWhatAVersionCannotHold) {
   EXPECT_EQ(at<std::uint16_t>(converted(week, "a.las", {5, {}}), kEncodingAt), 16);
 }
 
+/// What PROJ does not know stays, and keys under the encoding of a WKT become one.
+TEST(LasVersion, KeepsTheCrs) {
+  LasBytes las;
+  las.encoding = 1 | 16;
+  las.vlrs = {LasBytes::vlr("LASF_Projection", 2112, "PROJCS[x]")};
+  const auto path = test::scratch("las_version_crs") / "newer.las";
+  convertLasVersion(LasFile(put("text.las", las.str())), path, {5, {}});
+  EXPECT_EQ(LasFile(path).crs(), "PROJCS[x]");
+  EXPECT_EQ(converted(LasFile(path), "back.las", {4, {}}), las.str());
+  test::Bytes keys;  // a transverse Mercator projection of its own
+  keys.u16(1).u16(1).u16(0).u16(7);
+  for (const auto& [key, value] : std::initializer_list<std::pair<unsigned, unsigned>>{
+           {1024, 1}, {2048, 4258}, {3072, 32767}, {3074, 32767}, {3075, 1}})
+    keys.u16(key).u16(0).u16(1).u16(value);
+  keys.u16(3080).u16(34736).u16(1).u16(0).u16(3082).u16(34736).u16(1).u16(1);
+  las.vlrs = {LasBytes::vlr("LASF_Projection", 34735, keys.str()),
+              LasBytes::vlr("LASF_Projection", 34736, test::Bytes().f64(9.5).f64(5e5).str())};
+  const LasFile old(put("keys.las", las.str()));
+  convertLasVersion(old, path, {5, {}});
+  const LasFile newer(path);
+  ASSERT_EQ(newer.vlrs().size(), 1U);
+  EXPECT_EQ(newer.vlrs()[0].record_id, 2112);
+  EXPECT_NE(newer.crs().find("\"central_meridian\",9.5"), std::string::npos) << newer.crs();
+}
+
 TEST(LasVersion, ReadsPointsWithAWrongNumberOfVlrs) {
   for (const std::uint32_t announced : {2U, 4294967295U}) {
     LasBytes las;

@@ -108,6 +108,7 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, const
   o.tilt_variance = direction.variance;
   o.design = (-foot.design).cast<float>();
   o.row_b = o.normal.transpose() * foot.design;
+  keepVertices(foot, o);
   o.misclosure = o.normal.dot(point.position - foot.position) -
                  o.effectAtPatch(corrected_for_[static_cast<std::size_t>(part.strip)]);
   o.sources = -foot.sourcesAlong(o.normal);

@@ -235,8 +235,7 @@ void AreaMatcher::keepVertices(const PointGeometry& foot, PairObservation& obser
   if (!observation.mixed_times) return;
   for (std::size_t i = 0; i < foot.vertices.size(); ++i) {
     const PointGeometry::AtVertex& vertex = foot.vertices[i];
-    observation.vertices[i] = {static_cast<float>(vertex.time - foot.time),
-                               static_cast<float>(vertex.weight),
+    observation.vertices[i] = {vertex.time, static_cast<float>(vertex.weight),
                                (observation.normal.transpose() * vertex.turn).cast<float>()};
   }
 }

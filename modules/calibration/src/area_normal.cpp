@@ -59,7 +59,7 @@ void forKnots(const Side& side, const PairObservation& o, const SharedErrors& er
   }
   for (const PairObservation::Vertex& vertex : o.vertices) {
     effect << o.normal.transpose(), vertex.turn.cast<double>();
-    interpolate(side, side.time + vertex.after, side.sign * vertex.weight * effect, errors, add);
+    interpolate(side, vertex.time, side.sign * vertex.weight * effect, errors, add);
   }
 }
 

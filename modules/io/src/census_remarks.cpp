@@ -77,15 +77,19 @@ void remarkTimes(const PointFileInfo& info, const PointStatistics& s, Warnings& 
     remarks.push_back("the times look like " + unix_time);
     return;
   }
+  if (lowerExtension(info.path) == ".pcd") return;  // declares none
+  const TimeScale declared =
+      info.time_kind == TimeKind::week_seconds ? TimeScale::week : TimeScale::adjusted;
   const bool in_week = s.first_time >= 0.0 && s.last_time <= kLastWeekSecond;
-  if (info.time_kind == TimeKind::week_seconds && !in_week)
-    remarks.push_back(
-        "the header declares seconds of the GPS week, but the times are not: probably "
-        "adjusted standard time with a header that does not say so");
-  if (info.time_kind == TimeKind::adjusted_standard && in_week)
-    remarks.push_back(
-        "the header declares adjusted standard GPS time, but all times look like "
-        "seconds of the week");
+  const TimeScale probable =
+      in_week ? TimeScale::week
+              : probableTimeScales({s.first_time, s.last_time}, info.time_kind).front();
+  if (probable == declared) return;
+  const std::string date =
+      in_week ? "" : dateText(s.first_time + gpsSecondsOffset(probable, s.first_time));
+  remarks.push_back("the times look like " + timeScaleName(probable) +
+                    (date.empty() ? "" : " (" + date + ")") + ", not like " +
+                    timeScaleName(declared) + ", as which they are declared");
 }
 
 void remarkHeader(const LasHeader& h, const PointStatistics& s, Warnings& remarks) {
@@ -240,14 +244,14 @@ void remarkStrip(StripCensus& strip, bool has_time) {
 
 /// Numbers that are not those of flight lines.
 void remarkIds(SurveyCensus& survey) {
-  constexpr std::size_t kMostLines = 1000;  // of one survey
   const std::vector<StripCensus>& strips = survey.strips;
   const auto simultaneous = std::count_if(
       strips.begin(), strips.end(), [](const auto& s) { return s.recorded_with.has_value(); });
-  if (strips.size() > kMostLines) {
+  if (strips.size() > SurveyCensus::kMostLines) {
     survey.remarks.emplace_back("there are " + grouped(strips.size()) +
                                     " point source ids, more than a survey has flight lines: they "
-                                    "number something else, such as pulses",
+                                    "number something else, such as pulses; which of them overlap "
+                                    "is not examined",
                                 Remedy::split);
   } else if (simultaneous > 0) {
     const auto first = std::find_if(strips.begin(), strips.end(),
@@ -302,7 +306,8 @@ void addRemarks(SurveyCensus& survey) {
   if (survey.strips.size() == 1)
     survey.remarks.emplace_back("there is one strip only: nothing to compare it with",
                                 Remedy::split);
-  if (survey.strips.size() > 1 && survey.overlaps.empty())
+  if (survey.strips.size() > 1 && survey.strips.size() <= SurveyCensus::kMostLines &&
+      survey.overlaps.empty())
     survey.remarks.emplace_back("no two strips overlap");
 }
 

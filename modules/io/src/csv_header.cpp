@@ -25,10 +25,11 @@ bool anyNumber(const std::vector<std::string_view>& fields) {
 std::string_view withoutMark(std::string_view line, bool& comment) {
   const std::size_t first = line.find_first_not_of(" \t");
   comment = first != std::string_view::npos &&
-            std::string_view("#%*!").find(line[first]) != std::string_view::npos;
+            (std::string_view("#%*!").find(line[first]) != std::string_view::npos ||
+             line.substr(first, 2) == "//");
   if (!comment) return line;
   // An empty rest is one of the line, too: a view without characters has no address.
-  return line.substr(std::min(line.find_first_not_of("#%*! \t", first), line.size()));
+  return line.substr(std::min(line.find_first_not_of("#%*!/ \t", first), line.size()));
 }
 
 /// Where names are separated by blanks, a unit in brackets belongs to the name before it.

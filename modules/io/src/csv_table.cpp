@@ -134,18 +134,21 @@ void CsvTable::refuseHeader(const std::string& what) const {
 
 bool CsvTable::rawLine(std::string_view& line) {
   if (rest_.empty()) return false;
-  const std::size_t end = rest_.find('\n');
+  const std::size_t end = rest_.find_first_of("\r\n");
   line = rest_.substr(0, end);
-  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  rest_.remove_prefix(std::min(rest_.size(), line.size() + 1));
+  if (end != std::string_view::npos && line.data()[end] == '\r' && !rest_.empty() &&
+      rest_.front() == '\n')
+    rest_.remove_prefix(1);
   ++line_;
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return true;
 }
 
 bool CsvTable::nextLine(std::string_view& line) {
   while (rawLine(line)) {
     const std::string_view text = trimmed(line, kBlanks);
-    if (!text.empty() && text.front() != '#') return true;
+    if (!text.empty() && text.front() != '#' && text.front() != '%' && text.substr(0, 2) != "//")
+      return true;
   }
   return false;
 }

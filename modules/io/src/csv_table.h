@@ -19,9 +19,9 @@ bool isNumber(std::string_view text);
 /** \brief A text table with a header line, read record by record.
  *
  * Separator , ; tab or blanks, as the header has it; columns are found by name (case ignored,
- * quotes and blanks around a field dropped). A UTF-8 byte order mark, CRLF line ends, empty lines
- * and lines that begin with # are skipped. Every error is an InputError that names file, line and
- * column. A first line of numbers is refused as a record without a header.
+ * quotes and blanks around a field dropped). A UTF-8 byte order mark, CR and CRLF line ends, empty
+ * lines and lines that begin with #, % or // are skipped. Every error is an InputError that names
+ * file, line and column. A first line of numbers is refused as a record without a header.
  */
 class CsvTable {
  public:

@@ -19,7 +19,7 @@ bool LocalPointReader::read(PointChunk& chunk) {
   return more;
 }
 
-void LocalPointReader::survey(const Eigen::Vector3d& origin, bool has_times) {
+void LocalPointReader::survey(const Eigen::Vector3d& origin, bool has_times, double relative_step) {
   origin_ = origin;
   info_.crs_kind = describeCrs(info_.crs).kind;
   info_.point_count = 0;
@@ -40,7 +40,7 @@ void LocalPointReader::survey(const Eigen::Vector3d& origin, bool has_times) {
   info_.minimum = low + origin;
   info_.maximum = high + origin;
   const double largest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
-  info_.resolution.setConstant(std::max(1e-6, largest * std::ldexp(1.0, -23)));
+  info_.resolution.setConstant(std::max(1e-6, largest * relative_step));
   if (has_times) info_.time_kind = probableTimeKind(earliest, latest);
   rewind();
 }

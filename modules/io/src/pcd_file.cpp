@@ -97,12 +97,14 @@ struct Block {
   std::size_t countNoTimes() const {
     const PcdField* time = header.find("gps_time");
     if (time == nullptr) return 0;
+    const Element element = elementOf(*time);
     const PcdField* next = header.following(*time);
-    if (next != nullptr && (next->type != 'F' || next->size != sizeof(float))) next = nullptr;
+    if (next != nullptr && (time->type != 'F' || next->type != 'F' || next->size != sizeof(float)))
+      next = nullptr;
     std::size_t found = 0;
     for (const std::byte *at = records, *end = at + count * header.record_length; at != end;
          at += header.record_length)
-      if (isNoTime(secondsOfTime(elementAs<double>(at + time->offset))) ||
+      if (isNoTime(secondsOfTime(element(at + time->offset))) ||
           (next != nullptr && endsWithNext(at + time->offset, at + next->offset)))
         ++found;
     return found;
@@ -112,6 +114,9 @@ struct Block {
   template <typename T>
   T fitting(double value, const PcdField& field) const {
     if constexpr (std::is_floating_point_v<T>) return static_cast<T>(value);
+    // The same bytes under a signed type, as lasR writes point source ids above 32767.
+    if (value < 0.0 && field.type == 'I' && field.size == sizeof(T))
+      value += 1.0 + static_cast<double>(std::numeric_limits<T>::max());
     if (value >= 0.0 && value <= static_cast<double>(std::numeric_limits<T>::max()))
       return static_cast<T>(value);
     throw InputError(file + ": field " + field.name + " holds " + std::to_string(value) +
@@ -162,10 +167,10 @@ void PcdFile::checkFields() const {
       throw InputError(file_.name() + ": the PCD has no field " + axis + " of type F");
   }
   const PcdField* time = header_.find("gps_time");
-  if (time != nullptr && (time->type != 'F' || time->size != 8))
-    throw InputError(file_.name() +
-                     ": the PCD's gps_time is not of type F 8 (double); a float of week seconds "
-                     "has steps of 0.03 s, two metres of flight");
+  if (time != nullptr && time->size != 8)
+    throw InputError(file_.name() + ": the PCD's gps_time is of " + std::to_string(time->size) +
+                     " bytes, not of 8 (double); a float of week seconds has steps of 0.03 s, two "
+                     "metres of flight");
   if (channel_field_.empty() || header_.named(channel_field_) != nullptr) return;
   std::string names;
   for (const PcdField& field : header_.fields) names += (names.empty() ? "" : ", ") + field.name;
@@ -221,6 +226,11 @@ std::vector<std::string> PcdFile::remarks() const {
 void PcdFile::rewind() {
   records_ = openPcdRecords(file_, header_);
   position_ = 0;
+}
+
+double PcdFile::relativeStep() const {
+  const auto single = [this](const char* axis) { return header_.find(axis)->size == 4; };
+  return std::ldexp(1.0, single("x") || single("y") || single("z") ? -23 : -52);
 }
 
 bool PcdFile::read(std::size_t records, PointChunk& chunk) {

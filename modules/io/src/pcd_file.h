@@ -45,6 +45,8 @@ class PcdFile {
   const PcdHeader& header() const { return header_; }
   /// Metres, ground frame.
   const Eigen::Vector3d& origin() const { return origin_; }
+  /// Of the coordinates: that of single precision, or of double where all fields have it.
+  double relativeStep() const;
   bool hasTimes() const { return header_.find("gps_time") != nullptr && !times_are_averages_; }
   /// Why its times are not used (PointFileInfo::time_fault).
   std::string timeFault() const;

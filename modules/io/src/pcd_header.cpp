@@ -146,8 +146,7 @@ class HeaderParser {
     if (numbers.size() != 7 ||
         !std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
       fail("the PCD header's VIEWPOINT is not seven numbers");
-    header_.rotated =
-        numbers[3] != 1.0 || numbers[4] != 0.0 || numbers[5] != 0.0 || numbers[6] != 0.0;
+    header_.rotated = numbers[4] != 0.0 || numbers[5] != 0.0 || numbers[6] != 0.0;
     header_.viewpoint = {numbers[0], numbers[1], numbers[2]};
   }
 

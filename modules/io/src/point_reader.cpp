@@ -26,7 +26,7 @@ class PcdPointReader : public LocalPointReader {
     info_.corrections = file_.header().corrections;
     info_.format = std::string("PCD ") + file_.header().dataName();
     info_.time_fault = file_.timeFault();
-    survey(file_.origin(), file_.hasTimes());
+    survey(file_.origin(), file_.hasTimes(), file_.relativeStep());
   }
   std::vector<std::string> remarks() const override { return file_.remarks(); }
 

@@ -71,7 +71,8 @@ std::string assumption(const PointFileInfo& file) {
 /// What there is to say of a file's units (nothing of stated metres) and of earlier corrections.
 std::vector<std::string> remarksOf(const PointFileInfo& file) {
   std::vector<std::string> remarks;
-  if (!file.crs_ignored.empty()) remarks.push_back("its CRS is not used: " + file.crs_ignored);
+  if (!file.crs_ignored.empty())
+    remarks.push_back("a CRS that it states is not used: " + file.crs_ignored);
   if (!file.units.known())
     remarks.push_back(assumption(file));
   else if (!file.units.metric())

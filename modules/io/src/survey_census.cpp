@@ -246,8 +246,9 @@ class Census {
 
   void findOverlaps() {
     const double cell_area = survey_.cell * survey_.cell;
-    for (std::size_t a = 0; a < cells_.size(); ++a)
-      for (std::size_t b = a + 1; b < cells_.size(); ++b) {
+    const std::size_t lines = cells_.size() <= SurveyCensus::kMostLines ? cells_.size() : 0;
+    for (std::size_t a = 0; a < lines; ++a)
+      for (std::size_t b = a + 1; b < lines; ++b) {
         if (!boxesMeet(a, b)) continue;
         std::uint64_t shared = 0;
         const bool a_smaller = cells_[a].blockCount() < cells_[b].blockCount();

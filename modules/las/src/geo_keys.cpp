@@ -97,12 +97,15 @@ GeoKeys readGeoKeys(const std::vector<std::byte>& directory,
   const GeoKeyDirectory keys(directory, doubles);
   GeoKeys found;
   found.kind = kindOf(keys);
-  unsigned code = 0;  // a geocentric system's is that of its datum
+  unsigned code = 0;
   if (found.kind == CrsKind::projected) {
     code = keys.code(kProjected);
     if (code == 0 || code == kUserDefinedKey) code = utmCode(keys);
   } else if (found.kind == CrsKind::geographic) {
     code = keys.code(kGeographic);
+  } else if (found.kind == CrsKind::geocentric &&
+             describeCrs(epsg(keys.code(kGeographic))).kind == CrsKind::geocentric) {
+    code = keys.code(kGeographic);  // may be that of the datum's geographic system
   }
   found.crs = epsg(code);
   found.horizontal = statedUnit(keys, kProjectedUnit, kProjectedUnitSize);
@@ -111,6 +114,7 @@ GeoKeys readGeoKeys(const std::vector<std::byte>& directory,
   if (found.kind == CrsKind::projected && found.crs.empty())
     found.crs =
         userDefinedProjection(keys, found.horizontal ? found.horizontal->unit : LengthUnit());
+  found.unknown = found.crs.empty() && (keys.code(kProjected) != 0 || keys.code(kProjection) != 0);
   found.vertical = verticalUnit(keys);
   return found;
 }

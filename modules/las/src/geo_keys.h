@@ -23,6 +23,7 @@ struct GeoKeys {
   /// "EPSG:n", or WKT of a system whose projection is user-defined (userDefinedProjection());
   /// empty where the keys define none. UTM zones on WGS 84 that are spelled out have their code.
   std::string crs;
+  bool unknown = false;                  ///< whether they define one that is not known
   std::optional<StatedUnit> horizontal;  ///< keys 3076 and 3077; else 2052 and 2053
   std::optional<StatedUnit> vertical;    ///< key 4099; else that of the vertical CRS, key 4096
 };

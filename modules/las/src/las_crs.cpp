@@ -27,13 +27,19 @@ const LasVlrEntry* findRecord(const LasFile& file, std::uint16_t id) {
   return nullptr;
 }
 
-std::string wktOf(const LasFile& file) {
-  const LasVlrEntry* vlr = findRecord(file, kWktRecord);
-  if (vlr == nullptr) return {};
-  const std::vector<std::byte> bytes = file.payload(*vlr, kLargestRecord);
-  std::string wkt = textField(bytes.data(), bytes.size());
-  while (!wkt.empty() && std::isspace(static_cast<unsigned char>(wkt.back())) != 0) wkt.pop_back();
-  return usableCrs(wkt).crs;
+/// The first WKT record that can be used, as an empty one may stand before it.
+StatedCrs wktOf(const LasFile& file) {
+  StatedCrs stated;
+  for (const LasVlrEntry& vlr : file.vlrs()) {
+    if (vlr.user_id != kProjection || vlr.record_id != kWktRecord) continue;
+    const std::vector<std::byte> bytes = file.payload(vlr, kLargestRecord);
+    std::string wkt = textField(bytes.data(), bytes.size());
+    while (!wkt.empty() && std::isspace(static_cast<unsigned char>(wkt.back())) != 0)
+      wkt.pop_back();
+    stated = usableCrs(wkt);
+    if (!stated.crs.empty()) break;
+  }
+  return stated;
 }
 
 GeoKeys geoKeysOf(const LasFile& file) {
@@ -45,9 +51,10 @@ GeoKeys geoKeysOf(const LasFile& file) {
       doubles == nullptr ? std::vector<std::byte>() : file.payload(*doubles, kLargestRecord));
 }
 
-LasReference referenceOfWkt(const std::string& wkt) {
+LasReference referenceOfText(const std::string& wkt) {
   LasReference reference;
   reference.crs = wkt;
+  reference.by_wkt = true;
   reference.kind = describeCrs(wkt).kind;
   reference.units = unitsOfCrs(wkt, "WKT");
   return reference;
@@ -87,6 +94,7 @@ LasReference referenceOfKeys(const GeoKeys& keys) {
   reference.crs = std::move(stated.crs);
   reference.ignored = std::move(stated.ignored);
   reference.kind = keys.kind;
+  if (keys.unknown) reference.ignored = "the definition in its GeoTIFF keys is not known";
   // A code says more than the model type beside it.
   const CrsKind kind = describeCrs(reference.crs).kind;
   if (kind != CrsKind::unknown) reference.kind = kind;
@@ -146,13 +154,28 @@ bool hasStepsOfDegrees(const LasHeader& h) {
   return step <= kLargestStep && steps.z() >= kLeastRatio * step;
 }
 
+/// The records that the encoding does not prefer may tell what the others leave open.
+LasReference referenceOfWkt(const std::string& wkt, const GeoKeys& keys) {
+  LasReference reference = referenceOfText(wkt);
+  if (reference.kind == CrsKind::unknown && (!keys.crs.empty() || keys.horizontal)) {
+    const LasReference by_keys = referenceOfKeys(keys);
+    reference.kind = by_keys.kind;
+    reference.units = by_keys.units;
+  }
+  if (!reference.units.verticalKnown()) setVertical(keys, reference);
+  if (keys.horizontal && reference.units.known() &&
+      keys.horizontal->unit.metres != reference.units.horizontal.metres)
+    reference.units.source +=
+        "; " + keys.horizontal->source + " states " + keys.horizontal->unit.name + ", not used";
+  return reference;
+}
+
 /// A CRS that the coordinates contradict is not used.
 void checkCoordinates(const LasFile& file, LasReference& reference) {
   const bool degrees = reference.kind == CrsKind::geographic && !mayBeDegrees(file);
   if (degrees || (reference.kind == CrsKind::geocentric && !mayBeGeocentric(file))) {
-    const std::string stated = reference.crs.empty()
-                                   ? std::string(degrees ? "a geographic CRS" : "a geocentric CRS")
-                                   : shortCrsName(reference.crs);
+    const std::string stated =
+        reference.crs.empty() ? "the CRS of its GeoTIFF keys" : shortCrsName(reference.crs);
     reference = LasReference();
     reference.ignored =
         stated + (degrees ? " is in degrees, which the coordinates cannot be"
@@ -179,24 +202,21 @@ LasVlr wktRecord(const std::string& wkt) {
 
 LasReference readLasReference(const LasFile& file) {
   const bool prefers_wkt = (file.header().global_encoding & kLasWkt) != 0;
-  const std::string wkt = wktOf(file);
+  const StatedCrs wkt = wktOf(file);
   const GeoKeys keys = geoKeysOf(file);
-  const bool keys_tell = !keys.crs.empty() || keys.horizontal;
-  const bool by_wkt = !wkt.empty() && (prefers_wkt || usableCrs(keys.crs).crs.empty());
-  LasReference reference = by_wkt ? referenceOfWkt(wkt) : referenceOfKeys(keys);
-  // The records that the encoding does not prefer may tell what the others leave open.
-  if (by_wkt && reference.kind == CrsKind::unknown && keys_tell) {
-    const LasReference by_keys = referenceOfKeys(keys);
-    reference.kind = by_keys.kind;
-    reference.units = by_keys.units;
-  }
-  if (by_wkt && !reference.units.verticalKnown()) setVertical(keys, reference);
-  if (by_wkt && keys.horizontal && reference.units.known() &&
-      keys.horizontal->unit.metres != reference.units.horizontal.metres)
-    reference.units.source +=
-        "; " + keys.horizontal->source + " states " + keys.horizontal->unit.name + ", not used";
+  const bool has_keys = !usableCrs(keys.crs).crs.empty();
+  const bool by_wkt = !wkt.crs.empty() && (prefers_wkt || !has_keys);
+  LasReference reference = by_wkt ? referenceOfWkt(wkt.crs, keys) : referenceOfKeys(keys);
+  if (!by_wkt && reference.crs.empty() && !wkt.ignored.empty()) reference.ignored = wkt.ignored;
   checkCoordinates(file, reference);
-  return reference;
+  const bool has_other = by_wkt ? has_keys : !wkt.crs.empty();
+  if (!reference.crs.empty() || reference.ignored.empty() || !has_other) return reference;
+  // The coordinates contradict what the encoding prefers: the other record may be right.
+  LasReference other = by_wkt ? referenceOfKeys(keys) : referenceOfWkt(wkt.crs, keys);
+  checkCoordinates(file, other);
+  if (other.crs.empty()) return reference;
+  other.ignored = std::move(reference.ignored);
+  return other;
 }
 
 std::vector<LasVlr> lasCrsRecords(const std::string& crs, bool wkt_wanted) {

@@ -19,6 +19,7 @@ struct LasReference {
   CrsKind kind = CrsKind::unknown;
   LinearUnits units;
   std::string ignored;  ///< PointFileInfo::crs_ignored
+  bool by_wkt = false;  ///< whether the CRS is the text of a record
 };
 
 /** \brief Reads the reference of a file, as its global encoding prefers.
@@ -26,9 +27,9 @@ struct LasReference {
  * A unit that GeoTIFF keys state stands above the one that the EPSG code implies
  * (GeoTIFF 1.1, 7.5); the CRS is given with that unit then. Keys without a CRS do not replace the
  * WKT. A CRS in degrees is ignored for coordinates that cannot be degrees, a geocentric one for
- * coordinates that are not at the surface of the Earth; coordinates within the range of degrees
- * with steps of a micrometre at most, a thousandth of the step of the heights, are degrees where no
- * CRS says otherwise.
+ * coordinates that are not at the surface of the Earth, and the other record is used where it fits;
+ * coordinates within the range of degrees with steps of a micrometre at most, a thousandth of the
+ * step of the heights, are degrees where no CRS says otherwise.
  */
 LasReference readLasReference(const LasFile& file);
 

@@ -70,17 +70,17 @@ LasHeader headerOf(const LasFile& input, const LasVersion& version) {
   return h;
 }
 
-/// Replaces the records of the CRS that the version does not know.
+/// Replaces the records of the CRS that the version does not know, by WKT of PROJ. A text that PROJ
+/// does not know stays as it is.
 void replaceCrs(const LasFile& input, const LasVersion& version, detail::LasHead& head) {
-  const std::string crs = input.crs();
-  if (crs.empty()) return;
-  const bool has_wkt =
-      crs.compare(0, 5, "EPSG:") != 0 && (input.header().global_encoding & kLasWkt) != 0;
-  const std::string wkt = crsAsWkt(crs);
-  const bool is_wkt1 = version.minor >= 5 || crs.find("CRS[") == std::string::npos;
-  if (version.minor >= 5) detail::eraseVlrs(head, isGeoKeys);
-  if (has_wkt && is_wkt1) return;
-  if ((version.minor < 5 && !has_wkt) || wkt.empty()) return;
+  const detail::LasReference reference = detail::readLasReference(input);
+  const std::string& crs = reference.crs;
+  const bool is_wkt1 = crs.find("CRS[") == std::string::npos;
+  const bool stays = reference.by_wkt ? version.minor >= 5 || is_wkt1 : version.minor < 5;
+  const bool known = !crs.empty() && !describeCrs(crs).name.empty();
+  const std::string wkt = !stays && known ? crsAsWkt(crs) : std::string();
+  if (version.minor >= 5 && (reference.by_wkt || !wkt.empty())) detail::eraseVlrs(head, isGeoKeys);
+  if (wkt.empty()) return;
   const std::size_t at = detail::eraseVlrs(head, isWkt);
   for (const LasVlr& vlr : detail::lasCrsRecords(wkt, true))
     detail::insertVlr(head, at, serialiseLasVlr(vlr));

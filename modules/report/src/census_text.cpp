@@ -9,6 +9,7 @@
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/point_reference.h>
+#include <pcl_als/io/time_scale.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/report/census_report.h>
 
@@ -53,14 +54,19 @@ std::string extentText(const PointStatistics& s) {
                    s.maximum.z(), size.x(), size.y(), size.z());
 }
 
+/// The kind of the times by their values, which a header may contradict.
 std::string timeText(const PointFileInfo& info, const PointStatistics& s) {
   if (info.time_kind == TimeKind::none) return timeKindName(info.time_kind);
+  const std::string kind =
+      s.zero_times == s.points
+          ? timeKindName(info.time_kind)
+          : timeScaleName(probableTimeScales({s.first_time, s.last_time}, info.time_kind).front());
   // 1e9 s of adjusted standard time, and what is stored less than that.
   const std::string stored =
       info.time_shift == 0.0
           ? ""
           : formatted(" (stored with an offset of %.0f million s)", 1e3 + 1e-6 * info.time_shift);
-  return timeKindName(info.time_kind) + stored +
+  return kind + stored +
          formatted(", %.3f … %.3f (%.1f s)", s.first_time, s.last_time, s.last_time - s.first_time);
 }
 

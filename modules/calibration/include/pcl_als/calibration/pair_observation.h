@@ -49,16 +49,17 @@ struct PairObservation {
   int a = kControl, b = 0;
   Look look_a = Look::whole, look_b = Look::whole;    ///< of the strips' surfaces
   ControlError control_error = ControlError::height;  ///< of control only
-  std::int32_t point = -1;            ///< of strip a, in the area's TIN; -1 for control
-  double time_a = 0.0, time_b = 0.0;  ///< times of emission of the point and of the patch, seconds
+  std::int32_t point = -1;  ///< of strip a, in the area's TIN; -1 for control
+  /// Times of emission of the point and of the patch, seconds; the mean of its vertices.
+  double time_a = 0.0, time_b = 0.0;
   SystemRow row_a = SystemRow::Zero();  ///< n' A_A
   SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
   /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are held
   /// fixed, whose rows are zero.
   PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
-  /// A vertex of the patch; single precision, to limit memory.
+  /// A vertex of the patch.
   struct Vertex {
-    float after = 0.0F;                ///< its time of emission less time_b, seconds
+    double time = 0.0;                 ///< of emission, seconds
     float weight = 0.0F;               ///< of the interpolation at the point's foot
     PairTurn turn = PairTurn::Zero();  ///< n' A of the three boresight angles, or that of turn_b
   };

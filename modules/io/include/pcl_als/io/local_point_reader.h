@@ -20,9 +20,10 @@ class LocalPointReader : public PointReader {
 
  protected:
   /** \brief Fills info_ from all points; for the constructor of a derived class, which sets path,
-   * CRS, units and format itself. \param origin metres, ground frame
+   * CRS, units and format itself. \param origin metres, ground frame \param relative_step of the
+   * coordinates as they are stored
    */
-  void survey(const Eigen::Vector3d& origin, bool has_times);
+  void survey(const Eigen::Vector3d& origin, bool has_times, double relative_step);
 
   /// The next block of points relative to the origin, finite ones only (there may be none); false
   /// at the end.

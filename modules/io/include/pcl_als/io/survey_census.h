@@ -71,12 +71,13 @@ struct StripOverlap {
 
 /// What a set of point files holds.
 struct SurveyCensus {
-  static constexpr double kGap = 1.0;  ///< seconds
+  static constexpr double kGap = 1.0;              ///< seconds
+  static constexpr std::size_t kMostLines = 1000;  ///< flight lines of one survey
 
   PointWindow window;  ///< the part of the files that was read
   std::vector<FileCensus> files;
-  std::vector<StripCensus> strips;  ///< named and joined by StripNaming
-  std::vector<StripOverlap> overlaps;
+  std::vector<StripCensus> strips;     ///< named and joined by StripNaming
+  std::vector<StripOverlap> overlaps;  ///< empty for more than kMostLines strips
   std::vector<double> area_by_strips;  ///< m2 of cells seen by 1, 2, … strips
   double cell = 0.0;                   ///< metres
   std::uint64_t duplicates = 0;  ///< points equal to another in place, time, return and source id
