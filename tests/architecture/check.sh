@@ -20,7 +20,7 @@ declare -A may=(
   [survey]="common io trajectory" [tin]="common" [registration]="common adjustment tin"
   [calibration]="common adjustment trajectory survey tin registration" [radiometry]="common adjustment trajectory tin"
   [photogrammetry]="common adjustment tin"
-  [filters]="common trajectory tin radiometry"
+  [filters]="common las trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
   [planning]="common trajectory survey tin calibration"
   [processing]="common io trajectory survey registration calibration planning radiometry filters quality classification photogrammetry visualization simulation"

@@ -113,9 +113,9 @@ void integerRecords(benchmark::State& state) {
   }
   IntegerBiasCorrection::Layout layout;
   layout.record_length = kLength;
-  layout.time_position = 22;
-  layout.scale = Eigen::Vector3d::Constant(1e-3);
-  layout.offset = Eigen::Vector3d::Zero();
+  layout.fields = LasRecordLayout::of(6);
+  layout.metres.scale = Eigen::Vector3d::Constant(1e-3);
+  layout.metres.offset = Eigen::Vector3d::Zero();
   const IntegerBiasCorrection correction(
       "bench", SystemCorrection(biases(static_cast<int>(state.range(0))), flight()), layout);
   const std::vector<std::byte> original = records;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/errors.h>
@@ -59,6 +61,31 @@ TEST(SystemLookup, FindsTheSystemOfSourceIdsChannelsAndFiles) {
   EXPECT_THROW(lookup.of(1, 2), InputError);
   EXPECT_TRUE(SystemLookup().single());
   EXPECT_EQ(SystemLookup().of(77, 3), 0);
+}
+
+TEST(SystemLookup, StatesWhatPointsLack) {
+  EXPECT_EQ(SystemLookup().objection(false, false), "");
+  CalibrationResult calibration;
+  calibration.channel_field = "beam";
+  calibration.systems.resize(2);
+  calibration.systems[0].group = {"fore", {"1.ch0"}};
+  calibration.systems[1].group = {"aft", {"1.ch1"}};
+  SystemLookup lookup(calibration);
+  EXPECT_EQ(lookup.channelField(), "beam");
+  EXPECT_EQ(lookup.objection(true, true), "");
+  EXPECT_NE(lookup.objection(true, false).find("field beam"), std::string::npos);
+  EXPECT_NE(lookup.objection(false, true).find("point source id"), std::string::npos);
+  lookup.setStrip("1");
+  EXPECT_EQ(lookup.objection(false, true), "");
+  // Points of one channel need no field for it.
+  calibration.systems[1].group = {"aft", {"2.ch0"}};
+  EXPECT_EQ(SystemLookup(calibration).objection(true, false), "");
+}
+
+TEST(StripGroup, AChannelIsANumberUpTo255) {
+  EXPECT_EQ(channelOfValue(255.0, "field"), 255);
+  for (const double value : {-1.0, 256.0, std::nan("")})
+    EXPECT_THROW(channelOfValue(value, "field"), InputError) << value;
 }
 
 TEST(SystemLookup, FindsStripsThatWereHeldFixed) {

@@ -20,6 +20,19 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(PlainPoint,
                                   (float, x, x)(float, y, y)(float, z, z)(double, gps_time,
                                                                           gps_time))
 
+/// One with the channel in a field of its own.
+struct EIGEN_ALIGN16 BeamPoint {
+  PCL_ADD_POINT4D;
+  double gps_time;
+  std::uint16_t point_source_id;
+  float beam;
+  PCL_MAKE_ALIGNED_OPERATOR_NEW
+};
+POINT_CLOUD_REGISTER_POINT_STRUCT(BeamPoint, (float, x, x)(float, y, y)(float, z, z)(
+                                                 double, gps_time,
+                                                 gps_time)(std::uint16_t, point_source_id,
+                                                           point_source_id)(float, beam, beam))
+
 namespace pcl_als {
 namespace {
 
@@ -92,6 +105,42 @@ TEST(ChannelsOfClouds, ChannelsOfTheUserDataHaveTheirOwnBiases) {
     ASSERT_EQ(corrected[i].user_data, 4 + i % 2);
   }
   EXPECT_GT((all[1].getVector3fMap() - (*f.cloud)[1].getVector3fMap()).norm(), 0.1F);
+}
+
+// A field of any type, or a column beside the cloud, gives the channels as the user data do.
+TEST(ChannelsOfClouds, OtherFieldsAndColumnsGiveTheSame) {
+  Fixture f;
+  Cloud expected, by_column;
+  f.filter.setCalibration(ofChannels("user_data"));
+  f.filter.filter(expected);
+  std::vector<std::uint8_t> channels;
+  pcl::PointCloud<BeamPoint>::Ptr beams(new pcl::PointCloud<BeamPoint>);
+  for (const PointLidar& from : *f.cloud) {
+    channels.push_back(from.user_data);
+    BeamPoint& point = beams->emplace_back();
+    point.getVector3fMap() = from.getVector3fMap();
+    point.gps_time = from.gps_time;
+    point.point_source_id = from.point_source_id;
+    point.beam = from.user_data;
+  }
+  f.filter.setCalibration(ofChannels("beam"));
+  f.filter.setChannels(channels);
+  f.filter.filter(by_column);
+  SystemBiasCorrection<BeamPoint> filter;
+  filter.setTrajectory(f.trajectory);
+  filter.setLocalFrame(f.frame);
+  filter.setCalibration(ofChannels("beam"));
+  filter.setInputCloud(beams);
+  pcl::PointCloud<BeamPoint> by_field;
+  filter.filter(by_field);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    ASSERT_EQ(by_column[i].getVector3fMap(), expected[i].getVector3fMap()) << i;
+    ASSERT_EQ(by_field[i].getVector3fMap(), expected[i].getVector3fMap()) << i;
+  }
+  f.filter.setChannels({1, 2});
+  EXPECT_NE(messageOf(f.filter).find("2 channels"), std::string::npos) << messageOf(f.filter);
+  (*beams)[7].beam = 300.0F;
+  EXPECT_THROW(filter.filter(by_field), InputError);
 }
 
 TEST(ChannelsOfClouds, AFieldWithoutWhichPointsWouldGetTheBiasesOfAnotherChannelIsNamed) {

@@ -22,9 +22,12 @@ using Records = std::vector<std::byte>;
 
 const Eigen::Vector3d kOrigin(583390.0, 5283100.0, 500.0);
 
-/// Records as LAS point format 6 has them, 3 extra bytes: X Y Z at 0, time at 22.
+/// Records of LAS point format 6 with 3 extra bytes: X Y Z at 0, time at 22.
 const IntegerBiasCorrection::Layout kLayout{
-    33, 22, 12, 14, Eigen::Vector3d(0.001, 0.001, 0.01), Eigen::Vector3d(583000.0, 5283000.0, 0.0)};
+    33,
+    LasRecordLayout::of(6),
+    {Eigen::Vector3d(0.001, 0.001, 0.01), Eigen::Vector3d(583000.0, 5283000.0, 0.0)},
+    {}};
 
 Records recordsOf(const std::vector<SwathPoint>& points) {
   Records records(points.size() * kLayout.record_length);
@@ -32,8 +35,8 @@ Records recordsOf(const std::vector<SwathPoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::byte* record = &records[i * kLayout.record_length];
     for (int axis = 0; axis < 3; ++axis) {
-      const auto raw = static_cast<std::int32_t>(
-          std::lround((points[i].ground[axis] - kLayout.offset[axis]) / kLayout.scale[axis]));
+      const auto raw = static_cast<std::int32_t>(std::lround(
+          (points[i].ground[axis] - kLayout.metres.offset[axis]) / kLayout.metres.scale[axis]));
       std::memcpy(record + 4 * axis, &raw, sizeof raw);
     }
     std::memcpy(record + 22, &points[i].time, sizeof(double));
@@ -51,7 +54,8 @@ std::int32_t rawAt(const Records& records, std::size_t point, int axis) {
 SwathPoint pointAt(const Records& records, std::size_t point) {
   SwathPoint result{};
   for (int axis = 0; axis < 3; ++axis) {
-    result.ground[axis] = rawAt(records, point, axis) * kLayout.scale[axis] + kLayout.offset[axis];
+    result.ground[axis] =
+        rawAt(records, point, axis) * kLayout.metres.scale[axis] + kLayout.metres.offset[axis];
   }
   std::memcpy(&result.time, &records[point * kLayout.record_length + 22], sizeof(double));
   return result;
@@ -79,7 +83,7 @@ TEST(IntegerBiasCorrection, MovesEachIntegerByTheRoundedEffect) {
     for (int axis = 0; axis < 3; ++axis) {
       const int change = rawAt(after, i, axis) - rawAt(before, i, axis);
       // Half a unit, and 1e-7 of one for the way the effect is computed.
-      EXPECT_NEAR(change, -effect[axis] / kLayout.scale[axis], 0.5 + 1e-6);
+      EXPECT_NEAR(change, -effect[axis] / kLayout.metres.scale[axis], 0.5 + 1e-6);
       if (change != 0) ++moved;
     }
   }
@@ -219,7 +223,7 @@ TEST(IntegerBiasCorrection, ExtremeIntegersThatFitAreRight) {
 TEST(IntegerBiasCorrection, RefusesAScaleThatIsNone) {
   for (const double scale : {0.0, -1e-12, std::nan(""), std::numeric_limits<double>::infinity()}) {
     auto layout = kLayout;
-    layout.scale.y() = scale;
+    layout.metres.scale.y() = scale;
     EXPECT_THROW(IntegerBiasCorrection("a.las", systemCorrection(typicalBiases()), layout),
                  InputError);
   }

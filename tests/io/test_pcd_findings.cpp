@@ -146,7 +146,7 @@ TEST(PcdFindings, TheChannelIsFoundAsOtherFieldsAre) {
   EXPECT_EQ(channelOf("Beam", remarks), 6);
   EXPECT_EQ(channelOf("laser_number", remarks), 8);
   EXPECT_EQ(remarks, std::vector<std::string>{"its fields are not used: Beam, beam"});
-  EXPECT_EQ((*loadPcd(folder / "a.pcd", "user_data").cloud)[0].user_data, 5);
+  EXPECT_EQ((*loadPcd(folder / "a.pcd").cloud)[0].user_data, 5);
   // Neither has the name.
   EXPECT_THROW(channelOf("BEAM", remarks), InputError);
   EXPECT_THROW(channelOf("mirror", remarks), InputError);

@@ -57,9 +57,6 @@ struct Survey {
       chunk.gps_time.push_back(p.time);
     }
     chunk.resize(chunk.x.size());
-    for (std::size_t i = 0; i < chunk.size(); ++i)
-      chunk.user_data[i] =
-          static_cast<std::uint8_t>(std::fmod(chunk.gps_time[i], 0.2) < 0.1 ? 4 : 5);
     std::fill(chunk.return_number.begin(), chunk.return_number.end(), std::uint8_t{1});
     std::fill(chunk.number_of_returns.begin(), chunk.number_of_returns.end(), std::uint8_t{1});
     LasWriterOptions las;
@@ -158,53 +155,6 @@ TEST(FileCorrection, PcdFilesEqualTheFilter) {
   for (std::size_t i = 0; i < corrected.size(); ++i) {
     ASSERT_EQ((*read.cloud)[i].getVector3fMap(), corrected[i].getVector3fMap()) << i;
   }
-}
-
-/// The calibration as one of two systems, by the channel in the user data: all biases are those of
-/// channel 5.
-CalibrationResult ofChannels(CalibrationResult calibration, const std::string& strip) {
-  calibration.channel_field = "user_data";
-  for (const int channel : {4, 5}) {
-    SystemEstimate system;
-    system.group.name = std::to_string(channel);
-    system.group.strips = {channelStrip(strip, channel)};
-    system.parameters = calibration.parameters;
-    for (ParameterEstimate& parameter : system.parameters) parameter.bias *= channel - 4;
-    calibration.systems.push_back(system);
-  }
-  return calibration;
-}
-
-// LAS, PCD and clouds take the biases of the channel that the user data have.
-TEST(FileCorrection, ChannelsOfTheUserDataMoveCloudsAsFiles) {
-  ASSERT_EQ(survey().calibration.channel_field, "");
-  const fs::path las = survey().write(0, "channels.las");
-  const Strip<PointLidar> strip = loadStrips({las.string()}).front();
-  savePcd(survey().folder / "channels.pcd", strip);
-  const CalibrationResult used = ofChannels(survey().calibration, "channels");
-  const auto by_las =
-      loadStrips({survey().corrected(las, used, "channels_las.las").string()}).front();
-  const auto by_pcd =
-      loadPcd(survey().corrected(survey().folder / "channels.pcd", used, "channels_pcd.pcd"));
-  double largest = 0.0;
-  ASSERT_EQ(by_las.cloud->size(), by_pcd.cloud->size());
-  for (std::size_t i = 0; i < by_las.cloud->size(); ++i) {
-    const Eigen::Vector3d moved = by_las.frame.toGround((*by_las.cloud)[i].getVector3fMap()) -
-                                  strip.frame.toGround((*strip.cloud)[i].getVector3fMap());
-    const Eigen::Vector3f by_cloud =
-        (*by_pcd.cloud)[i].getVector3fMap() - (*strip.cloud)[i].getVector3fMap();
-    // The coordinates of the LAS have steps of 1 mm.
-    ASSERT_LT((moved - by_cloud.cast<double>()).norm(), 1.5e-3) << i;
-    const bool unbiased = (*strip.cloud)[i].user_data == 4;
-    ASSERT_TRUE(!unbiased || moved.norm() < 1.5e-3) << i;
-    largest = std::max(largest, moved.norm());
-  }
-  EXPECT_GT(largest, 0.3);
-  // Files without the field are refused; PCD files of earlier versions have none.
-  CalibrationResult beam = used;
-  beam.channel_field = "beam";
-  EXPECT_THROW(survey().corrected(las, beam, "no.las"), InputError);
-  EXPECT_THROW(survey().corrected(survey().folder / "channels.pcd", beam, "no.pcd"), InputError);
 }
 
 // The true biases with the attitude that was recovered, against the truth. A vertical sensor would

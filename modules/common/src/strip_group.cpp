@@ -79,6 +79,11 @@ std::string passOfStrip(const std::string& strip) {
   return strip.substr(0, at);
 }
 
+std::uint8_t channelOfValue(double value, const std::string& where) {
+  if (value >= 0.0 && value <= 255.0) return static_cast<std::uint8_t>(value);
+  throw InputError(where + " holds " + std::to_string(value) + ", which is no channel (0 to 255)");
+}
+
 OwnUnknowns ownUnknowns(std::string_view text) {
   OwnUnknowns own{{}, false};
   for (const std::string_view part : partsOf(text)) {

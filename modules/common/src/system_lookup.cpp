@@ -18,12 +18,24 @@ SystemLookup::SystemLookup(const CalibrationResult& calibration) {
   for (const HeldSurface& surface : calibration.held) {
     for (const std::string& strip : surface.strips) system_[strip] = fixed_;
   }
-  const bool by_channel = std::any_of(system_.begin(), system_.end(), [](const auto& entry) {
-    return passOfStrip(entry.first) != entry.first;
-  });
-  if (!by_channel) return;
-  channel_field_ =
-      calibration.channel_field.empty() ? "scanner_channel" : calibration.channel_field;
+  for (const auto& [strip, system] : system_) {
+    const std::string pass = passOfStrip(strip);
+    if (pass == strip) continue;
+    channel_field_ =
+        calibration.channel_field.empty() ? "scanner_channel" : calibration.channel_field;
+    needs_channels_ = needs_channels_ || strip != channelStrip(pass, 0);
+  }
+}
+
+std::string SystemLookup::objection(bool with_sources, bool with_channels) const {
+  if (single()) return {};
+  if (!with_sources && strip_.empty())
+    return "the calibration has several systems or fixed strips, and the points have no point "
+           "source id: the id of their strip is needed";
+  if (!with_channels && needs_channels_)
+    return "the calibration divides strips by the channel of the scanner in the field " +
+           channel_field_ + ", which the points do not have";
+  return {};
 }
 
 std::uint8_t SystemLookup::of(std::uint16_t source, std::uint8_t channel) const {

@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/time_unit.h>
 #include <pcl_als/filters/integer_bias_correction.h>
 
 namespace pcl_als {
@@ -15,13 +14,6 @@ namespace {
 
 using Column = std::array<double, IntegerBiasCorrection::kTile>;
 using IntegerColumn = std::array<std::int32_t, IntegerBiasCorrection::kTile>;
-
-template <typename T>
-T load(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
 
 /// Adding 1.5 * 2^52 to a double below 2^51 leaves it no bits for a fraction: it is rounded to the
 /// nearest integer, which stands in its low bits. std::nearbyint and a conversion to int64 would be
@@ -65,58 +57,57 @@ struct IntegerBiasCorrection::Tile {
   Column time, x, y, z, change[3];
   std::array<float, kTile> intensity;
   std::array<std::int8_t, kTile> turning;
-  std::array<std::uint8_t, kTile> system;
+  std::array<std::uint16_t, kTile> source;
+  std::array<std::uint8_t, kTile> channel;
 };
+
+IntegerBiasCorrection::Layout IntegerBiasCorrection::Layout::of(const LasFile& file,
+                                                                const SystemLookup& systems) {
+  Layout layout;
+  layout.record_length = file.header().record_length;
+  layout.fields = file.layout();
+  layout.metres = file.toMetres();
+  if (!systems.channelField().empty()) layout.channel = LasChannel(file, systems.channelField());
+  return layout;
+}
 
 IntegerBiasCorrection::IntegerBiasCorrection(std::string name, SystemCorrection correction,
                                              const Layout& layout)
     : name_(std::move(name)), correction_(std::move(correction)), layout_(layout) {
-  if (!(layout_.scale.cwiseAbs().minCoeff() >= 1e-9) || !layout_.scale.allFinite()) {
+  const Eigen::Vector3d& scale = layout_.metres.scale;
+  if (!(scale.cwiseAbs().minCoeff() >= 1e-9) || !scale.allFinite()) {
     throw InputError(name_ + ": the scale of its coordinates is not a number of 1e-9 m or more");
   }
+  const std::string objection = correction_.systems().objection(true, layout_.channel.recorded());
+  if (!objection.empty()) throw InputError(name_ + ": " + objection);
 }
 
 void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, Tile& tile) const {
-  const std::size_t length = layout_.record_length;
-  const std::byte* time = records + layout_.time_position;
-  for (std::size_t i = 0; i < count; ++i, records += length, time += length) {
-    tile.raw[0][i] = load<std::int32_t>(records);
-    tile.raw[1][i] = load<std::int32_t>(records + 4);
-    tile.raw[2][i] = load<std::int32_t>(records + 8);
-    tile.time[i] = secondsOfTime(load<double>(time)) + layout_.time_shift;
-    tile.intensity[i] = load<std::uint16_t>(records + layout_.intensity_position);
-    tile.turning[i] =
-        (load<std::uint8_t>(records + layout_.scan_direction_position) & 64) != 0 ? -1 : 1;
+  const LasRecordLayout& fields = layout_.fields;
+  const std::byte* record = records;
+  for (std::size_t i = 0; i < count; ++i, record += layout_.record_length) {
+    tile.raw[0][i] = loadLas<std::int32_t>(record);
+    tile.raw[1][i] = loadLas<std::int32_t>(record + 4);
+    tile.raw[2][i] = loadLas<std::int32_t>(record + 8);
+    tile.time[i] = fields.timeOf(record);
+    tile.intensity[i] = fields.intensityOf(record);
+    tile.source[i] = fields.sourceOf(record);
+    tile.turning[i] = fields.scanDirectionOf(record) ? -1 : 1;
   }
-  toMetres(tile.raw[0], layout_.scale.x(), layout_.offset.x(), tile.x, count);
-  toMetres(tile.raw[1], layout_.scale.y(), layout_.offset.y(), tile.y, count);
-  toMetres(tile.raw[2], layout_.scale.z(), layout_.offset.z(), tile.z, count);
+  const auto& [scale, offset] = layout_.metres;
+  toMetres(tile.raw[0], scale.x(), offset.x(), tile.x, count);
+  toMetres(tile.raw[1], scale.y(), offset.y(), tile.y, count);
+  toMetres(tile.raw[2], scale.z(), offset.z(), tile.z, count);
+  if (layout_.channel.recorded())
+    layout_.channel.decode(records, count, layout_.record_length, tile.channel.data());
   if (correction_.timeAlignment().identity()) return;
   for (std::size_t i = 0; i < count; ++i) tile.time[i] = correction_.flightTime(tile.time[i]);
-}
-
-void IntegerBiasCorrection::gatherSystems(const std::byte* records, std::size_t count,
-                                          Tile& tile) const {
-  std::uint16_t source = 0;
-  std::uint8_t channel = 0, system = 0;
-  for (std::size_t i = 0; i < count; ++i, records += layout_.record_length) {
-    const auto of_point = load<std::uint16_t>(records + layout_.source_position);
-    const auto byte = load<std::uint8_t>(records + layout_.channel_position);
-    const auto of_scanner =
-        static_cast<std::uint8_t>(byte >> layout_.channel_shift & layout_.channel_mask);
-    if (i == 0 || of_point != source || of_scanner != channel) {
-      source = of_point;
-      channel = of_scanner;
-      system = correction_.systems().of(source, channel);
-    }
-    tile.system[i] = system;
-  }
 }
 
 void IntegerBiasCorrection::scatter(std::byte* records, std::size_t count, std::uint64_t first,
                                     Tile& tile) const {
   for (int axis = 0; axis < 3; ++axis) {
-    if (!move(1.0 / layout_.scale[axis], tile.change[axis], tile.raw[axis], count)) {
+    if (!move(1.0 / layout_.metres.scale[axis], tile.change[axis], tile.raw[axis], count)) {
       refuseOverflow(tile.change[axis].data(), first, axis);
     }
   }
@@ -134,7 +125,7 @@ void IntegerBiasCorrection::refuseOverflow(const double* values, std::uint64_t f
   std::snprintf(text, sizeof text,
                 ": point %ju: %c = %.0f units of %g m after the correction does not fit 32 bits; "
                 "give the file a coarser scale or a nearer offset",
-                std::uintmax_t{first + i}, "xyz"[axis], values[i], layout_.scale[axis]);
+                std::uintmax_t{first + i}, "xyz"[axis], values[i], layout_.metres.scale[axis]);
   throw InputError(name_ + text);
 }
 
@@ -142,15 +133,16 @@ CoverageCount IntegerBiasCorrection::apply(std::byte* records, std::size_t count
                                            std::uint64_t first) const {
   CoverageCount coverage;
   Tile tile;
-  const PointColumns points{tile.time.data(),  tile.x.data(),         tile.y.data(),
-                            tile.z.data(),     tile.intensity.data(), tile.turning.data(),
-                            tile.system.data()};
+  const PointColumns points{
+      tile.time.data(),      tile.x.data(),
+      tile.y.data(),         tile.z.data(),
+      tile.intensity.data(), tile.turning.data(),
+      tile.source.data(),    layout_.channel.recorded() ? tile.channel.data() : nullptr};
   const EffectColumns change{tile.change[0].data(), tile.change[1].data(), tile.change[2].data()};
   for (std::size_t at = 0; at < count; at += kTile) {
     const std::size_t size = std::min(kTile, count - at);
     std::byte* tile_records = records + at * layout_.record_length;
     gather(tile_records, size, tile);
-    if (!correction_.systems().single()) gatherSystems(tile_records, size, tile);
     correction_.change(points, size, change, coverage);
     scatter(tile_records, size, first + at, tile);
   }

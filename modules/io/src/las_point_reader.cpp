@@ -14,24 +14,19 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
 constexpr std::size_t kMostNodes = 64;  ///< read at once; each may be decoded by a thread
 
-/// LazField bits of a field with the channel.
-unsigned fieldsFor(const std::string& channel_field) {
-  if (channel_field.empty() || channel_field == "scanner_channel") return 0;
-  return channel_field == "user_data" ? kLazUserData : kLazExtraBytes;
-}
-
 }  // namespace
 
 LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWindow& window,
                                OtherCoordinates other, unsigned fields)
-    : file_(path, fields | fieldsFor(window.channel_field),
+    : file_(path, fields | LasChannel::lazFields(window.channel_field),
             window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
       compatibility_(LasCompatibility::of(file_)),
       window_(window),
       info_(file_.info()) {
   if (other == OtherCoordinates::refuse) requireMapCoordinates(info_);
   if (compatibility_) info_.format += ", LAS 1.4 compatibility mode";
-  findChannelField();
+  if (LasChannel::lazFields(window.channel_field) != 0)
+    channel_.emplace(file_, window.channel_field);
   const Eigen::Vector3d metres = info_.units.metres();
   scaling_ = {file_.header().scale.cwiseProduct(metres),
               file_.header().offset.cwiseProduct(metres)};
@@ -48,38 +43,6 @@ LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWin
   std::uint64_t candidates = 0;
   for (const LasRecordRange& range : ranges_) candidates += range.count;
   info_.point_count = std::min(info_.point_count, candidates);
-}
-
-void LasPointReader::findChannelField() {
-  if (fieldsFor(window_.channel_field) != kLazExtraBytes) return;
-  const std::string path = info_.path.string();
-  if (const LasExtraField* field =
-          findLasExtraField(file_.extraFields(), window_.channel_field, path)) {
-    channel_field_ = *field;
-    if (field->type != LasExtraType::undocumented) return;
-    throw InputError(path + ": field '" + window_.channel_field +
-                     "' with the channel of the scanner has no data type");
-  }
-  std::string names = "user_data";
-  for (const LasExtraField& field : file_.extraFields()) names += ", " + field.name;
-  throw InputError(path + ": has no field '" + window_.channel_field +
-                   "' with the channel of the scanner; it has " + names);
-}
-
-void LasPointReader::fillChannel(PointChunk& chunk) {
-  if (channel_field_) {
-    std::vector<double> values;
-    decodeLasExtraField(records(), chunk.size(), file_.header().record_length, *channel_field_,
-                        values);
-    for (std::size_t i = 0; i < chunk.size(); ++i) {
-      if (!(values[i] >= 0.0 && values[i] <= 255.0))
-        throw InputError(info_.path.string() + ": field '" + window_.channel_field + "' holds " +
-                         std::to_string(values[i]) + ", which is no channel (0 to 255)");
-      chunk.channel[i] = static_cast<std::uint8_t>(values[i]);
-    }
-  } else if (fieldsFor(window_.channel_field) != 0) {
-    chunk.channel = chunk.user_data;
-  }
 }
 
 std::string LasPointReader::damage() const {
@@ -161,7 +124,8 @@ bool LasPointReader::read(PointChunk& chunk) {
   decodeLasRecords(records(), next_ - given_, file_.header().record_length, file_.layout(),
                    scaling_.scale, scaling_.offset, chunk);
   if (compatibility_) compatibility_->restore(records(), file_.header().record_length, chunk);
-  fillChannel(chunk);
+  if (channel_)
+    channel_->decode(records(), chunk.size(), file_.header().record_length, chunk.channel.data());
   return more;
 }
 

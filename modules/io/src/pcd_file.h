@@ -48,6 +48,8 @@ class PcdFile {
   /// Of the coordinates: that of single precision, or of double where all fields have it.
   double relativeStep() const;
   bool hasTimes() const { return header_.find("gps_time") != nullptr && !times_are_averages_; }
+  /// Whether it has the field with the channel of the scanner.
+  bool hasChannels() const { return !channel_field_.empty() || header_.find("flags") != nullptr; }
   /// Why its times are not used (PointFileInfo::time_fault).
   std::string timeFault() const;
   /// What is not used of the file, and how its VIEWPOINT is understood.

@@ -97,29 +97,29 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
 }
 
 Strip<PointLidar> loadPcd(const std::filesystem::path& path) {
-  return loadPcd(path, {});
-}
-
-Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field) {
   PcdFindings ignored;
-  return loadPcd(path, channel_field, ignored);
+  return loadPcd(path, {}, ignored);
 }
 
 Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field,
                           PcdFindings& findings) {
   detail::PcdFile file(path, channel_field);
-  if (!channel_field.empty() && channel_field != "scanner_channel" && channel_field != "user_data")
-    throw InputError(file.name() + ": clouds do not keep the field '" + channel_field +
-                     "' with the channel of the scanner: use the LAS file that it was made from");
-  findings = {file.remarks(), file.timeFault()};
+  findings = {file.remarks(), file.timeFault(), {}, {}};
   Strip<PointLidar> strip;
   strip.frame = frameOf(file);
   const Eigen::Vector3d shift = strip.frame.origin - file.origin();
   strip.cloud->reserve(file.header().points);
   PointChunk chunk;
-  while (file.read(PointReader::kChunk, chunk))
+  while (file.read(PointReader::kChunk, chunk)) {
     for (std::size_t i = 0; i < chunk.size(); ++i)
       strip.cloud->push_back(detail::pointOf(chunk, i, shift));
+    if (!channel_field.empty() && file.hasChannels())
+      findings.channels.insert(findings.channels.end(), chunk.channel.begin(), chunk.channel.end());
+  }
+  const detail::PcdField* channel = file.header().named(channel_field);
+  if (channel != nullptr && channel->column.empty())
+    findings.channel_column = {
+        {channel->name, {findings.channels.begin(), findings.channels.end()}}};
   strip.cloud->sensor_origin_.head<3>() = strip.frame.origin.cast<float>();
   strip.corrections = file.header().corrections;
   strip.id = idOf(file, path, *strip.cloud);

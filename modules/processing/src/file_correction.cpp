@@ -21,7 +21,6 @@
 #include <pcl_als/trajectory/system_correction.h>
 #include <pcl_als/trajectory/trajectory_errors.h>
 
-#include "correction_layout.h"
 #include "correction_record.h"
 #include "file_attitude.h"
 #include "file_times.h"
@@ -182,7 +181,7 @@ class Tally {
 
 void rewrite(Job& job, const LasFile& file) {
   const SystemCorrection correction = correctionOf(job);
-  IntegerBiasCorrection::Layout layout = detail::correctionLayout(file, correction.systems());
+  auto layout = IntegerBiasCorrection::Layout::of(file, correction.systems());
   std::unique_ptr<detail::FileUncertainty> uncertainty;
   if (job.options.uncertainty)
     uncertainty = std::make_unique<detail::FileUncertainty>(file, correction, layout,
@@ -267,10 +266,16 @@ void correctLas(Job& job) {
   }
 }
 
-CoverageCount correctCloud(const Job& job, Strip<PointLidar>& strip,
+CoverageCount correctCloud(const Job& job, const Strip<PointLidar>& strip,
+                           const std::vector<std::uint8_t>& channels,
                            pcl::PointCloud<PointLidar>& corrected) {
+  const SystemCorrection correction = correctionOf(job);
+  const std::string objection =
+      correction.systems().objection(true, !channels.empty() || strip.cloud->empty());
+  if (!objection.empty()) throw InputError(job.name() + ": " + objection);
   SystemBiasCorrection<PointLidar> filter;
-  filter.setCorrection(correctionOf(job));
+  filter.setCorrection(correction);
+  filter.setChannels(channels);
   filter.setLocalFrame(strip.frame);
   filter.setKeepUncovered(true);     // checked by the caller, with the file's name
   filter.setCheckTrajectory(false);  // the same
@@ -301,14 +306,14 @@ void correctPcd(Job& job) {
   }
   if (lacksAttitude(job)) recoverAttitude(job, strip);
   pcl::PointCloud<PointLidar>::Ptr corrected(new pcl::PointCloud<PointLidar>);
-  job.result.coverage = correctCloud(job, strip, *corrected);
+  job.result.coverage = correctCloud(job, strip, findings.channels, *corrected);
   if (job.result.coverage.without_attitude > 0 && !job.attitude_recovered) {
     recoverAttitude(job, strip);
-    job.result.coverage = correctCloud(job, strip, *corrected);
+    job.result.coverage = correctCloud(job, strip, findings.channels, *corrected);
   }
   checkCoverage(job, job.result.coverage);
   strip.cloud = corrected;
-  savePcd(job.output, strip);
+  savePcd(job.output, strip, findings.channel_column);
 }
 
 void addRemarks(Job& job) {

@@ -8,7 +8,6 @@
 #include <map>
 
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/time_unit.h>
 #include <pcl_als/las/las_record.h>
 
 #include "deviation_sum.h"
@@ -141,10 +140,11 @@ std::vector<Eigen::Vector3f> FileUncertainty::normalsOf(const LasRecordBlock& bl
 
 std::size_t FileUncertainty::systemOf(const std::byte* record) const {
   if (correction_.systems().single()) return 0;
-  const auto channel = loadLas<std::uint8_t>(record + layout_.channel_position);
-  const auto source = loadLas<std::uint16_t>(record + layout_.source_position);
-  const std::uint8_t system = correction_.systems().of(
-      source, static_cast<std::uint8_t>(channel >> layout_.channel_shift & layout_.channel_mask));
+  const std::uint16_t source = layout_.fields.sourceOf(record);
+  std::uint8_t channel = 0;
+  if (layout_.channel.recorded())
+    layout_.channel.decode(record, 1, layout_.record_length, &channel);
+  const std::uint8_t system = correction_.systems().of(source, channel);
   if (system == correction_.systems().fixed())
     throw InputError("strip " + std::to_string(source) +
                      " was held fixed by the calibration, which therefore states no standard "
@@ -163,10 +163,9 @@ void FileUncertainty::store(const LasRecordBlock& block,
     const Eigen::Vector3d position =
         Eigen::Vector3d(loadLas<std::int32_t>(record), loadLas<std::int32_t>(record + 4),
                         loadLas<std::int32_t>(record + 8))
-            .cwiseProduct(layout_.scale) +
-        layout_.offset;
-    const double time = correction_.flightTime(
-        secondsOfTime(loadLas<double>(record + layout_.time_position)) + layout_.time_shift);
+            .cwiseProduct(layout_.metres.scale) +
+        layout_.metres.offset;
+    const double time = correction_.flightTime(layout_.fields.timeOf(record));
     points[i] = {position.x(), position.y(), kNone, kNone};
     if (correction_.knowsAttitude(time) &&
         uncertainty_.covarianceAt(time, position, normals[i].cast<double>(), cursor, covariance,

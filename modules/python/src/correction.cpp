@@ -59,6 +59,17 @@ FileCorrection correctFile(const std::filesystem::path& input, const std::filesy
   });
 }
 
+/// The channels of the scanner in a further column of a strip; empty where it has none.
+std::vector<std::uint8_t> channelsOf(const LidarStrip& strip, const std::string& field) {
+  std::vector<std::uint8_t> channels;
+  for (const PointColumn& column : strip.columns) {
+    if (column.field.name != field) continue;
+    for (const double value : column.values)
+      channels.push_back(channelOfValue(value, "strip " + strip.id + ": column '" + field + "'"));
+  }
+  return channels;
+}
+
 std::shared_ptr<LidarStrip> correctStrip(const LidarStrip& strip, const FlightArgument& trajectory,
                                          const CalibrationArgument& calibration,
                                          bool strip_corrections, bool invert, bool keep_uncovered,
@@ -74,6 +85,8 @@ std::shared_ptr<LidarStrip> correctStrip(const LidarStrip& strip, const FlightAr
     correction.setKeepUncovered(keep_uncovered);
     correction.setNumberOfThreads(threads);
     correction.setInputCloud(strip.cloud);
+    correction.setStripId(strip.id);
+    correction.setChannels(channelsOf(strip, SystemLookup(biases).channelField()));
     auto corrected = std::make_shared<LidarStrip>();
     corrected->id = strip.id, corrected->frame = strip.frame, corrected->columns = strip.columns;
     correction.filter(*corrected->cloud);

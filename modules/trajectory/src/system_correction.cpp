@@ -121,8 +121,7 @@ class Gathered {
             columns_[2].data(),
             columns_[3].data(),
             from_.intensity != nullptr ? intensity_.data() : nullptr,
-            from_.turning != nullptr ? turning_.data() : nullptr,
-            nullptr};
+            from_.turning != nullptr ? turning_.data() : nullptr};
   }
   EffectColumns change() { return {changes_[0].data(), changes_[1].data(), changes_[2].data()}; }
 
@@ -144,15 +143,30 @@ void SystemCorrection::change(const PointColumns& points, std::size_t count,
   }
 }
 
+std::vector<std::vector<std::size_t>> SystemCorrection::bySystem(const PointColumns& points,
+                                                                 std::size_t count) const {
+  const std::string objection =
+      systems_.objection(points.source != nullptr, points.channel != nullptr);
+  if (!objection.empty()) throw UsageError(objection);
+  std::vector<std::vector<std::size_t>> chosen(evaluators_.size() + 1);
+  std::uint16_t source = 0;
+  std::uint8_t channel = 0, system = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint16_t of_point = points.source != nullptr ? points.source[i] : 0;
+    const std::uint8_t of_scanner = points.channel != nullptr ? points.channel[i] : 0;
+    if (i == 0 || of_point != source || of_scanner != channel) {
+      source = of_point, channel = of_scanner;
+      system = systems_.of(source, channel);
+    }
+    chosen[system].push_back(i);
+  }
+  return chosen;
+}
+
 void SystemCorrection::changeBySystem(const PointColumns& points, std::size_t count,
                                       const EffectColumns& change, CoverageCount& coverage) const {
-  if (points.system == nullptr)
-    throw UsageError(
-        "the calibration has several systems or fixed strips: points need a point source id, or "
-        "the id of their strip");
   // The columns may be the same: all are gathered before the first one is written.
-  std::vector<std::vector<std::size_t>> chosen(evaluators_.size() + 1);
-  for (std::size_t i = 0; i < count; ++i) chosen[points.system[i]].push_back(i);
+  const std::vector<std::vector<std::size_t>> chosen = bySystem(points, count);
   std::vector<Gathered> parts;
   for (const std::vector<std::size_t>& indices : chosen) parts.emplace_back(points, indices);
   for (std::size_t s = 0; s < parts.size(); ++s) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,10 @@ StripGroup stripGroup(std::string_view text);
 std::string channelStrip(const std::string& strip, int channel);
 /// The id without the channel: 3 for 3.ch1.
 std::string passOfStrip(const std::string& strip);
+
+/// A channel of the scanner from the value of a field. InputError "WHERE holds 300, which is no
+/// channel (0 to 255)".
+std::uint8_t channelOfValue(double value, const std::string& where);
 
 /// What a system has of its own: the biases of the eight parameters, and an offset of its
 /// coordinates (east, north, up; metres), all assumed - true.

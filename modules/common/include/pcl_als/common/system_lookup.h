@@ -26,6 +26,9 @@ class SystemLookup {
   /// Field with the channel of the scanner that of() needs: "scanner_channel", "user_data" or the
   /// name of another field; empty: systems and fixed strips do not depend on the channel.
   const std::string& channelField() const { return channel_field_; }
+  /// The reason for which the systems of points without these fields are not known; empty: they
+  /// are. Without channels all points are of channel 0, which suffices where no other is named.
+  std::string objection(bool with_sources, bool with_channels) const;
   /// Index of the system; that of strips that were held fixed is fixed(). InputError for a strip
   /// that belongs to none, and for a point without any id of its strip.
   std::uint8_t of(std::uint16_t source, std::uint8_t channel) const;
@@ -35,7 +38,8 @@ class SystemLookup {
  private:
   std::map<std::string, std::uint8_t> system_;  ///< by id of the strip
   std::uint8_t fixed_ = 1;
-  bool several_ = false;  ///< systems: every strip is of one of them
+  bool several_ = false;         ///< systems: every strip is of one of them
+  bool needs_channels_ = false;  ///< a channel other than 0 is named
   std::string strip_, channel_field_;
 };
 

@@ -2,9 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <pcl/filters/filter.h>
 
@@ -17,7 +20,7 @@
 namespace pcl_als {
 
 template <typename PointT>
-class PointSystems;
+class PointChannels;
 
 /** \brief Removes known system biases from a strip: corrected = biased - A(biased) delta.
  *
@@ -29,8 +32,9 @@ class PointSystems;
  * - true; m, rad, 1) are used with the attitude of the trajectory. The point type needs x, y, z
  * (float) and gps_time (double); for other types than PointLidar include
  * impl/system_bias_correction.hpp. A calibration with several systems or fixed strips needs
- * point_source_id, and flags (bits 6 and 7), user_data or another registered byte where it divides
- * strips by the channel of the scanner in that field (CalibrationResult::channel_field).
+ * point_source_id (or setStripId), and flags (bits 6 and 7), user_data or another registered field
+ * where it divides strips by the channel of the scanner in that field
+ * (CalibrationResult::channel_field); setChannels() has channels that no field of the type has.
  *
  * All other fields are kept bit for bit; the input is not changed. Points that are not finite, and
  * points outside given indices, stay unchanged. A point without a trajectory is an InputError with
@@ -86,6 +90,11 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   void setStripId(const std::string& id) { strip_id_ = id; }
   const std::string& getStripId() const { return strip_id_; }
 
+  /// Channels of the scanner of all points of the input cloud, in place of a field of the point
+  /// type; default (empty): from the point type. UsageError in filter() for another number.
+  void setChannels(std::vector<std::uint8_t> channels) { channels_ = std::move(channels); }
+  const std::vector<std::uint8_t>& getChannels() const { return channels_; }
+
   /// A correction that replaces the trajectory, calibration, attitude, inversion and time alignment
   /// that are set.
   void setCorrection(const SystemCorrection& correction) { correction_ = correction; }
@@ -133,8 +142,9 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
 
  private:
   SystemCorrection usedCorrection() const;
-  CoverageCount correctChunk(const SystemCorrection& correction, PointSystems<PointT> systems,
-                             std::size_t first, std::size_t last, PointCloud& output) const;
+  CoverageCount correctChunk(const SystemCorrection& correction,
+                             const PointChannels<PointT>& channels, std::size_t first,
+                             std::size_t last, PointCloud& output) const;
 
   std::shared_ptr<const Trajectory> trajectory_;
   std::optional<CalibrationResult> calibration_;
@@ -146,6 +156,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
   bool invert_ = false, strip_corrections_ = false, keep_uncovered_ = false;
   bool check_trajectory_ = true;
   std::string strip_id_;
+  std::vector<std::uint8_t> channels_;
   int threads_ = 0;
   CoverageCount coverage_;
 };

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -40,16 +41,18 @@ void savePcd(const std::filesystem::path& path, const Strip<PointLidar>& strip,
  * averaged byte by byte are zero (PcdFindings::time_fault).
  */
 Strip<PointLidar> loadPcd(const std::filesystem::path& path);
-/// The same; InputError where the file, or PointLidar, has no field with the channel of the scanner
-/// of that name (PointWindow::channel_field; empty: it is not needed).
-Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field);
-
 /// What a cloud does not show of the file that it was read from.
 struct PcdFindings {
   std::vector<std::string> remarks;  ///< PointReader::remarks()
   std::string time_fault;            ///< PointFileInfo::time_fault
+  /// Channels of the scanner of all points, in the field that was asked for; empty where none was,
+  /// and for a scanner channel in a file without flags.
+  std::vector<std::uint8_t> channels;
+  /// This field, where PointLidar has no such field: for copies of the file.
+  std::vector<PcdColumn> channel_column;
 };
-/// The same, for jobs that tell it.
+/// The same, for jobs that tell it. \a channel_field: PointWindow::channel_field; empty: channels
+/// are not needed. InputError where the file has no field of that name.
 Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field,
                           PcdFindings& findings);
 

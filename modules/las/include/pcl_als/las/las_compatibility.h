@@ -21,6 +21,9 @@ class LasCompatibility {
   /// The positions of the extra bytes; none where a file is not in that mode.
   static std::optional<LasCompatibility> of(const LasFile& file);
 
+  /// Byte of a record whose bits 1 and 2 are the channel of the scanner.
+  std::size_t flagsPosition() const { return flags_; }
+
   /// Replaces return numbers, classes, flags and scan angles of columns that decodeLasRecords()
   /// made of the same records.
   void restore(const std::byte* records, std::size_t record_length, PointChunk& chunk) const;

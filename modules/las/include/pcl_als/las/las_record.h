@@ -48,6 +48,16 @@ struct LasRecordLayout {
     const double seconds = secondsOfTime(loadLas<double>(record + gps_time));
     return seconds == 0.0 ? 0.0 : seconds + time_shift;
   }
+  std::uint16_t intensityOf(const std::byte* record) const {
+    return loadLas<std::uint16_t>(record + 12);
+  }
+  std::uint16_t sourceOf(const std::byte* record) const {
+    return loadLas<std::uint16_t>(record + point_source_id);
+  }
+  /// The scan direction flag: true for a scan to the right.
+  bool scanDirectionOf(const std::byte* record) const {
+    return (loadLas<std::uint8_t>(record + (extended ? 15 : 14)) & 64U) != 0;
+  }
   /// Stores what timeOf() returns. The format must have a GPS time.
   void storeTime(double seconds, std::byte* record) const {
     storeLas(record + gps_time, seconds == 0.0 ? 0.0 : seconds - time_shift);

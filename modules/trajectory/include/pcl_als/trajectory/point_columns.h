@@ -16,8 +16,11 @@ struct PointColumns {
   const float* intensity = nullptr;
   /// Of the mirror: 1 to the left, -1 to the right; null: unknown. Needed for its torsion.
   const std::int8_t* turning = nullptr;
-  /// Index of the system that measured the point (CalibrationResult::systems); null: the first one.
-  const std::uint8_t* system = nullptr;
+  /// Point source id, and channel of the scanner in the field that divides the strips of a
+  /// calibration (SystemLookup::channelField()); null: not recorded. Needed where a calibration has
+  /// several systems or fixed strips.
+  const std::uint16_t* source = nullptr;
+  const std::uint8_t* channel = nullptr;
 };
 
 }  // namespace pcl_als

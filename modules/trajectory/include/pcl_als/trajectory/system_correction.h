@@ -64,7 +64,7 @@ class SystemCorrection {
   const TimeAlignment& timeAlignment() const { return alignment_; }
   double flightTime(double point_time) const { return alignment_(point_time); }
 
-  /// The systems of the calibration, for PointColumns::system.
+  /// The systems of the calibration.
   const SystemLookup& systems() const { return systems_; }
   /// Id of the strip of points without a point source id.
   void setStrip(const std::string& strip) { systems_.setStrip(strip); }
@@ -75,8 +75,9 @@ class SystemCorrection {
   /// The displacements that correct the points, metres. Times are those of the flight
   /// (flightTime()). Points without trajectory or attitude are counted, and their displacement is
   /// zero, as is that of points of strips that the calibration held fixed. Input and output columns
-  /// of an axis may be the same. UsageError for a calibration with several systems or fixed strips
-  /// and points without PointColumns::system.
+  /// of an axis may be the same. UsageError for columns that lack what the calibration needs
+  /// (SystemLookup::objection(), intensities, scan directions); InputError for points that belong
+  /// to none of its systems.
   void change(const PointColumns& points, std::size_t count, const EffectColumns& change,
               CoverageCount& coverage) const;
 
@@ -89,7 +90,10 @@ class SystemCorrection {
   /// The displacements of points of one system.
   void changeOf(const System& system, const PointColumns& points, std::size_t count,
                 const EffectColumns& change, CoverageCount& coverage) const;
-  /// Those of points of several systems, one after the other.
+  /// The indices of points by system; those of fixed strips are the last.
+  std::vector<std::vector<std::size_t>> bySystem(const PointColumns& points,
+                                                 std::size_t count) const;
+  /// The displacements of points of several systems, one after the other.
   void changeBySystem(const PointColumns& points, std::size_t count, const EffectColumns& change,
                       CoverageCount& coverage) const;
   /// The displacement is zero where the attitude is not known.

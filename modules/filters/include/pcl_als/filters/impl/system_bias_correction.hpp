@@ -9,7 +9,8 @@
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/point_fields.h>
 #include <pcl_als/common/point_flag.h>
-#include <pcl_als/filters/impl/point_systems.hpp>
+#include <pcl_als/common/time_unit.h>
+#include <pcl_als/filters/impl/point_channels.hpp>
 #include <pcl_als/filters/impl/trajectory_reach.hpp>
 #include <pcl_als/filters/system_bias_correction.h>
 
@@ -39,7 +40,10 @@ void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
   constexpr std::size_t kChunk = 16384;
   coverage_ = CoverageCount();
   const SystemCorrection correction = usedCorrection();
-  const PointSystems<PointT> systems(correction.systems(), this->filter_name_);
+  if (!channels_.empty() && channels_.size() != this->input_->size())
+    throw UsageError(this->filter_name_ + ": there are " + std::to_string(channels_.size()) +
+                     " channels for " + std::to_string(this->input_->size()) + " points");
+  const PointChannels<PointT> channels(correction.systems(), channels_, this->filter_name_);
   if (check_trajectory_)
     requireReach(*this->input_, *this->indices_, frame_, correction.flight(),
                  correction.timeAlignment(), this->filter_name_);
@@ -50,7 +54,7 @@ void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
   parallelFor(chunks, threads_, [&](std::size_t chunk) {
     const std::size_t first = chunk * kChunk;
     coverage[chunk] =
-        correctChunk(correction, systems, first, std::min(first + kChunk, count), output);
+        correctChunk(correction, channels, first, std::min(first + kChunk, count), output);
   });
   for (const CoverageCount& part : coverage) coverage_.merge(part);
   if (coverage_.unsolved > 0 || (coverage_.missed() > 0 && !keep_uncovered_)) {
@@ -66,14 +70,15 @@ void SystemBiasCorrection<PointT>::applyFilter(PointCloud& output) {
 
 template <typename PointT>
 CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection& correction,
-                                                         PointSystems<PointT> systems,
+                                                         const PointChannels<PointT>& channels,
                                                          std::size_t first, std::size_t last,
                                                          PointCloud& output) const {
   std::vector<std::size_t> chosen;
   std::vector<double> columns[4], changes[3];
   std::vector<float> intensity;
   std::vector<std::int8_t> turning;
-  std::vector<std::uint8_t> system;
+  std::vector<std::uint16_t> source;
+  std::vector<std::uint8_t> channel;
   chosen.reserve(last - first);
   for (std::vector<double>& column : columns) column.reserve(last - first);
   for (std::size_t i = first; i < last; ++i) {
@@ -81,14 +86,17 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
     const PointT& point = (*this->input_)[index];
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) continue;
     chosen.push_back(index);
-    columns[0].push_back(correction.flightTime(point.gps_time));
+    columns[0].push_back(
+        correction.flightTime(secondsOfTime(PointFields<PointT>{point}.gpsTime())));
     columns[1].push_back(frame_.origin.x() + static_cast<double>(point.x));
     columns[2].push_back(frame_.origin.y() + static_cast<double>(point.y));
     columns[3].push_back(frame_.origin.z() + static_cast<double>(point.z));
     if constexpr (HasIntensity<PointT>::value) intensity.push_back(point.intensity);
     if constexpr (HasFlags<PointT>::value)
       turning.push_back((point.flags & kScanDirection) != 0 ? -1 : 1);
-    if (!correction.systems().single()) system.push_back(systems.of(point));
+    if (correction.systems().single()) continue;
+    source.push_back(PointFields<PointT>{point}.sourceId());
+    channel.push_back(channels.of(point, index));
   }
   for (std::vector<double>& change : changes) change.resize(chosen.size());
   const PointColumns points{columns[0].data(),
@@ -97,7 +105,8 @@ CoverageCount SystemBiasCorrection<PointT>::correctChunk(const SystemCorrection&
                             columns[3].data(),
                             HasIntensity<PointT>::value ? intensity.data() : nullptr,
                             HasFlags<PointT>::value ? turning.data() : nullptr,
-                            correction.systems().single() ? nullptr : system.data()};
+                            HasSourceId<PointT>::value ? source.data() : nullptr,
+                            channels.recorded() ? channel.data() : nullptr};
   const EffectColumns change{changes[0].data(), changes[1].data(), changes[2].data()};
   CoverageCount coverage;
   correction.change(points, chosen.size(), change, coverage);

@@ -14,6 +14,7 @@
 #include <pcl_als/common/local_frame.h>
 #include <pcl_als/common/point_fields.h>
 #include <pcl_als/common/time_alignment.h>
+#include <pcl_als/common/time_unit.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
 namespace pcl_als {
@@ -30,7 +31,8 @@ void requireReach(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& poin
   const std::size_t every = std::max<std::size_t>(1, points.size() / kSample);
   for (std::size_t i = 0; i < points.size(); i += every) {
     const PointFields<PointT> point{cloud[static_cast<std::size_t>(points[i])]};
-    plausibility.add(strip, alignment(point.gpsTime()), frame.toGround(point.position()));
+    plausibility.add(strip, alignment(secondsOfTime(point.gpsTime())),
+                     frame.toGround(point.position()));
   }
   const std::string reason = plausibility.whyOutOfReach(strip);
   if (reason.empty()) return;
