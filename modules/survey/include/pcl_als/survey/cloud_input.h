@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -37,7 +38,7 @@ class CloudReader : public LocalPointReader {
     info_.crs = frame.crs;
     info_.units.source = info_.units.vertical_source = "LocalFrame";
     info_.format = "point cloud";
-    survey(frame.origin, HasGpsTime<PointT>::value);
+    survey(frame.origin, HasGpsTime<PointT>::value, std::numeric_limits<float>::epsilon());
     requireFineFloats(info_);
   }
 
