@@ -46,10 +46,7 @@ void correct(const CalibrationResult& result, SimulatedSurvey& survey) {
     std::vector<double> time, axes[3], change[3];
     std::vector<float> intensity;
     std::vector<std::int8_t> turning;
-    const std::vector<std::uint8_t> system(
-        count, correction.systems().single()
-                   ? std::uint8_t{0}
-                   : correction.systems().of(static_cast<std::uint16_t>(strip + 1), 0));
+    const std::vector<std::uint16_t> source(count, static_cast<std::uint16_t>(strip + 1));
     for (const LidarReturn& point : points) {
       time.push_back(point.time);
       intensity.push_back(point.intensity);
@@ -59,7 +56,7 @@ void correct(const CalibrationResult& result, SimulatedSurvey& survey) {
     for (std::vector<double>& values : change) values.resize(count);
     CoverageCount coverage;
     correction.change({time.data(), axes[0].data(), axes[1].data(), axes[2].data(),
-                       intensity.data(), turning.data(), system.data()},
+                       intensity.data(), turning.data(), source.data()},
                       count, {change[0].data(), change[1].data(), change[2].data()}, coverage);
     for (std::size_t i = 0; i < count; ++i)
       points[i].position += Eigen::Vector3d(change[0][i], change[1][i], change[2][i]);

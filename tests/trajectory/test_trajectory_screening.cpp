@@ -235,10 +235,10 @@ TEST(CorrectionSizes, LeaveOutTheOffsetsOfSystems) {
   const std::vector<double> time(kCount, 50.0), x(kCount, 500000.0), y(kCount, 5403000.0),
       z(kCount, 100.0);
   std::vector<double> dx(kCount), dy(kCount), dz(kCount);
-  std::vector<std::uint8_t> system(kCount, 0);
-  system[7] = 1;
+  std::vector<std::uint16_t> source(kCount, 1);
+  source[7] = 2;
   PointColumns points{time.data(), x.data(), y.data(), z.data()};
-  points.system = system.data();
+  points.source = source.data();
   CoverageCount coverage;
   correction.change(points, kCount, {dx.data(), dy.data(), dz.data()}, coverage);
   EXPECT_NEAR(dz[7], -2.0, 0.02);
