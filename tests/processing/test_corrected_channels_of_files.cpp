@@ -67,8 +67,10 @@ class ChannelsOfFiles : public testing::Test {
     beam.type = LasExtraType::u16;
     beam.scale = 0.5;  // stored as 40 and 42
     options.extra_fields = {beam};
+    PointChunk stored = points_;
+    if (point_format < 6) std::fill(stored.flags.begin(), stored.flags.end(), std::uint8_t{0});
     LasWriter writer(folder_ / name, options);
-    writer.append(points_, {beams_});
+    writer.append(stored, {beams_});
     writer.finish();
     return folder_ / name;
   }
