@@ -151,7 +151,8 @@ bool isConversionFolder(const std::filesystem::path& output, bool folder_needed)
 
 void requireStripFolder(const std::filesystem::path& output) {
   if (!isConversionFolder(output, true))
-    throw UsageError(output.string() + ": is a file; a file for each strip needs a folder");
+    throw UsageError(output.string() +
+                     ": is the name of a file; a file for each strip needs a folder");
 }
 
 std::string convertedName(const std::filesystem::path& input, const std::string& format) {
