@@ -67,9 +67,11 @@ TEST(OverlapVariation, TooLittleShowsNothing) {
   for (int i = 0; i < 5; ++i) variation.add(0, {i, i * i}, i);
   EXPECT_EQ(variation.ofOffset(), 0.0);  // one group
   EXPECT_EQ(variation.ofRotations(), Eigen::Vector2d(0.0, 0.0));
-  EXPECT_THROW(significantMeanSquare(Eigen::VectorXd::Ones(4), Eigen::MatrixXd::Identity(4, 4),
-                                     Eigen::MatrixXd::Identity(4, 4)),
-               UsageError);
+  // 95 % of chi-squared with four degrees of freedom: 9.488.
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(4, 4);
+  EXPECT_EQ(significantMeanSquare(Eigen::VectorXd::Constant(4, 1.54), unit, unit), 0.0);
+  EXPECT_NEAR(significantMeanSquare(Eigen::VectorXd::Constant(4, 1.541), unit, unit),
+              4.0 * 1.541 * 1.541, 1e-12);
 }
 
 }  // namespace

@@ -17,6 +17,17 @@ TEST(RobustWeight, IsHubers) {
   EXPECT_EQ(huberWeight(4.0, 1.0, 1.0), 0.25);
 }
 
+TEST(RobustWeight, RejectsBeyondTheLimit) {
+  const RobustWeight weight;
+  EXPECT_EQ(weight(-3.0), 0.5);
+  EXPECT_NEAR(weight(4.5), 1.0 / 3.0, 1e-15);
+  EXPECT_EQ(weight(4.6), 0.0);
+  EXPECT_EQ(weight(-0.46, 0.1), 0.0);
+  EXPECT_FALSE(weight.rejects(0.46, 0.2));
+  EXPECT_NEAR((RobustWeight{1.0, kNoRejection})(1e3), 1e-3, 1e-15);
+  EXPECT_EQ((RobustWeight{1.0, kNoRejection})(0.0, 0.0), 1.0);
+}
+
 // The weight is the derivative of the loss over the residual; against central differences.
 TEST(RobustWeight, IsTheDerivativeOfTheLoss) {
   for (const double residual : {-7.0, -1.6, -0.3, 0.4, 1.4, 2.5}) {

@@ -80,5 +80,11 @@ TEST(RobustSigma, IgnoresOutliers) {
   EXPECT_GT(of(spoilt).standardDeviation(), 400.0);
 }
 
+TEST(RobustSigma, AboutZeroCountsTheMean) {
+  EXPECT_DOUBLE_EQ(robustSigmaAboutZero({9.5, -10.5, 10.0}), 1.4826 * 10.0);
+  EXPECT_DOUBLE_EQ(robustSigma({9.5, 10.5, 10.0}), 1.4826 * 0.5);
+  EXPECT_TRUE(std::isnan(robustSigmaAboutZero({})));
+}
+
 }  // namespace
 }  // namespace pcl_als

@@ -4,19 +4,19 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/adjustment/correlated_errors.h>
-#include <pcl_als/adjustment/robust_weight.h>
+#include <pcl_als/adjustment/robust_iteration.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_solvers.h>
-#include <pcl_als/common/statistics.h>
 
 namespace pcl_als {
 namespace {
 
 constexpr double kSingular = 1e-10;  // smallest eigenvalue of the scaled normal matrix
-constexpr int kPasses = 10;  // reweightings; five reach a hundredth of the standard deviation
+constexpr int kPasses = 10;          // they reach a thousandth of the standard deviation
 
 /// Inverse of a symmetric matrix, scaled to a unit diagonal first; empty when it is singular.
 Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& normal) {
@@ -102,27 +102,27 @@ ClusteredRegression::Result ClusteredRegression::solve(bool robust) const {
   result.count = n;
   result.estimate = Eigen::VectorXd::Zero(unknowns_);
   if (n <= static_cast<std::size_t>(unknowns_)) return result;
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(n), left = residuals(result.estimate);
   Eigen::MatrixXd inverse;
-  for (int pass = 0; pass < (robust ? kPasses : 1); ++pass) {
-    if (pass > 0) {
-      const double sigma =
-          // all residuals equal: no outliers
-          std::max(robustSigma({left.data(), left.data() + n}), 1e-9);
-      weights = left.unaryExpr([sigma](double rest) { return huberWeight(rest, sigma); });
-    }
+  RobustSettings settings;
+  settings.most_passes = robust ? kPasses : 1;
+  const RobustFit fit = fitRobustly(n, settings, [&](const auto& weights, auto& left) {
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns_, unknowns_);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_);
+    left = residuals(result.estimate);
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);
       normal += weights[i] * row * row.transpose();
       right += weights[i] * left[i] * row;
     }
     inverse = inverseOf(normal);
-    if (inverse.size() == 0) return result;
-    result.estimate += inverse * right;
+    if (inverse.size() == 0) return std::optional<double>();
+    const Eigen::VectorXd change = inverse * right;
+    result.estimate += change;
     left = residuals(result.estimate);
-  }
+    return std::optional<double>(change.dot(right));
+  });
+  if (!fit.solved()) return result;
+  const Eigen::VectorXd &weights = fit.weights, &left = fit.residuals;
   std::map<std::int64_t, Eigen::VectorXd> scores;
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Map<const Eigen::VectorXd> row(rows_.data() + i * unknowns_, unknowns_);

@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
-#include <cmath>
 
 #include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/adjustment/overlap_variation.h>
-#include <pcl_als/common/errors.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {
-namespace {
-
-constexpr double kSignificant[] = {3.841, 5.991, 7.815};  // 95 % of chi-squared, 1 to 3 unknowns
-
-}  // namespace
 
 double significantMeanSquare(const Eigen::VectorXd& estimate, const Eigen::MatrixXd& covariance,
                              const Eigen::MatrixXd& moments) {
-  const Eigen::Index n = estimate.size();
-  if (n < 1 || n > static_cast<Eigen::Index>(std::size(kSignificant)))
-    throw UsageError("mean square of a polynomial: 1 to 3 coefficients");
+  constexpr double kChance = 0.05;
+  const double limit = chiSquaredCritical(kChance, static_cast<double>(estimate.size()));
   const Eigen::MatrixXd inverse = inverseOrEmpty(covariance);
-  if (inverse.size() == 0 || !(estimate.dot(inverse * estimate) > kSignificant[n - 1])) return 0.0;
+  if (inverse.size() == 0 || !(estimate.dot(inverse * estimate) > limit)) return 0.0;
   return estimate.dot(moments * estimate);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/parallel.h>
@@ -40,11 +41,6 @@ bool isOfPlan(const PairWeights::Group& group) {
   return group.first == PairObservation::kControl && group.second == group.first - kPlan;
 }
 
-double robustWeight(double standardised, bool reject) {
-  if (reject && std::abs(standardised) > kRejectionLimit) return 0.0;
-  return huberWeight(standardised);
-}
-
 double varianceWith(double pointing_factor, double variance, double pointing) {
   return variance + (pointing_factor - 1.0) * pointing;
 }
@@ -54,12 +50,13 @@ double varianceWith(double pointing_factor, double variance, double pointing) {
 template <typename Values>
 double scatterOf(const Values& values, double pointing_factor) {
   if (values.residual.size() < kEnoughForScale) return 1.0;
-  std::vector<double> sizes(values.residual.size());
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    sizes[i] = std::abs(values.residual[i]) /
-               std::sqrt(varianceWith(pointing_factor, values.variance[i], values.pointing[i]));
+  std::vector<double> standardised(values.residual.size());
+  for (std::size_t i = 0; i < standardised.size(); ++i) {
+    standardised[i] =
+        values.residual[i] /
+        std::sqrt(varianceWith(pointing_factor, values.variance[i], values.pointing[i]));
   }
-  return std::max(1.4826 * medianInPlace(sizes), kLeastScale);
+  return std::max(robustSigmaAboutZero(std::move(standardised)), kLeastScale);
 }
 
 /// -ln of the likelihood of a group's residuals under Huber's least favourable distribution.
@@ -123,6 +120,7 @@ void PairWeights::findScales(const Residuals& residuals, int threads) {
 
 PairWeights::Kept PairWeights::weigh(const std::vector<PairResidual>& residuals, bool reject,
                                      std::vector<double>& weights) const {
+  const RobustWeight weight{kHuberLimit, reject ? kRejectionLimit : kNoRejection};
   Kept kept;
   weights.reserve(residuals.size());
   auto found = scales_.end();
@@ -130,7 +128,7 @@ PairWeights::Kept PairWeights::weigh(const std::vector<PairResidual>& residuals,
     if (found == scales_.end() || found->first != pair.group) found = scales_.find(pair.group);
     const double scale = found == scales_.end() ? 1.0 : found->second;
     const double variance = scale * scale * varianceWith(pointing_, pair.variance, pair.pointing);
-    const double robust = robustWeight(pair.residual / std::sqrt(variance), reject);
+    const double robust = weight(pair.residual / std::sqrt(variance));
     weights.push_back(robust * pair.variance / (variance * pair.sharing));
     if (robust == 0.0) continue;
     kept.squares += pair.residual * pair.residual / pair.variance;

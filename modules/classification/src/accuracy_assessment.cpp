@@ -6,13 +6,14 @@
 #include <utility>
 
 #include <pcl_als/classification/accuracy_assessment.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/errors.h>
 
 namespace pcl_als {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
+const double kNormal95 = normalCritical(0.025);  // 95 % of normal errors are smaller
 
 Proportion wilson(std::int64_t part, std::int64_t whole) {
   if (whole == 0) return {kNone, kNone, kNone};
@@ -60,25 +61,17 @@ void conditionalKappa(double n, ClassAccuracy& row) {
                       : kNone;
 }
 
-double twoSidedNormal(double z) {
-  return std::erfc(std::abs(z) / std::sqrt(2.0));
-}
-
 /// Both tails of a fair coin's tosses.
 double signTest(std::int64_t one, std::int64_t other) {
-  const std::int64_t tosses = one + other;
-  double tail = 0.0;
-  for (std::int64_t k = 0; k <= std::min(one, other); ++k)
-    tail += std::exp(std::lgamma(tosses + 1.0) - std::lgamma(k + 1.0) -
-                     std::lgamma(tosses - k + 1.0) - static_cast<double>(tosses) * std::log(2.0));
-  return std::min(1.0, 2.0 * tail);
+  const auto fewer = static_cast<double>(std::min(one, other));
+  return std::min(1.0, 2.0 * binomialUpTo(fewer, static_cast<double>(one + other), 0.5));
 }
 
 void judgeDifference(double variance, AccuracyComparison& result) {
   result.kappa_difference_std = std::sqrt(std::max(0.0, variance));
   const bool judged = result.kappa_difference_std > 0.0;
   result.kappa_z = judged ? result.kappa_difference / result.kappa_difference_std : kNone;
-  result.kappa_p = judged ? twoSidedNormal(result.kappa_z) : kNone;
+  result.kappa_p = judged ? 2.0 * normalTail(std::abs(result.kappa_z)) : kNone;
 }
 
 double overallOf(const ConfusionMatrix& matrix) {

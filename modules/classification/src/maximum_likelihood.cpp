@@ -6,9 +6,8 @@
 #include <string>
 #include <utility>
 
-#include <boost/math/distributions/chi_squared.hpp>
-
 #include <pcl_als/classification/gaussian_classifier.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/text_values.h>
@@ -38,14 +37,12 @@ void GaussianModel::check() const {
 }
 
 MaximumLikelihood::MaximumLikelihood(GaussianModel model, double rejection)
-    : model_(std::move(model)), largest_distance_sq_(std::numeric_limits<double>::infinity()) {
+    : model_(std::move(model)) {
   model_.check();
   if (!(rejection >= 0.0 && rejection < 1.0))
     throw UsageError("the probability of rejection must be at least 0 and less than 1");
   const auto bands = static_cast<Eigen::Index>(model_.bands.size());
-  if (rejection > 0.0)
-    largest_distance_sq_ = boost::math::quantile(boost::math::complement(
-        boost::math::chi_squared_distribution<double>(static_cast<double>(bands)), rejection));
+  largest_distance_sq_ = chiSquaredCritical(rejection, static_cast<double>(bands));
   for (const GaussianClass& c : model_.classes) {
     const CholeskyFactor cholesky(c.covariance);
     whitening_.push_back(

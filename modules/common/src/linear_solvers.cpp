@@ -97,6 +97,10 @@ bool LdltFactor::succeeded() const {
   return ldlt_.info() == Eigen::Success;
 }
 
+double LdltFactor::reciprocalCondition() const {
+  return ldlt_.rcond();
+}
+
 Eigen::VectorXd LdltFactor::diagonal() const {
   return ldlt_.vectorD();
 }

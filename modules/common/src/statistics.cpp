@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <pcl_als/common/statistics.h>
 
@@ -43,8 +44,14 @@ double medianInPlace(std::vector<double>& values) {
 
 double robustSigma(std::vector<double> values) {
   const double median = medianInPlace(values);
-  for (double& value : values) value = std::abs(value - median);
-  return 1.4826 * medianInPlace(values);
+  for (double& value : values) value -= median;
+  return robustSigmaAboutZero(std::move(values));
+}
+
+double robustSigmaAboutZero(std::vector<double> values) {
+  constexpr double kNormal = 1.4826;  // 1 / normalCritical(0.25), rounded as the NMAD is defined
+  for (double& value : values) value = std::abs(value);
+  return kNormal * medianInPlace(values);
 }
 
 }  // namespace pcl_als

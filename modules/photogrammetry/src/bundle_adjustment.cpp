@@ -93,13 +93,13 @@ bool Solution::solve(double robust) {
 
 /// Robust standard deviation of the residuals of observations in use, in units of their own.
 double robustScale(const BundleProblem& problem) {
-  std::vector<double> sizes;
+  std::vector<double> residuals;
   for (const Observation& o : problem.observations) {
     if (!problem.inUse(o) || o.isPrior()) continue;
     const Eigen::VectorXd residual = problem.linearised(o).residual;
-    for (int row = 0; row < residual.size(); ++row) sizes.push_back(std::abs(residual[row]));
+    residuals.insert(residuals.end(), residual.data(), residual.data() + residual.size());
   }
-  return sizes.empty() ? 0.0 : 1.4826 * medianInPlace(sizes);
+  return residuals.empty() ? 0.0 : robustSigmaAboutZero(std::move(residuals));
 }
 
 /// Solutions with Cauchy's loss, whose scale follows the scatter of the residuals; what exceeds the

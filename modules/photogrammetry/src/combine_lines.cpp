@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
-#include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/photogrammetry/roof_lines.h>
@@ -120,11 +120,10 @@ double errorOf(const std::vector<Difference>& differences, int component, double
   // The variance with which half of the standardised differences are below the quartile.
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
-    std::vector<double> sizes;
+    std::vector<double> standardised;
     for (const Difference& d : differences)
-      sizes.push_back(std::abs(d.value[component]) /
-                      std::sqrt(d.variance[component] + 2.0 * middle));
-    (1.4826 * medianInPlace(sizes) > 1.0 ? low : high) = middle;
+      standardised.push_back(d.value[component] / std::sqrt(d.variance[component] + 2.0 * middle));
+    (robustSigmaAboutZero(std::move(standardised)) > 1.0 ? low : high) = middle;
   }
   return std::sqrt(high);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pcl_als/adjustment/robust_weight.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 
@@ -39,12 +40,13 @@ std::pair<double, int> quadraticForm(const Eigen::VectorXd& v, const Eigen::Matr
   return sum;
 }
 
-/// Normal deviate of the same probability as a value of chi-squared (Wilson and Hilferty 1931).
+/// Normal deviate of the same probability as a value of chi-squared, at least 0. Where the
+/// probability is 0 to the computer, the root, which is a little larger, orders the values.
 double normalDeviate(double chi_squared, int freedom) {
   if (freedom == 0) return 0.0;
   if (freedom == 1) return std::sqrt(chi_squared);
-  const double part = 2.0 / (9.0 * freedom);
-  return std::max(0.0, (std::cbrt(chi_squared / freedom) - 1.0 + part) / std::sqrt(part));
+  const double deviate = normalCritical(chiSquaredTail(chi_squared, freedom));
+  return std::max(0.0, std::min(std::sqrt(chi_squared), deviate));
 }
 
 }  // namespace
@@ -54,9 +56,7 @@ TestValue testOf(const Observation& o, const Observation::Linear& linear,
   const Eigen::MatrixXd q =
       Eigen::MatrixXd::Identity(o.rows(), o.rows()) - normal.adjustedCovariance(o, linear);
   const auto [form, freedom] = quadraticForm(linear.residual, q);
-  // For large values the normal deviate is smaller than the root by far: the root orders them.
-  return {std::max(normalDeviate(form, freedom), std::sqrt(form) - std::sqrt(1.0 * freedom)),
-          freedom > 0 ? std::sqrt(form / freedom) : 0.0, q.trace()};
+  return {normalDeviate(form, freedom), freedom > 0 ? std::sqrt(form / freedom) : 0.0, q.trace()};
 }
 
 std::size_t Snooping::rejectFarPoints(BundleProblem& problem, const BundleNormal& normal) {

@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <map>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/common/count_text.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/quality/control_offsets.h>
@@ -16,13 +15,13 @@
 namespace pcl_als {
 namespace {
 
-constexpr double kCommon = 3.0;               // standard deviations of a point
-constexpr double kLeastScatter = 0.01;        // metres: three points may agree by chance
-constexpr std::size_t kFewestCommon = 3;      // points
-constexpr double kReliable = 20.0;            // variance of the slopes over that of their errors
-constexpr double kLargestPlanStd = 0.5;       // metres: larger ones do not determine a shift
-constexpr std::size_t kUnknowns = 3;          // of a movement
-constexpr double kSignificantInPlan = 0.999;  // probability, two-sided
+constexpr double kCommon = 3.0;           // standard deviations of a point
+constexpr double kLeastScatter = 0.01;    // metres: three points may agree by chance
+constexpr std::size_t kFewestCommon = 3;  // points
+constexpr double kReliable = 20.0;        // variance of the slopes over that of their errors
+constexpr double kLargestPlanStd = 0.5;   // metres: larger ones do not determine a shift
+constexpr std::size_t kUnknowns = 3;      // of a movement
+constexpr double kChanceInPlan = 0.001;   // of a significant shift, two-sided
 
 /// Mean difference of each point, of one strip or of all.
 std::map<std::string, RunningStatistics> byPoint(const std::vector<ControlDifference>& differences,
@@ -135,8 +134,8 @@ HorizontalShift shiftOntoControl(const std::vector<ControlDifference>& differenc
 
 bool isSignificantInPlan(const HorizontalShift& shift) {
   if (!shift.determined) return false;
-  const boost::math::students_t distribution(static_cast<double>(shift.count - kUnknowns));
-  const double limit = boost::math::quantile(distribution, 0.5 + 0.5 * kSignificantInPlan);
+  const double limit =
+      studentCritical(0.5 * kChanceInPlan, static_cast<double>(shift.count - kUnknowns));
   return (shift.shift.head<2>().cwiseAbs().array() > limit * shift.std.head<2>().array()).any();
 }
 

@@ -6,6 +6,7 @@
 
 #include <pcl_als/adjustment/clustered_regression.h>
 #include <pcl_als/adjustment/overlap_variation.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/quality/accuracy_standards.h>
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t kFewest = 50;       // least number of level places of a pair
 constexpr std::size_t kFewestInCell = 5;  // for the mean of a cell
 constexpr double kSteep = 10.0 * kRadiansPerDegree;
-constexpr double kSignificant = 3.841;  // 95 % of chi-squared with one degree of freedom
+constexpr double kChance = 0.05;        // of a change of the shift that counts
 constexpr double kLeastVertical = 0.5;  // cosine: 60 degrees, the steepest of the slope classes
 // metres: shifts with larger standard deviations are not determined
 constexpr double kLargestShiftStd = 0.5;
@@ -81,10 +82,11 @@ Eigen::Vector3d changeByTilt(const std::vector<OffsetSample>& samples,
   const ClusteredRegression::Result fit = tilted.solve(true);
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
   if (!fit.determined) return squares;
+  const double limit = chiSquaredCritical(kChance, 1.0);
   for (int i = 0; i < 3; ++i) {
     const double change = fit.estimate[i] - shift.estimate[i];
     const double chance = std::max(0.0, fit.covariance(i, i) - shift.covariance(i, i));
-    if (change * change > kSignificant * chance) squares[i] = change * change - chance;
+    if (change * change > limit * chance) squares[i] = change * change - chance;
   }
   return squares;
 }

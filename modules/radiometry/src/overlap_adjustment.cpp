@@ -17,6 +17,15 @@ namespace {
 
 constexpr std::size_t kFewClusters = 20;
 
+struct TermInfo {
+  const char *name, *unit;
+  double RadiometricModel::*value;
+};
+constexpr TermInfo kTerms[kRadiometricTermCount] = {
+    {"range_exponent", "1", &RadiometricModel::range_exponent},
+    {"incidence_exponent", "1", &RadiometricModel::incidence_exponent},
+    {"extinction", "1/km", &RadiometricModel::extinction_per_km}};
+
 std::string number(double value) {
   std::ostringstream text;
   text.precision(3);
@@ -53,14 +62,14 @@ class Adjustment {
       : strips_(strips),
         settings_(settings),
         groups_(groupsOf(cells, strips.size())),
-        equations_(cells, cell_size, model, settings),
+        equations_(cells, cell_size, model, settings.cluster_size),
         wanted_(settings.estimate) {
     result_.model = model;
     result_.cells = cells.size();
     result_.observations = equations_.observations();
     result_.gains.resize(strips.size());
     for (std::size_t t = 0; t < kRadiometricTermCount; ++t)
-      result_.terms[t].value = valueOf(static_cast<RadiometricTerm>(t), model);
+      result_.terms[t].value = model.*kTerms[t].value;
     for (EstimatedTerm& gain : result_.gains) gain.value = 1.0;
   }
 
@@ -121,7 +130,7 @@ class Adjustment {
       }
     }
     values_ = transform * solution_.unknowns;
-    if (!solution_.regular) return;
+    if (!solution_.outcome.solved()) return;
     covariance_ = transform * solution_.covariance * transform.transpose();
     formal_ = transform * solution_.formal * transform.transpose();
   }
@@ -142,17 +151,17 @@ class Adjustment {
   }
   std::string nameOfRow(int row) const {
     for (std::size_t t = 0; t < kRadiometricTermCount; ++t)
-      if (unknowns_.term[t] == row) return nameOf(static_cast<RadiometricTerm>(t));
+      if (unknowns_.term[t] == row) return kTerms[t].name;
     const int terms = static_cast<int>(std::count(wanted_.begin(), wanted_.end(), true));
     return "the gain of strip " + strips_[static_cast<std::size_t>(row - terms)];
   }
 
   /// True where a term was set back to its given value, so that the others are solved again.
   bool dropWorst() {
-    if (!solution_.regular) {
+    if (!solution_.outcome.solved()) {
       for (const std::size_t t : {2U, 0U, 1U}) {
         if (!wanted_[t]) continue;
-        refuse(t, "the overlaps do not determine it: the equations are singular");
+        refuse(t, std::string("the overlaps do not determine it: ") + solution_.outcome.reason());
         return true;
       }
       return false;
@@ -173,11 +182,11 @@ class Adjustment {
   }
 
   void store() {
-    result_.converged = solution_.regular && solution_.converged;
-    result_.iterations = solution_.iterations;
+    result_.converged = solution_.outcome.converged();
+    result_.iterations = solution_.outcome.passes;
     result_.sigma0 = solution_.sigma0;
     result_.clusters = solution_.clusters;
-    if (!solution_.regular) return;
+    if (!solution_.outcome.solved()) return;
     for (std::size_t t = 0; t < kRadiometricTermCount; ++t)
       if (wanted_[t]) storeTerm(t);
     if (settings_.estimate_gains) storeGains();
@@ -196,12 +205,11 @@ class Adjustment {
     term.std_formal = std::sqrt(formal_(row, row));
     term.status = TermStatus::estimated;
     if (term.value < 0.0) {
-      result_.warnings.push_back(std::string(nameOf(static_cast<RadiometricTerm>(t))) +
-                                 " came out as " + number(term.value) +
-                                 ", which is impossible; 0 is used");
+      result_.warnings.push_back(std::string(kTerms[t].name) + " came out as " +
+                                 number(term.value) + ", which is impossible; 0 is used");
       term.value = 0.0;
     }
-    setValue(static_cast<RadiometricTerm>(t), term.value, result_.model);
+    result_.model.*kTerms[t].value = term.value;
   }
 
   void storeGains() {
@@ -254,57 +262,20 @@ class Adjustment {
 }  // namespace
 
 const char* nameOf(RadiometricTerm term) {
-  switch (term) {
-    case RadiometricTerm::range_exponent:
-      return "range_exponent";
-    case RadiometricTerm::incidence_exponent:
-      return "incidence_exponent";
-    case RadiometricTerm::extinction:
-      break;
-  }
-  return "extinction";
+  return kTerms[static_cast<std::size_t>(term)].name;
 }
 
 const char* unitOf(RadiometricTerm term) {
-  return term == RadiometricTerm::extinction ? "1/km" : "1";
+  return kTerms[static_cast<std::size_t>(term)].unit;
 }
 
 double valueOf(RadiometricTerm term, const RadiometricModel& model) {
-  switch (term) {
-    case RadiometricTerm::range_exponent:
-      return model.range_exponent;
-    case RadiometricTerm::incidence_exponent:
-      return model.incidence_exponent;
-    case RadiometricTerm::extinction:
-      break;
-  }
-  return model.extinction_per_km;
-}
-
-void setValue(RadiometricTerm term, double value, RadiometricModel& model) {
-  switch (term) {
-    case RadiometricTerm::range_exponent:
-      model.range_exponent = value;
-      return;
-    case RadiometricTerm::incidence_exponent:
-      model.incidence_exponent = value;
-      return;
-    case RadiometricTerm::extinction:
-      model.extinction_per_km = value;
-      return;
-  }
+  return model.*kTerms[static_cast<std::size_t>(term)].value;
 }
 
 const char* nameOf(TermStatus status) {
-  switch (status) {
-    case TermStatus::fixed:
-      return "fixed";
-    case TermStatus::estimated:
-      return "estimated";
-    case TermStatus::not_estimable:
-      break;
-  }
-  return "not_estimable";
+  constexpr const char* kNames[] = {"fixed", "estimated", "not_estimable"};
+  return kNames[static_cast<std::size_t>(status)];
 }
 
 std::vector<double> OverlapResult::gainFactors() const {

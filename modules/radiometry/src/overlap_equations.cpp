@@ -8,16 +8,13 @@
 #include <numeric>
 #include <utility>
 
-#include <pcl_als/adjustment/robust_weight.h>
 #include <pcl_als/common/linear_solvers.h>
-#include <pcl_als/common/statistics.h>
 
 namespace pcl_als::detail {
 namespace {
 
 /// A cell's mean has the variance of its points and as much again as of this many of them.
 constexpr double kPointsOfTexture = 5.0;
-constexpr int kScaleRounds = 6;  ///< after which the scale of the residuals stays
 constexpr double kSingleClusterFactor = 1e3;
 constexpr double kSingular = 1e-11;  ///< smallest eigenvalue of the scaled normal matrix
 
@@ -38,24 +35,15 @@ Eigen::VectorXd scatterDoubt(const Eigen::ArrayXd& squares, const Eigen::ArrayXd
 }  // namespace
 
 struct OverlapEquations::Reduced {
+  explicit Reduced(int n) : normal(Eigen::MatrixXd::Zero(n, n)), right(Eigen::VectorXd::Zero(n)) {}
   Eigen::MatrixXd normal;
   Eigen::VectorXd right;
 };
 
-/// Residuals and weights of the solution.
-struct OverlapEquations::Weighing {
-  const std::vector<double>&residual, &robust;
-  double scale;
-  double inside(std::size_t i) const {
-    return std::abs(residual[i]) <= kHuberLimit * scale ? 1.0 : 1e-9;
-  }
-};
-
 OverlapEquations::OverlapEquations(const std::vector<SharedCell>& cells, double cell_size,
-                                   const RadiometricModel& model, const OverlapSettings& settings)
-    : settings_(settings) {
+                                   const RadiometricModel& model, double cluster_size) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::uint32_t> numbers;
-  const double per_cluster = std::max(1.0, settings.cluster_size / cell_size);
+  const double per_cluster = std::max(1.0, cluster_size / cell_size);
   for (const SharedCell& cell : cells) {
     first_.push_back(rows_.size());
     const auto column = static_cast<std::int32_t>(std::floor(cell.column / per_cluster));
@@ -91,44 +79,57 @@ Eigen::VectorXd OverlapEquations::designOf(const OverlapUnknowns& unknowns, cons
   return design;
 }
 
-/// Normal equations with the cells' reflectances eliminated: weighted deviations from cell means.
-OverlapEquations::Reduced OverlapEquations::reduce(const OverlapUnknowns& unknowns,
-                                                   const std::vector<double>& robust) const {
-  Reduced reduced{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count),
-                  Eigen::VectorXd::Zero(unknowns.count)};
-  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(unknowns.count);
-    double sum = 0.0, given = 0.0;
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const double weight = rows_[i].weight * robust[i];
-      mean += weight * designOf(unknowns, rows_[i]);
-      given += weight * rows_[i].given;
-      sum += weight;
-    }
-    if (sum <= 0.0) continue;
-    mean /= sum;
-    given /= sum;
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const double weight = rows_[i].weight * robust[i];
-      const Eigen::VectorXd design = designOf(unknowns, rows_[i]) - mean;
-      reduced.normal.noalias() += weight * design * design.transpose();
-      reduced.right += weight * (rows_[i].given - given) * design;
-    }
+/// What the cells' reflectances and the unknowns do not explain if the former are zero.
+Eigen::VectorXd OverlapEquations::remainders(const OverlapUnknowns& unknowns,
+                                             const Eigen::VectorXd& x) const {
+  Eigen::VectorXd left(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    left[i] = rows_[i].given - designOf(unknowns, rows_[i]).dot(x);
+  return left;
+}
+
+/// Adds a cell to normal equations with its reflectance eliminated: weighted deviations from its
+/// means. \param factors on the weights of all rows
+void OverlapEquations::addCell(const OverlapUnknowns& unknowns, std::size_t cell,
+                               const Eigen::VectorXd& factors, const Eigen::VectorXd& values,
+                               Reduced& reduced) const {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(unknowns.count);
+  double sum = 0.0, value = 0.0;
+  for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+    const double weight = rows_[i].weight * factors[i];
+    mean += weight * designOf(unknowns, rows_[i]);
+    value += weight * values[i];
+    sum += weight;
   }
+  if (sum <= 0.0) return;
+  mean /= sum;
+  value /= sum;
+  for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+    const double weight = rows_[i].weight * factors[i];
+    const Eigen::VectorXd design = designOf(unknowns, rows_[i]) - mean;
+    reduced.normal.noalias() += weight * design * design.transpose();
+    reduced.right += weight * (values[i] - value) * design;
+  }
+}
+
+OverlapEquations::Reduced OverlapEquations::reduce(const OverlapUnknowns& unknowns,
+                                                   const Eigen::VectorXd& factors,
+                                                   const Eigen::VectorXd& values) const {
+  Reduced reduced(unknowns.count);
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell)
+    addCell(unknowns, cell, factors, values, reduced);
   return reduced;
 }
 
 /// Residuals, in standard deviations of unit weight: about the robust mean of their cell.
-std::vector<double> OverlapEquations::residuals(const OverlapUnknowns& unknowns,
-                                                const Eigen::VectorXd& x,
-                                                const std::vector<double>& robust) const {
-  std::vector<double> residual(rows_.size());
+Eigen::VectorXd OverlapEquations::residuals(const Eigen::VectorXd& remainders,
+                                            const Eigen::VectorXd& robust) const {
+  Eigen::VectorXd residual(rows_.size());
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
     double sum = 0.0, mean = 0.0;
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      residual[i] = rows_[i].given - designOf(unknowns, rows_[i]).dot(x);
       const double weight = rows_[i].weight * robust[i];
-      mean += weight * residual[i];
+      mean += weight * remainders[i];
       sum += weight;
     }
     mean /= sum;
@@ -136,60 +137,32 @@ std::vector<double> OverlapEquations::residuals(const OverlapUnknowns& unknowns,
     // With two strips both residuals are half their difference, because the mean was estimated.
     const double inflated = std::sqrt(views / (views - 1.0));
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i)
-      residual[i] = (residual[i] - mean) * std::sqrt(rows_[i].weight) * inflated;
+      residual[i] = (remainders[i] - mean) * std::sqrt(rows_[i].weight) * inflated;
   }
   return residual;
 }
 
-/// Scores and sensitivity of one cell. Sensitivity: what a small change of the unknowns does to the
-/// score, where only residuals within the limit move.
-void OverlapEquations::addCell(const OverlapUnknowns& unknowns, std::size_t cell,
-                               const Weighing& weighing, Eigen::VectorXd& score,
-                               Eigen::MatrixXd& sensitivity) const {
-  const int n = unknowns.count;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n), inner_mean = mean;
-  double sum = 0.0, inner_sum = 0.0;
-  for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-    const Eigen::VectorXd design = designOf(unknowns, rows_[i]);
-    const double weight = rows_[i].weight * weighing.robust[i];
-    const double inner = rows_[i].weight * weighing.inside(i);
-    mean += weight * design;
-    sum += weight;
-    inner_mean += inner * design;
-    inner_sum += inner;
-  }
-  mean /= sum;
-  inner_mean /= inner_sum;
-  const auto views = static_cast<double>(first_[cell + 1] - first_[cell]);
-  const double deflated = std::sqrt((views - 1.0) / views);
-  for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-    const Eigen::VectorXd design = designOf(unknowns, rows_[i]);
-    const double weighted = std::sqrt(rows_[i].weight) * weighing.robust[i] * weighing.residual[i];
-    score += weighted * deflated * (design - mean);
-    const Eigen::VectorXd inner = design - inner_mean;
-    sensitivity.noalias() += rows_[i].weight * weighing.inside(i) * inner * inner.transpose();
-  }
-}
-
 /// Jackknife over clusters, one step each (CR3): where a few clusters (steep roofs) carry an
-/// unknown, the plain sandwich is too narrow.
-void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const Weighing& weighing,
+/// unknown, the plain sandwich is too narrow. What a small change of the unknowns does to the score
+/// follows from residuals within the limit, because only these move it.
+void OverlapEquations::covariances(const OverlapUnknowns& unknowns, const RobustFit& fit,
                                    OverlapSolution& solution) const {
   const int n = unknowns.count;
-  Eigen::VectorXd ignored = Eigen::VectorXd::Zero(n);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell)
-    addCell(unknowns, cell, weighing, ignored, all);
-  solution.formal = weighing.scale * weighing.scale * inverseOfSymmetric(all);
+  const Eigen::VectorXd left = remainders(unknowns, solution.unknowns);
+  const Eigen::VectorXd inside = fit.residuals.unaryExpr(
+      [&](double r) { return std::abs(r) <= kHuberLimit * fit.scale ? 1.0 : 1e-9; });
+  const Eigen::MatrixXd all = reduce(unknowns, inside, left).normal;
+  solution.formal = fit.scale * fit.scale * inverseOfSymmetric(all);
   solution.covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::ArrayXd fourths = Eigen::ArrayXd::Zero(n);
   for (std::size_t at = 0; at < by_cluster_.size();) {
     const std::uint32_t cluster = cluster_[by_cluster_[at]];
-    Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
-    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(n, n);
-    for (; at < by_cluster_.size() && cluster_[by_cluster_[at]] == cluster; ++at)
-      addCell(unknowns, by_cluster_[at], weighing, score, own);
-    Eigen::VectorXd moved = solveSymmetric(all - own, score);
+    Reduced score(n), sensitivity(n);
+    for (; at < by_cluster_.size() && cluster_[by_cluster_[at]] == cluster; ++at) {
+      addCell(unknowns, by_cluster_[at], fit.weights, left, score);
+      addCell(unknowns, by_cluster_[at], inside, left, sensitivity);
+    }
+    Eigen::VectorXd moved = solveSymmetric(all - sensitivity.normal, score.right);
     // An unknown determined by this cluster alone has no other estimate for comparison.
     if (!moved.allFinite()) moved.setConstant(kSingleClusterFactor);
     solution.covariance += moved * moved.transpose();
@@ -207,31 +180,24 @@ OverlapSolution OverlapEquations::solve(const OverlapUnknowns& unknowns) const {
   solution.unknowns = Eigen::VectorXd::Zero(unknowns.count);
   if (unknowns.count == 0) {
     solution.covariance = solution.formal = Eigen::MatrixXd::Zero(0, 0);
-    solution.regular = solution.converged = true;
+    solution.outcome.end = RobustOutcome::End::converged;
     return solution;
   }
-  std::vector<double> robust(rows_.size(), 1.0), residual;
-  double scale = 0.0;
-  for (int round = 1; round <= settings_.most_iterations && !solution.converged; ++round) {
-    const Reduced reduced = reduce(unknowns, robust);
+  const Eigen::VectorXd given = remainders(unknowns, solution.unknowns);
+  const RobustFit fit = fitRobustly(rows_.size(), {}, [&](const auto& robust, auto& residual) {
+    const Reduced reduced = reduce(unknowns, robust, given);
     const Eigen::VectorXd diagonal = reduced.normal.diagonal().cwiseSqrt().cwiseMax(1e-150);
     const Eigen::MatrixXd scaled = diagonal.cwiseInverse().asDiagonal() * reduced.normal *
                                    diagonal.cwiseInverse().asDiagonal();
-    solution.regular = symmetricEigen(scaled).values[0] > kSingular;
-    if (!solution.regular) return solution;
+    if (!(symmetricEigen(scaled).values[0] > kSingular)) return std::optional<double>();
     const Eigen::VectorXd next = solveSymmetric(reduced.normal, reduced.right);
-    const double change = (next - solution.unknowns).cwiseAbs().maxCoeff();
-    solution.unknowns = next;
-    solution.iterations = round;
-    residual = residuals(unknowns, next, robust);
-    // A scale that moves with the weights can go round in a circle with them.
-    if (round <= kScaleRounds) scale = std::max(robustSigma(residual), 1e-12);
-    solution.converged = round > 1 && change < 1e-6;
-    if (solution.converged) break;
-    for (std::size_t i = 0; i < rows_.size(); ++i) robust[i] = huberWeight(residual[i], scale);
-  }
-  solution.sigma0 = scale;
-  covariances(unknowns, {residual, robust, scale}, solution);
+    const Eigen::VectorXd change = next - std::exchange(solution.unknowns, next);
+    residual = residuals(remainders(unknowns, next), robust);
+    return std::optional<double>(change.dot(reduced.normal * change));
+  });
+  solution.outcome = fit;
+  solution.sigma0 = fit.scale;
+  if (fit.solved()) covariances(unknowns, fit, solution);
   return solution;
 }
 

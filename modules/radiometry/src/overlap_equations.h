@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/adjustment/robust_iteration.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
 
 namespace pcl_als::detail {
@@ -25,15 +26,14 @@ struct OverlapSolution {
   Eigen::MatrixXd covariance, formal;  ///< clustered; as if cells were independent
   double sigma0 = 0.0;
   std::size_t clusters = 0;
-  int iterations = 0;
-  bool regular = false, converged = false;
+  RobustOutcome outcome;
 };
 
 /// The equations of shared cells: reflectances eliminated, Huber's weights.
 class OverlapEquations {
  public:
   OverlapEquations(const std::vector<SharedCell>& cells, double cell_size,
-                   const RadiometricModel& model, const OverlapSettings& settings);
+                   const RadiometricModel& model, double cluster_size);
 
   OverlapSolution solve(const OverlapUnknowns& unknowns) const;
   std::size_t observations() const { return rows_.size(); }
@@ -47,17 +47,16 @@ class OverlapEquations {
     std::array<double, kRadiometricTermCount> effect;
   };
   struct Reduced;
-  Reduced reduce(const OverlapUnknowns& unknowns, const std::vector<double>& robust) const;
-  std::vector<double> residuals(const OverlapUnknowns& unknowns, const Eigen::VectorXd& x,
-                                const std::vector<double>& robust) const;
-  struct Weighing;
-  void addCell(const OverlapUnknowns& unknowns, std::size_t cell, const Weighing& weighing,
-               Eigen::VectorXd& score, Eigen::MatrixXd& sensitivity) const;
-  void covariances(const OverlapUnknowns& unknowns, const Weighing& weighing,
+  Eigen::VectorXd remainders(const OverlapUnknowns& unknowns, const Eigen::VectorXd& x) const;
+  void addCell(const OverlapUnknowns& unknowns, std::size_t cell, const Eigen::VectorXd& factors,
+               const Eigen::VectorXd& values, Reduced& reduced) const;
+  Reduced reduce(const OverlapUnknowns& unknowns, const Eigen::VectorXd& factors,
+                 const Eigen::VectorXd& values) const;
+  Eigen::VectorXd residuals(const Eigen::VectorXd& remainders, const Eigen::VectorXd& robust) const;
+  void covariances(const OverlapUnknowns& unknowns, const RobustFit& fit,
                    OverlapSolution& solution) const;
   Eigen::VectorXd designOf(const OverlapUnknowns& unknowns, const Row& row) const;
 
-  const OverlapSettings settings_;
   std::vector<Row> rows_;                ///< cell by cell
   std::vector<std::size_t> first_;       ///< row of each cell, and the end
   std::vector<std::uint32_t> cluster_;   ///< of each cell

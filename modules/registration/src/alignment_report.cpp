@@ -65,7 +65,7 @@ UnknownsMatrix AlignmentReport::ofWeakDirections() const {
 }
 
 void AlignmentReport::estimate(const PlanGrid& groups, PatchAlignmentResult& result) {
-  const PatchAdjustment adjustment(pairs_, frame_, Robustness(), 1);
+  const PatchAdjustment adjustment(pairs_, frame_, RobustWeight(), 1);
   const auto parts = adjustment.accumulateGroups(scatter_, groups.size());
   groups_ = 0;
   NormalEquations all;
@@ -151,11 +151,10 @@ void AlignmentReport::fillCovariance(PatchAlignmentResult& result) const {
 }
 
 void AlignmentReport::fillFit(PatchAlignmentResult& result) const {
-  const double cut = Robustness().cut;
   RunningStatistics before, after, vertical_before, vertical_after;
   for (const PatchPair& pair : pairs_) {
     if (pair.source_point) ++result.source_points;
-    if (std::abs(pair.distance) > cut * scatter_.of(pair) * std::sqrt(pair.variance)) continue;
+    if (RobustWeight().rejects(pair.distance, scatter_.sigmaOf(pair))) continue;
     before.add(pair.start_distance);
     after.add(pair.distance);
     const double up = pair.normal.z();

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include <pcl_als/adjustment/correlated_errors.h>
-#include <pcl_als/adjustment/robust_weight.h>
+#include <pcl_als/adjustment/robust_iteration.h>
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
@@ -20,6 +21,8 @@ constexpr double kNoiseFactor = 3.0;  // the roughness may understate the noise 
 constexpr std::size_t kFewestInStep = 30;
 constexpr double kLeastScatter = 1e-6;  // metres
 constexpr std::size_t kChunk = 8192;
+constexpr int kPasses = 3;        // solutions from the same pairs
+constexpr double kChance = 0.05;  // of larger variances between parts, without shared errors
 constexpr std::size_t kFewestStrips = 6;  // of cells, left out one at a time
 // The contribution of the noise of normals to the normal matrix is a mean: a sample of pairs
 // suffices.
@@ -58,6 +61,12 @@ Eigen::Affine3d AdjustmentFrame::motionOf(const Unknowns& unknowns) const {
   motion.scale(1.0 + unknowns[6] / radius);
   motion.translate(-centre);
   return motion;
+}
+
+void NormalEquations::add(const Unknowns& row, double rest, double weight) {
+  matrix.noalias() += (weight * row) * row.transpose();
+  right -= weight * rest * row;
+  weights += weight;
 }
 
 void NormalEquations::merge(const NormalEquations& other) {
@@ -99,19 +108,17 @@ ScatterBySlope PatchAdjustment::scatter(const Unknowns& unknowns) const {
   for (int i = 0; i < ScatterBySlope::kSteps; ++i) {
     result.pairs[i] = steps[i].size();
     // About zero and not about the median, so that a class with an offset has a larger scatter.
-    for (double& rest : steps[i]) rest = std::abs(rest);
-    const bool enough = steps[i].size() >= kFewestInStep;
-    result.sigma[i] = enough ? std::max(1.4826 * medianInPlace(steps[i]), kLeastScatter) : all;
+    result.sigma[i] = result.pairs[i] < kFewestInStep
+                          ? all
+                          : std::max(robustSigmaAboutZero(std::move(steps[i])), kLeastScatter);
   }
   return result;
 }
 
 double PatchAdjustment::weightOf(double rest, const PatchPair& pair,
                                  const ScatterBySlope& scatter) const {
-  const double sigma = scatter.of(pair) * std::sqrt(pair.variance);
-  const double deviations = std::abs(rest) / sigma;
-  if (deviations > robustness_.cut) return 0.0;
-  return huberWeight(deviations, 1.0, robustness_.huber) / (sigma * sigma);
+  const double sigma = scatter.sigmaOf(pair);
+  return robust_(rest, sigma) / (sigma * sigma);
 }
 
 NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
@@ -127,11 +134,9 @@ NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
       const double rest = pairs_[i].distance + row.dot(unknowns);
       const double weight = weightOf(rest, pairs_[i], scatter);
       if (weight == 0.0) continue;
-      sum.matrix.noalias() += (weight * row) * row.transpose();
+      sum.add(row, rest, weight);
       if (i % sample == 0 && pairs_[i].tilt_variance > 0.0)
         sum.noise += of_sample * weight * frame_.noiseOf(pairs_[i]);
-      sum.right -= weight * rest * row;
-      sum.weights += weight;
     }
     parts[chunk] = sum;
   });
@@ -140,17 +145,34 @@ NormalEquations PatchAdjustment::accumulate(const Unknowns& unknowns,
   return all;
 }
 
+Unknowns PatchAdjustment::solve(double limit, double prior, Weighting& weighting) const {
+  Unknowns update = Unknowns::Zero();
+  const auto weigh = [&] {
+    if (!weighting.frozen) weighting.scatter = scatter(update);
+  };
+  weigh();
+  reweight(
+      kPasses, kConvergedChange,
+      [&] {
+        const NormalEquations equations = accumulate(update, weighting.scatter);
+        if (!weighting.frozen)
+          weighting.directions = analyse(equations, frame_.unknowns(), limit, weighting.held);
+        const Unknowns change =
+            solveDetermined(equations, weighting.directions, 1.0 / (prior * prior));
+        update += change;
+        return std::optional(
+            std::sqrt(change.dot(equations.right) / static_cast<double>(pairs_.size())));
+      },
+      weigh);
+  return update;
+}
+
 std::vector<NormalEquations> PatchAdjustment::accumulateGroups(const ScatterBySlope& scatter,
                                                                std::size_t groups) const {
   std::vector<NormalEquations> all(groups);
   for (const PatchPair& pair : pairs_) {
     const double weight = weightOf(pair.distance, pair, scatter);
-    if (weight == 0.0) continue;
-    const Unknowns row = frame_.rowOf(pair);
-    NormalEquations& sum = all[pair.group];
-    sum.matrix.noalias() += (weight * row) * row.transpose();
-    sum.right -= weight * pair.distance * row;
-    sum.weights += weight;
+    if (weight > 0.0) all[pair.group].add(frame_.rowOf(pair), pair.distance, weight);
   }
   return all;
 }
@@ -246,13 +268,6 @@ UnknownsMatrix jackknife(const std::vector<NormalEquations>& groups, const Direc
 
 namespace {
 
-/// 95 % of the chi-squared distribution over its degrees of freedom (Wilson and Hilferty 1931).
-double largestChanceRatio(std::size_t degrees) {
-  constexpr double kNormal95 = 1.6449;
-  const double ninth = 2.0 / (9.0 * static_cast<double>(degrees));
-  return std::pow(1.0 - ninth + kNormal95 * std::sqrt(ninth), 3);
-}
-
 /// Cells by the columns and rows of larger cells.
 std::vector<NormalEquations> merged(const std::vector<NormalEquations>& cells, const PlanGrid& grid,
                                     int columns, int rows) {
@@ -279,7 +294,8 @@ UnknownsMatrix jackknifeOfParts(const std::vector<NormalEquations>& cells, const
       {merged(cells, grid, grid.columns, 1), kFewestStrips}};
   for (const auto& [groups, fewest] : divisions) {
     const Unknowns variances = jackknife(groups, directions, fewest).diagonal();
-    const double by_chance = largestChanceRatio(groups.size() - 1);
+    const double freedom = static_cast<double>(groups.size()) - 1.0;
+    const double by_chance = chiSquaredCritical(kChance, freedom) / freedom;
     for (int i = 0; i < directions.unknowns; ++i)
       if (variances[i] > by_chance * covariance(i, i))
         largest[i] = std::max(largest[i], variances[i]);

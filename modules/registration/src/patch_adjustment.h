@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,7 @@
 namespace pcl_als::registration {
 
 constexpr std::size_t kFewestGroups = 10;  ///< of a jackknife
+constexpr double kNoPrior = 1e9;           ///< metres, standard deviation of an unknown a priori
 
 /// Unknowns in metres: shift, rotation times the radius, scale times the radius.
 constexpr int kUnknowns = 7;
@@ -49,6 +50,7 @@ struct NormalEquations {
   Unknowns right = Unknowns::Zero();
   double weights = 0.0;
 
+  void add(const Unknowns& row, double rest, double weight);
   void merge(const NormalEquations& other);
 };
 
@@ -89,29 +91,35 @@ struct ScatterBySlope {
   static int stepOf(const PatchPair& pair);
   double of(const PatchPair& pair) const { return sigma[stepOf(pair)]; }
   double largest() const { return *std::max_element(sigma.begin(), sigma.end()); }
+  double sigmaOf(const PatchPair& pair) const { return of(pair) * std::sqrt(pair.variance); }
   double all() const;  ///< of unit weight: the root of the mean square over all pairs, metres
 };
 
-/// Weights of residuals, in standard deviations: Huber's weights from the first limit on, zero
-/// beyond the second.
-struct Robustness {
-  double huber = kHuberLimit, cut = kRejectionLimit;
-
-  /// During convergence, when outliers cannot be recognised yet.
-  static Robustness whileMoving() { return {1.5, std::numeric_limits<double>::infinity()}; }
-  /// Almost without down-weighting, for the second estimate.
-  static Robustness trusting() { return {10.0, 20.0}; }
+/// What the weights and the determined directions of a solution follow from.
+struct Weighting {
+  ScatterBySlope scatter;
+  Directions directions;
+  HeldDirections held;
+  bool frozen = false;  ///< scatter and directions stay
 };
+
+/// Weights during convergence, when outliers cannot be recognised yet.
+constexpr RobustWeight kWhileMoving{kHuberLimit, kNoRejection};
+/// Almost without down-weighting, for the second estimate.
+constexpr RobustWeight kTrusting{10.0, 20.0};
 
 /** \brief Robust least squares over pairs with weights of 1 / (variance scatter^2). All sums are
  * over fixed chunks and do not depend on the number of threads.
  */
 class PatchAdjustment {
  public:
-  PatchAdjustment(const PatchPairs& pairs, const AdjustmentFrame& frame,
-                  const Robustness& robustness, int threads)
-      : pairs_(pairs), frame_(frame), robustness_(robustness), threads_(threads) {}
+  PatchAdjustment(const PatchPairs& pairs, const AdjustmentFrame& frame, const RobustWeight& robust,
+                  int threads)
+      : pairs_(pairs), frame_(frame), robust_(robust), threads_(threads) {}
 
+  /// A few solutions with the weights of the one before, in directions with a standard deviation of
+  /// at most \a limit and with the a priori one \a prior (metres); updates \a weighting.
+  Unknowns solve(double limit, double prior, Weighting& weighting) const;
   ScatterBySlope scatter(const Unknowns& unknowns) const;
   NormalEquations accumulate(const Unknowns& unknowns, const ScatterBySlope& scatter) const;
   /// By group, in order of their numbers.
@@ -126,7 +134,7 @@ class PatchAdjustment {
 
   const PatchPairs& pairs_;
   const AdjustmentFrame& frame_;
-  Robustness robustness_;
+  RobustWeight robust_;
   int threads_;
 };
 

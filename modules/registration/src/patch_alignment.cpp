@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
@@ -35,9 +36,8 @@ constexpr std::size_t kFirstStride = 4, kEnoughForStride = 40'000;
 constexpr double kOscillation = 10.0;  // of updates, over the limit of convergence
 constexpr std::size_t kSecondEstimatePairs = 25'000;
 // This estimate contributes half of the variance of the difference, which is estimated from two
-// values: Student's 95 % limit with two degrees of freedom is 4.303 standard deviations instead of
-// 1.960.
-constexpr double kTwoValues = 4.303 / 1.960 / 1.4142;
+// values: the 95 % limit is that of Student's t with two degrees of freedom.
+const double kTwoValues = studentCritical(0.025, 2.0) / normalCritical(0.025) / std::sqrt(2.0);
 constexpr double kThresholdChange = 1e-3;  // metres: below, the threshold is no longer changed
 
 /// One alignment, step by step; the working coordinates are the target's about a reference point.
@@ -72,14 +72,10 @@ class Alignment {
   PointNoise noise_;
   CloudOverlap overlap_;
   Affine3d motion_ = Affine3d::Identity();
-  ScatterBySlope scatter_;
   double threshold_ = 0.0;
-  Robustness robustness_ = Robustness::whileMoving();
-  /// scatter, directions and threshold are held: the updates no longer decrease
-  bool frozen_ = false;
+  RobustWeight robust_ = kWhileMoving;
+  Weighting weighting_;  ///< frozen, as the threshold is, when the updates no longer decrease
   SurfaceCriterion criterion_ = surfaceCriterion();
-  Directions directions_;
-  HeldDirections held_;
   PatchPairs pairs_;
   PatchAlignmentResult result_;
 };
@@ -115,25 +111,16 @@ void Alignment::alignLevel(std::vector<AreaSurfaces>& level, double cell) {
     // A prior of a few metres, because flat ground does not determine the motion in plan.
     const Unknowns update = adjust(pairs, 1e3, threshold_);
     motion_ = frame().motionOf(update) * motion_;
-    threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), cell, threshold_);
+    threshold_ = std::clamp(kThresholdSigmas * weighting_.scatter.largest(), cell, threshold_);
     ++result_.coarse_iterations;
     if (update.norm() < 0.01 * cell) break;
   }
 }
 
-/// The update from the pairs, after a few passes of reweighting; sets scatter_ and directions_.
+/// The update from the pairs.
 Unknowns Alignment::adjust(const PatchPairs& pairs, double limit, double prior) {
-  constexpr int kPasses = 3;
   const AdjustmentFrame about = frame();
-  const PatchAdjustment adjustment(pairs, about, robustness_, settings_.threads);
-  Unknowns update = Unknowns::Zero();
-  for (int pass = 0; pass < kPasses; ++pass) {
-    if (!frozen_) scatter_ = adjustment.scatter(update);
-    const NormalEquations equations = adjustment.accumulate(update, scatter_);
-    if (!frozen_) directions_ = analyse(equations, about.unknowns(), limit, held_);
-    update += solveDetermined(equations, directions_, 1.0 / (prior * prior));
-  }
-  return update;
+  return PatchAdjustment(pairs, about, robust_, settings_.threads).solve(limit, prior, weighting_);
 }
 
 std::vector<AreaSurfaces> Alignment::prepareAreas(const WorkingPoints& source,
@@ -177,20 +164,20 @@ void Alignment::compareWithAllSurfaces(std::vector<AreaSurfaces>& areas) {
   all.edge_factor = 8.0;
   all.slope = 1.45;
   chooseCandidates(areas, all, std::min(settings_.pairs, kSecondEstimatePairs));
-  robustness_ = Robustness::trusting();
-  frozen_ = false;
+  robust_ = kTrusting;
+  weighting_.frozen = false;
   PatchPairs pairs;
   for (int i = 0; i < kIterations; ++i) {
     pairs = findPairs(areas, motion_, threshold_, overlap_.groups, noise_, settings_.threads);
-    const Unknowns update = adjust(pairs, settings_.determined_std / 3.0, 1e9);
+    const Unknowns update = adjust(pairs, settings_.determined_std / 3.0, kNoPrior);
     motion_ = frame().motionOf(update) * motion_;
     if (update.norm() < 1e-4) break;
   }
   const AdjustmentFrame about = frame();
   const UnknownsMatrix chance =
-      jackknife(PatchAdjustment(pairs, about, robustness_, settings_.threads)
-                    .accumulateGroups(scatter_, overlap_.groups.size()),
-                directions_);
+      jackknife(PatchAdjustment(pairs, about, robust_, settings_.threads)
+                    .accumulateGroups(weighting_.scatter, overlap_.groups.size()),
+                weighting_.directions);
   const RigidMotion there = RigidMotion::about(overlap_.centroid, motion_);
   motion_ = motion;
   const RigidMotion here = RigidMotion::about(overlap_.centroid, motion_);
@@ -218,8 +205,8 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
   bool last = false;
   std::size_t stride = settings_.pairs < kEnoughForStride ? 1 : kFirstStride;
   UpdateHistory history;
-  robustness_ = Robustness::whileMoving();
-  frozen_ = false;
+  robust_ = kWhileMoving;
+  weighting_.frozen = false;
   for (int i = 0; i < settings_.maximum_iterations; ++i) {
     ++result_.iterations;
     pairs_ =
@@ -229,26 +216,28 @@ bool Alignment::alignFinely(std::vector<AreaSurfaces>& areas) {
       stride = 1;
       continue;
     }
-    const Unknowns update = adjust(pairs_, settings_.determined_std / 3.0, 1e9) + returnToGuess();
+    const Unknowns update =
+        adjust(pairs_, settings_.determined_std / 3.0, kNoPrior) + returnToGuess();
     const double moved = update.norm();
     const bool stalled = history.stalled(moved);
     if (last && stalled) {
-      frozen_ = true;
+      weighting_.frozen = true;
       step *= 0.5;
     }
     motion_ = frame().motionOf(step * update) * motion_;
     if (last && step * moved < settings_.convergence && isSmall(update)) {
-      if (frozen_) keepSwing(update);
+      if (weighting_.frozen) keepSwing(update);
       return true;
     }
     if (!last && (stalled || moved < kSmallUpdate)) {
       last = stride == 1;
       stride = 1;
-      if (last) robustness_ = Robustness();
+      if (last) robust_ = RobustWeight();
       history = UpdateHistory();
     }
-    if (moved > kThresholdChange && !frozen_)
-      threshold_ = std::clamp(kThresholdSigmas * scatter_.largest(), kLeastThreshold, threshold_);
+    if (moved > kThresholdChange && !weighting_.frozen)
+      threshold_ =
+          std::clamp(kThresholdSigmas * weighting_.scatter.largest(), kLeastThreshold, threshold_);
   }
   return false;
 }
@@ -263,7 +252,7 @@ bool Alignment::alignDetermined(std::vector<AreaSurfaces>& areas) {
     const bool converged = alignFinely(areas);
     if (pairs_.size() < kFewestPairs) return false;
     setMotion();
-    AlignmentReport report(pairs_, frame(), scatter_, directions_, settings_);
+    AlignmentReport report(pairs_, frame(), weighting_.scatter, weighting_.directions, settings_);
     if (converged) compareWithAllSurfaces(areas);
     report.estimate(overlap_.groups, result_);
     result_.status = converged ? Status::converged : Status::not_converged;
@@ -272,8 +261,9 @@ bool Alignment::alignDetermined(std::vector<AreaSurfaces>& areas) {
       report.fill(result_);
       return true;
     }
-    held_.vectors.insert(held_.vectors.end(), more.vectors.begin(), more.vectors.end());
-    held_.std.insert(held_.std.end(), more.std.begin(), more.std.end());
+    weighting_.held.vectors.insert(weighting_.held.vectors.end(), more.vectors.begin(),
+                                   more.vectors.end());
+    weighting_.held.std.insert(weighting_.held.std.end(), more.std.begin(), more.std.end());
     result_.convergence_std.setZero();
     chooseCandidates(areas, criterion_, settings_.pairs);
   }
@@ -299,14 +289,14 @@ Unknowns Alignment::returnToGuess() const {
   Unknowns total;
   total << motion_ * overlap_.centroid - overlap_.centroid,
       turn.angle() * overlap_.radius * turn.axis(), 0.0;
-  const auto weak = directions_.vectors.leftCols(directions_.weak);
+  const auto weak = weighting_.directions.vectors.leftCols(weighting_.directions.weak);
   return -(weak * (weak.transpose() * total));
 }
 
 /// Whether an update is far below the uncertainty of the estimate.
 bool Alignment::isSmall(const Unknowns& update) const {
-  const Unknowns parts = directions_.vectors.transpose() * update;
-  return parts.cwiseAbs2().dot(directions_.values) < kOscillation * kOscillation;
+  const Unknowns parts = weighting_.directions.vectors.transpose() * update;
+  return parts.cwiseAbs2().dot(weighting_.directions.values) < kOscillation * kOscillation;
 }
 
 PatchAlignmentResult Alignment::run(const PointView& source, const PointView& target) {

@@ -13,7 +13,6 @@ Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points) {
   using namespace registration;
   constexpr std::size_t kFewest = 6;
   constexpr double kUndetermined = 10.0;  // metres
-  constexpr int kPasses = 3;
   if (points.size() < kFewest) return Eigen::Affine3d::Identity();
   AdjustmentFrame frame;
   for (const PointOnPatch& p : points) frame.centre += p.point;
@@ -25,13 +24,9 @@ Eigen::Affine3d patchMotion(const std::vector<PointOnPatch>& points) {
   pairs.reserve(points.size());
   for (const PointOnPatch& p : points)
     pairs.push_back({p.normal, p.point, p.signed_normal_distance, 0.0, 1.0, 0.0, 0, true});
-  const PatchAdjustment adjustment(pairs, frame, Robustness::whileMoving(), 1);
-  Unknowns motion = Unknowns::Zero();
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const NormalEquations equations = adjustment.accumulate(motion, adjustment.scatter(motion));
-    motion += solveDetermined(equations, analyse(equations, frame.unknowns(), kUndetermined));
-  }
-  return frame.motionOf(motion);
+  Weighting weighting;
+  return frame.motionOf(
+      PatchAdjustment(pairs, frame, kWhileMoving, 1).solve(kUndetermined, kNoPrior, weighting));
 }
 
 }  // namespace pcl_als

@@ -63,9 +63,9 @@ Sample sampleOf(const PatchPairs& pairs, const ScatterBySlope& scatter) {
   Sample sample;
   const std::size_t stride = 1 + pairs.size() / kEnoughPairs;
   for (std::size_t i = 0; i < pairs.size(); i += stride) {
-    const double sigma = scatter.of(pairs[i]) * std::sqrt(pairs[i].variance);
-    if (std::abs(pairs[i].distance) > kRejectionLimit * sigma) continue;
-    const double weight = huberWeight(pairs[i].distance, sigma);
+    const double sigma = scatter.sigmaOf(pairs[i]);
+    const double weight = RobustWeight()(pairs[i].distance, sigma);
+    if (weight == 0.0) continue;
     sample.pairs.push_back(&pairs[i]);
     sample.weights.push_back(std::sqrt(weight) / sigma);
   }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include <pcl_als/adjustment/robust_iteration.h>
 
 #include "path_constants.h"
 
@@ -22,15 +25,6 @@ UniformCubicSpline splineOf(const TimeRange& span,
 }
 
 }  // namespace
-
-double AdjustedRay::leverage() const {
-  const double extended = distance / separation;
-  return extended * extended + (extended - 1.0) * (extended - 1.0);
-}
-
-Eigen::Matrix3d AdjustedRay::information() const {
-  return (weight / variance) * (Eigen::Matrix3d::Identity() - direction * direction.transpose());
-}
 
 PathAdjustment::PathAdjustment(const PathEvidence& evidence, const TimeRange& span,
                                const TrajectoryReconstruction::Settings& settings)
@@ -69,14 +63,8 @@ double PathAdjustment::perDensity() const {
 
 void PathAdjustment::takeRays() {
   forBins([this](std::int64_t, const PathEvidence::Bin& bin) {
-    for (const PulseRay& ray : bin.rays) {
-      AdjustedRay& taken = rays_.emplace_back();
-      taken.at = spline_.at(ray.time);
-      taken.time = ray.time;
-      taken.lower = ray.lower - origin_;
-      taken.separation = ray.separation();
-      taken.direction = ray.span.cast<double>() / taken.separation;
-    }
+    for (const PulseRay& ray : bin.rays)
+      rays_.push_back({SensorRay(ray, origin_), spline_.at(ray.time)});
   });
 }
 
@@ -194,14 +182,17 @@ bool PathAdjustment::solve() {
   return true;
 }
 
+/// Robust weights, with the scale of the median residual, until there is a path to start from.
+bool PathAdjustment::start() {
+  return reweight(
+             kRobustSteps + 1, 0.0, [this] { return solve() ? std::optional(1.0) : std::nullopt; },
+             [this] { weighRays(true); })
+      .solved();
+}
+
 bool PathAdjustment::adjustRays() {
   with_angles_ = false;
-  if (rays_.empty() || !solve()) return false;
-  for (int i = 0; i < kRobustSteps; ++i) {
-    weighRays(true);
-    if (!solve()) return false;
-  }
-  return estimate();
+  return !rays_.empty() && start() && estimate();
 }
 
 /// Recorded angles must be those of the path from rays, whatever their sign; where they are not, or
@@ -220,34 +211,20 @@ bool PathAdjustment::adjustWithAngles() {
   for (AdjustedRay& ray : rays_) ray.weight = 0.0;
   if (!started) return false;
   with_angles_ = true;
-  for (int i = 0; i < kRobustSteps; ++i) {
-    if (!solve()) return false;
-    weighRays(true);
-  }
-  return solve() && estimate();
+  return start() && estimate();
 }
 
 /// Variance components and robust weights, until nothing changes.
 bool PathAdjustment::estimate() {
-  for (int i = 0; i < kMostSteps; ++i) {
+  double growth = updateVariances();
+  const auto solution = [&]() -> std::optional<double> {
     const Eigen::VectorXd before = coefficients_;
-    weighRays(false);
-    updateRayVariances();
-    if (with_angles_) {
-      weighAngles();
-      updateAngleVariances();
-      updateAttitude();
-    }
-    const Eigen::Vector3d before_variances(plan_, height_, rough_);
-    updateAgility();
-    updateRoughness();
-    if (!solve()) return false;
+    if (!solve()) return std::nullopt;
     const double change = (coefficients_ - before).lpNorm<Eigen::Infinity>();
-    const Eigen::Vector3d variances(plan_, height_, rough_);
-    const double growth = (variances.cwiseQuotient(before_variances) - Eigen::Vector3d::Ones())
-                              .lpNorm<Eigen::Infinity>();
-    if (change < kConverged && growth < kConvergedVariance) break;
-  }
+    return std::max(change / kConverged, growth / kConvergedVariance);
+  };
+  if (!reweight(kMostSteps, 1.0, solution, [&] { growth = updateVariances(); }).solved())
+    return false;
   weighRays(false);
   findInflation();
   findJitter();

@@ -14,23 +14,18 @@
 #include <pcl_als/trajectory/path_evidence.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 
+#include "sensor_ray.h"
+
 namespace pcl_als::detail {
 
 /// The ray of a pulse in the adjustment.
-struct AdjustedRay {
+struct AdjustedRay : SensorRay {
   UniformCubicSpline::Weights at;
-  Eigen::Vector3d lower, direction;  ///< metres, local; unit vector, upwards
-  double time = 0.0;                 ///< seconds
-  double separation = 0.0;           ///< metres, of its returns
-  double distance = 1000.0;          ///< metres, from the lower return to the sensor
-  double variance = 1.0;             ///< m^2, of each component of its distance from the path
-  double weight = 1.0;               ///< robust; 0: rejected
-  double residual = 0.0;             ///< metres, distance from the path
+  double variance = 1.0;  ///< m^2, of each component of its distance from the path
+  double weight = 1.0;    ///< robust; 0: rejected
 
-  /// Variance at the sensor for a variance of one of either return across the ray.
-  double leverage() const;
   /// Of its distance from the path, 1/m^2.
-  Eigen::Matrix3d information() const;
+  Eigen::Matrix3d information() const { return (weight / variance) * across(); }
 };
 
 /// The mean of the points of a class of recorded scan angles in a quarter of a second.
@@ -109,6 +104,7 @@ class PathAdjustment {
   void takeAngles();
   void addToMiddle(std::int64_t index, const PathEvidence::Bin& bin);
   void finishMiddles();
+  bool start();
   bool estimate();
   bool solve();
   void addRays();
@@ -123,6 +119,7 @@ class PathAdjustment {
 
   void weighRays(bool start);
   void weighAngles();
+  double updateVariances();
   void updateRayVariances();
   void updateAngleVariances();
   void updateAgility();

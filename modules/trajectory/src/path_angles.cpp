@@ -224,8 +224,7 @@ double PathAdjustment::residualOf(const Angle& angle, const AngleRow& row) const
 void PathAdjustment::weighAngles() {
   const auto weigh = [this](auto& angle, double variance) {
     angle.residual = residualOf(angle, rowOf(angle));
-    const double size = std::abs(angle.residual) / std::sqrt(variance);
-    angle.weight = size > kRejectionLimit ? 0.0 : huberWeight(size);
+    angle.weight = RobustWeight()(angle.residual, std::sqrt(variance));
   };
   for (AdjustedAngle& angle : angles_) weigh(angle, noise_);
   for (AdjustedMiddle& middle : middles_) weigh(middle, along_);

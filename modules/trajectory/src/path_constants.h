@@ -49,13 +49,11 @@ inline constexpr double kLeastFree = 0.25;   // 1, least share of them that is r
 inline constexpr int kRobustSteps = 12, kMostSteps = 80;
 inline constexpr double kConverged = 1e-3;          // m, change of a coefficient
 inline constexpr double kConvergedVariance = 0.01;  // 1, relative change
-inline constexpr double kNormMedian = 1.1774;       // median of the norm of two normal errors
 inline constexpr double kNormHuber = 2.5;           // standard deviations of a norm
 inline constexpr double kNormRejection = 5.0;
 inline constexpr double kPriorRays = 4.0;   // rays that the value at the start counts
 inline constexpr double kManyRays = 100.0;  // rays from which on it does not
 inline constexpr std::size_t kFewestRaysOfLine = 8;
-inline constexpr int kLineSteps = 30;          // of least absolute deviations
 inline constexpr double kRegularLine = 1e-12;  // 1, reciprocal condition of its equations
 inline constexpr double kBend = 2.0;           // m/s^2, acceleration beside it that is allowed for
 inline constexpr double kStraightTime = 5.0;   // s, of a pass that is compared with it

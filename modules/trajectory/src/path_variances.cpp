@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <pcl_als/adjustment/robust_weight.h>
-#include <pcl_als/common/statistics.h>
 
 #include "path_adjustment.h"
 #include "path_constants.h"
+#include "ray_fit.h"
 
 namespace pcl_als::detail {
 namespace {
@@ -30,27 +31,34 @@ double fellnerStep(double variance, double squares, double uncertainty, double r
 void PathAdjustment::weighRays(bool start) {
   if (rays_.empty()) return;
   std::vector<double> scaled;
-  for (AdjustedRay& ray : rays_) {
-    const Eigen::Vector3d to_path = valueAt(ray.at) - ray.lower;
-    const double along = ray.direction.dot(to_path);
-    ray.distance = std::max(along, 1.001 * ray.separation);
-    ray.residual = (to_path - along * ray.direction).norm();
-    scaled.push_back(ray.residual / std::sqrt(ray.leverage()));
-  }
+  for (AdjustedRay& ray : rays_) scaled.push_back(ray.compareWith(valueAt(ray.at)));
   if (start) {
-    const double scale = medianInPlace(scaled) / kNormMedian;
-    across_ = std::max(scale * scale, kLeastAcross * kLeastAcross);
+    across_ = std::pow(acrossOf(std::move(scaled)), 2);
     apart_ = 0.0;
   }
+  const RobustWeight robust =
+      start ? RobustWeight{1.0, kNoRejection} : RobustWeight{kNormHuber, kNormRejection};
   for (AdjustedRay& ray : rays_) {
     ray.variance = across_ * ray.leverage() + apart_;
-    const double size = ray.residual / std::sqrt(ray.variance);
-    if (start) {
-      ray.weight = 1.0 / std::max(1.0, size);
-    } else {
-      ray.weight = size > kNormRejection ? 0.0 : huberWeight(size, 1.0, kNormHuber);
-    }
+    ray.weight = robust(ray.residual, std::sqrt(ray.variance));
   }
+}
+
+/// Weights and variance components from the latest solution. \return the largest relative change of
+/// a variance of movements
+double PathAdjustment::updateVariances() {
+  weighRays(false);
+  updateRayVariances();
+  if (with_angles_) {
+    weighAngles();
+    updateAngleVariances();
+    updateAttitude();
+  }
+  const Eigen::Vector3d before(plan_, height_, rough_);
+  updateAgility();
+  updateRoughness();
+  const Eigen::Vector3d after(plan_, height_, rough_);
+  return (after.cwiseQuotient(before) - Eigen::Vector3d::Ones()).lpNorm<Eigen::Infinity>();
 }
 
 /// The squares of the residuals are fitted by two variances, one that grows with the distance of

@@ -15,9 +15,8 @@
 namespace pcl_als {
 namespace {
 
+using detail::kNormal95;
 using detail::kPlotMargin;
-
-constexpr double kNinetyFivePercent = 1.96;
 
 std::string plainName(const SystemParameterInfo& info) {
   std::string name(info.name);
@@ -50,7 +49,7 @@ void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const U
     const ParameterEstimate& estimate = result[info.parameter];
     if (estimate.status != ParameterStatus::estimated) continue;
     const double bias = estimate.bias / info.internal_per_unit;
-    const double half = kNinetyFivePercent * estimate.std / info.internal_per_unit;
+    const double half = kNormal95 * estimate.std / info.internal_per_unit;
     reach.insert(reach.end(), {bias - half, bias + half, 0.0});
   }
   Axis y;
@@ -79,7 +78,7 @@ void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const U
     }
     if (!known) continue;
     const double bias = estimate.bias / info.internal_per_unit;
-    const double half = kNinetyFivePercent * estimate.std / info.internal_per_unit;
+    const double half = kNormal95 * estimate.std / info.internal_per_unit;
     const Eigen::Vector2d low = axes.pixel(bias - half, at), high = axes.pixel(bias + half, at);
     canvas.line(low, high, 3.0, ink::after);
     for (const Eigen::Vector2d& end : {low, high}) {

@@ -8,12 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include <pcl_als/common/distributions.h>
 #include <pcl_als/visualization/canvas.h>
 #include <pcl_als/visualization/map_furniture.h>
 
 namespace pcl_als::detail {
 
 constexpr double kPlotMargin = 24.0;
+/// 95 % of normal errors are smaller, in standard deviations.
+inline const double kNormal95 = normalCritical(0.025);
 
 /// Title of a whole picture; returns the y below it.
 double drawTitle(Canvas& canvas, const std::string& title);

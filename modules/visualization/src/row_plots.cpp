@@ -12,9 +12,9 @@
 namespace pcl_als {
 namespace {
 
+using detail::kNormal95;
 using detail::kPlotMargin;
 
-constexpr double kNinetyFivePercent = 1.96;
 constexpr double kAxisHeight = 84.0;
 
 double shownValue(const BeforeAfterPlot::Row& row) {
@@ -145,7 +145,7 @@ Canvas drawIntervals(const IntervalPlot& plot, PictureSize size) {
   double names = 0.0, texts = 0.0;
   if (std::isfinite(plot.reference)) reach.push_back(plot.reference);
   for (const IntervalPlot::Row& row : plot.rows) {
-    const double half = std::isfinite(row.std) ? kNinetyFivePercent * row.std : 0.0;
+    const double half = std::isfinite(row.std) ? kNormal95 * row.std : 0.0;
     reach.insert(reach.end(), {row.value - half, row.value + half});
     names = std::max(names, Canvas::textSize(row.name, {}).x());
     texts = std::max(texts, Canvas::textSize(row.text, {}).x());
@@ -163,7 +163,7 @@ Canvas drawIntervals(const IntervalPlot& plot, PictureSize size) {
     const double at = rowPosition(i, plot.rows.size());
     const bool known = std::isfinite(row.std);
     const Color color = known ? ink::after : ink::gray;
-    const double half = known ? kNinetyFivePercent * row.std : 0.0;
+    const double half = known ? kNormal95 * row.std : 0.0;
     const Eigen::Vector2d low = axes.pixel(row.value - half, at),
                           high = axes.pixel(row.value + half, at);
     canvas.line(low, high, 3.0, color);

@@ -41,7 +41,7 @@ class OverlapVariation {
   std::vector<double> values_;
 };
 
-/// x' M x where x is significant (95 %), otherwise 0. At most three unknowns.
+/// x' M x where x is significant (95 %), otherwise 0.
 double significantMeanSquare(const Eigen::VectorXd& estimate, const Eigen::MatrixXd& covariance,
                              const Eigen::MatrixXd& moments);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace pcl_als {
 
@@ -18,6 +19,19 @@ inline double huberWeight(double residual, double scale = 1.0, double limit = kH
   const double size = std::abs(residual), full = limit * scale;
   return size <= full ? 1.0 : full / size;
 }
+
+/// Huber's weight, and none beyond a second limit. Both are numbers of standard deviations.
+struct RobustWeight {
+  double huber = kHuberLimit, rejection = kRejectionLimit;
+
+  bool rejects(double residual, double scale = 1.0) const {
+    return std::abs(residual) > rejection * scale;
+  }
+  double operator()(double residual, double scale = 1.0) const {
+    return rejects(residual, scale) ? 0.0 : huberWeight(residual, scale, huber);
+  }
+};
+inline constexpr double kNoRejection = std::numeric_limits<double>::infinity();
 
 /// Huber's loss of a standardised residual: half its square up to the limit, then linear.
 inline double huberLoss(double residual, double limit = kHuberLimit) {

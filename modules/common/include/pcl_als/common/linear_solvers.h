@@ -56,7 +56,8 @@ class LdltFactor {
  public:
   explicit LdltFactor(const Eigen::MatrixXd& matrix);
   bool succeeded() const;
-  Eigen::VectorXd diagonal() const;  ///< of D
+  double reciprocalCondition() const;  ///< estimate; about 0: singular
+  Eigen::VectorXd diagonal() const;    ///< of D
   Eigen::MatrixXd inverse() const;
 
  private:

@@ -29,7 +29,10 @@ class RunningStatistics {
 double medianInPlace(std::vector<double>& values);
 
 /// Median absolute deviation from the median, scaled by 1.4826: the standard deviation if the
-/// values were normal.
+/// values were normal (NMAD, Hoehle and Hoehle 2009). NaN when empty.
 double robustSigma(std::vector<double> values);
+/// The same from zero instead of the median: for errors whose mean should be zero, a mean that is
+/// not counts as scatter.
+double robustSigmaAboutZero(std::vector<double> values);
 
 }  // namespace pcl_als

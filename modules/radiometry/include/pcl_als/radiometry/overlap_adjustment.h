@@ -20,7 +20,6 @@ inline constexpr std::size_t kRadiometricTermCount = 3;
 const char* nameOf(RadiometricTerm term);  ///< "range_exponent", …
 const char* unitOf(RadiometricTerm term);  ///< "1" or "1/km"
 double valueOf(RadiometricTerm term, const RadiometricModel& model);
-void setValue(RadiometricTerm term, double value, RadiometricModel& model);
 
 enum class TermStatus : std::uint8_t { fixed, estimated, not_estimable };
 const char* nameOf(TermStatus status);
@@ -33,7 +32,6 @@ struct OverlapSettings {
   double largest_gain_std = 0.05;  ///< relative
   double cluster_size = 40.0;      ///< metres: cells nearer than this share errors
   std::size_t least_cells = 50;
-  int most_iterations = 60;
 };
 
 /// A parameter with its standard deviation.
