@@ -3,5 +3,5 @@
 #
 # cmake -DJSON=calibration.json -DNAME=boresight_roll -DKEY=bias -P parameter.cmake: prints one value.
 file(READ ${JSON} json)
-string(JSON value GET "${json}" parameters ${NAME} ${KEY})
+string(JSON value GET "${json}" instrument parameters ${NAME} ${KEY})
 execute_process(COMMAND ${CMAKE_COMMAND} -E echo "${value}")

@@ -12,7 +12,7 @@ verdict_agrees() {  # PAGE_TEXT
     BEGIN {
       while ((getline line < page) > 0) { gsub(/−/, "-", line); text = text "\n" line }
       while ((getline line < "calibration.json") > 0) {
-        if (line ~ /^  "[a-z_]+": \{/) { name = line; gsub(/[ ":{]/, "", name); gsub(/_/, " ", name) }
+        if (line ~ /^   "[a-z_]+": \{/) { name = line; gsub(/[ ":{]/, "", name); gsub(/_/, " ", name) }
         if (line ~ /"bias":/) bias = value(line)
         if (line ~ /"std":/) std = value(line)
         if (line !~ /"status": "estimated"/) continue

@@ -52,9 +52,9 @@ for kind in (".las", ".intensity.las"):
         if len(found) != len(expected) or largest > 1:
             print(form + kind, len(found), len(expected), largest)
             failed = True
-parameters = json.load(open(first + ".json"))["parameters"]
+parameters = json.load(open(first + ".json"))["instrument"]["parameters"]
 for form in others:
-    for name, value in json.load(open(form + ".json"))["parameters"].items():
+    for name, value in json.load(open(form + ".json"))["instrument"]["parameters"].items():
         same = parameters[name]
         if value["status"] != same["status"]:
             print(form, name, value["status"], same["status"])

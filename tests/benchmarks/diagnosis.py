@@ -120,10 +120,10 @@ def main():
             result = calibrated(options.build.resolve(), options.preset, seed, errors, folder,
                                 2 if options.parts else 1)
             shutil.rmtree(folder)
-        angle = math.radians(result["error_sources"]["largest_scan_angle_deg"])
+        angle = math.radians(result["instrument"]["error_sources"]["largest_scan_angle_deg"])
         truth = {SOURCES[kind][3]: SOURCES[kind][4](size, angle) for kind, size in errors}
         false = False
-        for finding in result["diagnosis"]:
+        for finding in result["report"]["diagnosis"]:
             name = finding["source"]
             if name not in tallies:
                 continue
@@ -131,7 +131,7 @@ def main():
             false |= name not in truth and finding["probability"] > 0.5
         blocks_with_false += false
         print(f"<!-- {seed}: {truth} found " + ", ".join(
-            f"{f['source']} {f['probability']:.3f} {f['value']:.4g}" for f in result["diagnosis"]
+            f"{f['source']} {f['probability']:.3f} {f['value']:.4g}" for f in result["report"]["diagnosis"]
             if f["source"] in tallies and (f["probability"] > 0.5 or f["source"] in truth)) +
             " -->", flush=True)
     print("\n| source | present in blocks | probability > 0.9 | > 0.5 | absent in blocks | "

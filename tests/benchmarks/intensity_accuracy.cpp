@@ -118,12 +118,10 @@ void printRatios(const char* title, const Ratios& ratios) {
 void calibrate(const SimulationOptions& options, test::SimulatedStrips& block) {
   const CalibrationResult result =
       test::SimulatedSurvey(options).calibrate(CalibrationSettings(), true, true);
-  auto flight = std::make_shared<const Trajectory>(simulation::Simulator(options).trajectory(),
-                                                   trajectoryOptions(result));
+  const SystemCorrection correct(result, simulation::Simulator(options).trajectory());
   for (test::SimulatedStrip& simulated : block.strips) {
     SystemBiasCorrection<PointLidar> correction;
-    correction.setTrajectory(flight);
-    correction.setCalibration(result);
+    correction.setCorrection(correct);
     correction.setLocalFrame(simulated.strip.frame);
     correction.setInputCloud(simulated.strip.cloud);
     pcl::PointCloud<PointLidar>::Ptr corrected(new pcl::PointCloud<PointLidar>);

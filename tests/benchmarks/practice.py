@@ -128,7 +128,7 @@ class Block:
         truth = {name.removesuffix("_arcsec").removesuffix("_m"): value
                  for name, value in truth.items()}
         worst, name = 0.0, "none"
-        for parameter, estimate in self.result()["parameters"].items():
+        for parameter, estimate in self.result()["instrument"]["parameters"].items():
             if estimate["status"] != "estimated" or not estimate.get("determined", True):
                 continue
             error = abs(estimate["bias"] - truth[parameter]) / estimate["std"]
@@ -348,7 +348,7 @@ def high(block):
 def intensity(block):
     block.simulate("-error", "range_walk=0.04")
     status, text = block.calibrate()
-    reason = block.result()["parameters"]["range_bias"].get("reason", "")
+    reason = block.result()["instrument"]["parameters"]["range_bias"].get("reason", "")
     return status, text + "\n" + reason
 
 
@@ -456,9 +456,9 @@ def figures(build, seed):
             block = Block(build, folder, seed)
             block.simulate(preset=preset, scale=scale)
             status, _ = block.calibrate("-corrected", folder / "corrected")
-            first = block.result()
+            first = block.result()["report"]
             block.calibrate(files=sorted((folder / "corrected").glob("strip*.las")))
-            again = block.result()
+            again = block.result()["report"]
         finally:
             shutil.rmtree(folder)
         means = {(pair["a"], pair["b"]): pair["mean_before_m"] for pair in again["pairs"]}

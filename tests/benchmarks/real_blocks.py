@@ -119,9 +119,11 @@ def summary_of_check(result, _):
 def summary_of_calibration(result, _):
     if result is None:
         return []
-    verdict = result.get("verdict", {}).get("status")
-    lines = [verdict or ("converged" if result["converged"] else "not converged")]
-    for name, p in result["parameters"].items():
+    # Files of version 1, of the tools before, have no parts.
+    instrument, report = result.get("instrument", result), result.get("report", result)
+    verdict = instrument.get("verdict", {}).get("status")
+    lines = [verdict or ("converged" if report["converged"] else "not converged")]
+    for name, p in instrument["parameters"].items():
         if p["status"] == "estimated":
             unit = {"arcsec": '"', "m": " m", "1": ""}[p["unit"]]
             digits = {"arcsec": 1, "m": 3, "1": 6}[p["unit"]]

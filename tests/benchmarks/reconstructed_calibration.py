@@ -23,7 +23,7 @@ def run(tool, *arguments):
 
 def misfit(result, key):
     """RMS of the normal distances of all pairs, millimetres."""
-    pairs = result["pairs"]
+    pairs = result["report"]["pairs"]
     count = sum(pair["correspondences"] for pair in pairs)
     return 1e3 * (sum(pair["correspondences"] * pair[key] ** 2 for pair in pairs) / count) ** 0.5
 
@@ -55,7 +55,7 @@ def main():
             fits.append(misfit(result, "rms_after_m"))
             corrected.append(misfit(result, "rms_strip_corrections_m"))
         for name in NAMES:
-            estimate = result["parameters"][name]
+            estimate = result["instrument"]["parameters"][name]
             value = truth[name] if name in truth else truth[name + "_arcsec"]
             if estimate["status"] != "estimated":
                 line += "  " + estimate["status"]

@@ -82,6 +82,26 @@ TEST(LasRewriter, CallsTheEditOnceForEveryRecord) {
   for (const auto& count : seen) ASSERT_EQ(count, 1);
 }
 
+TEST(LasRewriter, AnAbandonedFileDoesNotAppear) {
+  const auto folder = test::scratch("las_rewriter_abandoned");
+  LasBytes las;
+  las.count = 120000;
+  test::writeBytes(folder / "in.las", las.str());
+  for (const char* name : {"out.las", "out.laz"}) {
+    std::atomic<int> blocks{0};
+    LasExtension extension;
+    extension.block_records = 1000;
+    extension.abandon = [&blocks] { return blocks > 1; };
+    const LasEdit edit = [&blocks](const LasRecordBlock&) { ++blocks; };
+    EXPECT_FALSE(extendLas(LasFile(folder / "in.las"), folder / name, extension, edit, 2).complete);
+    EXPECT_LT(blocks, 120);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << name;
+    extension.abandon = [] { return false; };
+    EXPECT_TRUE(extendLas(LasFile(folder / "in.las"), folder / name, extension, edit, 2).complete);
+    std::filesystem::remove(folder / name);
+  }
+}
+
 TEST(LasRewriter, OneThreadEqualsEight) {
   const auto folder = test::scratch("las_rewriter_threads");
   LasBytes las;

@@ -192,6 +192,15 @@ TEST_F(ChannelsOfFiles, PointsWithoutTheFieldOfTheChannelAreRefused) {
   EXPECT_NE(refusal(plain, byChannel("user_data", 4)).find("no field 'user_data'"),
             std::string::npos);
 
+  // So are those without what an error source depends on.
+  for (const auto& [source, field] :
+       {std::pair(ErrorSource::mirror_torsion, "field flags"),
+        std::pair(ErrorSource::intensity_ranging, "field intensity")}) {
+    CalibrationResult calibration;
+    calibration.sources[indexOf(source)] = 1e-4;
+    EXPECT_NE(refusal(plain, calibration).find(field), std::string::npos);
+  }
+
   // Where no channel but 0 is named, points without the field are of channel 0.
   CalibrationResult only_one = by_flags;
   only_one.systems[0].group.strips = {"9.ch0"};

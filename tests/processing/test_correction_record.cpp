@@ -40,7 +40,9 @@ class CorrectionRecord : public testing::Test {
     }
     roll_ = biases(SystemParameter::boresight_roll, -90.0 * kRadiansPerArcsec);
     pitch_ = biases(SystemParameter::boresight_pitch, 30.0 * kRadiansPerArcsec);
-    flight_ = std::make_shared<const Trajectory>(samples, trajectoryOptions(roll_));
+    Trajectory::Options options;
+    options.use_attitude = true;
+    flight_ = std::make_shared<const Trajectory>(samples, options);
     original_ = write("original.las");
   }
 

@@ -43,8 +43,9 @@ struct Survey {
   }
 
   /// The points of a line between two shares of its duration, as a file; \return its path.
-  fs::path write(std::size_t line, const std::string& name, double from = 0.0,
-                 double to = 2.0) const {
+  /// Measured \a later than it was, in seconds.
+  fs::path write(std::size_t line, const std::string& name, double from = 0.0, double to = 2.0,
+                 double later = 0.0) const {
     const std::vector<SimulatedPoint> points = simulator->strip(line);
     const double start = points.front().time, duration = points.back().time - start;
     PointChunk chunk;
@@ -54,7 +55,7 @@ struct Survey {
       chunk.x.push_back(p.position.x());
       chunk.y.push_back(p.position.y());
       chunk.z.push_back(p.position.z());
-      chunk.gps_time.push_back(p.time);
+      chunk.gps_time.push_back(p.time + later);
     }
     chunk.resize(chunk.x.size());
     std::fill(chunk.return_number.begin(), chunk.return_number.end(), std::uint8_t{1});
@@ -190,6 +191,42 @@ TEST(FileCorrection, WhereTheCalibrationHoldsNoneItIsRecoveredFromTheFile) {
       correctPointFile(input, survey().folder / "partial.las", partial, survey().flight, options);
   EXPECT_EQ(other.coverage.without_attitude, 0U);
   EXPECT_EQ(recordsOf(survey().folder / "partial.las"), recordsOf(survey().folder / "earlier.las"));
+}
+
+// Two hours later the same flight is another one, to which the part of the instrument applies.
+TEST(FileCorrection, ACalibrationOfAnotherFlightIsAppliedByItsInstrumentPart) {
+  constexpr double kLater = 7200.0;
+  const CalibrationResult& calibration = survey().calibration;
+  std::vector<TrajectorySample> samples = survey().simulator->trajectory();
+  for (TrajectorySample& sample : samples) sample.time += kLater;
+  const auto flight = std::make_shared<const Trajectory>(samples);
+  const fs::path input = survey().write(0, "flight2.las", 0.0, 2.0, kLater);
+  const auto corrected = [&](const CalibrationResult& used, const std::string& name,
+                             FileCorrectionOptions options = {}) {
+    options.keep_uncovered = true;
+    return correctPointFile(input, survey().folder / name, used, flight, options);
+  };
+  const FileCorrectionResult result = corrected(calibration, "by_all.las");
+  EXPECT_NE(result.flight_remark.find("another flight"), std::string::npos);
+  EXPECT_EQ(std::count(result.remarks.begin(), result.remarks.end(), result.flight_remark), 1);
+  EXPECT_NE(result.attitude_remark.find("pitch"), std::string::npos);
+  EXPECT_EQ(corrected(instrumentOf(calibration), "by_instrument.las").flight_remark, "");
+  const Bytes by_all = recordsOf(survey().folder / "by_all.las");
+  EXPECT_EQ(by_all, recordsOf(survey().folder / "by_instrument.las"));
+  EXPECT_NE(by_all, recordsOf(input));
+
+  FileCorrectionOptions strips;
+  strips.strip_corrections = true;
+  EXPECT_THROW(corrected(calibration, "refused.las", strips), InputError);
+  EXPECT_FALSE(fs::exists(survey().folder / "refused.las"));
+  strips.force = true;
+  EXPECT_FALSE(corrected(calibration, "forced.las", strips).warnings.empty());
+  EXPECT_EQ(by_all, recordsOf(survey().folder / "forced.las"));
+  // Of its own flight nothing is left out.
+  EXPECT_EQ(correctPointFile(survey().write(0, "flight1.las"), survey().folder / "own.las",
+                             calibration, survey().flight)
+                .flight_remark,
+            "");
 }
 
 TEST(FileCorrection, TheFilterRefusesACalibrationThatLacksTheAttitude) {

@@ -38,8 +38,7 @@ void correct(const CalibrationResult& result, SimulatedSurvey& survey) {
   const auto path = test::scratch("stated_misfit") / "calibration.json";
   writeCalibration(path, result);
   const CalibrationResult written = readCalibration(path);
-  const SystemCorrection correction(
-      written, std::make_shared<const Trajectory>(survey.trajectory, trajectoryOptions(written)));
+  const SystemCorrection correction(written, survey.trajectory);
   for (std::size_t strip = 0; strip < survey.strips.size(); ++strip) {
     std::vector<LidarReturn>& points = survey.strips[strip];
     const std::size_t count = points.size();

@@ -16,10 +16,6 @@ from support import BIN, CONTROL, STRIPS, TRAJECTORY, FolderTest
 SMALL = dict(candidates=20_000)
 
 
-def without_inputs(result):
-    return {key: value for key, value in result.items() if key != "inputs"}
-
-
 class CalibrationTest(FolderTest):
     def test_as_the_tool(self):
         result = pcl_als.calibrate(STRIPS, TRAJECTORY, control=CONTROL)
@@ -35,10 +31,14 @@ class CalibrationTest(FolderTest):
         self.assertEqual(roll.unit, "arcsec")
         # The bias that was put in is -90 arc-seconds; four standard deviations are below 4.
         self.assertAlmostEqual(roll.bias, -90.0, delta=4.0)
-        self.assertEqual(roll.bias, tool["parameters"]["boresight_roll"]["bias"])
+        self.assertEqual(roll.bias, tool["instrument"]["parameters"]["boresight_roll"]["bias"])
         self.assertEqual(result.correlation.shape, (len(result.correlation_order),) * 2)
-        self.assertEqual(result.verdict.usable, tool["verdict"]["status"] == "usable")
+        self.assertEqual(result.verdict.usable, tool["instrument"]["verdict"]["status"] == "usable")
         self.assertIn("boresight_roll", str(result))
+        instrument = result.instrument().to_dict()
+        self.assertEqual(instrument["instrument"], tool["instrument"])
+        self.assertEqual(instrument["flight"], {"strip_corrections": []})
+        self.assertNotEqual(tool["flight"]["strip_corrections"], [])
         self.assertEqual(list(result.parameters)[:4],
                          ["lever_arm_x", "lever_arm_y", "lever_arm_z", "boresight_pitch"])
 
@@ -49,14 +49,14 @@ class CalibrationTest(FolderTest):
         self.assertTrue(flight.has_attitude)
         from_files = pcl_als.calibrate(survey, flight, settings=settings)
         again = pcl_als.calibrate(survey, pcl_als.Flight(flight.samples), settings=settings)
-        self.assertEqual(without_inputs(again.to_dict())["parameters"],
-                         without_inputs(from_files.to_dict())["parameters"])
+        self.assertEqual(again.to_dict()["instrument"]["parameters"],
+                         from_files.to_dict()["instrument"]["parameters"])
         strips = pcl_als.read_strips(STRIPS)
         for strip in strips:
             pcl_als.write_pcd("cloud" + strip.id + ".pcd", strip)
         clouds = pcl_als.calibrate(strips, flight, settings=settings)
         files = pcl_als.calibrate(["cloud" + s.id + ".pcd" for s in strips], flight, settings=settings)
-        self.assertEqual(clouds.to_dict()["parameters"], files.to_dict()["parameters"])
+        self.assertEqual(clouds.to_dict()["instrument"]["parameters"], files.to_dict()["instrument"]["parameters"])
 
     def test_choice_of_strips_and_parameters(self):
         settings = pcl_als.CalibrationSettings(estimate=["boresight_roll"], **SMALL)
@@ -92,6 +92,29 @@ class CalibrationTest(FolderTest):
         # Steps of the file are 1 mm, those of the floats less.
         self.assertLess(np.abs(after.ground() - from_file.ground()).max(), 2e-3)
         self.assertGreater(np.abs(after.ground() - before.ground()).max(), 0.05)
+
+    def test_channels_in_an_extra_field(self):
+        calibration = pcl_als.calibrate(STRIPS[:2], TRAJECTORY, settings=pcl_als.CalibrationSettings(**SMALL))
+        content = calibration.to_dict()
+        parameters = content["instrument"]["parameters"]
+        strip, = pcl_als.read_strips(STRIPS[:1])
+        system = {"parameters": parameters, "difference_std": {}, "offset_m": [0, 0, 0], "offset_std_m": [0, 0, 0]}
+        none = {name: {**value, "bias": 0} for name, value in parameters.items()}
+        content["instrument"]["systems"] = [
+            {**system, "name": "a", "strips": [strip.id + ".ch3"]},
+            {**system, "name": "b", "strips": [strip.id + ".ch4"], "parameters": none}]
+        content["instrument"]["channel_field"] = "beam"
+        with open("channels.json", "w") as file:
+            json.dump(content, file)
+        with self.assertRaisesRegex(pcl_als.UsageError, "field beam"):
+            pcl_als.correct_strip(strip, TRAJECTORY, "channels.json")
+        beams = np.arange(len(strip)) % 2 + 3
+        strip.extra = {"beam": beams.astype("u2")}
+        moved = pcl_als.correct_strip(strip, TRAJECTORY, "channels.json").ground() - strip.ground()
+        expected = pcl_als.correct_strip(strip, TRAJECTORY, calibration).ground() - strip.ground()
+        self.assertTrue(np.array_equal(moved[beams == 3], expected[beams == 3]))
+        self.assertFalse(moved[beams == 4].any())
+        self.assertTrue(expected.any(axis=1).all())
 
 
 class ThreadTest(FolderTest):

@@ -144,17 +144,6 @@ TEST(Attitude, NeedsItInEverySample) {
   EXPECT_THROW(Trajectory(samples, withAttitude()), InputError);
 }
 
-TEST(Attitude, OptionsAreThoseOfTheCalibration) {
-  CalibrationResult calibration;
-  EXPECT_FALSE(trajectoryOptions(calibration).use_attitude);
-  EXPECT_EQ(trajectoryOptions(calibration).line_fit_half_width,
-            Trajectory::Options().line_fit_half_width);
-  calibration.attitude = AttitudeSource::trajectory;
-  calibration.line_fit_half_width = 0.8;
-  EXPECT_TRUE(trajectoryOptions(calibration).use_attitude);
-  EXPECT_EQ(trajectoryOptions(calibration).line_fit_half_width, 0.8);
-}
-
 struct Pulse {
   double time;
   Eigen::Vector3d point;
@@ -367,9 +356,6 @@ TEST(Attitude, NominalIsLevelAlongTheCourse) {
   EXPECT_FALSE(without.hasAttitude());
   options.use_attitude = true;
   EXPECT_THROW(Trajectory(samples, options), UsageError);
-  CalibrationResult calibration;
-  calibration.attitude = AttitudeSource::nominal;
-  EXPECT_TRUE(trajectoryOptions(calibration).nominal_attitude);
 }
 
 }  // namespace

@@ -6,17 +6,12 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/recovered_attitude.h>
-#include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
 namespace {
 
 using Knot = RecoveredAttitude::Knot;
 using Pass = RecoveredAttitude::Pass;
-
-double arcsecondsRounded(double radians) {
-  return std::round(1e6 * (radians / kRadiansPerArcsec)) / 1e6 * kRadiansPerArcsec;
-}
 
 PitchAndCrab interpolated(const Pass& pass, double time) {
   const auto after =
@@ -36,11 +31,6 @@ double distanceTo(const Pass& pass, double time) {
 }
 
 }  // namespace
-
-RecoveredAttitude::Knot RecoveredAttitude::rounded(double time, const PitchAndCrab& angles) {
-  return {std::round(1e6 * time) / 1e6,
-          {arcsecondsRounded(angles.pitch), arcsecondsRounded(angles.crab)}};
-}
 
 void RecoveredAttitude::addPass(Pass pass) {
   if (pass.empty()) throw InputError("recovered attitude: a pass has no knots");

@@ -10,7 +10,8 @@
 namespace pcl_als::detail {
 
 inline constexpr std::string_view kCalibrationFormat = "pcl_als calibration";
-inline constexpr int kCalibrationVersion = 1;
+/// Version 1 had no parts: all keys were those of one object.
+inline constexpr int kCalibrationVersion = 2;
 
 /// The text of a calibration.json. UsageError for a bias that is not finite; any other number that
 /// is not becomes null.

@@ -141,10 +141,10 @@ void readResiduals(const Node& residuals, ResidualHistogram& histogram) {
 
 /// Files of versions that gave no verdict have one by whether the adjustment converged; a file made
 /// by hand, with neither, is usable.
-CalibrationVerdict verdictOf(const Node& root) {
+CalibrationVerdict verdictOf(const Node& instrument, const Node& report) {
   CalibrationVerdict verdict;
-  if (root.has("verdict")) {
-    const Node status = root["verdict"]["status"];
+  if (instrument.has("verdict")) {
+    const Node status = instrument["verdict"]["status"];
     const auto known = calibrationStatusNamed(status.text());
     if (!known) {
       status.refuse("is '" + status.text() +
@@ -152,8 +152,8 @@ CalibrationVerdict verdictOf(const Node& root) {
                     "not_converged");
     }
     verdict.status = *known;
-    verdict.reason = root["verdict"]["reason"].text();
-  } else if (root.has("converged") && !root["converged"].truth()) {
+    verdict.reason = instrument["verdict"]["reason"].text();
+  } else if (report.has("converged") && !report["converged"].truth()) {
     verdict.object(CalibrationStatus::not_converged, "the adjustment did not converge");
   }
   return verdict;
@@ -282,62 +282,84 @@ void readSystems(const Node& systems, CalibrationResult& result) {
   if (result.systems.size() > kMost) systems.refuse("must be at most 255");
 }
 
-void checkFormat(const Node& root, const std::string& name) {
+/// The version of a file that can be read.
+long versionOf(const Node& root, const std::string& name) {
   if (!root.has("format") || root["format"].text() != kCalibrationFormat) {
     throw InputError(name + ": 'format' is not '" + std::string(kCalibrationFormat) +
                      "'; not a calibration file");
   }
   const long version = root["version"].whole();
-  if (version == kCalibrationVersion) return;
-  root["version"].refuse("is " + std::to_string(version) + "; this version of pcl_als reads " +
-                         std::to_string(kCalibrationVersion));
+  if (version < 1 || version > kCalibrationVersion)
+    root["version"].refuse("is " + std::to_string(version) +
+                           "; this version of pcl_als reads 1 to " +
+                           std::to_string(kCalibrationVersion));
+  return version;
+}
+
+double lineFitOf(const Node& node) {
+  constexpr double kLongestWindow = 60.0;  // seconds, half of it; the tools' limit of -line_fit
+  const double width = node.number();
+  if (width < 0.0) node.refuse("must not be negative");
+  if (width > kLongestWindow)
+    node.refuse("must not exceed 60 seconds: the flight is taken as straight within it");
+  return width;
+}
+
+/// Applying a calibration takes the parameters only: a part made by hand may have no more.
+void readInstrument(const Node& part, CalibrationResult& result) {
+  readParameters(part["parameters"], result.parameters);
+  if (part.has("systems")) readSystems(part["systems"], result);
+  if (part.has("channel_field")) result.channel_field = part["channel_field"].text();
+  result.attitude = attitudeOf(part);
+  readErrorSources(part, result);
+  if (part.has("correlation")) readCorrelation(part["correlation"], result);
+  if (part.has("line_fit_half_width_s"))
+    result.line_fit_half_width = lineFitOf(part["line_fit_half_width_s"]);
+  if (part.has("scan_planes")) readScanPlanes(part["scan_planes"], result);
+  readErrorLevels(part, result);
+}
+
+void readFlight(const Node& part, CalibrationResult& result) {
+  readStripErrors(part, result);
+  if (part.has("recovered_attitude")) readRecoveredAttitude(part["recovered_attitude"], result);
+  if (part.has("held")) readHeld(part["held"], result);
+}
+
+void readReport(const Node& part, CalibrationResult& result) {
+  if (part.has("sigma0")) result.sigma0 = part["sigma0"].numberOrNan();
+  if (part.has("redundancy")) result.redundancy = part["redundancy"].whole();
+  if (part.has("converged")) result.converged = part["converged"].truth();
+  if (part.has("iterations")) readIterations(part["iterations"], result);
+  if (part.has("pairs")) readPairs(part["pairs"], result);
+  if (part.has("misfit")) result.misfit = misfitOf(part["misfit"]);
+  if (part.has("residuals")) readResiduals(part["residuals"], result.residuals);
+  if (part.has("control")) readControlFits(part["control"], result);
+  if (part.has("control_points")) readControlPoints(part["control_points"], result);
+  if (part.has("strip_offsets")) readStripOffsets(part["strip_offsets"], result);
+  readDiagnosis(part, result);
+  if (part.has("observability")) result.observability = textsOf(part["observability"]);
+  if (!part.has("warnings")) return;
+  for (const std::string& text : textsOf(part["warnings"])) result.warnings.emplace_back(text);
 }
 
 }  // namespace
 
-constexpr double kLongestWindow = 60.0;  // seconds, half of it; the tools' limit of -line_fit
-
 CalibrationResult calibrationFromJson(const std::string& text, const std::string& name) {
   const nlohmann::json json = parseJson(text, name);
   const Node root(json, name);
-  checkFormat(root, name);
+  const bool in_parts = versionOf(root, name) > 1;
+  const nlohmann::json absent = nlohmann::json::object();
+  const auto part = [&](const char* key) {
+    if (!in_parts) return root;
+    return root.has(key) ? root[key] : Node(absent, name, key);
+  };
+  const Node instrument = part("instrument"), report = part("report");
   CalibrationResult result;
-  readParameters(root["parameters"], result.parameters);
-  if (root.has("systems")) readSystems(root["systems"], result);
-  if (root.has("channel_field")) result.channel_field = root["channel_field"].text();
-  // Applying a calibration takes the parameters only: a file made by hand may stop here.
-  result.attitude = attitudeOf(root);
-  result.verdict = verdictOf(root);
-  if (root.has("correlation")) readCorrelation(root["correlation"], result);
-  if (root.has("sigma0")) result.sigma0 = root["sigma0"].numberOrNan();
-  if (root.has("redundancy")) result.redundancy = root["redundancy"].whole();
-  if (root.has("converged")) result.converged = root["converged"].truth();
-  if (root.has("line_fit_half_width_s")) {
-    const Node width = root["line_fit_half_width_s"];
-    result.line_fit_half_width = width.number();
-    if (result.line_fit_half_width < 0.0) width.refuse("must not be negative");
-    if (result.line_fit_half_width > kLongestWindow) {
-      width.refuse("must not exceed 60 seconds: the flight is taken as straight within it");
-    }
-  }
-  if (root.has("iterations")) readIterations(root["iterations"], result);
-  if (root.has("pairs")) readPairs(root["pairs"], result);
-  if (root.has("misfit")) result.misfit = misfitOf(root["misfit"]);
-  if (root.has("residuals")) readResiduals(root["residuals"], result.residuals);
-  if (root.has("control")) readControlFits(root["control"], result);
-  if (root.has("control_points")) readControlPoints(root["control_points"], result);
-  if (root.has("held")) readHeld(root["held"], result);
-  if (root.has("strip_offsets")) readStripOffsets(root["strip_offsets"], result);
-  readStripErrors(root, result);
-  if (root.has("scan_planes")) readScanPlanes(root["scan_planes"], result);
-  if (root.has("recovered_attitude")) {
-    readRecoveredAttitude(root["recovered_attitude"], result);
-  }
-  readDiagnosis(root, result);
-  if (root.has("observability")) result.observability = textsOf(root["observability"]);
-  if (root.has("warnings")) {
-    for (const std::string& text : textsOf(root["warnings"])) result.warnings.emplace_back(text);
-  }
+  readInstrument(instrument, result);
+  result.verdict = verdictOf(instrument, report);
+  readFlight(part("flight"), result);
+  readReport(report, result);
+  if (root.has("crs")) result.crs = root["crs"].text();
   if (root.has("inputs")) result.inputs = textsOf(root["inputs"]);
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/io/survey_io.h>
 
@@ -21,11 +22,6 @@ namespace {
 // Keys stay in the order of the schema. Numbers are written with the fewest digits (at most 17)
 // that read back to the same double.
 using Json = nlohmann::ordered_json;
-
-/// RecoveredAttitude::rounded() is what is written.
-double roundedArcseconds(double radians) {
-  return std::round(1e6 * (radians / kRadiansPerArcsec)) / 1e6;
-}
 
 using Parameters = std::array<ParameterEstimate, kSystemParameterCount>;
 
@@ -133,8 +129,8 @@ Json recoveredAttitudeOf(const CalibrationResult& result) {
     Json times = Json::array(), pitch = Json::array(), crab = Json::array();
     for (const RecoveredAttitude::Knot& knot : pass) {
       times.push_back(knot.time);
-      pitch.push_back(roundedArcseconds(knot.angles.pitch));
-      crab.push_back(roundedArcseconds(knot.angles.crab));
+      pitch.push_back(knot.angles.pitch / kRadiansPerArcsec);
+      crab.push_back(knot.angles.crab / kRadiansPerArcsec);
     }
     passes.push_back(Json{{"times", std::move(times)},
                           {"pitch_arcsec", std::move(pitch)},
@@ -225,42 +221,65 @@ Json leftOutOf(const CalibrationResult& result) {
   return parts;
 }
 
+/// What applies to every flight with the instrument.
+Json instrumentJson(const CalibrationResult& result) {
+  Json part;
+  part["verdict"] = verdictOf(result.verdict);
+  part["model"] = modelName(result.attitude);
+  part["attitude"] = toString(result.attitude);
+  part["parameters"] = parametersOf(result.parameters);
+  if (!result.systems.empty()) part["systems"] = systemsOf(result);
+  if (!result.channel_field.empty()) part["channel_field"] = result.channel_field;
+  writeErrorSources(result, part);
+  part["correlation"] = correlationOf(result);
+  part["line_fit_half_width_s"] = number(result.line_fit_half_width);
+  if (!result.scan_planes.empty()) part["scan_planes"] = scanPlanesOf(result.scan_planes);
+  writeErrorLevels(result, part);
+  return part;
+}
+
+/// What applies to the flight alone that was calibrated with.
+Json flightJson(const CalibrationResult& result) {
+  Json part;
+  part["strip_corrections"] = stripErrorsOf(result);
+  if (!result.recovered_attitude.empty()) part["recovered_attitude"] = recoveredAttitudeOf(result);
+  if (!result.held.empty()) part["held"] = heldOf(result);
+  return part;
+}
+
+/// What the calibration found, which applies to no points.
+Json reportJson(const CalibrationResult& result) {
+  Json part;
+  part["sigma0"] = number(result.sigma0);
+  part["redundancy"] = result.redundancy;
+  part["converged"] = result.converged;
+  part["iterations"] = iterationsOf(result);
+  part["pairs"] = pairsOf(result);
+  part["misfit"] = misfitOf(result.misfit);
+  if (!result.residuals.edges.empty()) part["residuals"] = histogramOf(result.residuals);
+  part["control"] = controlOf(result);
+  part["control_points"] = controlPointsOf(result);
+  part["strip_offsets"] = stripOffsetsOf(result);
+  writeDiagnosis(result, part);
+  part["observability"] = result.observability;
+  part["warnings"] = textsOf(result.warnings);
+  part["left_out"] = leftOutOf(result);
+  return part;
+}
+
 }  // namespace
 
 std::string calibrationToJson(const CalibrationResult& result) {
   Json root;
   root["format"] = kCalibrationFormat;
   root["version"] = kCalibrationVersion;
-  root["verdict"] = verdictOf(result.verdict);
-  root["model"] = modelName(result.attitude);
-  root["attitude"] = toString(result.attitude);
-  root["parameters"] = parametersOf(result.parameters);
-  if (!result.systems.empty()) root["systems"] = systemsOf(result);
-  if (!result.channel_field.empty()) root["channel_field"] = result.channel_field;
-  root["correlation"] = correlationOf(result);
-  root["sigma0"] = number(result.sigma0);
-  root["redundancy"] = result.redundancy;
-  root["converged"] = result.converged;
-  root["line_fit_half_width_s"] = number(result.line_fit_half_width);
-  root["iterations"] = iterationsOf(result);
-  root["pairs"] = pairsOf(result);
-  root["misfit"] = misfitOf(result.misfit);
-  if (!result.residuals.edges.empty()) root["residuals"] = histogramOf(result.residuals);
-  root["control"] = controlOf(result);
-  root["control_points"] = controlPointsOf(result);
-  if (!result.held.empty()) root["held"] = heldOf(result);
-  root["strip_offsets"] = stripOffsetsOf(result);
-  writeStripErrors(result, root);
-  if (!result.scan_planes.empty()) root["scan_planes"] = scanPlanesOf(result.scan_planes);
-  if (!result.recovered_attitude.empty()) {
-    root["recovered_attitude"] = recoveredAttitudeOf(result);
-  }
-  writeDiagnosis(result, root);
-  root["observability"] = result.observability;
-  root["warnings"] = textsOf(result.warnings);
-  root["left_out"] = leftOutOf(result);
-  root["inputs"] = result.inputs;
   root["tool_version"] = PCL_ALS_VERSION;
+  root["id"] = calibrationId(result);
+  if (!result.crs.empty()) root["crs"] = result.crs;
+  root["inputs"] = result.inputs;
+  root["instrument"] = instrumentJson(result);
+  root["flight"] = flightJson(result);
+  root["report"] = reportJson(result);
   // A file name may hold bytes that are no UTF-8.
   return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -41,8 +41,10 @@ double largestOf(ErrorSource source) {
 
 }  // namespace
 
-void writeDiagnosis(const CalibrationResult& result, Json& root) {
-  if (result.diagnosis.empty()) return;
+void writeErrorSources(const CalibrationResult& result, Json& part) {
+  const ErrorSourceScale& scale = result.source_scale;
+  const bool diagnosed = scale.largest_angle > 0.0 || scale.median_intensity > 0.0;
+  if (!diagnosed && result.sources.isZero(0.0)) return;
   Json values = Json::object();
   for (const ErrorSourceInfo& info : errorSources()) {
     const double value = result.sources[indexOf(info.source)];
@@ -50,10 +52,14 @@ void writeDiagnosis(const CalibrationResult& result, Json& root) {
     values[std::string(info.name)] =
         Json{{"value", number(value / info.internal_per_unit)}, {"unit", info.unit}};
   }
-  values[kLargestAngle] = number(result.source_scale.largest_angle / kRadiansPerDegree);
-  values[kMedianIntensity] = number(result.source_scale.median_intensity);
-  if (result.source_scale.about_axis) values[kAboutAxis] = true;
-  root["error_sources"] = std::move(values);
+  values[kLargestAngle] = number(scale.largest_angle / kRadiansPerDegree);
+  values[kMedianIntensity] = number(scale.median_intensity);
+  if (scale.about_axis) values[kAboutAxis] = true;
+  part["error_sources"] = std::move(values);
+}
+
+void writeDiagnosis(const CalibrationResult& result, Json& part) {
+  if (result.diagnosis.empty()) return;
   Json findings = Json::array();
   for (const ErrorFinding& f : result.diagnosis) {
     findings.push_back(Json{{"source", f.source},
@@ -68,43 +74,45 @@ void writeDiagnosis(const CalibrationResult& result, Json& root) {
                             {"evidence", f.evidence},
                             {"remedy", f.remedy}});
   }
-  root["diagnosis"] = std::move(findings);
+  part["diagnosis"] = std::move(findings);
   if (result.scan_angle_curve.empty()) return;
   Json curve = Json::array();
   for (const AngleError& e : result.scan_angle_curve)
     curve.push_back(Json{{"angle_deg", number(e.angle / kRadiansPerDegree)},
                          {"error_arcsec", number(e.error / kRadiansPerArcsec)},
                          {"std_arcsec", number(e.std / kRadiansPerArcsec)}});
-  root["scan_angle_curve"] = std::move(curve);
+  part["scan_angle_curve"] = std::move(curve);
 }
 
-void readDiagnosis(const JsonNode& root, CalibrationResult& result) {
-  if (root.has("error_sources")) {
-    const JsonNode values = root["error_sources"];
-    for (const ErrorSourceInfo& info : errorSources()) {
-      const std::string name(info.name);
-      if (!values.has(name.c_str())) continue;
-      const JsonNode node = values[name];
-      if (node["unit"].text() != info.unit)
-        node["unit"].refuse("must be '" + std::string(info.unit) + "'");
-      const double most = largestOf(info.source) / info.internal_per_unit;
-      result.sources[indexOf(info.source)] =
-          node["value"].within(most, std::string(info.unit).c_str()) * info.internal_per_unit;
-    }
-    result.source_scale.largest_angle =
-        values[kLargestAngle].within(90.0, "degrees") * kRadiansPerDegree;
-    result.source_scale.median_intensity = values[kMedianIntensity].number();
-    result.source_scale.about_axis = values.has(kAboutAxis) && values[kAboutAxis].truth();
+void readErrorSources(const JsonNode& part, CalibrationResult& result) {
+  if (!part.has("error_sources")) return;
+  const JsonNode values = part["error_sources"];
+  for (const ErrorSourceInfo& info : errorSources()) {
+    const std::string name(info.name);
+    if (!values.has(name.c_str())) continue;
+    const JsonNode node = values[name];
+    if (node["unit"].text() != info.unit)
+      node["unit"].refuse("must be '" + std::string(info.unit) + "'");
+    const double most = largestOf(info.source) / info.internal_per_unit;
+    result.sources[indexOf(info.source)] =
+        node["value"].within(most, std::string(info.unit).c_str()) * info.internal_per_unit;
   }
-  if (root.has("scan_angle_curve")) {
-    for (const JsonNode& node : root["scan_angle_curve"].items())
+  result.source_scale.largest_angle =
+      values[kLargestAngle].within(90.0, "degrees") * kRadiansPerDegree;
+  result.source_scale.median_intensity = values[kMedianIntensity].number();
+  result.source_scale.about_axis = values.has(kAboutAxis) && values[kAboutAxis].truth();
+}
+
+void readDiagnosis(const JsonNode& part, CalibrationResult& result) {
+  if (part.has("scan_angle_curve")) {
+    for (const JsonNode& node : part["scan_angle_curve"].items())
       result.scan_angle_curve.push_back(
           {node["angle_deg"].within(90.0, "degrees") * kRadiansPerDegree,
            node["error_arcsec"].number() * kRadiansPerArcsec,
            node["std_arcsec"].number() * kRadiansPerArcsec});
   }
-  if (!root.has("diagnosis")) return;
-  for (const JsonNode& node : root["diagnosis"].items()) {
+  if (!part.has("diagnosis")) return;
+  for (const JsonNode& node : part["diagnosis"].items()) {
     ErrorFinding f;
     f.source = node["source"].text();
     f.title = node["title"].text();

@@ -10,9 +10,12 @@ namespace pcl_als::detail {
 
 class JsonNode;
 
-/// Adds "error_sources" (the values that are corrected) and "diagnosis" to a calibration.json.
-void writeDiagnosis(const CalibrationResult& result, nlohmann::ordered_json& root);
-/// Reads both where they are present.
-void readDiagnosis(const JsonNode& root, CalibrationResult& result);
+/// Adds "error_sources", the values that are corrected, to a part of a calibration.json.
+void writeErrorSources(const CalibrationResult& result, nlohmann::ordered_json& part);
+void readErrorSources(const JsonNode& part, CalibrationResult& result);
+
+/// Adds "diagnosis" and "scan_angle_curve", where there are any.
+void writeDiagnosis(const CalibrationResult& result, nlohmann::ordered_json& part);
+void readDiagnosis(const JsonNode& part, CalibrationResult& result);
 
 }  // namespace pcl_als::detail

@@ -104,7 +104,12 @@ Strip<PointLidar> loadPcd(const std::filesystem::path& path) {
 Strip<PointLidar> loadPcd(const std::filesystem::path& path, const std::string& channel_field,
                           PcdFindings& findings) {
   detail::PcdFile file(path, channel_field);
-  findings = {file.remarks(), file.timeFault(), {}, {}};
+  findings = {file.remarks(),
+              file.timeFault(),
+              file.header().find("intensity") != nullptr,
+              file.header().find("flags") != nullptr,
+              {},
+              {}};
   Strip<PointLidar> strip;
   strip.frame = frameOf(file);
   const Eigen::Vector3d shift = strip.frame.origin - file.origin();

@@ -4,8 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include <pcl_als/common/system_parameters.h>
@@ -36,13 +34,6 @@ constexpr std::array<KnotValue, 6> kKnotValues{
      {"roll", "arcsec", kRadiansPerArcsec, kLargestTurn},
      {"heading", "arcsec", kRadiansPerArcsec, kLargestTurn}}};
 
-/// Standard deviations and correlations need few digits: four.
-double fourDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return std::strtod(text, nullptr);
-}
-
 std::string keyOf(const KnotValue& value, const char* middle) {
   return std::string(value.name) + middle + "_" + value.unit;
 }
@@ -61,13 +52,9 @@ Json knotOf(TrajectoryErrorKnot knot) {
   for (std::size_t i = 0; i < kKnotValues.size() && knot.hasStd(); ++i) {
     const KnotValue& value = kKnotValues[i];
     json[keyOf(value, "_std")] =
-        fourDigits(valueOf(knot.position_std, knot.angles_std, i) / value.internal_per_unit);
+        number(valueOf(knot.position_std, knot.angles_std, i) / value.internal_per_unit);
   }
   return json;
-}
-
-double rounded(double correlation) {
-  return std::round(correlation * 1e4) / 1e4;
 }
 
 /// The lower triangle of the correlations with each other, row by row; those with the parameters,
@@ -76,11 +63,11 @@ Json correlationOf(const StripErrorCorrelation& correlation) {
   Json errors = Json::array(), parameters = Json::array();
   for (Eigen::Index row = 1; row < 6; ++row) {
     for (Eigen::Index column = 0; column < row; ++column)
-      errors.push_back(number(rounded(correlation.errors(row, column))));
+      errors.push_back(number(correlation.errors(row, column)));
   }
   for (Eigen::Index row = 0; row < 6; ++row) {
     for (Eigen::Index column = 0; column < correlation.parameters.cols(); ++column)
-      parameters.push_back(number(rounded(correlation.parameters(row, column))));
+      parameters.push_back(number(correlation.parameters(row, column)));
   }
   return Json{{"time", correlation.time},
               {"errors", std::move(errors)},
@@ -184,7 +171,7 @@ ErrorLevels readLevels(const Node& node) {
 
 }  // namespace
 
-void writeStripErrors(const CalibrationResult& result, Json& root) {
+Json stripErrorsOf(const CalibrationResult& result) {
   Json strips = Json::array();
   for (const StripErrors& strip : result.strip_errors) {
     Json knots = Json::array(), correlations = Json::array();
@@ -195,15 +182,20 @@ void writeStripErrors(const CalibrationResult& result, Json& root) {
     if (!correlations.empty()) json["correlations"] = std::move(correlations);
     strips.push_back(std::move(json));
   }
-  root["strip_corrections"] = std::move(strips);
-  if (result.error_levels) root["error_levels"] = levelsOf(*result.error_levels);
+  return strips;
 }
 
-void readStripErrors(const Node& root, CalibrationResult& result) {
-  if (root.has("strip_corrections")) {
-    for (const Node& node : root["strip_corrections"].items()) readStrip(node, result);
-  }
-  if (root.has("error_levels")) result.error_levels = readLevels(root["error_levels"]);
+void readStripErrors(const Node& part, CalibrationResult& result) {
+  if (!part.has("strip_corrections")) return;
+  for (const Node& node : part["strip_corrections"].items()) readStrip(node, result);
+}
+
+void writeErrorLevels(const CalibrationResult& result, Json& part) {
+  if (result.error_levels) part["error_levels"] = levelsOf(*result.error_levels);
+}
+
+void readErrorLevels(const Node& part, CalibrationResult& result) {
+  if (part.has("error_levels")) result.error_levels = readLevels(part["error_levels"]);
 }
 
 }  // namespace pcl_als::detail

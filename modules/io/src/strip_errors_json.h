@@ -10,11 +10,14 @@
 
 namespace pcl_als::detail {
 
-/// Writes the errors of the strips ("strip_corrections") and, where they are known, the standard
-/// deviations of errors that are not estimated ("error_levels").
-void writeStripErrors(const CalibrationResult& result, nlohmann::ordered_json& root);
+/// The errors of the strips, "strip_corrections".
+nlohmann::ordered_json stripErrorsOf(const CalibrationResult& result);
+/// Reads them from the part that has them; also of files without standard deviations.
+void readStripErrors(const JsonNode& part, CalibrationResult& result);
 
-/// Reads what writeStripErrors() wrote; also files without standard deviations.
-void readStripErrors(const JsonNode& root, CalibrationResult& result);
+/// Adds "error_levels", the standard deviations of errors that are not estimated, where they are
+/// known.
+void writeErrorLevels(const CalibrationResult& result, nlohmann::ordered_json& part);
+void readErrorLevels(const JsonNode& part, CalibrationResult& result);
 
 }  // namespace pcl_als::detail

@@ -61,6 +61,7 @@ class Rewrite {
                        ? extension.block_records
                        : std::max<std::size_t>(1, kBlockBytes / out_length_)),
         keeps_coordinates_(extension.keeps_coordinates),
+        abandon_(extension.abandon),
         threads_(threads),
         waveforms_(input, output),
         output_(output, head_, threads) {}
@@ -70,7 +71,14 @@ class Rewrite {
       rewriteInOrder();
     else
       parallelFor((header_.point_count + per_block_ - 1) / per_block_, threads_,
-                  [this](std::size_t block) { rewriteBlock(block); });
+                  [this](std::size_t block) {
+                    if (!abandoned()) rewriteBlock(block);
+                  });
+    if (abandoned()) {
+      LasRewriteResult none;
+      none.complete = false;
+      return none;
+    }
     detail::copyLasTail(input_, output_, out_length_ > header_.record_length);
     waveforms_.prepare();
     const LasRewriteResult result = finish();
@@ -80,6 +88,8 @@ class Rewrite {
   }
 
  private:
+  bool abandoned() const { return abandon_ && abandon_(); }
+
   void rewriteBlock(std::size_t block) {
     thread_local std::vector<std::byte> buffer;
     const std::uint64_t first = block * per_block_;
@@ -95,7 +105,7 @@ class Rewrite {
   void rewriteInOrder() {
     const std::uint64_t together = per_block_ * threadCount(threads_);
     std::vector<std::byte> buffer;
-    for (std::uint64_t first = 0; first < header_.point_count; first += together) {
+    for (std::uint64_t first = 0; first < header_.point_count && !abandoned(); first += together) {
       const std::size_t count = std::min<std::uint64_t>(together, header_.point_count - first);
       buffer.resize(count * out_length_);
       readBlock(first, count, buffer);
@@ -162,6 +172,7 @@ class Rewrite {
   const std::size_t out_length_;
   const std::size_t per_block_;
   const bool keeps_coordinates_;
+  const std::function<bool()> abandon_;
   const int threads_;
   WaveformCopy waveforms_;
   detail::LasOutput output_;

@@ -3,11 +3,13 @@
 #include "correction_record.h"
 
 #include <algorithm>
+#include <sstream>
 #include <vector>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_lookup.h>
 #include <pcl_als/io/strip_naming.h>
+#include <pcl_als/processing/file_correction.h>
 
 namespace pcl_als::detail {
 namespace {
@@ -26,6 +28,17 @@ bool isRepeated(const AppliedCorrection& a, const AppliedCorrection& b) {
 
 bool changesIntensity(const AppliedCorrection& correction) {
   return correction.kind == CorrectionKind::intensity;
+}
+
+std::string textOf(const SystemVector& biases) {
+  std::ostringstream text;
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const double value = biases[indexOf(info.parameter)] / info.internal_per_unit;
+    if (value == 0.0) continue;
+    text << (text.tellp() > 0 ? ", " : "") << info.name << ' ' << value;
+    if (info.unit != "1") text << ' ' << info.unit;
+  }
+  return text.tellp() > 0 ? text.str() : "all biases are zero";
 }
 
 }  // namespace
@@ -60,3 +73,22 @@ bool isHeldFixed(const std::filesystem::path& file, const CalibrationResult& cal
 }
 
 }  // namespace pcl_als::detail
+
+namespace pcl_als {
+
+std::string describeBiases(const CalibrationResult& calibration) {
+  std::string text;
+  for (const SystemEstimate& system : calibration.systems)
+    text += (text.empty() ? "" : "; ") + system.group.name + ": " +
+            detail::textOf(system.values().head<kSystemParameterCount>());
+  if (text.empty()) text = detail::textOf(calibration.biases());
+  for (const HeldSurface& surface : calibration.held) {
+    for (const std::string& strip : surface.strips)
+      text +=
+          (&strip == &surface.strips.front() ? "; unchanged, because held fixed: strips " : ", ") +
+          strip;
+  }
+  return text;
+}
+
+}  // namespace pcl_als

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 #include <set>
-#include <sstream>
 
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
@@ -38,10 +38,11 @@ struct Job {
   fs::path input, output;
   const CalibrationResult& calibration;
   Flight flight;
-  const FileCorrectionOptions& options;
+  FileCorrectionOptions options;
   ProgressReport& progress;
   TimeAlignment alignment;
   RecoveredAttitude further_attitude;
+  bool of_another_flight = false;   ///< isOfAnotherFlight()
   bool attitude_recovered = false;  ///< from this file, with success or without
   bool level = false;               ///< the scanner is not linear, and options.force
   std::string corrections;          ///< record of the output
@@ -50,7 +51,7 @@ struct Job {
   std::string name() const { return input.string(); }
 };
 
-SystemCorrection correctionOf(const Job& job) {
+SystemCorrection correctionOf(Job& job) {
   SystemCorrection::Options options;
   options.strip_corrections = job.options.strip_corrections;
   options.invert = job.options.invert;
@@ -64,6 +65,7 @@ SystemCorrection correctionOf(const Job& job) {
   SystemCorrection correction(job.level ? nominal : job.calibration, job.flight, options);
   correction.setTimeAlignment(job.alignment);
   correction.setStrip(job.input.stem().string());
+  job.result.flight_remark = correction.flightRemark();
   return correction;
 }
 
@@ -154,9 +156,6 @@ void checkCoverage(Job& job, const CoverageCount& coverage) {
                    coverage.unsolved == 0 ? Remedy::keep_uncovered : Remedy::none);
 }
 
-/// Ends a first attempt at which times turn up whose attitude the calibration does not hold.
-struct AttitudeIsMissing {};
-
 /// Adds up what blocks report, from any thread.
 class Tally {
  public:
@@ -165,32 +164,40 @@ class Tally {
   void add(const CoverageCount& part) {
     const std::lock_guard<std::mutex> lock(mutex_);
     coverage_.merge(part);
-    if (coverage_.without_attitude > 0 && !job_.attitude_recovered) throw AttitudeIsMissing();
+    lacks_attitude_ = coverage_.without_attitude > 0 && !job_.attitude_recovered;
+    if (lacks_attitude_) return;
     job_.progress.advance(static_cast<double>(coverage_.points) / static_cast<double>(expected_));
     // With the counts of all points, but before the output gets its name.
     if (coverage_.points == expected_) checkCoverage(job_, coverage_);
   }
+  /// Whether there are times whose attitude the calibration does not hold, and which has not been
+  /// recovered from the file as yet.
+  bool lacksAttitude() const { return lacks_attitude_; }
   const CoverageCount& coverage() const { return coverage_; }
 
  private:
   std::mutex mutex_;
   CoverageCount coverage_;
+  std::atomic<bool> lacks_attitude_{false};
   std::uint64_t expected_;
   Job& job_;
 };
 
-void rewrite(Job& job, const LasFile& file) {
+/// Writes the output; false, and no output, where the attitude of the file has to be recovered
+/// first.
+bool rewrite(Job& job, const LasFile& file) {
   const SystemCorrection correction = correctionOf(job);
   auto layout = IntegerBiasCorrection::Layout::of(file, correction.systems());
   std::unique_ptr<detail::FileUncertainty> uncertainty;
   if (job.options.uncertainty)
     uncertainty = std::make_unique<detail::FileUncertainty>(file, correction, layout,
                                                             job.calibration, job.options);
+  Tally tally(file.header().point_count, job);
   LasExtension extension = uncertainty ? uncertainty->extension() : LasExtension();
   extension.corrections = job.corrections;
+  extension.abandon = [&tally] { return tally.lacksAttitude(); };
   layout.record_length += 4 * extension.fields.size();
   const IntegerBiasCorrection engine(job.name(), correction, layout);
-  Tally tally(file.header().point_count, job);
   const LasEdit edit = [&](const LasRecordBlock& block) {
     std::vector<Eigen::Vector3f> normals;
     if (uncertainty) normals = uncertainty->normalsOf(block);
@@ -199,10 +206,12 @@ void rewrite(Job& job, const LasFile& file) {
     tally.add(coverage);
   };
   LasRewriteResult written = extendLas(file, job.output, extension, edit, job.options.threads);
+  if (!written.complete) return false;
   job.result.points = written.points;
   job.result.copy_remarks = std::move(written.remarks);
   job.result.coverage = tally.coverage();
   if (uncertainty) uncertainty->finish(job.result);
+  return true;
 }
 
 /// The correction of the job as files record it.
@@ -238,11 +247,23 @@ void recordCorrection(Job& job, const std::string& before) {
 
 bool lacksAttitude(const Job& job) {
   return job.calibration.attitude == AttitudeSource::points &&
-         job.calibration.recovered_attitude.empty();
+         (job.of_another_flight || job.calibration.recovered_attitude.empty());
 }
 
 void addWarnings(Job& job, const Warnings& warnings) {
   job.result.warnings.insert(job.result.warnings.end(), warnings.begin(), warnings.end());
+}
+
+/// Of another flight the calibration has no strip corrections, which ends the job unless it is
+/// forced.
+void findFlight(Job& job) {
+  job.of_another_flight =
+      isOfAnotherFlight(job.calibration, job.flight->startTime(), job.flight->endTime());
+  if (!job.of_another_flight || !job.options.strip_corrections) return;
+  const char* const text = "the calibration has no strip corrections for this flight";
+  if (!job.options.force) throw InputError(job.name() + ": " + text, Remedy::force);
+  job.result.warnings.emplace_back(text);
+  job.options.strip_corrections = false;
 }
 
 void correctLas(Job& job) {
@@ -258,15 +279,12 @@ void correctLas(Job& job) {
     addWarnings(job, detail::checkFlight(file, job.alignment, job.flight, job.options.force));
   }
   if (lacksAttitude(job)) recoverAttitude(job, file);
-  try {
-    rewrite(job, file);
-  } catch (const AttitudeIsMissing&) {
-    recoverAttitude(job, file);
-    rewrite(job, file);
-  }
+  if (rewrite(job, file)) return;
+  recoverAttitude(job, file);
+  rewrite(job, file);
 }
 
-CoverageCount correctCloud(const Job& job, const Strip<PointLidar>& strip,
+CoverageCount correctCloud(Job& job, const Strip<PointLidar>& strip,
                            const std::vector<std::uint8_t>& channels,
                            pcl::PointCloud<PointLidar>& corrected) {
   const SystemCorrection correction = correctionOf(job);
@@ -285,6 +303,19 @@ CoverageCount correctCloud(const Job& job, const Strip<PointLidar>& strip,
   return filter.getCoverage();
 }
 
+/// A file without what a correction depends on is refused, because the defaults of a cloud would be
+/// taken for it.
+void requireFields(const Job& job, const PcdFindings& findings) {
+  const auto require = [&job](ErrorSource source, bool present, const char* field) {
+    if (present || job.calibration.sources[indexOf(source)] == 0.0) return;
+    throw InputError(job.name() + ": the calibration corrects " +
+                     std::string(infoOf(source).title) + ", for which the points need the field " +
+                     field);
+  };
+  require(ErrorSource::intensity_ranging, findings.has_intensity, "intensity");
+  require(ErrorSource::mirror_torsion, findings.has_flags, "flags, with the scan direction");
+}
+
 void correctPcd(Job& job) {
   std::error_code absent;
   if (fs::equivalent(job.input, job.output, absent)) {
@@ -294,6 +325,7 @@ void correctPcd(Job& job) {
   Strip<PointLidar> strip =
       loadPcd(job.input, SystemLookup(job.calibration).channelField(), findings);
   if (!findings.time_fault.empty()) throw InputError(job.name() + ": " + findings.time_fault);
+  requireFields(job, findings);
   job.result.copy_remarks = findings.remarks;
   recordCorrection(job, strip.corrections);
   strip.corrections = job.corrections;
@@ -319,7 +351,7 @@ void correctPcd(Job& job) {
 void addRemarks(Job& job) {
   FileCorrectionResult& result = job.result;
   std::vector<std::string>& remarks = result.remarks;
-  remarks = {result.deviations.describe(), result.time_remark};
+  remarks = {result.deviations.describe(), result.time_remark, result.flight_remark};
   for (const Warning& warning : result.warnings) remarks.push_back("warning: " + warning.text);
   if (job.calibration.attitude == AttitudeSource::points && result.attitude_remark.empty())
     remarks.emplace_back("pitch and crab: recovered from the points by the calibration");
@@ -337,36 +369,6 @@ void addRemarks(Job& job) {
 
 }  // namespace
 
-namespace {
-
-std::string textOf(const SystemVector& biases) {
-  std::ostringstream text;
-  for (const SystemParameterInfo& info : systemParameters()) {
-    const double value = biases[indexOf(info.parameter)] / info.internal_per_unit;
-    if (value == 0.0) continue;
-    text << (text.tellp() > 0 ? ", " : "") << info.name << ' ' << value;
-    if (info.unit != "1") text << ' ' << info.unit;
-  }
-  return text.tellp() > 0 ? text.str() : "all biases are zero";
-}
-
-}  // namespace
-
-std::string describeBiases(const CalibrationResult& calibration) {
-  std::string text;
-  for (const SystemEstimate& system : calibration.systems)
-    text += (text.empty() ? "" : "; ") + system.group.name + ": " +
-            textOf(system.values().head<kSystemParameterCount>());
-  if (text.empty()) text = textOf(calibration.biases());
-  for (const HeldSurface& surface : calibration.held) {
-    for (const std::string& strip : surface.strips)
-      text +=
-          (&strip == &surface.strips.front() ? "; unchanged, because held fixed: strips " : ", ") +
-          strip;
-  }
-  return text;
-}
-
 FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& output,
                                       const CalibrationResult& calibration, Flight flight,
                                       const FileCorrectionOptions& options,
@@ -383,8 +385,8 @@ FileCorrectionResult correctPointFile(const fs::path& input, const fs::path& out
   const UnchangedInputs unchanged;
   ProgressReport report(progress);
   report.begin("Writing " + output.string());
-  Job job{input, output, calibration, std::move(flight), options, report, {}, {}, false,
-          false, {},     {}};
+  Job job{input, output, calibration, std::move(flight), options, report};
+  findFlight(job);
   if (pcd_in) {
     correctPcd(job);
   } else {

@@ -269,8 +269,10 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
     made.result.warnings.emplace_back(
         "points were corrected before the calibration: its biases are those that remain in the "
         "corrected files, and do not belong to the files as delivered");
-  for (const SurveyedFile& file : survey.files())
+  for (const SurveyedFile& file : survey.files()) {
     made.result.inputs.push_back(file.sources.info.path.string());
+    if (made.result.crs.empty()) made.result.crs = file.sources.info.crs;
+  }
   for (const ReferenceSource& reference : options.references)
     made.result.inputs.push_back(reference.info.path.string());
   if (!settings.systems.empty() || !settings.fixed.empty())

@@ -66,9 +66,13 @@ void correct(const Options& options, const FlightFile& flight,
              const std::vector<TrajectoryAccuracy>& known, ProgressReport& progress) {
   SystemCorrection::Options how;
   how.force = options.force;
-  how.strip_corrections = options.strip_corrections && !options.calibration->strip_errors.empty();
+  const bool other = isOfAnotherFlight(*options.calibration, flight.trajectory->startTime(),
+                                       flight.trajectory->endTime());
+  how.strip_corrections =
+      options.strip_corrections && !other && !options.calibration->strip_errors.empty();
   const CorrectedTrajectory corrected =
       correctTrajectory(samples, *options.calibration, flight.trajectory, how);
+  if (!corrected.flight_remark.empty()) progress.remark(corrected.flight_remark);
   samples = corrected.samples;
   accuracies = accuraciesOf(samples, known);
   for (std::size_t i = 0; i < accuracies.size(); ++i) {

@@ -138,11 +138,16 @@ class CalibrationResult:
     def correlation_order(self) -> list[str]:
         """names of the rows and columns of correlation"""
     @property
+    def crs(self) -> str:
+        """of the ground frame, WKT or an EPSG code; empty: not known"""
+    @property
     def diagnosis(self) -> list[ErrorFinding]:
         """possible causes of the misfit"""
     @property
     def inputs(self) -> list[str]:
         """names of files"""
+    def instrument(self) -> CalibrationResult:
+        """The part that belongs to the instrument and applies to its other flights."""
     @property
     def left_out(self) -> list[LeftOutPoints]: ...
     @property
@@ -524,6 +529,9 @@ class FileCorrection:
     @property
     def attitude_remark(self) -> str:
         """recovery of pitch and crab from this file, where the calibration has none"""
+    @property
+    def flight_remark(self) -> str:
+        """that the calibration is of another flight, whose own part is left out"""
     @property
     def points(self) -> int:
         """number of points"""

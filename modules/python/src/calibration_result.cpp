@@ -226,6 +226,11 @@ void bindResult(py::module_& m) {
           [](const Result& r) { return hintedTexts("calibrate", warningTexts(r.warnings)); })
       .def_readonly("left_out", &Result::left_out)
       .def_readonly("inputs", &Result::inputs, "names of files")
+      .def_readonly("crs", &Result::crs,
+                    "of the ground frame, WKT or an EPSG code; empty: not known")
+      .def(
+          "instrument", [](const Result& r) { return std::make_shared<Result>(instrumentOf(r)); },
+          "The part that belongs to the instrument and applies to its other flights.")
       .def(
           "to_dict", [](const Result& r) { return parsedJson(calibrationJson(r)); },
           "The content of calibration.json as dictionaries and lists; angles in arc-seconds.")

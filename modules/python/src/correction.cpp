@@ -26,7 +26,7 @@ FlightFile flightFor(const FlightArgument& trajectory, const CalibrationResult& 
 /// What was done to a file.
 struct FileCorrection {
   std::uint64_t points = 0, uncovered = 0;
-  std::string time_remark, attitude_remark;
+  std::string time_remark, attitude_remark, flight_remark;
   WarningTexts warnings;
 };
 
@@ -39,6 +39,8 @@ void bindCorrectedFile(py::module_& m) {
              "how the times of the points were reconciled with those of the trajectory")
       .field("attitude_remark", &FileCorrection::attitude_remark,
              "recovery of pitch and crab from this file, where the calibration has none")
+      .field("flight_remark", &FileCorrection::flight_remark,
+             "that the calibration is of another flight, whose own part is left out")
       .state(&FileCorrection::warnings)
       .property("warnings",
                 [](const FileCorrection& f) { return hintedTexts("correct_file", f.warnings); })
@@ -54,8 +56,9 @@ FileCorrection correctFile(const std::filesystem::path& input, const std::filesy
     const FlightFile flight = flightFor(trajectory, biases, crs);
     const FileCorrectionResult result =
         correctPointFile(input, output, biases, flight.trajectory, options, report);
-    return FileCorrection{result.points, result.coverage.missed(), result.time_remark,
-                          result.attitude_remark, warningTexts(result.warnings)};
+    return FileCorrection{result.points,        result.coverage.missed(),
+                          result.time_remark,   result.attitude_remark,
+                          result.flight_remark, warningTexts(result.warnings)};
   });
 }
 

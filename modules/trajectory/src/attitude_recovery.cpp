@@ -55,7 +55,7 @@ class Recovered {
     for (const PassBin& bin : bins) {
       // A pass that shows nothing is level, and takes nothing from its neighbours.
       const PitchAndCrab angles = linear ? PitchAndCrab{bin.pitch(), bin.crab()} : PitchAndCrab();
-      const RecoveredAttitude::Knot knot = RecoveredAttitude::rounded(timeOf(bin), angles);
+      const RecoveredAttitude::Knot knot{timeOf(bin), angles};
       if (knots.empty() || knot.time > knots.back().time) knots.push_back(knot);
       if (linear && bin.well_determined) addInstant(bin);
     }

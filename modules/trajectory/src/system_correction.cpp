@@ -14,48 +14,27 @@ namespace {
 
 using Flight = std::shared_ptr<const Trajectory>;
 
-std::shared_ptr<const TrajectoryErrors> errorsOf(const CalibrationResult& calibration,
-                                                 bool wanted) {
-  if (!wanted) return nullptr;
-  if (calibration.strip_errors.empty()) {
-    throw InputError("the calibration has no strip corrections");
-  }
-  return std::make_shared<const TrajectoryErrors>(calibration.strip_errors);
+/// Whether a flight is already used as a model asks for.
+bool follows(const Trajectory& flight, const Trajectory::Options& model) {
+  return !model.body_attitude && model.nominal_attitude == flight.attitudeIsNominal() &&
+         model.nominal_attitude == flight.hasAttitude() &&
+         model.line_fit_half_width == flight.lineFitHalfWidth() &&
+         model.scan_planes == flight.scanPlanes();
 }
 
-/// The flight with the attitude that the calibration was estimated with.
-Flight flightFor(AttitudeSource source, Flight flight, const RecoveredAttitude& recovered) {
-  const bool delivered = flight->hasAttitude() && !flight->attitudeIsNominal();
-  switch (source) {
-    case AttitudeSource::trajectory:
-      if (delivered) return flight;
-      throw InputError(
-          "the calibration was estimated with the roll, pitch and heading of the trajectory, this "
-          "trajectory has none: give one that has");
-    case AttitudeSource::nominal:
-      if (flight->attitudeIsNominal()) return flight;
-      return std::make_shared<const Trajectory>(flight->withNominalAttitude());
-    case AttitudeSource::none:
-    case AttitudeSource::points:
-      break;
+/// The flight as a model asks for; the flight itself where it is used so already.
+Flight withModel(Flight flight, Trajectory::Options model) {
+  if (model.scan_planes.empty()) model.scan_planes = flight->scanPlanes();
+  if (!model.use_attitude) {
+    if (follows(*flight, model)) return flight;
+    return std::make_shared<const Trajectory>(flight->rebuilt(std::move(model)));
   }
-  if (flight->hasAttitude()) {
-    flight = std::make_shared<const Trajectory>(flight->withoutAttitude());
-  }
-  if (source == AttitudeSource::none) return flight;
-  if (recovered.empty()) {
+  if (!flight->hasAttitude() || flight->attitudeIsNominal())
     throw InputError(
-        "the calibration was estimated with pitch and crab recovered from the points, and does not "
-        "hold them (it is of an earlier version): recover them from the points");
-  }
-  return std::make_shared<const Trajectory>(
-      flight->withAttitude([&](double time) { return recovered.at(time); }));
-}
-
-/// The flight with the scan planes that the calibration was estimated with.
-Flight withPlanes(Flight flight, const ScanPlanes& planes) {
-  if (planes.empty() || planes == flight->scanPlanes()) return flight;
-  return std::make_shared<const Trajectory>(flight->withScanPlanes(planes));
+        "the calibration was estimated with the roll, pitch and heading of the trajectory, this "
+        "trajectory has none: give one that has");
+  if (model.scan_planes == flight->scanPlanes()) return flight;
+  return std::make_shared<const Trajectory>(flight->withScanPlanes(std::move(model.scan_planes)));
 }
 
 }  // namespace
@@ -65,17 +44,69 @@ void SystemCorrection::requireUsable(const CalibrationResult& calibration) {
   throw UsageError("this calibration should not be applied, " + calibration.verdict.text());
 }
 
+SystemCorrection::SystemCorrection(const CalibrationResult& calibration,
+                                   std::vector<TrajectorySample> samples, const Options& options) {
+  const auto ends = std::minmax_element(
+      samples.begin(), samples.end(),
+      [](const TrajectorySample& a, const TrajectorySample& b) { return a.time < b.time; });
+  if (samples.empty()) throw InputError("correction: the trajectory has no samples");
+  takeOptions(calibration, ends.first->time, ends.second->time, options);
+  flight_ = std::make_shared<const Trajectory>(
+      std::move(samples), modelOf(calibration, Trajectory::Options().line_fit_half_width));
+  addEvaluators(calibration, options.strip_corrections);
+}
+
 SystemCorrection::SystemCorrection(const CalibrationResult& calibration, Flight flight,
-                                   const Options& options)
-    : attitude_(calibration.recovered_attitude),
-      needs_recovered_(calibration.attitude == AttitudeSource::points),
-      invert_(options.invert) {
+                                   const Options& options) {
   if (!flight) throw UsageError("correction: no trajectory is set");
+  takeOptions(calibration, flight->startTime(), flight->endTime(), options);
+  const double half_width = flight->lineFitHalfWidth();
+  flight_ = withModel(std::move(flight), modelOf(calibration, half_width));
+  addEvaluators(calibration, options.strip_corrections);
+}
+
+void SystemCorrection::takeOptions(const CalibrationResult& calibration, double from, double to,
+                                   const Options& options) {
   if (!options.force) requireUsable(calibration);
+  invert_ = options.invert;
+  needs_recovered_ = calibration.attitude == AttitudeSource::points;
+  if (isOfAnotherFlight(calibration, from, to)) {
+    flight_remark_ =
+        "the calibration is of another flight: its instrument part is applied, without the strip "
+        "corrections and the recovered attitude of that flight";
+  } else {
+    attitude_ = calibration.recovered_attitude;
+  }
   attitude_.addPasses(options.further_attitude);
-  flight_ = withPlanes(flightFor(calibration.attitude, std::move(flight), attitude_),
-                       calibration.scan_planes);
-  const auto errors = errorsOf(calibration, options.strip_corrections);
+  if (needs_recovered_ && attitude_.empty())
+    throw InputError(
+        "the calibration was estimated with pitch and crab recovered from the points, and does not "
+        "hold those of this flight (it is of another one, or of an earlier version): recover them "
+        "from the points");
+  if (!options.strip_corrections) return;
+  if (calibration.strip_errors.empty())
+    throw InputError("the calibration has no strip corrections");
+  if (!flight_remark_.empty())
+    throw InputError(
+        "the calibration is of another flight and has no strip corrections for this one");
+}
+
+Trajectory::Options SystemCorrection::modelOf(const CalibrationResult& calibration,
+                                              double half_width) const {
+  Trajectory::Options model;
+  model.line_fit_half_width =
+      calibration.line_fit_half_width > 0.0 ? calibration.line_fit_half_width : half_width;
+  model.use_attitude = calibration.attitude == AttitudeSource::trajectory;
+  model.nominal_attitude = calibration.attitude == AttitudeSource::nominal;
+  if (needs_recovered_) model.body_attitude = [this](double time) { return attitude_.at(time); };
+  model.scan_planes = calibration.scan_planes;
+  return model;
+}
+
+void SystemCorrection::addEvaluators(const CalibrationResult& calibration, bool strip_corrections) {
+  const auto errors = strip_corrections
+                          ? std::make_shared<const TrajectoryErrors>(calibration.strip_errors)
+                          : nullptr;
   const auto add = [&](const SystemVector& biases, const Eigen::Vector3d& offset) {
     evaluators_.push_back({std::make_shared<const BiasEvaluator>(flight_, biases, errors), offset});
   };

@@ -26,8 +26,9 @@ void checkOptions(const Trajectory::Options& options) {
     throw UsageError("trajectory: gap_threshold must be 0 or a positive number of seconds, not " +
                      std::to_string(options.gap_threshold));
   }
-  if (options.use_attitude && options.nominal_attitude) {
-    throw UsageError("trajectory: the attitude is either that of the samples or nominal");
+  const bool given = static_cast<bool>(options.body_attitude);
+  if (options.use_attitude + options.nominal_attitude + given > 1) {
+    throw UsageError("trajectory: the attitude is that of the samples, nominal, or given");
   }
 }
 
@@ -90,16 +91,6 @@ Eigen::Quaterniond groundFromBody(double roll, double pitch, double heading) {
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitY());
 }
 
-Trajectory::Options trajectoryOptions(const CalibrationResult& calibration) {
-  Trajectory::Options options;
-  if (calibration.line_fit_half_width > 0.0) {
-    options.line_fit_half_width = calibration.line_fit_half_width;
-  }
-  options.use_attitude = calibration.attitude == AttitudeSource::trajectory;
-  options.nominal_attitude = calibration.attitude == AttitudeSource::nominal;
-  return options;
-}
-
 SensorPose FlightSpan::at(double time) const {
   const double elapsed = time - from;
   return {position + elapsed * velocity,
@@ -108,7 +99,7 @@ SensorPose FlightSpan::at(double time) const {
 }
 
 Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& options)
-    : half_width_(options.line_fit_half_width) {
+    : half_width_(options.line_fit_half_width), planes_(options.scan_planes) {
   checkOptions(options);
   detail::refuseUnusable(samples);
   if (options.screen_samples) leaveOutOutliers(samples);
@@ -124,6 +115,7 @@ Trajectory::Trajectory(std::vector<TrajectorySample> samples, const Options& opt
   fitDirections(samples);
   if (options.use_attitude) takeAttitude(samples);
   if (options.nominal_attitude) has_attitude_ = nominal_ = true;
+  if (options.body_attitude) turnBody(options.body_attitude);
   buildIndex();
 }
 
@@ -179,36 +171,45 @@ void Trajectory::takeAttitude(const std::vector<TrajectorySample>& samples) {
   has_attitude_ = true;
 }
 
-Trajectory Trajectory::withAttitude(
-    const std::function<PitchAndCrab(double time)>& attitude) const {
-  Trajectory turned = *this;
-  turned.has_attitude_ = true;
-  for (Node& node : turned.nodes_) {
+void Trajectory::turnBody(const std::function<PitchAndCrab(double time)>& attitude) {
+  has_attitude_ = true;
+  for (Node& node : nodes_) {
     const PitchAndCrab a = attitude(node.time);
     node.rotation =
         node.rotation * Eigen::Quaterniond(Eigen::AngleAxisd(a.crab, Eigen::Vector3d::UnitZ()) *
                                            Eigen::AngleAxisd(a.pitch, Eigen::Vector3d::UnitX()));
   }
+}
+
+Trajectory Trajectory::withAttitude(
+    const std::function<PitchAndCrab(double time)>& attitude) const {
+  Trajectory turned = *this;
+  turned.turnBody(attitude);
   return turned;
 }
 
-Trajectory Trajectory::withoutAttitude() const {
+Trajectory Trajectory::rebuilt(Options options) const {
   std::vector<TrajectorySample> samples(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     samples[i].time = nodes_[i].time;
     samples[i].position = nodes_[i].position;
   }
-  Options options;
-  options.line_fit_half_width = half_width_;
   options.gap_threshold = gap_threshold_;
   options.screen_samples = false;
   return {std::move(samples), options};
 }
 
+Trajectory Trajectory::withoutAttitude() const {
+  Options options;
+  options.line_fit_half_width = half_width_;
+  return rebuilt(std::move(options));
+}
+
 Trajectory Trajectory::withNominalAttitude() const {
-  Trajectory level = withoutAttitude();
-  level.has_attitude_ = level.nominal_ = true;
-  return level;
+  Options options;
+  options.line_fit_half_width = half_width_;
+  options.nominal_attitude = true;
+  return rebuilt(std::move(options));
 }
 
 Trajectory Trajectory::withScanPlanes(ScanPlanes planes) const {

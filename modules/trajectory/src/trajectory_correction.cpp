@@ -67,6 +67,7 @@ CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& sampl
   const Eigen::Vector3d lever_std = leverArmStd(calibration);
   const SampleDeviations deviations(calibration, options.strip_corrections);
   CorrectedTrajectory corrected;
+  corrected.flight_remark = correction.flightRemark();
   std::size_t cursor = 0;
   for (TrajectorySample sample : samples) {
     SensorPose pose;

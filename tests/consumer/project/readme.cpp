@@ -9,12 +9,10 @@
 
 int main() {
   auto calibration = pcl_als::readCalibration("calibration.json");
-  auto trajectory = std::make_shared<const pcl_als::Trajectory>(
-      pcl_als::readTrajectory("trajectory.csv"), pcl_als::trajectoryOptions(calibration));
+  const pcl_als::SystemCorrection biases(calibration, pcl_als::readTrajectory("trajectory.csv"));
   for (pcl_als::Strip<>& strip : pcl_als::loadStrips({"strip1.las", "strip2.las"})) {
     pcl_als::SystemBiasCorrection<pcl_als::PointLidar> correction;  // a pcl::Filter
-    correction.setTrajectory(trajectory);
-    correction.setCalibration(calibration);
+    correction.setCorrection(biases);
     correction.setLocalFrame(strip.frame);  // floats are relative to a double origin
     correction.setInputCloud(strip.cloud);
     correction.filter(*strip.cloud);

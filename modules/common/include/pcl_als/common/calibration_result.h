@@ -180,7 +180,13 @@ struct SystemEstimate {
   SystemUnknowns values() const;
 };
 
-/// The content of calibration.json.
+/** \brief The content of calibration.json.
+ *
+ * Part of it belongs to the instrument and applies to all of its flights: verdict, attitude (its
+ * source), scan_planes, parameters, systems, channel_field, sources, source_scale, correlation,
+ * line_fit_half_width and error_levels. Part of it belongs to the flight that was calibrated with:
+ * recovered_attitude, strip_errors and held. The rest reports on the calibration.
+ */
 struct CalibrationResult {
   CalibrationVerdict verdict;  ///< whether to apply it
   AttitudeSource attitude = AttitudeSource::none;
@@ -219,11 +225,20 @@ struct CalibrationResult {
   Warnings warnings;
   std::vector<LeftOutPoints> left_out;  ///< points that took no part
   std::vector<std::string> inputs;
+  std::string crs;  ///< of the ground frame, WKT or "EPSG:…"; empty: not known
 
   SystemVector biases() const;
   ParameterEstimate& operator[](SystemParameter p) { return parameters[indexOf(p)]; }
   const ParameterEstimate& operator[](SystemParameter p) const { return parameters[indexOf(p)]; }
 };
+
+/// The part of a calibration that belongs to the instrument, as a calibration of its own.
+CalibrationResult instrumentOf(const CalibrationResult& calibration);
+
+/// Whether a flight between two times (seconds, on the trajectory's clock) is not the one that was
+/// calibrated with: no strip with trajectory errors or recovered attitude was measured in it. False
+/// for a calibration without any.
+bool isOfAnotherFlight(const CalibrationResult& calibration, double from, double to);
 
 std::string_view toString(ParameterStatus status);
 std::string_view toString(AttitudeSource attitude);

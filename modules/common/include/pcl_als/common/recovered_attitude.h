@@ -27,9 +27,6 @@ class RecoveredAttitude {
   };
   using Pass = std::vector<Knot>;
 
-  /// A knot whose numbers a result file holds exactly: microseconds and 1e-6 arc-seconds.
-  static Knot rounded(double time, const PitchAndCrab& angles);
-
   /// Adds a pass, after those that are there. InputError unless it has knots, their times increase
   /// and all values are finite.
   void addPass(Pass pass);

@@ -42,9 +42,10 @@ class PointChannels;
  * them. A cloud most of whose points cannot have been measured from the trajectory is an InputError
  * unless setCheckTrajectory(false).
  * \code
+ * const pcl_als::SystemCorrection biases(pcl_als::readCalibration("calibration.json"),
+ *                                        pcl_als::readTrajectory("trajectory.csv"));
  * pcl_als::SystemBiasCorrection<pcl_als::PointLidar> correction;
- * correction.setTrajectory(trajectory);  // std::shared_ptr<const pcl_als::Trajectory>
- * correction.setCalibration(pcl_als::readCalibration("calibration.json"));
+ * correction.setCorrection(biases);  // or a trajectory and a calibration
  * correction.setLocalFrame(strip.frame);
  * correction.setInputCloud(strip.cloud);
  * correction.filter(corrected);
@@ -59,7 +60,7 @@ class SystemBiasCorrection : public pcl::Filter<PointT> {
 
   SystemBiasCorrection() { this->filter_name_ = "SystemBiasCorrection"; }
 
-  /// The flight as delivered, made with trajectoryOptions(calibration).
+  /// The flight as delivered, with attitude where the calibration was estimated with it.
   void setTrajectory(std::shared_ptr<const Trajectory> trajectory) {
     trajectory_ = std::move(trajectory);
   }

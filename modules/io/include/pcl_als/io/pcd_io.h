@@ -45,6 +45,7 @@ Strip<PointLidar> loadPcd(const std::filesystem::path& path);
 struct PcdFindings {
   std::vector<std::string> remarks;  ///< PointReader::remarks()
   std::string time_fault;            ///< PointFileInfo::time_fault
+  bool has_intensity = true, has_flags = true;
   /// Channels of the scanner of all points, in the field that was asked for; empty where none was,
   /// and for a scanner channel in a file without flags.
   std::vector<std::uint8_t> channels;

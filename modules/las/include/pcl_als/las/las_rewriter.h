@@ -28,6 +28,7 @@ struct LasRecordBlock {
 using LasEdit = std::function<void(const LasRecordBlock&)>;
 
 struct LasRewriteResult {
+  bool complete = true;  ///< false: abandoned (LasExtension::abandon), there is no output
   std::uint64_t points = 0;
   bool box_changed = false;  ///< the bounding box of the points differs from that of the input
   /// Of the input: descriptors of extra bytes that were ignored, a wrong box in its header,
@@ -58,6 +59,8 @@ struct LasExtension {
   /// Record of applied corrections (PointFileInfo::corrections) in place of that of the input; an
   /// empty text removes it. By default it is kept.
   std::optional<std::string> corrections{};
+  /// Asked before each block, by several threads: true ends the rewriting without an output.
+  std::function<bool()> abandon{};
 };
 
 /** \brief Where the fields will lie in the records of the output: behind all that is there.

@@ -49,6 +49,8 @@ struct FileCorrectionResult {
   CoverageCount coverage;
   /// how point times were reconciled with those of the flight; may be empty
   std::string time_remark;
+  /// That the calibration is of another flight (SystemCorrection::flightRemark()); may be empty.
+  std::string flight_remark;
   Warnings warnings;  ///< from the check of the trajectory
   /// Result of the recovery of attitude from this file, where the calibration has none for its
   /// times; otherwise empty.
@@ -70,8 +72,10 @@ std::string describeBiases(const CalibrationResult& calibration);
  * Where the calibration recovered the attitude from the points, the attitude it contains is used,
  * so that a strip and its tiles are corrected alike. For times without it (another flight, a
  * calibration of an earlier version) pitch and crab are recovered from the points of this file.
+ * To another flight than that of the calibration (isOfAnotherFlight()) its instrument part is
+ * applied.
  *
- * \param flight as delivered, made with trajectoryOptions(calibration)
+ * \param flight as delivered (flightFileOptions())
  *
  * With standard deviations, local surfaces are found from the points within a radius that holds 16
  * of them (LocalSurfaces), window by window; memory is that of some windows of 131,072 points.

@@ -4,10 +4,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/recovered_attitude.h>
+#include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/system_lookup.h>
 #include <pcl_als/common/time_alignment.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
@@ -20,6 +23,10 @@ class SourceCorrection;
 
 /** \brief Corrects points by a calibration: the one class that applies model, attitude, biases,
  * error sources, strip corrections, systems and alignment of times, for every consumer.
+ *
+ * \code
+ * const pcl_als::SystemCorrection correction(calibration, pcl_als::readTrajectory("flight.csv"));
+ * \endcode
  *
  * corrected = biased - A(biased) delta (Habib et al. 2011, Eq. (13), not linearised), with the
  * attitude by which the calibration was estimated: that of the trajectory, nominal, none, or the
@@ -40,10 +47,17 @@ class SystemCorrection {
     RecoveredAttitude further_attitude;
   };
 
-  /// \a flight: as delivered, made with trajectoryOptions(calibration). UsageError for a
+  /// \a samples: the trajectory as delivered, with attitude where it has one. UsageError for a
   /// calibration that should not be applied or has implausible values; InputError for one without
-  /// the strip corrections, the recovered attitude, or the attitude of the trajectory that the
-  /// correction needs.
+  /// the strip corrections or the recovered attitude that the correction needs, and for samples
+  /// without the attitude that it needs.
+  SystemCorrection(const CalibrationResult& calibration, std::vector<TrajectorySample> samples,
+                   const Options& options);
+  SystemCorrection(const CalibrationResult& calibration, std::vector<TrajectorySample> samples)
+      : SystemCorrection(calibration, std::move(samples), Options()) {}
+  /// The same with a trajectory that others use as well. Whatever its options were, the correction
+  /// uses the line fit, attitude and scan planes of the calibration; only where this was estimated
+  /// with the attitude of the trajectory, \a flight needs to have it.
   SystemCorrection(const CalibrationResult& calibration, std::shared_ptr<const Trajectory> flight,
                    const Options& options);
   SystemCorrection(const CalibrationResult& calibration, std::shared_ptr<const Trajectory> flight)
@@ -54,6 +68,11 @@ class SystemCorrection {
 
   /// UsageError with the reason where the verdict of a calibration is not usable.
   static void requireUsable(const CalibrationResult& calibration);
+
+  /// That the flight is not the one that was calibrated with (isOfAnotherFlight()), so that what
+  /// the calibration holds of its own flight is not used, in a sentence; empty: it is the same, or
+  /// the calibration holds nothing of one.
+  const std::string& flightRemark() const { return flight_remark_; }
 
   /// The flight with the attitude that is used.
   const std::shared_ptr<const Trajectory>& flight() const { return flight_; }
@@ -82,6 +101,13 @@ class SystemCorrection {
               CoverageCount& coverage) const;
 
  private:
+  /// What the calibration and the options state of a flight between two times.
+  void takeOptions(const CalibrationResult& calibration, double from, double to,
+                   const Options& options);
+  /// The trajectory as the calibration uses it; \a half_width where this states no line fit.
+  Trajectory::Options modelOf(const CalibrationResult& calibration, double half_width) const;
+  void addEvaluators(const CalibrationResult& calibration, bool strip_corrections);
+
   /// One of the systems of the calibration.
   struct System {
     std::shared_ptr<const BiasEvaluator> evaluator;
@@ -101,6 +127,7 @@ class SystemCorrection {
                    CoverageCount& coverage) const;
 
   std::shared_ptr<const Trajectory> flight_;
+  std::string flight_remark_;
   RecoveredAttitude attitude_;
   bool needs_recovered_ = false;  ///< the model's attitude is that of attitude_
   bool invert_ = false;

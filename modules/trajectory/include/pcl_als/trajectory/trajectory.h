@@ -84,6 +84,10 @@ class Trajectory {
     /// that measure ahead and behind): unlike without attitude, y of a point is used. Not with
     /// use_attitude.
     bool nominal_attitude = false;
+    /// Pitch and crab by which the body is turned against the local flight line; its roll is zero.
+    /// Not with use_attitude or nominal_attitude.
+    std::function<PitchAndCrab(double time)> body_attitude;
+    ScanPlanes scan_planes;  ///< of a scanner with several
     /// Leave out single samples and short runs that contradict their neighbours
     /// (screenTrajectory()). False: the samples were screened already.
     bool screen_samples = true;
@@ -113,6 +117,9 @@ class Trajectory {
 
   bool attitudeIsNominal() const { return nominal_; }  ///< level along the flight line
 
+  /// The same flight without the attitude of its samples, used in another way. Gaps and repairs of
+  /// samples stay as they are.
+  Trajectory rebuilt(Options options) const;
   /// The same flight without attitude.
   Trajectory withoutAttitude() const;
   /// The same flight with nominal attitude.
@@ -155,6 +162,7 @@ class Trajectory {
   void findGaps(const std::vector<TrajectorySample>& samples);
   void fitDirections(const std::vector<TrajectorySample>& samples);
   void takeAttitude(const std::vector<TrajectorySample>& samples);
+  void turnBody(const std::function<PitchAndCrab(double time)>& attitude);
   void buildIndex();
   std::size_t bucketOf(double time) const {
     return static_cast<std::size_t>((time - nodes_.front().time) * buckets_per_second_);
@@ -176,10 +184,5 @@ class Trajectory {
   ScanPlanes planes_;
   bool samples_have_attitude_ = false, has_attitude_ = false, nominal_ = false;
 };
-
-/// Options of the trajectory for applying the biases of a calibration: its window, and attitude
-/// where its model is the rigorous one. SystemCorrection adds the attitude that was recovered from
-/// the points (AttitudeSource::points).
-Trajectory::Options trajectoryOptions(const CalibrationResult& calibration);
 
 }  // namespace pcl_als

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,7 +24,8 @@ struct CorrectedTrajectory {
   /// of the lever arm: east, north, up (m); pitch, roll, heading (rad). NaN at times of which the
   /// calibration states none.
   std::vector<Eigen::Vector3d> position_std, angles_std;
-  std::size_t left_out = 0;  ///< samples that the flight does not cover
+  std::string flight_remark;  ///< SystemCorrection::flightRemark()
+  std::size_t left_out = 0;   ///< samples that the flight does not cover
   /// Strip corrections hold angles, and the samples have no attitude that they could be applied to.
   bool angles_left_out = false;
 };
@@ -45,7 +47,7 @@ struct CorrectedTrajectory {
  * Frames: ground east, north, up (metres); body right, forward, up. R is that of the model of the
  * calibration; R' uses the attitude of the samples where they have one.
  *
- * \param flight as delivered, made of the same samples with trajectoryOptions(calibration)
+ * \param flight as delivered, made of the same samples
  * \param options of SystemCorrection; Options::invert is not used. Errors as for its constructor
  */
 CorrectedTrajectory correctTrajectory(const std::vector<TrajectorySample>& samples,

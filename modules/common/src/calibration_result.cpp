@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/calibration_result.h>
+
+namespace pcl_als {
+
+CalibrationResult instrumentOf(const CalibrationResult& calibration) {
+  CalibrationResult instrument;
+  instrument.verdict = calibration.verdict;
+  instrument.attitude = calibration.attitude;
+  instrument.scan_planes = calibration.scan_planes;
+  instrument.parameters = calibration.parameters;
+  instrument.systems = calibration.systems;
+  instrument.channel_field = calibration.channel_field;
+  instrument.sources = calibration.sources;
+  instrument.source_scale = calibration.source_scale;
+  instrument.correlation_order = calibration.correlation_order;
+  instrument.correlation = calibration.correlation;
+  instrument.line_fit_half_width = calibration.line_fit_half_width;
+  instrument.error_levels = calibration.error_levels;
+  instrument.inputs = calibration.inputs;
+  instrument.crs = calibration.crs;
+  return instrument;
+}
+
+bool isOfAnotherFlight(const CalibrationResult& calibration, double from, double to) {
+  bool known = false;
+  const auto contains = [&](double first, double last) {
+    known = true;
+    return first - RecoveredAttitude::kReach <= to && from <= last + RecoveredAttitude::kReach;
+  };
+  for (const StripErrors& strip : calibration.strip_errors) {
+    if (strip.knots.empty()) continue;
+    if (contains(strip.knots.front().time, strip.knots.back().time)) return false;
+  }
+  for (const RecoveredAttitude::Pass& pass : calibration.recovered_attitude.passes())
+    if (contains(pass.front().time, pass.back().time)) return false;
+  return known;
+}
+
+}  // namespace pcl_als
