@@ -53,7 +53,7 @@ RasterInput inputOf(const CommandLine& line) {
   if (!choosesStrips(line)) return files;
   StripChoice choice = stripChoice(line);
   choice.keep_timeless = true;  // nothing here needs times
-  chooseStrips(choice, files);
+  chooseStrips(choice, files, line.threads());
   return files;
 }
 

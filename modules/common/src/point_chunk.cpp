@@ -11,12 +11,13 @@ void PointChunk::resize(std::size_t count) {
   for (auto* column :
        {&return_number, &number_of_returns, &classification, &flags, &user_data, &channel})
     column->resize(count);
+  if (!extra.empty()) extra.resize(count);
 }
 
 PointChunk PointChunk::select(const std::vector<std::size_t>& rows) const {
   const auto part = [&rows](const auto& column) {
-    std::decay_t<decltype(column)> selected(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) selected[i] = column[rows[i]];
+    std::decay_t<decltype(column)> selected(column.empty() ? 0 : rows.size());
+    for (std::size_t i = 0; i < selected.size(); ++i) selected[i] = column[rows[i]];
     return selected;
   };
   return {part(x),
@@ -31,7 +32,8 @@ PointChunk PointChunk::select(const std::vector<std::size_t>& rows) const {
           part(classification),
           part(flags),
           part(user_data),
-          part(channel)};
+          part(channel),
+          part(extra)};
 }
 
 }  // namespace pcl_als

@@ -86,9 +86,8 @@ void IntegerBiasCorrection::gather(const std::byte* records, std::size_t count, 
   const LasRecordLayout& fields = layout_.fields;
   const std::byte* record = records;
   for (std::size_t i = 0; i < count; ++i, record += layout_.record_length) {
-    tile.raw[0][i] = loadLas<std::int32_t>(record);
-    tile.raw[1][i] = loadLas<std::int32_t>(record + 4);
-    tile.raw[2][i] = loadLas<std::int32_t>(record + 8);
+    for (int axis = 0; axis < 3; ++axis)
+      tile.raw[axis][i] = LasRecordLayout::coordinateOf(record, axis);
     tile.time[i] = fields.timeOf(record);
     tile.intensity[i] = fields.intensityOf(record);
     tile.source[i] = fields.sourceOf(record);
@@ -112,8 +111,8 @@ void IntegerBiasCorrection::scatter(std::byte* records, std::size_t count, std::
     }
   }
   for (std::size_t i = 0; i < count; ++i, records += layout_.record_length) {
-    const std::int32_t raw[3] = {tile.raw[0][i], tile.raw[1][i], tile.raw[2][i]};
-    std::memcpy(records, raw, sizeof raw);
+    for (int axis = 0; axis < 3; ++axis)
+      LasRecordLayout::storeCoordinate(tile.raw[axis][i], axis, records);
   }
 }
 

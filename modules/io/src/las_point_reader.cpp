@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/header_box.h>
@@ -18,7 +19,9 @@ constexpr std::size_t kMostNodes = 64;  ///< read at once; each may be decoded b
 
 LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWindow& window,
                                OtherCoordinates other, unsigned fields)
-    : file_(path, fields | LasChannel::lazFields(window.channel_field),
+    : file_(path,
+            fields | LasChannel::lazFields(window.channel_field) |
+                (window.extra_field.empty() ? 0U : kLazExtraBytes),
             window.keep_readable ? LasDamage::keep_intact : LasDamage::refuse),
       compatibility_(LasCompatibility::of(file_)),
       window_(window),
@@ -27,6 +30,10 @@ LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWin
   if (compatibility_) info_.format += ", LAS 1.4 compatibility mode";
   if (LasChannel::lazFields(window.channel_field) != 0)
     channel_.emplace(file_, window.channel_field);
+  if (!window.extra_field.empty())
+    if (const auto* field =
+            findLasExtraField(file_.extraFields(), window.extra_field, path.string()))
+      extra_field_ = *field;
   const Eigen::Vector3d metres = info_.units.metres();
   scaling_ = {file_.header().scale.cwiseProduct(metres),
               file_.header().offset.cwiseProduct(metres)};
@@ -43,6 +50,15 @@ LasPointReader::LasPointReader(const std::filesystem::path& path, const PointWin
   std::uint64_t candidates = 0;
   for (const LasRecordRange& range : ranges_) candidates += range.count;
   info_.point_count = std::min(info_.point_count, candidates);
+}
+
+void LasPointReader::fillExtra(PointChunk& chunk) {
+  if (window_.extra_field.empty()) return;
+  if (extra_field_)
+    decodeLasExtraField(records(), chunk.size(), file_.header().record_length, *extra_field_,
+                        chunk.extra);
+  else
+    chunk.extra.assign(chunk.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 std::string LasPointReader::damage() const {
@@ -64,8 +80,8 @@ std::size_t LasPointReader::keepInside(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::byte* record = &buffer_[i * length];
     // As in decodeLasRecords(), so that the coordinates are compared that a reader sees.
-    const Eigen::Vector2d place(loadLas<std::int32_t>(record) * scale.x() + offset.x(),
-                                loadLas<std::int32_t>(record + 4) * scale.y() + offset.y());
+    const Eigen::Vector2d place(LasRecordLayout::coordinateOf(record, 0) * scale.x() + offset.x(),
+                                LasRecordLayout::coordinateOf(record, 1) * scale.y() + offset.y());
     if (!window_.bounds->contains(place)) continue;
     if (kept != i) std::memcpy(&buffer_[kept * length], record, length);
     ++kept;
@@ -126,6 +142,7 @@ bool LasPointReader::read(PointChunk& chunk) {
   if (compatibility_) compatibility_->restore(records(), file_.header().record_length, chunk);
   if (channel_)
     channel_->decode(records(), chunk.size(), file_.header().record_length, chunk.channel.data());
+  fillExtra(chunk);
   return more;
 }
 

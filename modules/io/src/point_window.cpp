@@ -11,11 +11,6 @@
 namespace pcl_als {
 namespace {
 
-template <typename T>
-void keepRows(const std::vector<std::size_t>& rows, std::vector<T>& column) {
-  for (std::size_t i = 0; i < rows.size(); ++i) column[i] = column[rows[i]];
-}
-
 /// "x 84900 to 84950 m, y 447500 to 447600 m"
 std::string placeText(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   return "x " + shortText(low.x()) + " to " + shortText(high.x()) + " m, y " + shortText(low.y()) +
@@ -51,14 +46,7 @@ void keepInside(const Eigen::AlignedBox2d& bounds, PointChunk& chunk) {
   for (std::size_t i = 0; i < chunk.size(); ++i)
     if (bounds.contains(Eigen::Vector2d(chunk.x[i], chunk.y[i]))) rows.push_back(i);
   if (rows.size() == chunk.size()) return;
-  keepRows(rows, chunk.x), keepRows(rows, chunk.y), keepRows(rows, chunk.z);
-  keepRows(rows, chunk.gps_time);
-  keepRows(rows, chunk.intensity), keepRows(rows, chunk.scan_angle);
-  keepRows(rows, chunk.point_source_id);
-  keepRows(rows, chunk.return_number), keepRows(rows, chunk.number_of_returns);
-  keepRows(rows, chunk.classification), keepRows(rows, chunk.flags);
-  keepRows(rows, chunk.user_data), keepRows(rows, chunk.channel);
-  chunk.resize(rows.size());
+  chunk = chunk.select(rows);
 }
 
 PointFileInfo within(const PointWindow& window, PointFileInfo info) {

@@ -49,11 +49,11 @@ BlockCheck::BlockCheck(SurveyReader& survey, const CheckSettings& settings,
   }
 }
 
-LidarReturn BlockCheck::pointOf(int strip, const SurveyReader::Run& run, std::size_t row,
+LidarReturn BlockCheck::pointOf(const SurveyReader::Run& run, std::size_t row,
                                 std::size_t& cursor) const {
   LidarReturn point = run.point(row);
   SensorPose pose;
-  if (!trajectory_ || untimed_[static_cast<std::size_t>(strip)]) return point;
+  if (!trajectory_ || untimed_[static_cast<std::size_t>(run.strip)]) return point;
   if (trajectory_->poseAt(point.time, pose, cursor)) {
     point.scan_angle = lookAngle(scanGeometry(pose, point.position));
   } else {
@@ -62,15 +62,16 @@ LidarReturn BlockCheck::pointOf(int strip, const SurveyReader::Run& run, std::si
   return point;
 }
 
-void BlockCheck::surveyBlock() {
-  survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
+std::vector<LeftOutPoints> BlockCheck::surveyBlock() {
+  std::vector<LeftOutPoints> left_out = survey_.read([&](const SurveyReader::Run& run) {
+    const int strip = run.strip;
     thread_local std::vector<LidarReturn> points;
     points.clear();
     for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
     map_.add(strip, points.data(), points.size());
     std::size_t cursor = 0;
     for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
-      const LidarReturn point = pointOf(strip, run, row, cursor);
+      const LidarReturn point = pointOf(run, row, cursor);
       if (isCheckable(point)) courses_[static_cast<std::size_t>(strip)].add(point);
     }
     if (plausibility_) plausibility_->addRun(strip, points.data(), points.size());
@@ -93,7 +94,7 @@ void BlockCheck::surveyBlock() {
   for (const SurveyMap::Overlap& overlap : map_.overlaps(0.0)) {
     if (used_[overlap.strips.first] && used_[overlap.strips.second]) overlaps_.push_back(overlap);
   }
-  if (!overlaps_.empty() || !settings_.control.empty()) return;
+  if (!overlaps_.empty() || !settings_.control.empty()) return left_out;
   const auto used = std::count(used_.begin(), used_.end(), true);
   throw InputError(
       used < 2 ? "fewer than two strips with enough points and no control: nothing to compare"
@@ -157,15 +158,16 @@ void BlockCheck::load(const PointSink& also) {
   const AreaIndex index(squares);
   const bool apart = also && areShared(survey_.processes());
   uncovered_ = 0;
-  survey_.readRuns([&](int strip, const SurveyReader::Run& run) {
+  survey_.read([&](const SurveyReader::Run& run) {
+    const int strip = run.strip;
     if (!used_[static_cast<std::size_t>(strip)]) return;
     std::size_t cursor = 0;
     for (std::size_t row = run.from; row < run.to; ++row) {
-      const Eigen::Vector3d position(run.chunk.x[row], run.chunk.y[row], run.chunk.z[row]);
+      const Eigen::Vector3d position = run.position(row);
       if (!position.allFinite()) continue;
       const std::vector<int>& holding = index.candidates(position);
       if (holding.empty() && (!also || apart)) continue;
-      const LidarReturn point = pointOf(strip, run, row, cursor);
+      const LidarReturn point = pointOf(run, row, cursor);
       for (const int area : holding) targets[static_cast<std::size_t>(area)]->add(strip, point);
       if (also && !apart) also(strip, point);
     }
@@ -178,13 +180,14 @@ void BlockCheck::load(const PointSink& also) {
 }
 
 void BlockCheck::readForRoot(const PointSink& sink) {
-  survey_.readRunsAtRoot([&](int strip, const SurveyReader::Run& run) {
-    if (!used_[static_cast<std::size_t>(strip)]) return;
+  const auto pass = [&](const SurveyReader::Run& run) {
+    if (!used_[static_cast<std::size_t>(run.strip)]) return;
     std::size_t cursor = 0;
-    for (std::size_t row = run.from; row < run.to; ++row) {
-      const Eigen::Vector3d position(run.chunk.x[row], run.chunk.y[row], run.chunk.z[row]);
-      if (position.allFinite()) sink(strip, pointOf(strip, run, row, cursor));
-    }
+    for (std::size_t row = run.from; row < run.to; ++row)
+      if (run.position(row).allFinite()) sink(run.strip, pointOf(run, row, cursor));
+  };
+  doTogether(survey_.processes(), [&] {
+    if (isRoot(survey_.processes())) survey_.read(pass, SurveyReader::Reading::ofAll());
   });
 }
 

@@ -31,12 +31,8 @@ void visitSome(const LasFile& file, const Visit& visit) {
     file.readRecords(first, size, records.data());
     for (std::uint64_t i = 0; i < size; ++i) {
       const std::byte* record = &records[i * length];
-      Eigen::Vector3d point;
-      for (int axis = 0; axis < 3; ++axis) {
-        point[axis] =
-            loadLas<std::int32_t>(record + 4 * axis) * metres.scale[axis] + metres.offset[axis];
-      }
-      visit(file.layout().timeOf(record), point);
+      visit(file.layout().timeOf(record),
+            LasRecordLayout::positionOf(record, metres.scale, metres.offset));
     }
   }
 }

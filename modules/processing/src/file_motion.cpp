@@ -45,16 +45,14 @@ MovedFile moveLas(const fs::path& input, const fs::path& output, const RigidMoti
   const LasEdit edit = [&](const LasRecordBlock& block) {
     for (std::size_t i = 0; i < block.count; ++i) {
       std::byte* record = block.records + i * block.record_length;
-      Vector3d raw;
-      for (int axis = 0; axis < 3; ++axis) raw[axis] = loadLas<std::int32_t>(record + 4 * axis);
-      const Vector3d ground = raw.cwiseProduct(scale) + offset;
+      const Vector3d ground = LasRecordLayout::positionOf(record, scale, offset);
       const Vector3d moved = (c + moving * (ground - c) - offset).cwiseQuotient(scale);
       for (int axis = 0; axis < 3; ++axis) {
         const double value = std::round(moved[axis]);
         if (!(std::abs(value) <= std::numeric_limits<std::int32_t>::max()))
           throw InputError(input.string() + ": point " + std::to_string(block.first + i) +
                            " would leave the range of the file's coordinates");
-        storeLas(record + 4 * axis, static_cast<std::int32_t>(value));
+        LasRecordLayout::storeCoordinate(static_cast<std::int32_t>(value), axis, record);
       }
     }
   };

@@ -66,9 +66,7 @@ FileUncertainty::FileUncertainty(const LasFile& file, const SystemCorrection& co
     cells_ = std::make_unique<DeviationCells>(box.min().head<2>(), box.max().head<2>(),
                                               options.deviation_cell);
   }
-  surveyed_.push_back({input_->survey().sources, {}, {}, {}});
-  for (const PointSource& source : surveyed_.back().sources.sources)
-    surveyed_.back().tracks[source.id];
+  surveyed_.push_back(withoutTracks(input_->survey().sources));
   StripChoice choice;
   choice.keep_timeless = true;
   arrangement_.emplace(surveyed_, choice, FlownTimes());
@@ -161,10 +159,7 @@ void FileUncertainty::store(const LasRecordBlock& block,
   for (std::size_t i = 0; i < block.count; ++i) {
     std::byte* record = block.records + i * block.record_length;
     const Eigen::Vector3d position =
-        Eigen::Vector3d(loadLas<std::int32_t>(record), loadLas<std::int32_t>(record + 4),
-                        loadLas<std::int32_t>(record + 8))
-            .cwiseProduct(layout_.metres.scale) +
-        layout_.metres.offset;
+        LasRecordLayout::positionOf(record, layout_.metres.scale, layout_.metres.offset);
     const double time = correction_.flightTime(layout_.fields.timeOf(record));
     points[i] = {position.x(), position.y(), kNone, kNone};
     if (correction_.knowsAttitude(time) &&

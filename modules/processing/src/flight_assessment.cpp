@@ -17,19 +17,20 @@ void compare(const SurveyReader& survey, const std::shared_ptr<const Trajectory>
   TrajectoryPlausibility plausibility(flight);
   std::vector<ScannerDetection> scanners(survey.strips().size(), ScannerDetection(flight));
   for (const std::string& strip : survey.strips()) plausibility.addStrip(strip);
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  const auto add = [&](int strip, const LidarReturn* points, std::size_t count) {
     plausibility.addRun(strip, points, count);
     ScannerDetection& scanner = scanners[static_cast<std::size_t>(strip)];
     for (std::size_t i = 0; i < count; ++i) {
       plausibility.addReturn(strip, points[i]);
       scanner.add(points[i]);
     }
-  });
+  };
+  const std::vector<LeftOutPoints> left_out = survey.read(SurveyReader::asReturns(add));
   for (std::size_t i = 0; i < scanners.size(); ++i) {
     assessment.scanners.push_back({survey.strips()[i], scanners[i].assess()});
     if (survey.pointsByStrip()[i] < kFewPoints) plausibility.leaveOut(static_cast<int>(i));
   }
-  for (const LeftOutPoints& part : survey.leftOut()) {
+  for (const LeftOutPoints& part : left_out) {
     if (part.reason != LeftOutReason::excluded) assessment.warnings.push_back(describe(part));
   }
   for (const TrajectoryPlausibility::Finding& finding : plausibility.findings()) {

@@ -20,10 +20,10 @@ void readPoints(const SurveyReader& survey, const SurveyObserver& observer,
                 TrajectoryReconstruction& reconstruction) {
   if (observer.begin) observer.begin(survey);
   for (const std::string& name : survey.strips()) reconstruction.addStrip(name);
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  survey.read(SurveyReader::asReturns([&](int strip, const LidarReturn* points, std::size_t count) {
     reconstruction.add(strip, points, count);
     if (observer.points) observer.points(strip, points, count);
-  });
+  }));
 }
 
 /// Samples of the paths in order of time; where paths overlap, those of the earlier one.

@@ -12,7 +12,6 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kTile = 256;  ///< points whose columns fit the first-level cache
-constexpr std::size_t kReturnsAt = 14;
 
 using Column = std::array<double, kTile>;
 using IntegerColumn = std::array<std::int32_t, kTile>;
@@ -94,18 +93,15 @@ RangeOnlyCorrection::RangeOnlyCorrection(const IntensityRun& run, std::size_t fi
 
 std::uint64_t RangeOnlyCorrection::gather(const std::byte* records, std::size_t length,
                                           std::size_t count, Tile& tile) const {
-  const auto source_at = static_cast<std::size_t>(layout_.point_source_id);
-  const unsigned mask = layout_.extended ? 15U : 7U, shift = layout_.extended ? 4U : 3U;
+  const LasRecordLayout layout = layout_;  // in registers: stores to the tile may not change it
   std::uint64_t partial = 0;
   for (std::size_t i = 0; i < count; ++i, records += length) {
-    tile.raw[0][i] = loadLas<std::int32_t>(records);
-    tile.raw[1][i] = loadLas<std::int32_t>(records + 4);
-    tile.raw[2][i] = loadLas<std::int32_t>(records + 8);
-    tile.given[i] = loadLas<std::uint16_t>(records + kIntensityAt);
-    tile.source[i] = loadLas<std::uint16_t>(records + source_at);
-    tile.time[i] = layout_.timeOf(records);
-    const unsigned returns = loadLas<std::uint8_t>(records + kReturnsAt);
-    tile.partial[i] = (returns & mask) < ((returns >> shift) & mask) ? 1 : 0;
+    for (int axis = 0; axis < 3; ++axis)
+      tile.raw[axis][i] = LasRecordLayout::coordinateOf(records, axis);
+    tile.given[i] = LasRecordLayout::intensityOf(records);
+    tile.source[i] = layout.sourceOf(records);
+    tile.time[i] = layout.timeOf(records);
+    tile.partial[i] = layout.returnNumberOf(records) < layout.numberOfReturnsOf(records) ? 1 : 0;
     partial += tile.partial[i];
   }
   toMetres(tile.raw[0].data(), metres_per_step_.x(), offset_.x(), count, tile.x.data());
@@ -152,7 +148,8 @@ void RangeOnlyCorrection::round(std::size_t count, Tile& tile, IntensityCounts& 
 void RangeOnlyCorrection::scatter(std::byte* records, std::size_t length, std::size_t count,
                                   const Tile& tile) const {
   for (std::size_t i = 0; i < count; ++i)
-    storeLas(records + i * length + kIntensityAt, static_cast<std::uint16_t>(tile.stored[i]));
+    LasRecordLayout::storeIntensity(static_cast<std::uint16_t>(tile.stored[i]),
+                                    records + i * length);
   if (original_at_ < 0) return;
   records += original_at_;
   for (std::size_t i = 0; i < count; ++i)

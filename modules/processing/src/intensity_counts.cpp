@@ -50,13 +50,13 @@ LeftOutReason IntensityRun::whyUncovered(std::size_t file, double time) const {
 
 std::vector<LeftOutPoints> IntensityRun::leftOut(const IntensityCounts& counts) const {
   std::vector<std::uint64_t> labels = counts.labels;
-  labels.resize(arrangement_->labels().size());
-  std::vector<LeftOutPoints> parts = arrangement_->leftOut(labels);
+  labels.resize(arrangement().labels().size());
+  std::vector<LeftOutPoints> parts = arrangement().leftOut(labels);
   for (const auto& [key, points] : counts.uncovered) {
-    const std::string& strip = arrangement_->labels()[key.first].strip;
+    const std::string& strip = arrangement().labels()[key.first].strip;
     std::uint64_t all = 0;
     for (std::size_t i = 0; i < labels.size(); ++i)
-      all += arrangement_->labels()[i].strip == strip ? labels[i] : 0;
+      all += arrangement().labels()[i].strip == strip ? labels[i] : 0;
     parts.push_back({strip, key.second, points, all});
   }
   return parts;

@@ -21,10 +21,6 @@ namespace pcl_als {
 namespace {
 
 constexpr std::size_t kBlock = 4096;  ///< records that share a box
-constexpr std::size_t kIntensity = 12, kReturns = 14;
-
-/// X, Y, Z and the four bytes behind them, which are ignored, as one vector.
-using Lanes = std::int32_t __attribute__((vector_size(16)));
 
 /// Box of the points of one strip in a block, in coordinate steps of the file.
 struct BlockBox {
@@ -107,28 +103,21 @@ class LasInput : public IntensityInput {
   }
 
   Eigen::Vector3d positionOf(const std::byte* record) const {
-    return metres({loadLas<std::int32_t>(record), loadLas<std::int32_t>(record + 4),
-                   loadLas<std::int32_t>(record + 8)});
+    return LasRecordLayout::positionOf(record, scale_, offset_);
   }
   Eigen::Vector3d metres(const std::array<std::int32_t, 3>& raw) const {
     return Eigen::Vector3d(raw[0], raw[1], raw[2]).cwiseProduct(scale_) + offset_;
-  }
-
-  std::uint16_t sourceOf(const std::byte* record) const {
-    return loadLas<std::uint16_t>(record + layout_.point_source_id);
   }
 
   IntensityPoint pointOf(const std::byte* record) const {
     IntensityPoint point;
     point.position = positionOf(record);
     point.time = layout_.timeOf(record);
-    point.intensity = loadLas<std::uint16_t>(record + kIntensity);
-    point.source = sourceOf(record);
-    const auto returns = loadLas<std::uint8_t>(record + kReturns);
-    point.return_number = layout_.extended ? returns & 15U : returns & 7U;
-    point.number_of_returns = layout_.extended ? returns >> 4U : (returns >> 3U) & 7U;
-    const auto code = loadLas<std::uint8_t>(record + layout_.classification);
-    point.classification = layout_.extended ? code : code & 31U;
+    point.intensity = LasRecordLayout::intensityOf(record);
+    point.source = layout_.sourceOf(record);
+    point.return_number = static_cast<std::uint8_t>(layout_.returnNumberOf(record));
+    point.number_of_returns = static_cast<std::uint8_t>(layout_.numberOfReturnsOf(record));
+    point.classification = layout_.classOf(record);
     return point;
   }
 
@@ -198,18 +187,18 @@ class LasInput : public IntensityInput {
   /// Looks at the records of the first one's strip; returns how many there are in a row.
   std::size_t lookAtRun(const std::byte* records, std::size_t count, BlockBox& box,
                         PointRun& run) const {
-    const std::uint16_t source = sourceOf(records);
-    auto least = loadLas<Lanes>(records), most = least;
+    const std::uint16_t source = layout_.sourceOf(records);
+    auto least = LasRecordLayout::lanesOf(records), most = least;
     // In locals: a compiler must expect that bytes of records are those of the result.
     std::uint16_t largest = 0;
     std::uint64_t zeros = 0, zero_times = 0;
     TimeRange times;
     std::size_t i = 0;
-    for (; i < count && sourceOf(records) == source; ++i, records += length_) {
-      const auto value = loadLas<Lanes>(records);
+    for (; i < count && layout_.sourceOf(records) == source; ++i, records += length_) {
+      const auto value = LasRecordLayout::lanesOf(records);
       least = value < least ? value : least;
       most = value > most ? value : most;
-      const auto intensity = loadLas<std::uint16_t>(records + kIntensity);
+      const std::uint16_t intensity = LasRecordLayout::intensityOf(records);
       largest = std::max(largest, intensity);
       zeros += intensity == 0 ? 1 : 0;
       const double time = layout_.timeOf(records);
@@ -273,7 +262,7 @@ class LasInput : public IntensityInput {
       const std::size_t count = std::min<std::uint64_t>(kBlock, file_.header().point_count - first);
       read(first, count, records);
       for (std::size_t i = 0; i < count; ++i) {
-        const auto box = reach.find(sourceOf(&records[i * length_]));
+        const auto box = reach.find(layout_.sourceOf(&records[i * length_]));
         if (box == reach.end()) continue;
         IntensityPoint point = pointOf(&records[i * length_]);
         if (!box->second.contains(Eigen::Vector2f(out.relative(point.position).head<2>())))

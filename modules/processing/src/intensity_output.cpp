@@ -207,7 +207,7 @@ struct FieldPlaces {
     }
   }
   void store(std::byte* record, const CorrectedPoint& point) const {
-    if (original >= 0) storeLas(record + original, loadLas<std::uint16_t>(record + kIntensityAt));
+    if (original >= 0) storeLas(record + original, LasRecordLayout::intensityOf(record));
     if (reflectance >= 0) storeLas(record + reflectance, static_cast<float>(point.reflectance));
     if (range >= 0) storeLas(record + range, static_cast<float>(point.range));
     if (incidence >= 0) storeLas(record + incidence, static_cast<float>(point.incidence));
@@ -304,7 +304,7 @@ void writeLas(const IntensityRun& run, std::size_t file, const std::filesystem::
           found.radiometry[i].corrected() ? output.scale * point.intensity : point.intensity;
       stored[i] = rounded(scaled);
       places.store(record, point);
-      storeLas(record + kIntensityAt, stored[i]);
+      LasRecordLayout::storeIntensity(stored[i], record);
       tally(run, found, i, point, scaled, part);
     }
     if (run.settings().statistics) ordered.addHistogram(found, run, stored);

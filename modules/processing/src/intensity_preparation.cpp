@@ -7,13 +7,12 @@
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/io/point_reader.h>
 #include <pcl_als/las/las_sample.h>
 #include <pcl_als/processing/intensity_run.h>
+#include <pcl_als/survey/survey_messages.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
 #include "flight_check.h"
-#include "survey_messages.h"
 
 namespace pcl_als {
 namespace {
@@ -74,16 +73,14 @@ void IntensityRun::shareInputs(const std::vector<std::string>& paths) {
 void IntensityRun::visit(
     std::size_t file,
     const std::function<void(int strip, const Eigen::Vector3d& place)>& each) const {
-  const auto reader = PointReader::open(inputs_[file]->path());
-  StripArrangement::Sorter sorter(*arrangement_, file);
-  PointChunk chunk;
-  while (reader->read(chunk)) {
-    for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const std::size_t label = sorter.label(chunk.point_source_id[i], chunk.gps_time[i]);
-      const int strip = arrangement_->labels()[label].index;
-      if (strip >= 0) each(strip, {chunk.x[i], chunk.y[i], chunk.z[i]});
-    }
-  }
+  SurveyReader::Reading reading;
+  reading.files = {file};
+  reading.threads = 1;
+  survey_->read(
+      [&each](const SurveyReader::Run& run) {
+        for (std::size_t row = run.from; row < run.to; ++row) each(run.strip, run.position(row));
+      },
+      reading);
 }
 
 struct IntensityRun::Sample {
@@ -94,9 +91,9 @@ struct IntensityRun::Sample {
 std::vector<IntensityRun::Sample> IntensityRun::samplesOf(std::size_t file) const {
   const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   std::vector<Sample> samples;
-  StripArrangement::Sorter sorter(*arrangement_, file);
+  StripArrangement::Sorter sorter(arrangement(), file);
   const auto add = [&](std::uint16_t source, double time, const auto& points, std::size_t row) {
-    const int strip = arrangement_->labels()[sorter.label(source, time)].index;
+    const int strip = arrangement().labels()[sorter.label(source, time)].index;
     if (strip >= 0) samples.push_back({strip, detail::returnOf(points, row, times_[file](time))});
   };
   if (const LasFile* las = inputs_[file]->las()) {
@@ -147,7 +144,7 @@ std::vector<std::pair<int, double>> IntensityRun::radiiOf(std::size_t file) cons
   for (std::size_t probe = 0; probe < probes; ++probe) {
     IntensityWindow window;
     WindowRequest request;
-    request.arrangement = &*arrangement_;
+    request.arrangement = &arrangement();
     request.file = file;
     inputs_[file]->load(probe * windows / probes, request, window);
     std::size_t cursor = 0;
@@ -155,7 +152,7 @@ std::vector<std::pair<int, double>> IntensityRun::radiiOf(std::size_t file) cons
       double radius = LocalSurfaces::radiusFor(points);
       const auto first = std::find_if(window.points.begin(), window.points.end(),
                                       [&, wanted = strip](const IntensityPoint& p) {
-                                        return arrangement_->labels()[p.label].index == wanted;
+                                        return arrangement().labels()[p.label].index == wanted;
                                       });
       SensorPose pose;
       if (trajectory_->poseAt(times_[file](first->time), pose, cursor)) {

@@ -12,27 +12,13 @@
 #include <pcl_als/io/time_reference.h>
 #include <pcl_als/processing/intensity_run.h>
 #include <pcl_als/survey/strip_arrangement.h>
-
-#include "survey_messages.h"
+#include <pcl_als/survey/survey_messages.h>
 
 namespace pcl_als {
 namespace {
 
 constexpr double kPointsPerCell = 6.0;  ///< of the sparsest strip
 constexpr double kCellShare = 0.7;      ///< of the strips' area that their boxes hold, roughly
-
-std::vector<SurveyedFile> surveyInShares(Communicator* processes, const SharedItems& shares,
-                                         const std::vector<std::string>& paths) {
-  std::vector<SurveyedFile> files(paths.size());
-  doTogether(processes, [&] {
-    for (const std::size_t file : shares.ownItems()) files[file] = surveyFile(paths[file]);
-  });
-  shareValues(
-      processes, shares, files,
-      [](ByteWriter& out, const SurveyedFile& file) { detail::put(out, file); },
-      [](ByteReader& in, SurveyedFile& file) { detail::get(in, file); });
-  return files;
-}
 
 }  // namespace
 
@@ -72,14 +58,14 @@ void IntensityRun::openFiles(const std::vector<std::string>& paths) {
 void IntensityRun::arrangeStrips(const std::vector<std::string>& paths) {
   StripChoice choice = settings_.strips;
   choice.keep_timeless = true;  // they are counted among the points without a trajectory
-  if (choice.split) surveyed_ = surveyInShares(settings_.processes, shares_, paths);
-  for (std::size_t file = 0; file < files(); ++file) {
-    if (choice.split) continue;
-    surveyed_.push_back({inputs_[file]->survey().sources, {}, {}, {}});
-    for (const PointSource& source : surveyed_.back().sources.sources)
-      surveyed_.back().tracks[source.id];
-  }
-  arrangement_.emplace(surveyed_, choice, FlownTimes{trajectory_.get(), times_, false});
+  std::vector<SurveyInput> inputs;
+  std::vector<SurveyedFile> surveyed;
+  for (const std::string& path : paths) inputs.push_back(SurveyInput::ofFile(path));
+  for (const auto& input : inputs_) surveyed.push_back(withoutTracks(input->survey().sources));
+  if (choice.split) surveyed = surveyFiles(inputs, settings_.threads, settings_.processes);
+  survey_.emplace(SurveyReader::ofSurveyed(std::move(surveyed), choice,
+                                           FlownTimes{trajectory_.get(), times_, false},
+                                           settings_.threads));
   if (strips().empty()) throw InputError("no strip is left: all are excluded or have no times");
   for (const auto* given : {&settings_.gains, &settings_.pulse_rates}) {
     for (const auto& [name, value] : *given) {
@@ -109,9 +95,9 @@ void IntensityRun::warnOfLines() {
 
 bool IntensityRun::allChosen(std::size_t file) const {
   if (settings_.strips.split) return false;
-  const std::vector<PointSource>& sources = surveyed_[file].sources.sources;
-  return std::all_of(sources.begin(), sources.end(), [&](const PointSource& source) {
-    return !arrangement_->stripsOf(file, source.id).empty();
+  const std::vector<PointSource>& ids = sources(file).sources;
+  return std::all_of(ids.begin(), ids.end(), [&](const PointSource& source) {
+    return !arrangement().stripsOf(file, source.id).empty();
   });
 }
 
@@ -200,12 +186,12 @@ std::map<int, LocalSurfaces> IntensityRun::surfacesOf(const IntensityWindow& win
 /// A window with what surfaces need around it.
 WindowRequest IntensityRun::requestFor(std::size_t file) const {
   WindowRequest request;
-  request.arrangement = &*arrangement_;
+  request.arrangement = &arrangement();
   request.file = file;
   request.surfaces = settings_.find_surfaces;
   if (!request.surfaces) return request;
-  for (const PointSource& source : surveyed_[file].sources.sources) {
-    for (const int strip : arrangement_->stripsOf(file, source.id))
+  for (const PointSource& source : sources(file).sources) {
+    for (const int strip : arrangement().stripsOf(file, source.id))
       request.margins[source.id] = std::max(request.margins[source.id], radius(strip));
   }
   return request;
@@ -235,7 +221,7 @@ void IntensityRun::evaluate(std::size_t file, std::size_t window, EvaluatedWindo
     LidarReturn aligned = point;
     aligned.time = times(point.time);
     if (i == 0 || points[i - 1].label != point.label) {
-      strip = arrangement_->labels()[point.label].index;
+      strip = arrangement().labels()[point.label].index;
       const auto at = surfaces.find(strip);
       of_strip = at == surfaces.end() ? nullptr : &at->second;
     }

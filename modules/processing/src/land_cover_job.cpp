@@ -239,9 +239,8 @@ void LandCover::classifyPoints(const MaximumLikelihood& classifier) {
   progress_.begin("Classifying the points of " + counted(inputs.size(), "file"));
   const std::vector<std::string> results = batch.run(
       [&](std::size_t file, const std::function<void(double)>& fraction) {
-        const PointClassCounts counts =
-            classifyPointFile(inputs[file], batch.outputs()[file], classes, files_.arranged.get(),
-                              file, options_.threads);
+        const PointClassCounts counts = classifyPointFile(
+            inputs[file], batch.outputs()[file], classes, *files_.survey, file, options_.threads);
         fraction(1.0);
         return ByteWriter().put(counts.points).put(counts.unclassified).put(counts.remarks).take();
       },

@@ -10,25 +10,9 @@
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/line_extraction.h>
 #include <pcl_als/processing/strip_positions.h>
-#include <pcl_als/survey/arranged_files.h>
 
 namespace pcl_als {
 namespace {
-
-/// All files of a strip, for reading its points.
-StripFiles filesOf(const ArrangedFiles& arranged, std::size_t strip,
-                   const Eigen::AlignedBox3d& box) {
-  StripFiles files;
-  files.strip = arranged.arrangement().names()[strip];
-  files.arrangement = &arranged.arrangement();
-  files.index = static_cast<int>(strip);
-  files.box = box;
-  for (std::size_t file = 0; file < arranged.files().size(); ++file) {
-    files.files.push_back(arranged.files()[file].sources.info.path);
-    files.places.push_back(file);
-  }
-  return files;
-}
 
 std::vector<Eigen::Vector3d> positionsOf(const StripPoints& points) {
   std::vector<Eigen::Vector3d> positions;
@@ -48,27 +32,28 @@ ExtractedLines extractLines(const std::vector<std::filesystem::path>& files,
   progress.begin("Reading " + counted(files.size(), "point file"));
   StripChoice choice = options.strips;
   choice.keep_timeless = true;  // nothing here needs times
-  const ArrangedFiles arranged(files, choice);
-  const ArrangedFiles::Use use = arranged.use();
+  const auto survey = std::make_shared<SurveyReader>(SurveyReader::ofFiles(files));
+  survey->choose(choice, {});
+  const SurveyReader::Contents contents = survey->measure();
+  const std::vector<std::string>& names = survey->strips();
   std::vector<PointFileInfo> infos;
-  for (const SurveyedFile& file : arranged.files()) infos.push_back(file.sources.info);
+  for (const SurveyedFile& file : survey->files()) infos.push_back(file.sources.info);
   const PointReference reference = commonReference(infos);
-  progress.end(grouped(use.pointCount()) + " points of " +
-               counted(arranged.arrangement().names().size(), "strip"));
+  progress.end(grouped(contents.pointCount()) + " points of " + counted(names.size(), "strip"));
   for (const std::string& text : reference.remarks) progress.remark(text);
-  for (const std::string& text : describe(use.left_out)) progress.remark(text);
+  for (const std::string& text : describe(contents.left_out)) progress.remark(text);
 
   ExtractedLines result;
   result.crs = reference.crs;
-  const Eigen::Vector3d origin = use.box().center().array().round();
-  const Eigen::AlignedBox2d everywhere(use.box().min().head<2>().array() - 1.0,
-                                       use.box().max().head<2>().array() + 1.0);
+  const Eigen::AlignedBox3d box = contents.box();
+  const Eigen::Vector3d origin = box.center().array().round();
+  const Eigen::AlignedBox2d everywhere(box.min().head<2>().array() - 1.0,
+                                       box.max().head<2>().array() + 1.0);
   std::vector<std::vector<StripLine>> lines;
-  const std::vector<std::string>& names = arranged.arrangement().names();
   for (std::size_t s = 0; s < names.size(); ++s) {
     progress.begin("Finding lines of strip " + names[s]);
-    const StripPoints points =
-        readStripPoints(filesOf(arranged, s, use.boxes[s]), everywhere, origin);
+    const StripPoints points = readStripPoints(
+        StripPart::ofStrip(survey, static_cast<int>(s), contents.boxes[s]), everywhere, origin);
     lines.push_back(findRoofLines(positionsOf(points), options.settings));
     result.strips.push_back({names[s], points.positions.size(), lines.back().size()});
     progress.end(counted(lines.back().size(), "line"));

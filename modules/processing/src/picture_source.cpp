@@ -6,10 +6,6 @@
 
 #include <pcl_als/common/class_name.h>
 #include <pcl_als/common/errors.h>
-#include <pcl_als/common/file_extension.h>
-#include <pcl_als/io/las_point_reader.h>
-#include <pcl_als/io/point_reader.h>
-#include <pcl_als/io/point_reference.h>
 #include <pcl_als/las/las_file.h>
 #include <pcl_als/processing/picture/picture_source.h>
 #include <pcl_als/processing/picture/section_places.h>
@@ -18,40 +14,6 @@ namespace pcl_als {
 namespace {
 
 constexpr double kSmoothRms = 0.15;  // m: cells rougher than this are no surface to compare with
-
-/// The points of a file, with the values of an extra-bytes field where it has that.
-class PictureReader {
- public:
-  PictureReader(const std::filesystem::path& path, const PointWindow& window,
-                const std::string& field) {
-    const std::string extension = lowerExtension(path);
-    if (field.empty() || (extension != ".las" && extension != ".laz")) {
-      reader_ = PointReader::open(path, window);
-      return;
-    }
-    auto las = std::make_unique<LasPointReader>(path, window, PointReader::OtherCoordinates::refuse,
-                                                LasPointReader::kColumns | kLazExtraBytes);
-    field_ = findLasExtraField(las->file().extraFields(), field, path.string());
-    las_ = las.get();
-    reader_ = std::move(las);
-  }
-
-  bool read(PointChunk& chunk) {
-    const bool more = reader_->read(chunk);
-    values_.assign(chunk.size(), std::numeric_limits<double>::quiet_NaN());
-    if (field_ != nullptr)
-      decodeLasExtraField(las_->records(), chunk.size(), las_->file().header().record_length,
-                          *field_, values_);
-    return more;
-  }
-  double extra(std::size_t i) const { return values_[i]; }
-
- private:
-  std::unique_ptr<PointReader> reader_;
-  LasPointReader* las_ = nullptr;
-  const LasExtraField* field_ = nullptr;
-  std::vector<double> values_;
-};
 
 std::string extraFieldNames(const std::vector<SurveyedFile>& files) {
   std::string names;
@@ -76,13 +38,12 @@ enum ReturnKind { kSingle, kFirst, kMiddle, kLast };
 
 PictureSource::PictureSource(const std::vector<std::string>& paths, bool split,
                              const PointWindow& window)
-    : window_(window) {
+    : survey_(paths, 0, window) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   minimum_.setConstant(infinity);
   maximum_.setConstant(-infinity);
   first_time_ = infinity;
-  for (const std::string& path : paths) {
-    const SurveyedFile& file = files_.emplace_back(surveyFile(SurveyInput::ofFile(path, window)));
+  for (const SurveyedFile& file : files()) {
     for (const PointSource& source : file.sources.sources) {
       if (!source.minimum.allFinite() || !source.maximum.allFinite()) continue;
       minimum_ = minimum_.cwiseMin(source.minimum);
@@ -90,54 +51,33 @@ PictureSource::PictureSource(const std::vector<std::string>& paths, bool split,
       first_time_ = std::min(first_time_, source.first_time);
     }
   }
-  std::vector<PointFileInfo> infos;
-  for (const SurveyedFile& file : files_) infos.push_back(file.sources.info);
-  remarks_ = commonReference(infos).remarks;
-  for (const SurveyedFile& file : files_)
-    for (const std::string& remark : {file.sources.damage, file.sources.box_remark})
-      if (!remark.empty()) remarks_.push_back(remark);
-  arrangement_.emplace(files_, StripChoice{{}, {}, split, true}, FlownTimes());
-  if (pointCount() == 0 && !window.everything())
-    refuseEmptyWindow({paths.begin(), paths.end()}, window);
   if (!minimum_.allFinite()) {
     throw InputError(paths.front() + (paths.size() > 1 ? " and the other files hold" : ": holds") +
                      " no point to draw");
   }
-}
-
-std::uint64_t PictureSource::pointCount() const {
-  std::uint64_t count = 0;
-  for (const SurveyedFile& file : files_) count += file.sources.info.point_count;
-  return count;
+  survey_.choose(StripChoice{{}, {}, split, true}, {});
 }
 
 double PictureSource::sectionCell(const std::vector<bool>& chosen) const {
-  return pcl_als::sectionCell(stripDensities(files_, *arrangement_), chosen);
+  return pcl_als::sectionCell(stripDensities(files(), survey_.arrangement()), chosen);
 }
 
 double PictureSource::cellFor(int strip, double points) const {
-  return stripDensities(files_, *arrangement_)[static_cast<std::size_t>(strip)].cellFor(points);
+  return stripDensities(files(), survey_.arrangement())[static_cast<std::size_t>(strip)].cellFor(
+      points);
 }
 
 void PictureSource::read(const std::function<void(const Point&)>& sink,
                          const std::string& extra_field) const {
-  for (std::size_t file = 0; file < files_.size(); ++file) {
-    StripArrangement::Sorter sorter(*arrangement_, file);
-    PictureReader reader(files_[file].sources.info.path, window_, extra_field);
-    PointChunk chunk;
-    while (reader.read(chunk)) {
-      Point point{{}, 0, 0, &chunk, 0.0};
-      for (std::size_t i = 0; i < chunk.size(); ++i) {
-        const std::size_t label = sorter.label(chunk.point_source_id[i], chunk.gps_time[i]);
-        point.strip = arrangement_->labels()[label].index;
-        if (point.strip < 0) continue;
-        point.position = {chunk.x[i], chunk.y[i], chunk.z[i]};
-        point.index = i;
-        point.extra = reader.extra(i);
-        sink(point);
-      }
-    }
-  }
+  SurveyReader::Reading reading;
+  reading.threads = 1;  // in file order
+  reading.extra_field = extra_field;
+  survey_.read(
+      [&sink](const SurveyReader::Run& run) {
+        for (std::size_t row = run.from; row < run.to; ++row)
+          sink({run.position(row), run.strip, row, &run.chunk});
+      },
+      reading);
 }
 
 PointAttribute::PointAttribute(std::string name, const PictureSource& source,
@@ -190,7 +130,9 @@ float PointAttribute::differenceOf(const PictureSource::Point& point) const {
 float PointAttribute::valueOf(const PictureSource::Point& point) const {
   const PointChunk& chunk = *point.chunk;
   const std::size_t i = point.index;
-  if (!extra_field_.empty()) return static_cast<float>(point.extra);
+  if (!extra_field_.empty())
+    return chunk.extra.empty() ? std::numeric_limits<float>::quiet_NaN()
+                               : static_cast<float>(chunk.extra[i]);
   if (name_ == "elevation") return static_cast<float>(point.position.z());
   if (name_ == "intensity") return chunk.intensity[i];
   if (name_ == "strip") return static_cast<float>(point.strip);

@@ -16,8 +16,6 @@
 namespace pcl_als {
 namespace {
 
-// Formats 0-5 keep flags in the upper three bits.
-constexpr unsigned kShortClass = 0x1F;
 constexpr int kTile = 512;  ///< cells: part of the raster that is read for neighbouring points
 
 /// Bands that come from the cells; a point has its own height and intensity.
@@ -37,77 +35,65 @@ std::vector<std::uint8_t> codesOf(const GaussianModel& model) {
   return codes;
 }
 
-/// Which points of a file get a class; not to be shared between threads.
-class UsedPoints {
- public:
-  UsedPoints(const ArrangedFiles* arranged, std::size_t place) : arranged_(arranged) {
-    if (arranged != nullptr) sorter_.emplace(arranged->arrangement(), place);
+/// By point, the code that it gets; empty: it keeps its own.
+std::vector<std::optional<std::uint8_t>> newCodes(const PointChunk& points, PointClasses& classes,
+                                                  const SurveyReader& survey, std::size_t place) {
+  const std::vector<std::uint8_t> codes = codesOf(classes.model());
+  const std::vector<int> found = classes.classify(points);
+  std::vector<std::optional<std::uint8_t>> given(points.size());
+  for (std::size_t from = 0; from < points.size();) {
+    const SurveyReader::Run run = survey.runAt(place, points, from);
+    from = run.to;
+    for (std::size_t i = run.from; run.strip >= 0 && i < run.to; ++i)
+      if (found[i] != MaximumLikelihood::kNoClass && !isNoise(points.classification[i]))
+        given[i] = codes[static_cast<std::size_t>(found[i])];
   }
-  bool operator()(std::uint16_t source, double time) {
-    if (!sorter_) return true;
-    return arranged_->arrangement().labels()[sorter_->label(source, time)].index >= 0;
-  }
-
- private:
-  const ArrangedFiles* arranged_;
-  std::optional<StripArrangement::Sorter> sorter_;
-};
+  return given;
+}
 
 PointClassCounts classifyPcd(const std::filesystem::path& input,
                              const std::filesystem::path& output, PointClasses& classes,
-                             UsedPoints used) {
+                             const SurveyReader& survey, std::size_t place) {
   PcdFindings findings;
   const Strip<PointLidar> strip = loadPcd(input, {}, findings);
-  std::vector<PointClasses::Point> points;
-  for (const PointLidar& point : *strip.cloud) {
-    const Eigen::Vector3d place = strip.frame.toGround({point.x, point.y, point.z});
-    points.push_back({place.x(), place.y(), place.z(), static_cast<double>(point.intensity)});
+  PointChunk points;
+  points.resize(strip.cloud->size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointLidar& point = (*strip.cloud)[i];
+    const Eigen::Vector3d at = strip.frame.toGround({point.x, point.y, point.z});
+    points.x[i] = at.x(), points.y[i] = at.y(), points.z[i] = at.z();
+    points.intensity[i] = point.intensity;
+    points.classification[i] = point.classification;
+    points.point_source_id[i] = point.point_source_id;
+    points.gps_time[i] = secondsOfTime(point.gps_time);
   }
-  const std::vector<int> found = classes.classify(points);
-  const std::vector<std::uint8_t> codes = codesOf(classes.model());
+  const auto given = newCodes(points, classes, survey, place);
   PointClassCounts counts{points.size(), 0, findings.remarks};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    PointLidar& point = (*strip.cloud)[i];
-    auto& code = point.classification;
-    if (found[i] == MaximumLikelihood::kNoClass || isNoise(code) ||
-        !used(point.point_source_id, secondsOfTime(point.gps_time)))
-      ++counts.unclassified;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i])
+      (*strip.cloud)[i].classification = *given[i];
     else
-      code = codes[static_cast<std::size_t>(found[i])];
+      ++counts.unclassified;
   }
   savePcd(output, strip);
   return counts;
 }
 
 /// Changes the class of records; returns how many keep theirs.
-std::uint64_t classifyRecords(const LasFile& file, const std::vector<std::uint8_t>& codes,
-                              const LasRecordBlock& block, PointClasses& classes, UsedPoints used) {
+std::uint64_t classifyRecords(const LasFile& file, const LasRecordBlock& block,
+                              PointClasses& classes, const SurveyReader& survey,
+                              std::size_t place) {
   const LasScaling metres = file.toMetres();
-  const LasRecordLayout& layout = file.layout();
-  std::vector<PointClasses::Point> points;
-  points.reserve(block.count);
-  for (std::size_t i = 0; i < block.count; ++i) {
-    const std::byte* record = block.records + i * block.record_length;
-    double place[3];
-    for (int axis = 0; axis < 3; ++axis)
-      place[axis] =
-          loadLas<std::int32_t>(record + 4 * axis) * metres.scale[axis] + metres.offset[axis];
-    const double intensity = loadLas<std::uint16_t>(record + 12);
-    points.push_back({place[0], place[1], place[2], intensity});
-  }
-  const std::vector<int> found = classes.classify(points);
+  PointChunk points;
+  decodeLasRecords(block.records, block.count, block.record_length, file.layout(), metres.scale,
+                   metres.offset, points);
+  const auto given = newCodes(points, classes, survey, place);
   std::uint64_t missed = 0;
   for (std::size_t i = 0; i < block.count; ++i) {
-    std::byte* record = block.records + i * block.record_length;
-    std::byte& field = record[layout.classification];
-    const auto present = std::to_integer<unsigned>(field);
-    const unsigned flags = layout.extended ? 0U : present & ~kShortClass;
-    if (found[i] == MaximumLikelihood::kNoClass ||
-        isNoise(static_cast<std::uint8_t>(present & ~flags)) ||
-        !used(loadLas<std::uint16_t>(record + layout.point_source_id), layout.timeOf(record)))
-      ++missed;
+    if (given[i])
+      file.layout().storeClass(*given[i], block.records + i * block.record_length);
     else
-      field = static_cast<std::byte>(flags | codes[static_cast<std::size_t>(found[i])]);
+      ++missed;
   }
   return missed;
 }
@@ -128,11 +114,11 @@ PointClasses::PointClasses(std::shared_ptr<const MaximumLikelihood> classifier,
                            const std::filesystem::path& raster)
     : classifier_(std::move(classifier)), bands_(raster, bandsOfCells(classifier_->model())) {}
 
-std::vector<int> PointClasses::classify(const std::vector<Point>& points) {
+std::vector<int> PointClasses::classify(const PointChunk& points) {
   const RasterGrid& grid = bands_.grid();
   std::map<std::pair<int, int>, Group> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const long long column = grid.columnOf(points[i].x), row = grid.rowOf(points[i].y);
+    const long long column = grid.columnOf(points.x[i]), row = grid.rowOf(points.y[i]);
     if (!grid.holds(column, row)) continue;
     const int c = static_cast<int>(column), r = static_cast<int>(row);
     Group& group = groups.try_emplace({r / kTile, c / kTile}, Group{{}, c, r, c, r}).first->second;
@@ -145,7 +131,7 @@ std::vector<int> PointClasses::classify(const std::vector<Point>& points) {
   return classes;
 }
 
-void PointClasses::classify(const std::vector<Point>& points, const Group& group,
+void PointClasses::classify(const PointChunk& points, const Group& group,
                             std::vector<int>& classes) {
   const RasterWindow window{group.west, group.north, group.east - group.west + 1,
                             group.south - group.north + 1};
@@ -156,25 +142,25 @@ void PointClasses::classify(const std::vector<Point>& points, const Group& group
   }
   const PointClassifier classifier(classifier_, part);
   for (const Group::Member& member : group.members) {
-    const Point& point = points[member.point];
     // The cell is that of the whole raster: a point on an edge may be rounded into another cell of
     // the part.
     const std::size_t cell =
         part->grid.index(member.column - window.column, member.row - window.row);
-    classes[member.point] = classifier.classifyIn(cell, point.z, point.intensity).index;
+    classes[member.point] = classifier
+                                .classifyIn(cell, points.z[member.point],
+                                            static_cast<double>(points.intensity[member.point]))
+                                .index;
   }
 }
 
 PointClassCounts classifyPointFile(const std::filesystem::path& input,
                                    const std::filesystem::path& output, PointClasses& classes,
-                                   const ArrangedFiles* arranged, std::size_t place, int threads) {
-  if (input.extension() == ".pcd")
-    return classifyPcd(input, output, classes, UsedPoints(arranged, place));
+                                   const SurveyReader& survey, std::size_t place, int threads) {
+  if (input.extension() == ".pcd") return classifyPcd(input, output, classes, survey, place);
   const LasFile file(input);
-  const std::vector<std::uint8_t> codes = codesOf(classes.model());
   std::atomic<std::uint64_t> unclassified{0};
   const LasEdit edit = [&](const LasRecordBlock& block) {
-    unclassified += classifyRecords(file, codes, block, classes, UsedPoints(arranged, place));
+    unclassified += classifyRecords(file, block, classes, survey, place);
   };
   LasRewriteResult written = rewriteLas(file, output, edit, threads);
   return {written.points, unclassified.load(), std::move(written.remarks)};

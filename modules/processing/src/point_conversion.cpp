@@ -15,7 +15,7 @@
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/las/las_rewriter.h>
 #include <pcl_als/processing/point_conversion.h>
-#include <pcl_als/survey/arranged_files.h>
+#include <pcl_als/survey/survey_reader.h>
 
 #include "conversion_paths.h"
 #include "point_sink.h"
@@ -60,13 +60,9 @@ class Source {
     std::fill(chunk_.point_source_id.begin() + static_cast<std::ptrdiff_t>(from),
               chunk_.point_source_id.begin() + static_cast<std::ptrdiff_t>(to), number);
     if (las_ == nullptr) return;
-    const LasHeader& header = las_->file().header();
-    const std::size_t place = header.point_format < 6 ? 18 : 20;  // LAS 1.4 R15, Tables 7 and 14
-    for (std::size_t row = from; row < to; ++row) {
-      std::byte* field = las_->records() + row * header.record_length + place;
-      field[0] = static_cast<std::byte>(number & 0xFFU);
-      field[1] = static_cast<std::byte>(number >> 8U);
-    }
+    const LasFile& file = las_->file();
+    for (std::size_t row = from; row < to; ++row)
+      file.layout().storeSource(number, las_->records() + row * file.header().record_length);
   }
   detail::PointBlock block() {
     if (las_ == nullptr) return {chunk_};
@@ -127,8 +123,10 @@ class Conversion {
     strips.split = choice.split || options.number_lines;
     strips.keep_timeless = !strips.split;  // nothing here needs times
     report_.begin("Reading " + counted(inputs.size(), "file"));
-    arranged_.emplace(inputs, strips, options.window);
-    const std::vector<std::string>& names = arranged_->arrangement().names();
+    arranged_.emplace(SurveyReader::ofFiles(inputs, options.threads, options.window));
+    arranged_->choose(strips, {});
+    label_counts_.resize(arranged_->arrangement().labels().size());
+    const std::vector<std::string>& names = arranged_->strips();
     report_.end(counted(names.size(), "strip"));
     if (strips.split && !options.keep_ids) numbers_ = detail::lineNumbers(names);
     std::vector<std::string> changed;
@@ -140,8 +138,7 @@ class Conversion {
 
   PointConversionResult run(const fs::path& output) {
     if (options_.strips.split)
-      writeStrips(
-          detail::stripPaths(inputs_, output, options_.format, arranged_->arrangement().names()));
+      writeStrips(detail::stripPaths(inputs_, output, options_.format, arranged_->strips()));
     else
       writeFiles(detail::outputPaths(inputs_, output, options_.format));
     if (arranged_ && !options_.number_lines)
@@ -237,10 +234,10 @@ class Conversion {
   void writeStrips(const std::vector<fs::path>& paths) {
     std::vector<std::size_t> all(inputs_.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    const std::vector<std::string>& names = arranged_->arrangement().names();
+    const std::vector<std::string>& names = arranged_->strips();
     std::vector<Eigen::AlignedBox3d> boxes(names.size());
     records_ = std::all_of(inputs_.begin(), inputs_.end(), detail::isLas);
-    if (!records_ || !detail::isLas(paths[0])) boxes = arranged_->use().boxes;
+    if (!records_ || !detail::isLas(paths[0])) boxes = arranged_->measure().boxes;
     std::vector<PointFileInfo> infos;
     for (const SurveyedFile& file : arranged_->files()) infos.push_back(file.sources.info);
     for (const std::string& text : commonReference(infos).remarks) remarkOnce(text);
@@ -262,7 +259,7 @@ class Conversion {
       return [](std::size_t, const PointChunk& chunk, std::size_t) {
         return Run{chunk.size(), 0, std::nullopt};
       };
-    const Distribution strips = stripPoints(0, arranged_->arrangement().names().size());
+    const Distribution strips = stripPoints(0, arranged_->strips().size());
     return [strips](std::size_t file, const PointChunk& chunk, std::size_t from) {
       const Run run = strips(file, chunk, from);
       return Run{run.to, run.target < 0 ? -1 : 0, std::nullopt};
@@ -271,7 +268,7 @@ class Conversion {
 
   /// Everything, with the numbers of lines.
   Distribution numberedPoints() {
-    const Distribution strips = stripPoints(0, arranged_->arrangement().names().size());
+    const Distribution strips = stripPoints(0, arranged_->strips().size());
     return [strips](std::size_t file, const PointChunk& chunk, std::size_t from) {
       const Run run = strips(file, chunk, from);
       return Run{run.to, 0, run.number.value_or(0)};
@@ -280,11 +277,13 @@ class Conversion {
 
   /// Points of the strips [first, last), each to an output of its own.
   Distribution stripPoints(std::size_t first, std::size_t last) {
-    const CensusStrips strips = censusStrips(arranged_->arrangement(), label_counts_);
+    std::fill(label_counts_.begin(), label_counts_.end(), 0);
     const auto low = static_cast<int>(first), high = static_cast<int>(last);
-    return [this, strips, low, high](std::size_t file, const PointChunk& chunk, std::size_t from) {
-      const auto [to, strip] = strips.run(file, chunk, from);
-      Run run{to, strip >= low && strip < high ? strip - low : -1, std::nullopt};
+    return [this, low, high](std::size_t file, const PointChunk& chunk, std::size_t from) {
+      const SurveyReader::Run found = arranged_->runAt(file, chunk, from);
+      const int strip = found.strip;
+      label_counts_[found.label] += found.to - from;
+      Run run{found.to, strip >= low && strip < high ? strip - low : -1, std::nullopt};
       if (strip >= 0 && !numbers_.empty()) run.number = numbers_[static_cast<std::size_t>(strip)];
       return run;
     };
@@ -378,7 +377,7 @@ class Conversion {
   const std::vector<fs::path>& inputs_;
   const PointConversionOptions& options_;
   ProgressReport report_;
-  std::optional<ArrangedFiles> arranged_;
+  std::optional<SurveyReader> arranged_;
   std::vector<std::uint64_t> label_counts_;
   std::vector<std::uint16_t> numbers_;  ///< by strip: point source id; empty: points keep theirs
   bool records_ = false;                ///< all points of the targets have raw records

@@ -24,12 +24,12 @@ AttitudeRecovery::Outcome recover(const SurveyReader& survey,
                                   const std::shared_ptr<const Trajectory>& flight) {
   std::vector<AttitudeRecovery> strips(survey.strips().size(), AttitudeRecovery(flight));
   std::vector<std::size_t> counts(strips.size(), 0);
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
-    const auto s = static_cast<std::size_t>(strip);
-    for (std::size_t i = 0; i < count; ++i)
+  survey.read([&](const SurveyReader::Run& run) {
+    const auto s = static_cast<std::size_t>(run.strip);
+    for (std::size_t row = run.from; row < run.to; ++row)
       if (counts[s]++ % kEvery == 0)
-        strips[s].add(points[i].time, points[i].position,
-                      static_cast<double>(points[i].scan_angle) * kRadiansPerDegree);
+        strips[s].add(run.time(run.chunk.gps_time[row]), run.position(row),
+                      static_cast<double>(run.chunk.scan_angle[row]) * kRadiansPerDegree);
   });
   AttitudeRecovery all(flight);
   for (const AttitudeRecovery& strip : strips) all.merge(strip);

@@ -4,7 +4,7 @@
 
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/processing/reference_source.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 
@@ -12,22 +12,19 @@ ReferenceSource referencePoints(const std::filesystem::path& path) {
   ReferenceSource source;
   source.info = PointReader::open(path)->info();
   source.surface.name = path.filename().string();
-  source.read = [path](const Eigen::AlignedBox2d& box, const ReferenceSource::Sink& sink) {
+  source.read = [info = source.info](const Eigen::AlignedBox2d& box,
+                                     const ReferenceSource::Sink& sink) {
     PointWindow window;
     window.bounds = box;
-    const auto reader = PointReader::open(path, window);
-    const TimeAlignment none;
-    PointChunk chunk;
-    std::vector<LidarReturn> points;
-    while (reader->read(chunk)) {
-      const SurveyReader::Run run{chunk, 0, chunk.size(), none};
-      points.clear();
-      for (std::size_t row = 0; row < chunk.size(); ++row) {
+    const auto pass = [&sink](const SurveyReader::Run& run) {
+      std::vector<LidarReturn> points;
+      for (std::size_t row = run.from; row < run.to; ++row) {
         points.push_back(run.point(row));
         points.back().time = 0.0;  // of another survey
       }
       sink(points.data(), points.size());
-    }
+    };
+    SurveyReader::ofWholeFiles({info}, 1, window).read(pass);
   };
   return source;
 }

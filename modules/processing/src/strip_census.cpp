@@ -4,7 +4,7 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/strip_census.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 namespace {
@@ -16,33 +16,47 @@ FlightFile censusFlight(const CensusRequest& request, const SurveyReader& survey
   return readFlight(request.trajectory, options);
 }
 
+/// The points with their strips by the trajectory; empty where they do not belong together.
+std::optional<SurveyReader> withTrajectory(const CensusRequest& request, FlightFile& flight,
+                                           std::vector<std::string>& notes) {
+  if (request.trajectory.empty()) return std::nullopt;
+  std::vector<std::string> paths;
+  for (const std::filesystem::path& file : request.files) paths.push_back(file.string());
+  try {
+    SurveyReader survey(paths, request.threads, request.window);
+    flight = censusFlight(request, survey);
+    notes = survey.choose(request.strips, {flight.trajectory.get(), std::nullopt, false});
+    return survey;
+  } catch (const InputError& error) {
+    notes = {std::string("strips are divided without the trajectory: ") + error.what()};
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 StripCensusResult takeCensus(const CensusRequest& request,
                              const std::function<void(double)>& progress) {
   StripCensusResult result;
   FlightFile flight;
-  std::optional<SurveyReader> survey;
-  try {
-    if (!request.trajectory.empty()) {
-      std::vector<std::string> paths;
-      for (const std::filesystem::path& file : request.files) paths.push_back(file.string());
-      survey.emplace(paths, request.threads, request.window);
-      flight = censusFlight(request, *survey);
-      result.notes = survey->choose(request.strips, {flight.trajectory.get(), std::nullopt, false});
-    }
-  } catch (const InputError& error) {
-    survey.reset();
-    result.notes = {std::string("strips are divided without the trajectory: ") + error.what()};
-  }
+  std::optional<SurveyReader> survey = withTrajectory(request, flight, result.notes);
   if (!survey) {
-    result.census = takeCensus(request.files, request.cell, progress, request.strips,
-                               request.window, result.left_out);
-    return result;
+    survey.emplace(SurveyReader::ofFiles(request.files, request.threads, request.window));
+    survey->choose(request.strips, {});
   }
-  std::vector<std::uint64_t> counts;
-  result.census = takeCensus(request.files, request.cell, progress,
-                             censusStrips(survey->arrangement(), counts), request.window);
+  std::vector<PointFileInfo> measured;
+  for (const SurveyedFile& file : survey->files()) measured.push_back(file.sources.info);
+  std::vector<std::uint64_t> counts(survey->arrangement().labels().size());
+  CensusStrips strips;
+  strips.names = survey->arrangement().names();
+  strips.run = [&](std::size_t file, const PointChunk& chunk, std::size_t from) {
+    const SurveyReader::Run run = survey->runAt(file, chunk, from);
+    counts[run.label] += run.to - from;
+    return std::pair(run.to, run.strip);
+  };
+  result.census =
+      takeCensus(request.files, request.cell > 0.0 ? request.cell : usualCensusCell(measured),
+                 progress, strips, request.window);
   result.left_out = survey->arrangement().leftOut(counts);
   return result;
 }

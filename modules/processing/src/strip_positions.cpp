@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <optional>
-
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/header_box.h>
 #include <pcl_als/common/point_types.h>
-#include <pcl_als/io/measured_box.h>
-#include <pcl_als/io/point_reader.h>
 #include <pcl_als/processing/strip_positions.h>
 
 namespace pcl_als {
@@ -22,51 +17,34 @@ bool isSurface(const PointChunk& chunk, std::size_t i) {
          code != kLowNoise && code != kHighNoise && (chunk.flags[i] & kWithheld) == 0;
 }
 
-/// Adds points [from, to) of a chunk.
-void addRun(const PointChunk& chunk, std::size_t from, std::size_t to,
-            const Eigen::AlignedBox2d& box, StripPoints& points) {
-  points.read += to - from;
-  for (std::size_t i = from; i < to; ++i) {
-    const Eigen::Vector3d p(chunk.x[i], chunk.y[i], chunk.z[i]);
-    if (box.contains(p.head<2>()) && isSurface(chunk, i))
-      points.positions.emplace_back((p - points.origin).cast<float>());
-  }
-}
-
-/// Adds the points of a chunk that belong to the strip by the arrangement.
-void addArranged(const StripFiles& strip, StripArrangement::Sorter& sorter, const PointChunk& chunk,
-                 const Eigen::AlignedBox2d& box, StripPoints& points) {
-  for (std::size_t from = 0; from < chunk.size();) {
-    const auto [to, label] = sorter.run(chunk, from);
-    const int index = strip.arrangement->labels()[label].index;
-    if (index >= 0 && (strip.index < 0 || strip.index == index))
-      addRun(chunk, from, to, box, points);
-    from = to;
-  }
-}
-
 }  // namespace
 
-std::string StripFiles::name() const {
-  return strip.empty() ? files.front().string() : "strip " + strip;
+StripPart StripPart::ofStrip(std::shared_ptr<const SurveyReader> survey, int strip,
+                             const Eigen::AlignedBox3d& box) {
+  StripPart part;
+  part.name = "strip " + survey->strips()[static_cast<std::size_t>(strip)];
+  part.reading.strip = strip;
+  part.box = box;
+  part.survey = std::move(survey);
+  return part;
 }
 
-StripFileInfo stripFileInfo(const StripFiles& strip, bool measured) {
-  StripFileInfo info;
-  for (const std::filesystem::path& file : strip.files) {
-    const MeasuredFile known =
-        measured ? measureBox(file) : MeasuredFile{PointReader::open(file)->info(), {}};
-    const PointFileInfo& one = known.info;
-    if (!known.box_remark.empty()) info.remarks.push_back(known.box_remark);
-    info.points += one.point_count;
-    info.files.push_back(one);
-    info.resolution = std::clamp(one.resolution.head<2>().minCoeff(), 1e-4, 0.01);
-    if (one.point_count == 0) continue;
-    info.box.extend(one.minimum);
-    info.box.extend(one.maximum);
-  }
-  if (!strip.box.isEmpty()) info.box = strip.box;
-  return info;
+StripPart StripPart::ofFile(std::shared_ptr<const SurveyReader> survey, std::size_t file) {
+  StripPart part;
+  const PointFileInfo& info = survey->files()[file].sources.info;
+  part.name = info.path.string();
+  part.reading.files = {file};
+  if (info.point_count > 0) part.box = {info.minimum, info.maximum};
+  part.survey = std::move(survey);
+  return part;
+}
+
+std::vector<PointFileInfo> StripPart::files() const {
+  std::vector<PointFileInfo> files;
+  if (reading.files.empty())
+    for (const SurveyedFile& file : survey->files()) files.push_back(file.sources.info);
+  for (const std::size_t file : reading.files) files.push_back(survey->files()[file].sources.info);
+  return files;
 }
 
 PointView StripPoints::view() const {
@@ -78,26 +56,29 @@ PointView StripPoints::view() const {
   return view;
 }
 
-StripPoints readStripPoints(const StripFiles& strip, const Eigen::AlignedBox2d& box,
+StripPoints readStripPoints(const StripPart& strip, const Eigen::AlignedBox2d& box,
                             const Eigen::Vector3d& origin) {
   StripPoints points;
   points.origin = origin;
-  PointChunk chunk;
-  for (std::size_t file = 0; file < strip.files.size(); ++file) {
-    const auto reader = PointReader::open(strip.files[file]);
-    std::optional<StripArrangement::Sorter> sorter;
-    if (strip.arrangement != nullptr) sorter.emplace(*strip.arrangement, strip.places[file]);
-    Eigen::AlignedBox3d all;
-    while (reader->read(chunk)) {
-      all.extend(boxOf(chunk, 0, chunk.size()));
-      if (sorter)
-        addArranged(strip, *sorter, chunk, box, points);
-      else
-        addRun(chunk, 0, chunk.size(), box, points);
-    }
-    if (strip.box.isEmpty() && !reader->boxRemark(all).empty()) points.headers_right = false;
-  }
-  if (points.read == 0) throw InputError(strip.name() + ": has no points");
+  Eigen::AlignedBox3d all;
+  // One after the other: several strips of a file are one here.
+  SurveyReader::Reading reading = strip.reading;
+  reading.threads = 1;
+  strip.survey->read(
+      [&](const SurveyReader::Run& run) {
+        all.extend(boxOf(run.chunk, run.from, run.to));
+        points.read += run.to - run.from;
+        for (std::size_t row = run.from; row < run.to; ++row) {
+          const Eigen::Vector3d p = run.position(row);
+          if (box.contains(p.head<2>()) && isSurface(run.chunk, row))
+            points.positions.emplace_back((p - origin).cast<float>());
+        }
+      },
+      reading);
+  if (points.read == 0) throw InputError(strip.name + ": has no points");
+  PointFileInfo known = strip.files().front();
+  known.minimum = strip.box.min(), known.maximum = strip.box.max();
+  points.box_right = headerBoxIsRight(known, all);
   return points;
 }
 

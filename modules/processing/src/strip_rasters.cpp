@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
-#include <optional>
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/memory.h>
@@ -11,11 +10,9 @@
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/measured_box.h>
-#include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/strip_rasters.h>
-
-#include "survey_messages.h"
+#include <pcl_als/survey/survey_messages.h>
 
 namespace pcl_als {
 namespace {
@@ -29,7 +26,6 @@ constexpr double kRoundBytes = 1e9;
 
 /// A file and the box of its points, wider by its resolution.
 struct BoxedFile {
-  std::filesystem::path path;
   std::size_t place;  ///< among all files
   std::uint64_t points;
   double min_x, min_y, max_x, max_y;
@@ -67,17 +63,20 @@ struct TileResult {
 /// One tile: its points, its bands, its counts.
 class TileWork {
  public:
-  TileWork(const RasterTile& tile, const SurfaceOptions& options, const ArrangedFiles* arranged)
-      : tile_(tile), accumulator_(tile.padded, options), arranged_(arranged) {}
+  TileWork(const RasterTile& tile, const SurfaceOptions& options)
+      : tile_(tile), accumulator_(tile.padded, options) {}
 
-  void read(const BoxedFile& file) {
-    const auto reader = PointReader::open(file.path);
-    std::optional<StripArrangement::Sorter> sorter;
-    if (arranged_ != nullptr) sorter.emplace(arranged_->arrangement(), file.place);
-    PointChunk chunk;
-    while (reader->read(chunk))
-      for (std::size_t i = 0; i < chunk.size(); ++i)
-        if (!sorter || isUsed(*sorter, chunk, i)) add(chunk, i);
+  void read(const SurveyReader& survey, const std::vector<BoxedFile>& files) {
+    SurveyReader::Reading reading;
+    reading.threads = 1;
+    for (const BoxedFile& file : files)
+      if (file.meets(tile_.padded)) reading.files.push_back(file.place);
+    if (reading.files.empty()) return;
+    survey.read(
+        [this](const SurveyReader::Run& run) {
+          for (std::size_t row = run.from; row < run.to; ++row) add(run.chunk, row);
+        },
+        reading);
   }
 
   /// The values of the bands in the tile without its margin, and the counts.
@@ -103,11 +102,6 @@ class TileWork {
     return tile_.padded.index(column + tile_.margin, row + tile_.margin);
   }
 
-  bool isUsed(StripArrangement::Sorter& sorter, const PointChunk& chunk, std::size_t i) const {
-    const std::size_t label = sorter.label(chunk.point_source_id[i], chunk.gps_time[i]);
-    return arranged_->arrangement().labels()[label].index >= 0;
-  }
-
   void add(const PointChunk& chunk, std::size_t i) {
     if ((chunk.flags[i] & kWithheld) != 0) return;
     const bool used = accumulator_.add({chunk.x[i], chunk.y[i], chunk.z[i], chunk.intensity[i],
@@ -122,7 +116,6 @@ class TileWork {
 
   const RasterTile& tile_;
   SurfaceAccumulator accumulator_;
-  const ArrangedFiles* arranged_;
   RasterCounts counts_;
 };
 
@@ -178,18 +171,21 @@ RasterInput rasterInput(const std::vector<std::string>& paths, int threads,
   files.remarks = std::move(reference.remarks);
   for (const MeasuredFile& file : measured)
     if (!file.box_remark.empty()) files.remarks.push_back(file.box_remark);
+  files.survey = std::make_shared<SurveyReader>(SurveyReader::ofWholeFiles(files.infos, threads));
   if (files.points == 0)
     throw InputError(paths.front() + (paths.size() > 1 ? " and the others: hold" : ": holds") +
                      " no points");
   return files;
 }
 
-void chooseStrips(const StripChoice& choice, RasterInput& files) {
-  files.arranged = std::make_shared<ArrangedFiles>(files.paths, choice);
-  const ArrangedFiles::Use use = files.arranged->use();
-  files.left_out = use.left_out;
-  files.points = use.pointCount();
-  const Eigen::AlignedBox3d box = use.box();
+void chooseStrips(const StripChoice& choice, RasterInput& files, int threads) {
+  const auto survey = std::make_shared<SurveyReader>(SurveyReader::ofFiles(files.paths, threads));
+  survey->choose(choice, {});
+  const SurveyReader::Contents contents = survey->measure();
+  files.survey = survey;
+  files.left_out = contents.left_out;
+  files.points = contents.pointCount();
+  const Eigen::AlignedBox3d box = contents.box();
   files.min_x = box.min().x(), files.min_y = box.min().y();
   files.max_x = box.max().x(), files.max_y = box.max().y();
 }
@@ -202,8 +198,8 @@ std::vector<BoxedFile> boxedFiles(const RasterInput& files) {
     const PointFileInfo& info = files.infos[place];
     const double x = info.resolution.x(), y = info.resolution.y();
     if (info.point_count > 0)
-      boxed.push_back({files.paths[place], place, info.point_count, info.minimum.x() - x,
-                       info.minimum.y() - y, info.maximum.x() + x, info.maximum.y() + y});
+      boxed.push_back({place, info.point_count, info.minimum.x() - x, info.minimum.y() - y,
+                       info.maximum.x() + x, info.maximum.y() + y});
   }
   return boxed;
 }
@@ -282,9 +278,8 @@ RasterCounts rasterizeStrips(const RasterInput& files, const RasterGrid& grid,
     doTogether(processes, [&] {
       parallelFor(shares.ownItems().size(), threads, [&](std::size_t own) {
         const std::size_t i = shares.ownItems()[own];
-        TileWork work(tiles[first + i], options, files.arranged.get());
-        for (const BoxedFile& file : boxed)
-          if (file.meets(tiles[first + i].padded)) work.read(file);
+        TileWork work(tiles[first + i], options);
+        work.read(*files.survey, boxed);
         work.compute(results[i]);
         const std::lock_guard<std::mutex> lock(writing);
         if (writer != nullptr) results[i].write(tiles[first + i].window, *writer);

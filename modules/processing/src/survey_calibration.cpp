@@ -112,10 +112,10 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
   return commonReference(alone).remarks;
 }
 
-/// First pass over all points.
+/// First pass over all points; \a left_out becomes those that the reader left out.
 SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
                     const BlockRequest& request, const References& references,
-                    const SurveyObserver& observer) {
+                    const SurveyObserver& observer, std::vector<LeftOutPoints>& left_out) {
   BlockIndex index(flight, survey.corner());
   for (const std::string& id : survey.strips()) index.addStrip(id);
   for (const ReferenceSource& reference : references.sources) index.addReference(reference.surface);
@@ -123,17 +123,24 @@ SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Traj
   const auto add = [&](int strip, const LidarReturn* points, std::size_t count) {
     index.add(strip, points, count);
   };
-  survey.read([&](int strip, const LidarReturn* points, std::size_t count) {
+  const bool apart = areShared(survey.processes());
+  const auto pass = [&](int strip, const LidarReturn* points, std::size_t count) {
     add(strip, points, count);
-    if (observer.points && !areShared(survey.processes())) observer.points(strip, points, count);
-  });
+    if (observer.points && !apart) observer.points(strip, points, count);
+  };
+  left_out = survey.read(SurveyReader::asReturns(pass));
   references.read(add);
-  if (observer.points && areShared(survey.processes())) survey.readAtRoot(observer.points);
+  if (observer.points && apart) {
+    const auto observed = SurveyReader::asReturns(observer.points);
+    doTogether(survey.processes(), [&] {
+      if (isRoot(survey.processes())) survey.read(observed, SurveyReader::Reading::ofAll());
+    });
+  }
   shareIndex(survey.processes(), survey.stripShares(), index);
   try {
     return chooseAreas(std::move(index), request);
   } catch (const InputError& error) {
-    throw InputError(error.what() + leftOutText(survey.leftOut()), error.remedy());
+    throw InputError(error.what() + leftOutText(left_out), error.remedy());
   }
 }
 
@@ -142,7 +149,7 @@ void loadAreas(const SurveyReader& survey, const References& references, AreaSam
   const auto load = [&](int strip, const LidarReturn* points, std::size_t count) {
     sample.add(strip, points, count);
   };
-  survey.read(load);
+  survey.read(SurveyReader::asReturns(load));
   references.read(load);
   sample.distribute(survey.processes(), survey.stripShares());
 }
@@ -165,10 +172,11 @@ BlockCalibration calibrateBlock(const SurveyReader& survey,
                                 const std::shared_ptr<const Trajectory>& flight,
                                 const SurveyCalibrationOptions& options,
                                 const BlockRequest& request, ProgressReport& progress,
-                                SurveyCalibration& made) {
+                                SurveyCalibration& made, std::vector<LeftOutPoints>& left_out) {
   const References references(survey, options.references);
   progress.begin("Surveying the block");
-  const SurveyBlock block = indexed(survey, flight, request, references, options.observer);
+  const SurveyBlock block =
+      indexed(survey, flight, request, references, options.observer, left_out);
   progress.end(counted(block.pairs.size(), "overlapping pair") + ", " +
                counted(block.areas.size(), "area"));
   for (const std::string& text : block.flight.remarks) progress.remark(text);
@@ -252,13 +260,13 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
                              usablePairs(options.pairs, survey, warnings)};
   for (const std::string& text : checkReferences(survey, options.references)) progress.remark(text);
   SurveyCalibration made;
-  BlockCalibration calibration = calibrateBlock(survey, flight, options, request, progress, made);
+  std::vector<LeftOutPoints> left_out;
+  BlockCalibration calibration =
+      calibrateBlock(survey, flight, options, request, progress, made, left_out);
   made.result = std::move(calibration.result);
   made.information = std::move(calibration.information);
-  for (const LeftOutPoints& part : survey.leftOut()) {
-    made.result.left_out.push_back(part);
-    made.result.warnings.push_back(describe(part));
-  }
+  made.result.left_out.insert(made.result.left_out.end(), left_out.begin(), left_out.end());
+  for (const LeftOutPoints& part : left_out) made.result.warnings.push_back(describe(part));
   made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
   for (const SurveyedFile& file : survey.files())
     if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);

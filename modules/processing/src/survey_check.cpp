@@ -31,9 +31,10 @@ std::unique_ptr<SwathSeparation> separationOf(const SurveyReader& survey, const 
   return std::make_unique<SwathSeparation>(std::move(grid), survey.strips().size());
 }
 
-void chooseAreas(BlockCheck& check, const SurveyCheckOptions& options, ProgressReport& progress) {
+std::vector<LeftOutPoints> chooseAreas(BlockCheck& check, const SurveyCheckOptions& options,
+                                       ProgressReport& progress) {
   progress.begin("Surveying the block");
-  check.surveyBlock();
+  std::vector<LeftOutPoints> left_out = check.surveyBlock();
   if (options.areas.empty()) {
     check.chooseAreas();
   } else {
@@ -41,6 +42,7 @@ void chooseAreas(BlockCheck& check, const SurveyCheckOptions& options, ProgressR
   }
   progress.end(counted(check.overlaps().size(), "overlapping pair") + ", " +
                counted(check.areas().size(), "area"));
+  return left_out;
 }
 
 void loadAreas(BlockCheck& check, const SurveyReader& survey, const SurveyObserver& observer,
@@ -86,7 +88,7 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
     progress.remark(text);
   }
   BlockCheck check(survey, options.settings, trajectory);
-  chooseAreas(check, options, progress);
+  const std::vector<LeftOutPoints> left_out = chooseAreas(check, options, progress);
   const auto separation = separationOf(survey, check, options, progress);
   loadAreas(check, survey, options.observer, separation.get(), progress);
   progress.begin("Measuring");
@@ -96,7 +98,7 @@ SurveyCheck checkSurvey(SurveyReader& survey, const std::shared_ptr<const Trajec
     checked.block.files.push_back(file.sources.info.path.string());
     if (!file.sources.damage.empty()) checked.block.warnings.push_back(file.sources.damage);
   }
-  for (const LeftOutPoints& part : survey.leftOut()) {
+  for (const LeftOutPoints& part : left_out) {
     checked.block.left_out.push_back(part);
     checked.block.warnings.push_back(describe(part));
   }

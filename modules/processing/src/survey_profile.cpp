@@ -16,11 +16,12 @@ std::vector<SectionSearch::Place> findPlaces(const SurveyReader& survey) {
   SectionSearch search(survey.corner(), survey.farCorner(),
                        sectionCell(stripDensities(survey.files(), survey.arrangement()), all),
                        strips);
-  survey.readAlone([&](int strip, const LidarReturn* points, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (points[i].isSingle()) search.add(points[i].position, static_cast<std::size_t>(strip));
-    }
-  });
+  const auto add = [&](const SurveyReader::Run& run) {
+    for (std::size_t row = run.from; row < run.to; ++row)
+      if (run.chunk.number_of_returns[row] <= 1)
+        search.add(run.position(row), static_cast<std::size_t>(run.strip));
+  };
+  survey.read(add, SurveyReader::Reading::ofAll());
   return search.find(1);
 }
 
@@ -29,12 +30,11 @@ struct StripPart {
   std::vector<Eigen::Vector3d> before, after;
 };
 
-Eigen::Vector3d corrected(const LidarReturn& point, const BiasEvaluator& correction) {
-  const Eigen::Vector3d& at = point.position;
+Eigen::Vector3d corrected(const Eigen::Vector3d& at, double time, const BiasEvaluator& correction) {
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
   CoverageCount coverage;
-  correction.effect({&point.time, &at.x(), &at.y(), &at.z()}, 1,
-                    {&effect.x(), &effect.y(), &effect.z()}, coverage);
+  correction.effect({&time, &at.x(), &at.y(), &at.z()}, 1, {&effect.x(), &effect.y(), &effect.z()},
+                    coverage);
   return at - effect;
 }
 
@@ -47,14 +47,16 @@ std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
   const SectionLine& line = places[0].line;
   // By strip: they are read at the same time.
   std::vector<StripPart> parts(survey.strips().size());
-  survey.readAlone([&](int strip, const LidarReturn* points, std::size_t count) {
-    StripPart& part = parts[static_cast<std::size_t>(strip)];
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!line.contains(points[i].position.head<2>(), kLargestShift)) continue;
-      part.before.push_back(points[i].position);
-      part.after.push_back(corrected(points[i], correction));
+  const auto add = [&](const SurveyReader::Run& run) {
+    StripPart& part = parts[static_cast<std::size_t>(run.strip)];
+    for (std::size_t row = run.from; row < run.to; ++row) {
+      const Eigen::Vector3d position = run.position(row);
+      if (!line.contains(position.head<2>(), kLargestShift)) continue;
+      part.before.push_back(position);
+      part.after.push_back(corrected(position, run.time(run.chunk.gps_time[row]), correction));
     }
-  });
+  };
+  survey.read(add, SurveyReader::Reading::ofAll());
   SurveyProfile profile{places[0], SectionPoints(line), SectionPoints(line)};
   for (std::size_t strip = 0; strip < parts.size(); ++strip) {
     for (const Eigen::Vector3d& point : parts[strip].before)

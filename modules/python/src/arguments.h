@@ -19,7 +19,7 @@
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/io/strip_columns.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/survey_reader.h>
 
 // What the jobs take from Python, and its conversion, which needs no GIL. Arguments of bound
 // classes are references or values: pybind11 converts None to a null pointer, also inside lists and

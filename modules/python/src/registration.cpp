@@ -128,8 +128,8 @@ Alignment alignFiles(const std::filesystem::path& source, const std::filesystem:
                      const PatchAlignmentSettings& settings, const ProgressCallback& report) {
   const AlignmentPair pair = filePair({source, target}, std::nullopt);
   const PairAlignment made = alignPair(pair, settings, report);
-  return alignmentOf(made.result, {pair.source.name(), pair.target.name(), made.source_points,
-                                   made.target_points, pair.use.left_out});
+  return alignmentOf(made.result, {pair.source.name, pair.target.name, made.source_points,
+                                   made.target_points, pair.left_out});
 }
 
 std::shared_ptr<Alignment> icpatch(const StripArgument& source, const StripArgument& target,

@@ -6,7 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include <pcl_als/common/parallel.h>
+#include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/time_scale.h>
+#include <pcl_als/survey/survey_messages.h>
 #include <pcl_als/survey/surveyed_file.h>
 
 namespace pcl_als {
@@ -31,8 +34,11 @@ class FirstVersion {
 SurveyInput SurveyInput::ofFile(const std::filesystem::path& path, const PointWindow& window) {
   SurveyInput input;
   input.path = path;
-  input.open = [path, window, first = std::make_shared<FirstVersion>()] {
-    auto reader = PointReader::open(path, window);
+  input.open = [path, window,
+                first = std::make_shared<FirstVersion>()](const std::string& extra_field) {
+    PointWindow read = window;
+    read.extra_field = extra_field;
+    auto reader = PointReader::open(path, read);
     first->check(reader->info());
     return reader;
   };
@@ -50,6 +56,12 @@ std::vector<TimeAlignment> continuousTimes(const std::vector<SurveyedFile>& file
   return std::vector<TimeAlignment>(files.size(), alignment);
 }
 
+SurveyedFile withoutTracks(const PointFileSources& sources) {
+  SurveyedFile file{sources, {}, {}, {}};
+  for (const PointSource& source : sources.sources) file.tracks[source.id];
+  return file;
+}
+
 SurveyedFile surveyFile(const std::filesystem::path& path) {
   return surveyFile(SurveyInput::ofFile(path));
 }
@@ -57,7 +69,7 @@ SurveyedFile surveyFile(const std::filesystem::path& path) {
 SurveyedFile surveyFile(const SurveyInput& input) {
   SurveyedFile file;
   file.strip = input.strip;
-  file.sources = surveySources(*input.open(), [&file](const PointChunk& chunk) {
+  file.sources = surveySources(*input.open({}), [&file](const PointChunk& chunk) {
     for (std::size_t from = 0, to = 0; from < chunk.size(); from = to) {
       const std::uint16_t id = chunk.point_source_id[from];
       for (to = from + 1; to < chunk.size() && chunk.point_source_id[to] == id; ++to) {
@@ -70,6 +82,25 @@ SurveyedFile surveyFile(const SurveyInput& input) {
     }
   });
   return file;
+}
+
+std::vector<SurveyedFile> surveyFiles(const std::vector<SurveyInput>& inputs, int threads,
+                                      Communicator* processes) {
+  std::vector<double> costs;
+  for (const SurveyInput& input : inputs) costs.push_back(detail::readingCost(input.path));
+  const SharedItems shares(processes, costs);
+  std::vector<SurveyedFile> files(inputs.size());
+  doTogether(processes, [&] {
+    parallelFor(shares.ownItems().size(), threads, [&](std::size_t i) {
+      const std::size_t file = shares.ownItems()[i];
+      files[file] = surveyFile(inputs[file]);
+    });
+  });
+  shareValues(
+      processes, shares, files,
+      [](ByteWriter& out, const SurveyedFile& file) { detail::put(out, file); },
+      [](ByteReader& in, SurveyedFile& file) { detail::get(in, file); });
+  return files;
 }
 
 }  // namespace pcl_als

@@ -19,6 +19,9 @@ struct PointChunk {
   /// Of the scanner, from the field that the reader was given (PointWindow::channel_field); 0 where
   /// none is recorded. Writers do not use it.
   std::vector<std::uint8_t> channel;
+  /// Values of PointWindow::extra_field, NaN where they are not recorded; empty where no such field
+  /// is read. Writers do not use it.
+  std::vector<double> extra;
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t count);

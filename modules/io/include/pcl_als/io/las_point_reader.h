@@ -43,6 +43,7 @@ class LasPointReader : public PointReader {
   std::byte* records() { return buffer_.data() + given_ * file_.header().record_length; }
 
  private:
+  void fillExtra(PointChunk& chunk);
   bool fetch();
   std::size_t readBlock();
   std::size_t readNodes();
@@ -56,11 +57,12 @@ class LasPointReader : public PointReader {
   std::vector<LasRecordRange> ranges_;  ///< to be read: the whole file, or nodes of an octree
   bool whole_ = true;                   ///< ranges_ is the whole file
   std::optional<LasChannel> channel_;   ///< none: that of the point format
-  std::size_t range_ = 0;               ///< of those, the next one
-  std::uint64_t position_ = 0;          ///< of a whole file, the next record
-  std::vector<std::byte> buffer_;       ///< records that were read and lie inside
-  std::size_t held_ = 0;                ///< their number
-  std::size_t given_ = 0, next_ = 0;    ///< rows that read() gave last begin and end here
+  std::optional<LasExtraField> extra_field_;
+  std::size_t range_ = 0;             ///< of those, the next one
+  std::uint64_t position_ = 0;        ///< of a whole file, the next record
+  std::vector<std::byte> buffer_;     ///< records that were read and lie inside
+  std::size_t held_ = 0;              ///< their number
+  std::size_t given_ = 0, next_ = 0;  ///< rows that read() gave last begin and end here
 };
 
 }  // namespace pcl_als

@@ -29,6 +29,8 @@ struct PointWindow {
   /// extra-bytes field (of a PCD: of any field); empty or "scanner_channel": that of point formats
   /// 6-10, which a PCD has in its flags.
   std::string channel_field;
+  /// Extra-bytes field of .las and .laz whose values are PointChunk::extra; empty: none.
+  std::string extra_field;
 
   /// Whether all points are read and damaged files are refused.
   bool everything() const { return !bounds && !(resolution > 0.0) && !keep_readable; }

@@ -48,22 +48,63 @@ struct LasRecordLayout {
     const double seconds = secondsOfTime(loadLas<double>(record + gps_time));
     return seconds == 0.0 ? 0.0 : seconds + time_shift;
   }
-  std::uint16_t intensityOf(const std::byte* record) const {
-    return loadLas<std::uint16_t>(record + 12);
-  }
-  std::uint16_t sourceOf(const std::byte* record) const {
-    return loadLas<std::uint16_t>(record + point_source_id);
-  }
-  /// The scan direction flag: true for a scan to the right.
-  bool scanDirectionOf(const std::byte* record) const {
-    return (loadLas<std::uint8_t>(record + (extended ? 15 : 14)) & 64U) != 0;
-  }
   /// Stores what timeOf() returns. The format must have a GPS time.
   void storeTime(double seconds, std::byte* record) const {
     storeLas(record + gps_time, seconds == 0.0 ? 0.0 : seconds - time_shift);
   }
 
+  /// X, Y or Z (axis 0, 1, 2) in coordinate steps of the file.
+  static std::int32_t coordinateOf(const std::byte* record, int axis) {
+    return loadLas<std::int32_t>(record + 4 * axis);
+  }
+  static void storeCoordinate(std::int32_t value, int axis, std::byte* record) {
+    storeLas(record + 4 * axis, value);
+  }
+  static Eigen::Vector3d positionOf(const std::byte* record, const Eigen::Vector3d& scale,
+                                    const Eigen::Vector3d& offset) {
+    const Eigen::Vector3d raw(coordinateOf(record, 0), coordinateOf(record, 1),
+                              coordinateOf(record, 2));
+    return raw.cwiseProduct(scale) + offset;
+  }
+  /// X, Y, Z and, in the last lane, other fields, for comparisons of many records at once.
+  using Lanes = std::int32_t __attribute__((vector_size(16)));
+  static Lanes lanesOf(const std::byte* record) { return loadLas<Lanes>(record); }
+  static std::uint16_t intensityOf(const std::byte* record) {
+    return loadLas<std::uint16_t>(record + kIntensity);
+  }
+  static void storeIntensity(std::uint16_t value, std::byte* record) {
+    storeLas(record + kIntensity, value);
+  }
+  unsigned returnNumberOf(const std::byte* record) const {
+    return std::to_integer<unsigned>(record[kReturns]) & (extended ? 15U : 7U);
+  }
+  unsigned numberOfReturnsOf(const std::byte* record) const {
+    return std::to_integer<unsigned>(record[kReturns]) >> (extended ? 4U : 3U) &
+           (extended ? 15U : 7U);
+  }
+  /// The class; formats 0-5 keep flags in the upper three bits of its byte.
+  std::uint8_t classOf(const std::byte* record) const {
+    return static_cast<std::uint8_t>(std::to_integer<unsigned>(record[classification]) &
+                                     (extended ? 255U : 31U));
+  }
+  void storeClass(std::uint8_t code, std::byte* record) const {
+    const std::byte flags = extended ? std::byte{0} : record[classification] & std::byte{0xE0};
+    record[classification] = flags | std::byte{code};
+  }
+  std::uint16_t sourceOf(const std::byte* record) const {
+    return loadLas<std::uint16_t>(record + point_source_id);
+  }
+  void storeSource(std::uint16_t id, std::byte* record) const {
+    storeLas(record + point_source_id, id);
+  }
+  /// The scan direction flag: true for a scan to the right.
+  bool scanDirectionOf(const std::byte* record) const {
+    return (record[extended ? kReturns + 1 : kReturns] & std::byte{0x40}) != std::byte{0};
+  }
   static LasRecordLayout of(int format);  ///< 0 … 10, UsageError otherwise
+
+ private:
+  static constexpr std::size_t kIntensity = 12, kReturns = 14;
 };
 
 /// Degrees per unit of the scan angle in formats 6-10.

@@ -9,8 +9,8 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/progress.h>
-#include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/survey/cloud_input.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {

@@ -13,13 +13,13 @@
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/processing/separation_image.h>
-#include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/quality/area_offsets.h>
 #include <pcl_als/quality/control_check.h>
 #include <pcl_als/quality/pair_assessment.h>
 #include <pcl_als/quality/strip_alignment.h>
 #include <pcl_als/quality/strip_course.h>
 #include <pcl_als/survey/survey_map.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
 #include <pcl_als/trajectory/trajectory_plausibility.h>
 
@@ -103,8 +103,9 @@ class BlockCheck {
   BlockCheck(SurveyReader& survey, const CheckSettings& settings,
              std::shared_ptr<const Trajectory> trajectory);
 
-  /// First pass: the ground that each strip covers. InputError when no strips overlap.
-  void surveyBlock();
+  /// First pass: the ground that each strip covers. Returns the points that the reader left out.
+  /// InputError when no strips overlap.
+  std::vector<LeftOutPoints> surveyBlock();
   const std::vector<SurveyMap::Overlap>& overlaps() const { return overlaps_; }
   /// Sum of the areas that the strips cover, m^2.
   double coveredArea() const;
@@ -123,8 +124,7 @@ class BlockCheck {
   CheckedBlock assess(const std::function<void(double)>& progress);
 
  private:
-  LidarReturn pointOf(int strip, const SurveyReader::Run& run, std::size_t row,
-                      std::size_t& cursor) const;
+  LidarReturn pointOf(const SurveyReader::Run& run, std::size_t row, std::size_t& cursor) const;
   void checkTrajectory();
   void findRoughness();
   void measureAreas();

@@ -8,7 +8,7 @@
 
 #include <pcl_als/common/warning.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/scanner_detection.h>
 
 namespace pcl_als {

@@ -13,7 +13,6 @@
 
 namespace pcl_als {
 
-inline constexpr std::size_t kIntensityAt = 12;       ///< byte of a LAS record
 inline constexpr double kLargestIntensity = 65535.0;  ///< that a LAS record can hold
 
 /// Content of the output besides corrected intensities.

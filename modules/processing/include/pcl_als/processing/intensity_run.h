@@ -18,7 +18,7 @@
 #include <pcl_als/radiometry/intensity_statistics.h>
 #include <pcl_als/radiometry/overlap_adjustment.h>
 #include <pcl_als/radiometry/reference_targets.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 
@@ -97,7 +97,7 @@ class IntensityRun {
   /// The files by the process that reads them.
   const SharedItems& shares() const { return shares_; }
   /// Names of the strips in use.
-  const std::vector<std::string>& strips() const { return arrangement_->names(); }
+  const std::vector<std::string>& strips() const { return survey_->strips(); }
   const IntensityInput& input(std::size_t file) const { return *inputs_[file]; }
   std::size_t files() const { return inputs_.size(); }
   const IntensitySettings& settings() const { return settings_; }
@@ -106,8 +106,8 @@ class IntensityRun {
   const Warnings& warnings() const { return warnings_; }
   const std::shared_ptr<const Trajectory>& trajectory() const { return trajectory_; }
   const TimeAlignment& timeAlignment(std::size_t file) const { return times_[file]; }
-  const StripArrangement& arrangement() const { return *arrangement_; }
-  const PointFileSources& sources(std::size_t file) const { return surveyed_[file].sources; }
+  const StripArrangement& arrangement() const { return survey_->arrangement(); }
+  const PointFileSources& sources(std::size_t file) const { return survey_->files()[file].sources; }
   /// Whether each point source id of a file is one strip in use.
   bool allChosen(std::size_t file) const;
   /// The reason for which a point of a file with this time has no trajectory.
@@ -136,7 +136,7 @@ class IntensityRun {
   }
   double constant() const { return constant_; }  ///< corrected intensity of reflectance 1; 0: none
 
-  /// Calls \a each with the points of strips in use; the file is read as often as it has to be.
+  /// Calls \a each with the points of strips in use.
   void visit(std::size_t file,
              const std::function<void(int strip, const Eigen::Vector3d& place)>& each) const;
   void evaluate(std::size_t file, std::size_t window, EvaluatedWindow& out,
@@ -172,8 +172,7 @@ class IntensityRun {
   std::shared_ptr<const Trajectory> trajectory_;
   std::vector<std::unique_ptr<IntensityInput>> inputs_;
   std::vector<TimeAlignment> times_;
-  std::vector<SurveyedFile> surveyed_;  ///< with tracks only where strips are split
-  std::optional<StripArrangement> arrangement_;
+  std::optional<SurveyReader> survey_;  ///< with tracks only where strips are split
   std::vector<double> radii_, known_gains_, estimated_gains_;
   std::vector<std::string> remarks_;
   Warnings warnings_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,15 +12,14 @@
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/strip_positions.h>
 #include <pcl_als/registration/patch_alignment.h>
-#include <pcl_als/survey/arranged_files.h>
 
 namespace pcl_als {
 
-/// Two strips to align, and the arrangement that they refer to, if any.
+/// Two strips to align.
 struct AlignmentPair {
-  std::shared_ptr<const ArrangedFiles> arranged;
-  ArrangedFiles::Use use;
-  StripFiles source, target;
+  StripPart source, target;
+  std::vector<LeftOutPoints> left_out;
+  bool measured = false;  ///< the boxes are those of points; otherwise those that headers state
 };
 
 /// The source and the target are two files. \a choice: the strips of these that are used; without

@@ -10,7 +10,7 @@
 
 #include <pcl_als/classification/land_cover_filter.h>
 #include <pcl_als/processing/land_cover.h>
-#include <pcl_als/survey/arranged_files.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 
@@ -23,19 +23,15 @@ struct PointClassCounts {
 /// Classes of points from a raster file, of which only the parts under the points are in memory.
 class PointClasses {
  public:
-  struct Point {
-    double x, y, z, intensity;  ///< metres, ground frame
-  };
-
   PointClasses(std::shared_ptr<const MaximumLikelihood> classifier,
                const std::filesystem::path& raster);
   /// Index of each point's class, or MaximumLikelihood::kNoClass. Thread-safe.
-  std::vector<int> classify(const std::vector<Point>& points);
+  std::vector<int> classify(const PointChunk& points);
   const GaussianModel& model() const { return classifier_->model(); }
 
  private:
   struct Group;
-  void classify(const std::vector<Point>& points, const Group& group, std::vector<int>& classes);
+  void classify(const PointChunk& points, const Group& group, std::vector<int>& classes);
 
   std::shared_ptr<const MaximumLikelihood> classifier_;
   BandReader bands_;
@@ -45,11 +41,11 @@ class PointClasses {
 /** \brief A copy of a point file with the ASPRS codes of land cover in its classification.
  *
  * .las and .laz record by record in constant memory, with all other bytes unchanged. Points without
- * a class, points of noise (7, 18), and points that \a arranged, where it is given, leaves out keep
- * their code; \a place: index of the file in the arrangement.
+ * a class, points of noise (7, 18), and points that \a survey leaves out keep their code; \a place:
+ * index of the file in the survey.
  */
 PointClassCounts classifyPointFile(const std::filesystem::path& input,
                                    const std::filesystem::path& output, PointClasses& classes,
-                                   const ArrangedFiles* arranged, std::size_t place, int threads);
+                                   const SurveyReader& survey, std::size_t place, int threads);
 
 }  // namespace pcl_als

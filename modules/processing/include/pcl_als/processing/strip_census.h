@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/io/survey_census.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/survey/arranged_files.h>
+#include <pcl_als/survey/strip_arrangement.h>
 
 namespace pcl_als {
 

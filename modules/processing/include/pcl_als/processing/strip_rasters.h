@@ -12,7 +12,7 @@
 #include <pcl_als/common/communicator.h>
 #include <pcl_als/common/left_out.h>
 #include <pcl_als/io/raster_io.h>
-#include <pcl_als/survey/arranged_files.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 
@@ -25,8 +25,8 @@ struct RasterInput {
   std::string crs;                                            ///< of the first file that has one
   /// Units that are converted or assumed, headers that state another box than that of the points.
   std::vector<std::string> remarks;
-  /// Arrangement of the same files: only points of strips in use are read; null: all.
-  std::shared_ptr<const ArrangedFiles> arranged;
+  /// The same files: all points, or those of chooseStrips().
+  std::shared_ptr<const SurveyReader> survey;
   std::vector<LeftOutPoints> left_out;
 };
 
@@ -38,7 +38,7 @@ struct RasterInput {
 RasterInput rasterInput(const std::vector<std::string>& paths, int threads = 0,
                         Communicator* processes = nullptr);
 /// Restricts the contents to the chosen strips: reads every file twice.
-void chooseStrips(const StripChoice& choice, RasterInput& files);
+void chooseStrips(const StripChoice& choice, RasterInput& files, int threads = 0);
 
 struct RasterCounts {
   std::uint64_t points = 0;  ///< inside the raster, without noise

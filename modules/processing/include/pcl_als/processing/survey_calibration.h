@@ -14,8 +14,8 @@
 #include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/processing/reference_source.h>
 #include <pcl_als/processing/survey_observer.h>
-#include <pcl_als/processing/survey_reader.h>
 #include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory.h>
 
 namespace pcl_als {

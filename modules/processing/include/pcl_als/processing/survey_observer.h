@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/survey_reader.h>
 
 namespace pcl_als {
 

@@ -83,7 +83,7 @@ SurveyInput makeCloudInput(const std::shared_ptr<const pcl::PointCloud<PointT>>&
                            const LocalFrame& frame, const std::string& strip,
                            const TimeAlignment& time = TimeAlignment()) {
   SurveyInput input;
-  input.open = [cloud, frame, strip] {
+  input.open = [cloud, frame, strip](const std::string&) {
     return std::make_unique<CloudReader<PointT>>(cloud, frame, "strip " + strip);
   };
   input.strip = strip;

@@ -19,8 +19,9 @@ namespace pcl_als {
  * the source is.
  */
 struct SurveyInput {
-  /// A reader positioned at the first point; may be called by several threads.
-  std::function<std::unique_ptr<PointReader>()> open;
+  /// A reader positioned at the first point, with the values of an extra-bytes field
+  /// (PointWindow::extra_field) where that is not empty; may be called by several threads.
+  std::function<std::unique_ptr<PointReader>(const std::string& extra_field)> open;
   std::filesystem::path path;  ///< of a file; empty: another source
   std::string strip;           ///< strip of all points; empty: strips are named by StripNaming
   /// to the time system of the trajectory; default: reconcileTimes()

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/communicator.h>
 #include <pcl_als/io/strip_naming.h>
 #include <pcl_als/survey/survey_input.h>
 #include <pcl_als/survey/swath_track.h>
@@ -26,9 +27,15 @@ struct SurveyedFile {
   std::string strip;  ///< strip of all its points; empty: strips are named by StripNaming
 };
 
+/// What StripArrangement needs of a file where strips are not divided.
+SurveyedFile withoutTracks(const PointFileSources& sources);
+
 /// Reads a file once; memory: see SwathTrack. InputError for a file that cannot be read.
 SurveyedFile surveyFile(const std::filesystem::path& path);
 SurveyedFile surveyFile(const SurveyInput& input);
+/// Collective: \a processes (null: one) share the files, and each receives all results.
+std::vector<SurveyedFile> surveyFiles(const std::vector<SurveyInput>& inputs, int threads,
+                                      Communicator* processes);
 
 /// Times that go on where a flight passed the end of a GPS week: of each file, seconds of the week
 /// after it as seconds beyond 604800. For jobs without a trajectory.

@@ -11,9 +11,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/io/point_reader.h>
-#include <pcl_als/las/las_file.h>
-#include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/visualization/plane_grid.h>
 #include <pcl_als/visualization/point_picture.h>
 
@@ -31,14 +29,14 @@ class PictureSource {
   explicit PictureSource(const std::vector<std::string>& paths, bool split = false,
                          const PointWindow& window = {});
 
-  const std::vector<std::string>& strips() const { return arrangement_->names(); }
-  std::uint64_t pointCount() const;
+  const std::vector<std::string>& strips() const { return survey_.strips(); }
+  std::uint64_t pointCount() const { return survey_.pointCount(); }
   const Eigen::Vector3d& minimum() const { return minimum_; }  ///< of the finite points
   const Eigen::Vector3d& maximum() const { return maximum_; }
   double firstTime() const { return first_time_; }
-  const std::vector<SurveyedFile>& files() const { return files_; }
+  const std::vector<SurveyedFile>& files() const { return survey_.files(); }
   /// Units that are converted or assumed, one line each.
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  const std::vector<std::string>& remarks() const { return survey_.reference().remarks; }
 
   /// Cells for a SectionSearch among the chosen strips.
   double sectionCell(const std::vector<bool>& chosen) const;
@@ -49,9 +47,8 @@ class PictureSource {
   struct Point {
     Eigen::Vector3d position;
     int strip;
-    std::size_t index;  ///< in the chunk
-    const PointChunk* chunk;
-    double extra;  ///< value of the extra-bytes field, if one was requested
+    std::size_t index;        ///< in the chunk
+    const PointChunk* chunk;  ///< with PointChunk::extra, if a field was requested
   };
   /// Calls \a sink with every point, in file order. \a extra_field: empty or the name of an
   /// extra-bytes field; UsageError where no file has it, points of files without it get NaN.
@@ -59,10 +56,7 @@ class PictureSource {
             const std::string& extra_field = {}) const;
 
  private:
-  PointWindow window_;
-  std::vector<SurveyedFile> files_;
-  std::optional<StripArrangement> arrangement_;
-  std::vector<std::string> remarks_;
+  SurveyReader survey_;
   Eigen::Vector3d minimum_, maximum_;
   double first_time_ = 0.0;
 };

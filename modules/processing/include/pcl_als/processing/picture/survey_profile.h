@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include <pcl_als/processing/survey_reader.h>
+#include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/visualization/section_search.h>
 

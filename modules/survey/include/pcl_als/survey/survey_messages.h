@@ -7,7 +7,7 @@
 
 namespace pcl_als::detail {
 
-/// What is known of a point file, for another process.
+/// What is known of a point file, as bytes for another process.
 void put(ByteWriter& out, const PointFileInfo& info);
 void get(ByteReader& in, PointFileInfo& info);
 void put(ByteWriter& out, const PointFileSources& sources);

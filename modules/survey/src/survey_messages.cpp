@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include "survey_messages.h"
+#include <pcl_als/survey/survey_messages.h>
 
 namespace pcl_als::detail {
 namespace {
