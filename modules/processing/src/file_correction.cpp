@@ -40,13 +40,13 @@ struct Job {
   Flight flight;
   FileCorrectionOptions options;
   ProgressReport& progress;
-  TimeAlignment alignment;
-  RecoveredAttitude further_attitude;
+  TimeAlignment alignment{};
+  RecoveredAttitude further_attitude{};
   bool of_another_flight = false;   ///< isOfAnotherFlight()
   bool attitude_recovered = false;  ///< from this file, with success or without
   bool level = false;               ///< the scanner is not linear, and options.force
-  std::string corrections;          ///< record of the output
-  FileCorrectionResult result;
+  std::string corrections{};        ///< record of the output
+  FileCorrectionResult result{};
 
   std::string name() const { return input.string(); }
 };

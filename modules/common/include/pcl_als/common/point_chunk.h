@@ -21,7 +21,7 @@ struct PointChunk {
   std::vector<std::uint8_t> channel;
   /// Values of PointWindow::extra_field, NaN where they are not recorded; empty where no such field
   /// is read. Writers do not use it.
-  std::vector<double> extra;
+  std::vector<double> extra{};
 
   std::size_t size() const { return x.size(); }
   void resize(std::size_t count);
