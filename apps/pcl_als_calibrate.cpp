@@ -3,12 +3,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/survey_calibration.h>
+#include <pcl_als/processing/reference_source.h>
 #include <pcl_als/processing/survey_correction.h>
 #include <pcl_als/report/calibration_page.h>
 #include <pcl_als/report/calibration_tables.h>
@@ -198,7 +199,7 @@ int conclude(const CommandLine& line, const std::vector<std::string>& files,
 
 int calibrate(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs();
-  SurveyCalibrationOptions options;
+  CalibrationOptions options;
   options.settings = settingsOf(line);
   if (line.has("pairs")) options.pairs = line.parsed("pairs", pairsIn);
   options.strips = app::stripChoice(line);
@@ -232,7 +233,7 @@ int calibrate(const CommandLine& line) {
   for (const fs::path& file : line.optionInputs()) result.inputs.push_back(file.string());
   if (isRoot(app::processes())) {
     writeCalibration(line.text("output"), result);
-    if (!line.quiet()) std::cout << '\n' << calibrationTables(result) << std::endl;
+    if (!line.quiet()) std::cout << '\n' << result.fullReport() << std::endl;
     if (line.has("report")) writeReport(line, calibration, page);
   }
   return conclude(line, files, flight, result);

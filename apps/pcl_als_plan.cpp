@@ -4,9 +4,8 @@
 #include <iostream>
 #include <memory>
 
-#include <pcl_als/calibration/block_calibration.h>
+#include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/io/plan_io.h>
-#include <pcl_als/planning/flight_plan.h>
 #include <pcl_als/processing/planned_strips.h>
 #include <pcl_als/report/plan_report.h>
 
@@ -87,12 +86,11 @@ SurfaceModel surfaceOf(const CommandLine& line, const std::vector<StripGeometry>
 
 FlightPlan::Settings settingsOf(const CommandLine& line) {
   FlightPlan::Settings settings;
-  ObservabilitySettings& adjustment = settings.adjustment;
-  adjustment.estimate = app::parametersToEstimate(line);
-  adjustment.pairs.noise = app::noiseOf(line);
-  adjustment.shared_errors = app::sharedErrorsOf(line);
-  adjustment.pairs.control_sigma = line.number("control_sigma");
-  adjustment.threads = line.threads();
+  settings.estimate = app::parametersToEstimate(line);
+  settings.noise = app::noiseOf(line);
+  settings.shared_errors = app::sharedErrorsOf(line);
+  settings.control_sigma = line.number("control_sigma");
+  settings.threads = line.threads();
   settings.control_points = line.whole("control");
   return settings;
 }
@@ -112,7 +110,7 @@ std::vector<StripGeometry> plannedLines(const CommandLine& line) {
 int plan(const CommandLine& line) {
   FlightPlan::Settings settings = settingsOf(line);
   std::vector<StripGeometry> lines = plannedLines(line);
-  settings.adjustment.pairs.surface = surfaceOf(line, lines);
+  settings.surface = surfaceOf(line, lines);
   const FlightPlan flight(std::move(lines), settings);
   Step step("Adjusting the plan", line.quiet());
   FlightPlanResult result = flight.evaluate();

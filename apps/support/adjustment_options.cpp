@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
 

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include <pcl_als/calibration/calibration_settings.h>
-#include <pcl_als/calibration/noise_model.h>
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 
 #include "command_line.h"

@@ -8,8 +8,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/trajectory/scan_geometry.h>
+
+#include "adjustment.h"
 
 namespace {
 

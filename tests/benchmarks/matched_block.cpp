@@ -4,11 +4,12 @@
 
 #include <algorithm>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/survey/area_index.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
+
+#include "pair_observation.h"
 
 namespace pcl_als::bench {
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
+#include "adjustment.h"
 
 namespace pcl_als {
 

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/errors.h>
 
+#include "adjustment.h"
 #include "simulated_observations.h"
 
 namespace pcl_als {

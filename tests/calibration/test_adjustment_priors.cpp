@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/errors.h>
 
+#include "adjustment.h"
 #include "simulated_observations.h"
 
 namespace pcl_als {
@@ -118,7 +118,7 @@ TEST(SharedErrorModel, ShortBlocksHaveKnotsCloserTogether) {
   using Spans = std::vector<std::vector<TimeSpan>>;
   const SharedErrorModel errors;
   const auto spacingFor = [&](const Spans& spans) {
-    return errors.withKnotsFor(spans).knot_spacing;
+    return withKnotsFor(errors, spans).knot_spacing;
   };
   EXPECT_EQ(spacingFor({}), 0.4);
   EXPECT_EQ(spacingFor({{{0.0, 30.0}}, {{100.0, 115.0}}}), 0.4);
@@ -127,7 +127,7 @@ TEST(SharedErrorModel, ShortBlocksHaveKnotsCloserTogether) {
   EXPECT_EQ(spacingFor({{{0.0, 3600.0}}}), 1.0);
   SharedErrorModel close = errors;
   close.knot_spacing = 0.2;
-  EXPECT_EQ(close.withKnotsFor({{{0.0, 3600.0}}}).knot_spacing, 0.2);
+  EXPECT_EQ(withKnotsFor(close, {{{0.0, 3600.0}}}).knot_spacing, 0.2);
 }
 
 TEST(SharedErrorModel, GradesOfInertialSystems) {

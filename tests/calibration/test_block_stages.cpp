@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/block.h>
-#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/errors.h>
 
 #include "area_matcher.h"
+#include "block.h"
+#include "block_calibration.h"
 #include "block_solution.h"
 #include "pair_set.h"
 

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/common/errors.h>
 
 #include "modified_weight.h"
+#include "noise_model.h"
 
 namespace pcl_als {
 namespace {

@@ -2,8 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/parameter_choice.h>
-
+#include "parameter_choice.h"
 #include "simulated_observations.h"
 
 namespace pcl_als {

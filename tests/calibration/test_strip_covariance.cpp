@@ -7,8 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/adjustment.h>
-
+#include "adjustment.h"
 #include "area_normal.h"
 #include "simulated_observations.h"
 #include "strip_covariance.h"

@@ -9,8 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <pcl_als/calibration/adjustment.h>
-
+#include "adjustment.h"
 #include "simulated_observations.h"
 
 namespace pcl_als {

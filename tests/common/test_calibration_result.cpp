@@ -58,5 +58,22 @@ TEST(CalibrationResult, TheInstrumentPartHoldsNothingOfTheFlight) {
   EXPECT_FALSE(isOfAnotherFlight(instrument, 0.0, 1.0));
 }
 
+TEST(CalibrationResult, ReportsBrieflyAndInFull) {
+  CalibrationResult result;
+  result[SystemParameter::boresight_roll] = {
+      -90.0 * kRadiansPerArcsec, 0.5 * kRadiansPerArcsec, 0.1, ParameterStatus::estimated, ""};
+  result[SystemParameter::range_bias] = {0.12, 0.004, 0.001, ParameterStatus::estimated, ""};
+  result.sigma0 = 1.05;
+  result.iterations.resize(7);
+  result.pairs = {{"1", "2", 500, 0.5, 0.02, -0.1, 1e-4}};
+  EXPECT_EQ(result.briefReport(),
+            "usable: boresight_roll -90.00 +- 0.50 arcsec, range_bias 0.1200 +- 0.0040 m, "
+            "sigma0 1.050, 7 iterations");
+  const std::string full = result.fullReport();
+  for (const char* part : {"| boresight_roll     |       -90.00 |         0.50 |", "| 1 : 2 ",
+                           "sigma0 1.050", "verdict: "})
+    EXPECT_NE(full.find(part), std::string::npos) << part << '\n' << full;
+}
+
 }  // namespace
 }  // namespace pcl_als

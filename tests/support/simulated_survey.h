@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/simulation/simulator.h>
+
+#include "block_calibration.h"
 
 namespace pcl_als::test {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "adjustment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/common/ordered_results.h>
 #include <pcl_als/common/parallel.h>

@@ -6,8 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/adjustment.h>
-
+#include "adjustment.h"
 #include "area_normal.h"
 
 namespace pcl_als {

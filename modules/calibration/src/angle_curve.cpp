@@ -68,7 +68,7 @@ class CurveAdjustment {
                   const FieldDivision& division, const std::vector<ErrorSource>& considered)
       : spans_(division.repeated(block.spans)),
         observed_(observedTimes(parts.observations, spans_.size())),
-        errors_(spans_, block.model.withKnotsFor(observed_), observed_,
+        errors_(spans_, withKnotsFor(block.model, observed_), observed_,
                 division.systems(block.spans.size())),
         adjustment_(errors_, block.threads),
         estimate_(block.estimate) {

@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 #include "field_differences.h"
+#include "pair_observation.h"
 
 namespace pcl_als {
 

@@ -8,12 +8,12 @@
 #include <set>
 #include <tuple>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/tin/orientation_classes.h>
 #include <pcl_als/trajectory/source_effect.h>
 
 #include "noise_shares.h"
+#include "pair_observation.h"
 #include "point_geometry.h"
 
 namespace pcl_als {

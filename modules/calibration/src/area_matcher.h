@@ -11,8 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/noise_model.h>
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/byte_stream.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/lidar_return.h>
@@ -24,6 +22,8 @@
 #include <pcl_als/trajectory/bias_evaluator.h>
 #include <pcl_als/trajectory/trajectory.h>
 
+#include "noise_model.h"
+#include "pair_observation.h"
 #include "pair_selection.h"
 
 namespace pcl_als {

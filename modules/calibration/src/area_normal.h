@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/pair_observation.h>
-#include <pcl_als/calibration/shared_errors.h>
+#include "pair_observation.h"
+#include "shared_errors.h"
 
 namespace pcl_als {
 

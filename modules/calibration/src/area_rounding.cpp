@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <cstring>
 
-#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/coordinate_steps.h>
 #include <pcl_als/common/statistics.h>
 
 #include "area_matcher.h"
+#include "block_calibration.h"
 
 namespace pcl_als {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/block_calibration.h>
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 
 #include "area_matcher.h"
+#include "block_calibration.h"
+#include "pair_observation.h"
 #include "strip_corrections.h"
 
 namespace pcl_als {

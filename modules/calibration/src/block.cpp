@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "block.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/block.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/memory.h>
 #include <pcl_als/common/parallel.h>

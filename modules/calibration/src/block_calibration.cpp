@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "block_calibration.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/block_calibration.h>
 #include <pcl_als/common/statistics.h>
 
 #include "block_diagnosis.h"

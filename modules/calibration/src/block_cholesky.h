@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <pcl_als/calibration/shared_errors.h>
+#include "shared_errors.h"
 
 namespace pcl_als {
 

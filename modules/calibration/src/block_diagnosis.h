@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/block.h>
 #include <pcl_als/common/calibration_result.h>
 
+#include "block.h"
 #include "block_estimate.h"
 
 namespace pcl_als {

@@ -183,7 +183,7 @@ BlockEstimate startOf(AreaSample& sample) {
   const SurveyBlock& block = sample.block();
   const CalibrationSettings& settings = block.settings();
   const std::vector<std::vector<TimeSpan>> observed = measuredTimes(sample);
-  const SharedErrors errors(block.flownTimes(), settings.shared_errors.withKnotsFor(observed),
+  const SharedErrors errors(block.flownTimes(), withKnotsFor(settings.shared_errors, observed),
                             observed, block.systems);
   BlockEstimate estimate{
       {}, BlockSolution(errors, settings.threads), {}, {}, IterationControl(settings)};

@@ -5,8 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include <pcl_als/calibration/block_calibration.h>
-
+#include "block_calibration.h"
 #include "block_solution.h"
 #include "iteration_control.h"
 #include "pair_set.h"

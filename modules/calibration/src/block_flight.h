@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <pcl_als/calibration/block.h>
+#include "block.h"
 
 namespace pcl_als {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <pcl_als/calibration/block.h>
+
+#include "block.h"
 
 namespace pcl_als {
 

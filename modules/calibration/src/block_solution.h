@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/parameter_choice.h>
-
+#include "adjustment.h"
 #include "pair_set.h"
 #include "pair_weights.h"
+#include "parameter_choice.h"
 
 namespace pcl_als {
 

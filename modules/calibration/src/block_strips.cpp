@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/block.h>
 #include <pcl_als/common/errors.h>
+
+#include "block.h"
 
 namespace pcl_als {
 namespace {

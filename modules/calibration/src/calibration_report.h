@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/pair_observation.h>
-#include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/survey_types.h>
 
+#include "pair_observation.h"
 #include "pair_set.h"
+#include "parameter_choice.h"
 
 namespace pcl_als {
 

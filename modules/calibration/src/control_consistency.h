@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/calibration_result.h>
+
+#include "adjustment.h"
 
 namespace pcl_als {
 

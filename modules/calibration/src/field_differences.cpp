@@ -96,7 +96,7 @@ std::vector<ErrorFinding> fieldDifferences(const FieldDivision& division,
                                            const ScanGeometry& edge) {
   const std::vector<TimeSpan> spans = division.repeated(block.spans);
   const std::vector<std::vector<TimeSpan>> observed = observedTimes(observations, spans.size());
-  SharedErrors errors(spans, block.model.withKnotsFor(observed), observed,
+  SharedErrors errors(spans, withKnotsFor(block.model, observed), observed,
                       division.systems(block.spans.size()));
   const auto set_own = [&](bool own) {
     for (int system = 1; system < errors.systems().count; ++system)

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/pair_observation.h>
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
 #include "area_matcher.h"
+#include "pair_observation.h"
+#include "shared_errors.h"
 
 namespace pcl_als {
 

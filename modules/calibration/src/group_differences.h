@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/trajectory/scan_geometry.h>
 
+#include "adjustment.h"
+#include "parameter_choice.h"
 #include "spike_and_slab.h"
 
 namespace pcl_als {

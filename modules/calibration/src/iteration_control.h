@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 
 #include "block_solution.h"
+#include "parameter_choice.h"
+#include "shared_errors.h"
 
 namespace pcl_als {
 

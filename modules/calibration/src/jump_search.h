@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/error_source.h>
+
+#include "adjustment.h"
+#include "shared_errors.h"
 
 namespace pcl_als {
 

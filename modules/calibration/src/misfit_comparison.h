@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/calibration_verdict.h>
+
+#include "pair_observation.h"
 
 namespace pcl_als {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "noise_model.h"
+
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
 
-#include <pcl_als/calibration/noise_model.h>
 #include <pcl_als/common/errors.h>
 
 namespace pcl_als {

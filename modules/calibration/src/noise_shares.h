@@ -9,8 +9,9 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/tin/tin.h>
+
+#include "pair_observation.h"
 
 namespace pcl_als {
 

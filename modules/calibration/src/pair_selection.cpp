@@ -7,9 +7,10 @@
 #include <cmath>
 #include <map>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/common/linear_solvers.h>
 #include <pcl_als/tin/orientation_classes.h>
+
+#include "pair_observation.h"
 
 namespace pcl_als {
 

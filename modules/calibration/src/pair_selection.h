@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/pair_observation.h>
+#include "adjustment.h"
+#include "pair_observation.h"
 
 namespace pcl_als {
 

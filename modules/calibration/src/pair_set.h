@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <pcl_als/calibration/block_calibration.h>
+#include "block_calibration.h"
 
 namespace pcl_als {
 

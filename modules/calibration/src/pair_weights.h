@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <pcl_als/calibration/pair_observation.h>
+#include "pair_observation.h"
 
 namespace pcl_als {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include "parameter_choice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/linear_solvers.h>
 
 namespace pcl_als {

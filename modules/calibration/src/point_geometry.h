@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include <pcl_als/calibration/pair_observation.h>
 #include <pcl_als/trajectory/source_effect.h>
 
 #include "area_matcher.h"
+#include "pair_observation.h"
 
 namespace pcl_als {
 

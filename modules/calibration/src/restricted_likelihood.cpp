@@ -4,9 +4,9 @@
 // Adjustment::restrictedLikelihood(): the deviance of variance components and its derivatives.
 #include <memory>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/ordered_results.h>
 
+#include "adjustment.h"
 #include "adjustment_reduced.h"
 #include "block_cholesky.h"
 #include "chosen_parameters.h"

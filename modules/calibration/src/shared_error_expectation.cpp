@@ -6,8 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include <pcl_als/calibration/shared_errors.h>
-
+#include "shared_errors.h"
 #include "smooth_basis.h"
 
 namespace pcl_als {

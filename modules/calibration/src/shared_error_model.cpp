@@ -6,8 +6,9 @@
 #include <map>
 #include <sstream>
 
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/errors.h>
+
+#include "shared_errors.h"
 
 namespace pcl_als {
 
@@ -54,13 +55,12 @@ double coveredTime(std::vector<TimeSpan> spans) {
 
 }  // namespace
 
-SharedErrorModel SharedErrorModel::withKnotsFor(
-    const std::vector<std::vector<TimeSpan>>& observed) const {
+SharedErrorModel withKnotsFor(SharedErrorModel model,
+                              const std::vector<std::vector<TimeSpan>>& observed) {
   constexpr double kKnots = 150.0, kClosest = 0.4;
   double time = 0.0;
   for (const std::vector<TimeSpan>& of_strip : observed) time += coveredTime(of_strip);
-  SharedErrorModel model = *this;
-  model.knot_spacing = std::min(knot_spacing, std::max(kClosest, time / kKnots));
+  model.knot_spacing = std::min(model.knot_spacing, std::max(kClosest, time / kKnots));
   return model;
 }
 

@@ -4,9 +4,8 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/block_calibration.h>
-
 #include "area_matcher.h"
+#include "block_calibration.h"
 
 namespace pcl_als {
 

@@ -6,11 +6,11 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/system_parameters.h>
 
 #include "block_cholesky.h"
+#include "shared_errors.h"
 
 namespace pcl_als {
 

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include <pcl_als/calibration/calibration_settings.h>
-#include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/shared_errors.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/trajectory/height_check.h>
+
+#include "parameter_choice.h"
+#include "shared_errors.h"
 
 namespace pcl_als {
 

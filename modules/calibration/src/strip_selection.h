@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <pcl_als/calibration/block.h>
+#include "block.h"
 
 namespace pcl_als {
 

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/adjustment.h>
-#include <pcl_als/calibration/parameter_choice.h>
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/strip_group.h>
+
+#include "adjustment.h"
+#include "parameter_choice.h"
 
 namespace pcl_als {
 

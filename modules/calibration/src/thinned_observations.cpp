@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/calibration/pair_observation.h>
+#include "pair_observation.h"
 
 namespace pcl_als {
 

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <pcl_als/calibration/adjustment.h>
 #include <pcl_als/common/linear_solvers.h>
+
+#include "adjustment.h"
 
 namespace pcl_als {
 namespace {

@@ -2,10 +2,11 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pybind11/eigen.h>
 
+#include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/processing/survey_calibration.h>
+#include <pcl_als/processing/reference_source.h>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -171,7 +172,7 @@ std::shared_ptr<CalibrationResult> calibrate(
     FlightFileOptions reading;
     reading.crs = (*survey).reference().crs;
     const FlightFile flight = flightOf(trajectory, reading);
-    SurveyCalibrationOptions options;
+    CalibrationOptions options;
     options.settings = settings, options.strips = strips, options.pairs = pairs;
     options.control = controlOf(control), options.gps_week = gps_week;
     for (const std::string& text : references) options.references.push_back(openReference(text));

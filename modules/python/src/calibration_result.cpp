@@ -7,7 +7,6 @@
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/io/survey_io.h>
-#include <pcl_als/report/calibration_tables.h>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -239,7 +238,7 @@ void bindResult(py::module_& m) {
           [](const Result& r, const std::filesystem::path& path) { writeCalibration(path, r); },
           py::arg("path"), "Writes calibration.json; the file appears when it is complete.")
       .def(py::pickle(&stateOf, &resultOf))
-      .def("__str__", &calibrationTables);
+      .def("__str__", &Result::fullReport);
 }
 
 }  // namespace

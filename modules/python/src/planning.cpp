@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <pybind11/eigen.h>
 
+#include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/io/plan_io.h>
-#include <pcl_als/planning/flight_plan.h>
 #include <pcl_als/report/plan_report.h>
 
 #include "arguments.h"
@@ -103,11 +103,11 @@ void bindPlanning(py::module_& m) {
       [](const LinesArgument& lines, std::size_t control, const CalibrationSettings& settings) {
         FlightPlan::Settings plan;
         plan.control_points = control;
-        plan.adjustment.estimate = settings.estimate;
-        plan.adjustment.shared_errors = settings.shared_errors;
-        plan.adjustment.threads = settings.threads;
-        plan.adjustment.pairs.noise = settings.noise;
-        plan.adjustment.pairs.control_sigma = settings.control_sigma;
+        plan.estimate = settings.estimate;
+        plan.shared_errors = settings.shared_errors;
+        plan.threads = settings.threads;
+        plan.noise = settings.noise;
+        plan.control_sigma = settings.control_sigma;
         return runJob({}, [&](const ProgressCallback&) {
           return resultOf(FlightPlan(linesOf(lines), plan).evaluate());
         });

@@ -4,7 +4,6 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/report/calibration_page.h>
-#include <pcl_als/report/calibration_tables.h>
 
 namespace pcl_als {
 
@@ -24,7 +23,7 @@ SurveyObserver CalibrationPage::observer() {
 void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
                             const std::vector<SurveyArea>& /*areas*/,
                             const std::shared_ptr<const Trajectory>& /*trajectory*/) const {
-  writeFile(origin.folder / "report.md", "# Calibration\n\n" + calibrationTables(result));
+  writeFile(origin.folder / "report.md", "# Calibration\n\n" + result.fullReport());
 }
 
 }  // namespace pcl_als

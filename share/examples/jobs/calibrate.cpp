@@ -5,21 +5,20 @@
 #include <exception>
 #include <iostream>
 
+#include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/survey_calibration.h>
-#include <pcl_als/report/calibration_tables.h>
 
 int main(int argc, char** argv) try {
   pcl_als::SurveyReader survey({argv + 4, argv + argc});
   pcl_als::FlightFileOptions reading;
   reading.crs = survey.reference().crs;  // of the points, for an SBET
   const auto flight = pcl_als::readFlight(argv[1], reading).trajectory;
-  pcl_als::SurveyCalibrationOptions options;
+  pcl_als::CalibrationOptions options;
   options.control = pcl_als::readControl(argv[2]);
   const auto calibration = pcl_als::calibrateSurvey(survey, flight, options);
   pcl_als::writeCalibration(argv[3], calibration.result);
-  std::cout << pcl_als::calibrationTables(calibration.result);
+  std::cout << calibration.result.fullReport();
   return calibration.result.verdict.usable() ? 0 : 3;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -9,6 +9,7 @@
 
 #include <pcl/common/common.h>
 
+#include <pcl_als/calibration/system_calibration.h>
 #include <pcl_als/classification/land_cover_filter.h>
 #include <pcl_als/classification/surface_rasters.h>
 #include <pcl_als/filters/intensity_correction.h>
@@ -18,7 +19,6 @@
 #include <pcl_als/processing/class_model_file.h>
 #include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/strip_check.h>
-#include <pcl_als/processing/system_calibration.h>
 #include <pcl_als/registration/iterative_closest_patch.h>
 #include <pcl_als/visualization/point_picture.h>
 #include <pcl_als/visualization/private_display.h>
@@ -34,7 +34,9 @@ pcl_als::CalibrationResult calibrated(const std::vector<Strip>& strips, const Fl
   pcl_als::SystemCalibration<PointLidar> calibration;
   for (const Strip& strip : strips) calibration.addInputStrip(strip.cloud, strip.frame, strip.id);
   calibration.setTrajectory(flight);
-  calibration.setControl(pcl_als::readControl(control));
+  pcl_als::CalibrationOptions options;
+  options.control = pcl_als::readControl(control);
+  calibration.setOptions(options);
   calibration.calibrate();
   return calibration.getResult();
 }

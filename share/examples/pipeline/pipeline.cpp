@@ -14,6 +14,7 @@
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/icp.h>
 
+#include <pcl_als/calibration/system_calibration.h>
 #include <pcl_als/filters/incidence_selection.h>
 #include <pcl_als/filters/overlap_selection.h>
 #include <pcl_als/filters/surface_selection.h>
@@ -22,7 +23,6 @@
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/system_calibration.h>
 #include <pcl_als/registration/point_to_patch.h>
 
 using pcl_als::PointLidar;
@@ -62,7 +62,9 @@ pcl_als::CalibrationResult calibrated(const std::vector<Strip>& strips, const Fl
   pcl_als::SystemCalibration<PointLidar> calibration;
   for (const Strip& strip : strips) calibration.addInputStrip(strip.cloud, strip.frame, strip.id);
   calibration.setTrajectory(flight);
-  calibration.setControl(pcl_als::readControl(control));
+  pcl_als::CalibrationOptions options;
+  options.control = pcl_als::readControl(control);
+  calibration.setOptions(options);
   calibration.calibrate();
   return calibration.getResult();
 }

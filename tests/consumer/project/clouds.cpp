@@ -8,13 +8,13 @@
 #include <iostream>
 #include <memory>
 
+#include <pcl_als/calibration/system_calibration.h>
 #include <pcl_als/filters/overlap_selection.h>
 #include <pcl_als/io/pcd_io.h>
 #include <pcl_als/io/strip_loader.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/strip_check.h>
-#include <pcl_als/processing/system_calibration.h>
 
 int main(int argc, char** argv) try {
   const auto strips = pcl_als::loadStrips({argv + 1, argv + argc});
@@ -29,7 +29,9 @@ int main(int argc, char** argv) try {
   overlap.filter(common);
   for (const auto& strip : strips) calibration.addInputStrip(strip.cloud, strip.frame, strip.id);
   calibration.setTrajectory(trajectory);
-  calibration.setControl(pcl_als::readControl("control.csv"));
+  pcl_als::CalibrationOptions options;
+  options.control = pcl_als::readControl("control.csv");
+  calibration.setOptions(options);
   calibration.calibrate();
   pcl_als::writeCalibration("from_clouds.json", calibration.getResult());
   // end

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include <pcl_als/calibration/block_calibration.h>
+#include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/classification/accuracy_assessment.h>
 #include <pcl_als/filters/intensity_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>

@@ -2,19 +2,143 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <pcl_als/calibration/noise_model.h>
-#include <pcl_als/calibration/parameter_choice.h>
-#include <pcl_als/calibration/shared_errors.h>
+#include <Eigen/Core>
+
+#include <pcl_als/common/bias_list.h>
+#include <pcl_als/common/error_source.h>
 #include <pcl_als/common/strip_group.h>
+#include <pcl_als/common/system_parameters.h>
 #include <pcl_als/survey/survey_map.h>
 #include <pcl_als/tin/surface_criterion.h>
+#include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
+
+/** \brief Random errors of one return, without systematic effects.
+ *
+ * The covariance of a ground point is built in the frame of its pulse: range noise along the beam,
+ * pointing noise times range across it, the contribution of the footprint where the surface is not
+ * perpendicular to the beam, and the short-term noise of the trajectory in all directions. Errors
+ * that the points of a strip share (slow trajectory errors) belong to SharedErrorModel.
+ */
+struct NoiseModel {
+  double range = 0.02;  ///< metres, standard deviation along the beam
+  double angle =
+      10.0 * kRadiansPerArcsec;  ///< radians, pointing (encoder and attitude jitter), each axis
+  double position = 0.005;       ///< metres, short-term trajectory noise, each axis
+  double beam_divergence =
+      0.3e-3;  ///< radians, full angle at 1/e^2; the return comes from anywhere in the footprint
+
+  /// Throws UsageError naming the value that is not finite or negative, or if all are zero.
+  void validate() const;
+
+  /// Covariance of a point (m^2, ground frame: east, north, up).
+  Eigen::Matrix3d pointCovariance(const ScanGeometry& geometry) const;
+  /// Standard deviation of the place within the footprint that a return comes from, rad.
+  double footprint() const { return 0.25 * beam_divergence; }
+  /// The part of it across the beam: pointing and footprint.
+  Eigen::Matrix3d pointingCovariance(const ScanGeometry& geometry) const;
+};
+
+/** \brief Errors that observations share and that do not average out over the points of a strip.
+ *
+ * Trajectory: each of six errors of a strip (east, north, up; pitch, roll, heading about the flight
+ * line) has the given standard deviation and is the sum of three independent components: a
+ * constant, a smooth component (a cubic B-spline with independent coefficients, a quarter of the
+ * correlation time apart; its autocorrelation is close to a Gaussian function) and a first-order
+ * Gauss-Markov process with correlation exp(-|dt| / correlation_time). Strips are independent.
+ * Defaults: post-processed survey-grade GNSS/INS. The variance of a Gauss-Markov process alone
+ * would be estimated mainly from changes within seconds, and be too small where errors are smooth.
+ *
+ * Local: the remaining errors of a strip between the knots, and those of the surface, are one shift
+ * of the strip (east, north, up) in every area, independent from area to area.
+ *
+ * Error sources (ErrorSource) are common to all points, and each may be absent. slope_ranging: a
+ * pulse that hits a surface at incidence theta returns stretched over d = range * divergence *
+ * tan(theta), and the recorded time shifts with it, by an unknown share of d. range_scale: also
+ * where it is absent, the refractive index, which changes by 1 ppm with a degree or 3 hPa, is the
+ * mean over a column of air that is measured at its ends only.
+ */
+struct SharedErrorModel {
+  double position = 0.02;                       ///< metres, each axis
+  double roll_pitch = 8.0 * kRadiansPerArcsec;  ///< radians
+  double heading = 16.0 * kRadiansPerArcsec;    ///< radians
+  double correlation_time = 20.0;               ///< seconds
+  double constant_share = 0.2;                  ///< of the variance: the constant
+  double smooth_share = 0.4;                    ///< of the variance: the smooth component
+  double knot_spacing = 1.0;                    ///< seconds, between knots of the linear splines
+                                                ///< used for the trajectory
+  double local = 0.01;                          ///< metres, each axis
+
+  /// Prior of the value of an error source: normal, mean zero.
+  struct SourcePrior {
+    double std;               ///< where it is present
+    double absent;            ///< probability that it is absent, [0, 1)
+    double std_absent = 0.0;  ///< where it is absent
+  };
+  /// An error source is determined where its standard deviation is less than this share of the
+  /// prior's.
+  static constexpr double kDetermined = 0.25;
+  /// The same of an estimate that differs from zero: it is not determined where its standard
+  /// deviation is large and it may be zero. An error that is larger than expected increases the
+  /// variance components, and with them its own standard deviation, until it is estimated.
+  static bool isDetermined(double value, double std, double prior_std);
+  std::array<SourcePrior, kErrorSourceCount> sources{{
+      {0.1, 0.5},                       // slope_ranging
+      {2e-4, 0.9, 3e-6},                // range_scale
+      {5e-3, 0.9},                      // time_offset
+      {30.0 * kRadiansPerArcsec, 0.9},  // mirror_torsion
+      {30.0 * kRadiansPerArcsec, 0.9},  // encoder_cubic
+      {0.01, 0.9},                      // intensity_ranging
+      {30.0 * kRadiansPerArcsec, 0.9},  // encoder_quadratic
+      {5e-4, 0.9},                      // deflection_scale
+      {0.5, 0.5},                       // height_offset; absent as often as a range bias
+      {0.5, 0.9},                       // east_offset
+      {0.5, 0.9},                       // north_offset
+  }};
+
+  BiasPrior biases;  ///< what is known of the system parameters
+
+  void validate() const;  ///< UsageError naming a value that is not positive and finite
+
+  /// The model of a post-processed GNSS/INS of a grade, by data sheets of typical systems: "survey"
+  /// (0.02 m, 9" roll and pitch, 18" heading), "tactical" (0.03 m, 54", 126"), "mems" (0.04 m, 90",
+  /// 288"). UsageError for another word.
+  static SharedErrorModel ofGrade(const std::string& grade);
+};
+
+/** \brief Standard deviation above which a parameter counts as not determined by the data.
+ *
+ * Estimates with a larger standard deviation are no improvement on a newly mounted system. Below
+ * the limits, estimating a parameter is better than holding it: parameters correlated with it
+ * (pitch with lever_arm_y) are correct only together with it, and a parameter held at a wrong value
+ * resembles trajectory errors.
+ */
+struct DeterminationLimits {
+  double lever_arm = 0.08;                       ///< metres
+  double roll_pitch = 60.0 * kRadiansPerArcsec;  ///< radians
+  double heading = 180.0 * kRadiansPerArcsec;    ///< radians
+  double range = 0.10;                           ///< metres
+  double scan_angle_scale = 3e-4;                ///< unitless
+  /// Metres: an estimate within two standard deviations of zero, one of which moves points at the
+  /// edge of the swath by more, is called not determined. As the limit of lever arms, and the RMSDz
+  /// that the USGS Lidar Base Specification allows at QL1 and QL2.
+  double on_points = 0.08;
+
+  /// The limits for a flying height (metres above ground): those of angles and of the scale are
+  /// larger below 275 m, where 60 arcsec move points by less than a lever arm's limit does.
+  DeterminationLimits atHeight(double height) const;
+  double of(SystemParameter p) const;
+  /// Standard deviation of a parameter that is not estimated, which the uncertainty of the others
+  /// includes: 5 cm for lever arms, which can be surveyed; twice the limit for the others.
+  double whenHeld(SystemParameter p) const;
+};
 
 /** \brief A surface that strips are compared with and that is held fixed: the points of another
  * survey (airborne, mobile, terrestrial) or the cells of a height raster.

@@ -227,6 +227,11 @@ struct CalibrationResult {
   std::vector<std::string> inputs;
   std::string crs;  ///< of the ground frame, WKT or "EPSG:…"; empty: not known
 
+  /// One line: verdict, estimates with standard deviations, sigma0.
+  std::string briefReport() const;
+  /// Tables for a terminal: parameters, pairs, control, diagnosis, verdict, warnings.
+  std::string fullReport() const;
+
   SystemVector biases() const;
   ParameterEstimate& operator[](SystemParameter p) { return parameters[indexOf(p)]; }
   const ParameterEstimate& operator[](SystemParameter p) const { return parameters[indexOf(p)]; }

@@ -9,7 +9,7 @@
 #include <pcl_als/common/progress.h>
 #include <pcl_als/common/warning.h>
 #include <pcl_als/processing/flight_file.h>
-#include <pcl_als/processing/survey_observer.h>
+#include <pcl_als/survey/survey_observer.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 

@@ -8,9 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include <pcl_als/calibration/flight_plan.h>
 #include <pcl_als/io/plan_io.h>
-#include <pcl_als/planning/strip_geometry.h>
-#include <pcl_als/planning/synthetic_pairs.h>
 
 namespace pcl_als {
 

@@ -2,29 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
-#include <pcl_als/calibration/calibration_settings.h>
-#include <pcl_als/common/lidar_return.h>
-#include <pcl_als/common/point_file_info.h>
+#include <pcl_als/calibration/survey_calibration.h>
 
 namespace pcl_als {
-
-/// A reference surface for calibrateSurvey(), from a file.
-struct ReferenceSource {
-  using Sink = std::function<void(const LidarReturn* points, std::size_t count)>;
-
-  ReferenceSurface surface;
-  PointFileInfo info;  ///< path, CRS and units, which must be those of the survey
-  /// Passes on all points inside a box in plan (metres, ground frame), part by part.
-  std::function<void(const Eigen::AlignedBox2d& box, const Sink& sink)> read;
-};
 
 /// The points of a point file (.las, .laz, .pcd). InputError for a file that cannot be read.
 ReferenceSource referencePoints(const std::filesystem::path& path);

@@ -10,8 +10,8 @@
 
 #include <pcl_als/common/point_types.h>
 #include <pcl_als/common/strip.h>
-#include <pcl_als/processing/cloud_job.h>
 #include <pcl_als/processing/survey_check.h>
+#include <pcl_als/survey/cloud_job.h>
 
 namespace pcl_als {
 

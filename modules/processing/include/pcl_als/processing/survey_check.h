@@ -10,8 +10,8 @@
 
 #include <pcl_als/common/progress.h>
 #include <pcl_als/processing/delivery_check.h>
-#include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/survey/strip_arrangement.h>
+#include <pcl_als/survey/survey_observer.h>
 
 namespace pcl_als {
 

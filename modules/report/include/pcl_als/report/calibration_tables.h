@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include <pcl_als/common/calibration_result.h>
@@ -11,9 +10,6 @@
 #include <pcl_als/common/survey_types.h>
 
 namespace pcl_als {
-
-/// The result as tables for a terminal: parameters, pairs, control, warnings.
-std::string calibrationTables(const CalibrationResult& result);
 
 /// Writes pairs.csv, iterations.csv and areas.csv into a folder. \a information: share of each area
 /// in the information about the parameters, sum 1.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/planning/flight_plan.h>
+#include <pcl_als/calibration/flight_plan.h>
 
 namespace pcl_als {
 

@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 
 #include <pcl_als/common/survey_types.h>
-#include <pcl_als/processing/survey_observer.h>
 #include <pcl_als/report/quality_report.h>
 #include <pcl_als/report/report_origin.h>
+#include <pcl_als/survey/survey_observer.h>
 
 namespace pcl_als {
 

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <pcl_als/calibration/survey_calibration.h>
+#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/file_version.h>
+#include <pcl_als/io/measured_box.h>
+#include <pcl_als/io/trajectory_accuracy.h>
+#include <pcl_als/survey/place_in_block.h>
+
+#include "block_advice.h"
+#include "block_calibration.h"
+
+namespace pcl_als {
+namespace {
+
+using StripNames = std::vector<std::pair<std::string, std::string>>;
+
+/// The label of a strip that has no usable points; null for a strip in use and for unknown names,
+/// which the calibration lists.
+const StripArrangement::Label* labelOfMissing(const SurveyReader& survey, const std::string& name) {
+  const std::vector<std::string>& strips = survey.strips();
+  if (std::find(strips.begin(), strips.end(), name) != strips.end()) return nullptr;
+  for (const StripArrangement::Label& label : survey.arrangement().labels()) {
+    if (label.strip == name) return &label;
+  }
+  return nullptr;
+}
+
+/// Without the pairs of strips that have no usable points; those are named in \a warnings.
+StripNames usablePairs(const StripNames& pairs, const SurveyReader& survey, Warnings& warnings) {
+  StripNames usable;
+  for (const auto& [a, b] : pairs) {
+    const StripArrangement::Label* label = labelOfMissing(survey, a);
+    if (label == nullptr) label = labelOfMissing(survey, b);
+    if (label == nullptr) {
+      usable.emplace_back(a, b);
+      continue;
+    }
+    if (label->reason == LeftOutReason::excluded)
+      throw UsageError("pairs: strip '" + label->strip + "' is left out of the strips in use",
+                       Remedy::strips);
+    warnings.push_back("pair " + a + ":" + b + " is left out with strip " + label->strip);
+  }
+  if (usable.empty() && !pairs.empty())
+    throw InputError("pairs: no pair is left; " + warnings.back().text);
+  return usable;
+}
+
+std::string leftOutText(const std::vector<LeftOutPoints>& parts) {
+  std::string text;
+  for (const std::string& part : describe(parts)) text += "; " + part;
+  return text;
+}
+
+/// Reference surfaces, whose indices follow those of the strips, and the part of them that is used.
+struct References {
+  const std::vector<ReferenceSource>& sources;
+  int first = 0;
+  Eigen::AlignedBox2d box;
+
+  References(const SurveyReader& survey, const std::vector<ReferenceSource>& given)
+      : sources(given), first(static_cast<int>(survey.strips().size())), box(survey.extent()) {
+    constexpr double kMargin = 20.0;  // metres: more than areas have
+    box.min().array() -= kMargin;
+    box.max().array() += kMargin;
+  }
+
+  template <typename Use>
+  void read(const Use& use) const {
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      sources[i].read(box, [&](const LidarReturn* points, std::size_t count) {
+        use(first + static_cast<int>(i), points, count);
+      });
+    }
+  }
+};
+
+PlaceInBlock placeOf(const SurveyReader& survey, const PointFileInfo& reference) {
+  return {{reference.minimum.head<2>().eval(), reference.maximum.head<2>().eval()},
+          survey.extent()};
+}
+
+/// Refuses a reference that its coordinates put elsewhere, whatever CRS it states. Its header is
+/// believed where it puts the reference into the block.
+void requirePlace(const SurveyReader& survey, const PointFileInfo& reference) {
+  if (reference.point_count == 0 || placeOf(survey, reference).distance == 0.0) return;
+  const std::string extension = lowerExtension(reference.path);
+  const bool has_header = extension == ".las" || extension == ".laz";
+  const PlaceInBlock place =
+      placeOf(survey, has_header ? measureBox(reference.path).info : reference);
+  if (place.distance == 0.0) return;
+  throw InputError(reference.path.string() + ": lies " + place.text() +
+                   ": give a reference surface of this block, in its coordinate reference system");
+}
+
+/// Refuses references in another CRS than the survey; returns what is assumed of their units.
+std::vector<std::string> checkReferences(const SurveyReader& survey,
+                                         const std::vector<ReferenceSource>& references) {
+  std::vector<PointFileInfo> files, alone;
+  for (const SurveyedFile& file : survey.files()) files.push_back(file.sources.info);
+  for (const ReferenceSource& reference : references) {
+    files.push_back(reference.info);
+    alone.push_back(reference.info);
+  }
+  commonReference(files);
+  for (const PointFileInfo& reference : alone) requirePlace(survey, reference);
+  return commonReference(alone).remarks;
+}
+
+/// First pass over all points; \a left_out becomes those that the reader left out.
+SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
+                    const BlockRequest& request, const References& references,
+                    const SurveyObserver& observer, std::vector<LeftOutPoints>& left_out) {
+  BlockIndex index(flight, survey.corner());
+  for (const std::string& id : survey.strips()) index.addStrip(id);
+  for (const ReferenceSource& reference : references.sources) index.addReference(reference.surface);
+  if (observer.begin) observer.begin(survey);
+  const auto add = [&](int strip, const LidarReturn* points, std::size_t count) {
+    index.add(strip, points, count);
+  };
+  const bool apart = areShared(survey.processes());
+  const auto pass = [&](int strip, const LidarReturn* points, std::size_t count) {
+    add(strip, points, count);
+    if (observer.points && !apart) observer.points(strip, points, count);
+  };
+  left_out = survey.read(SurveyReader::asReturns(pass));
+  references.read(add);
+  if (observer.points && apart) {
+    const auto observed = SurveyReader::asReturns(observer.points);
+    doTogether(survey.processes(), [&] {
+      if (isRoot(survey.processes())) survey.read(observed, SurveyReader::Reading::ofAll());
+    });
+  }
+  shareIndex(survey.processes(), survey.stripShares(), index);
+  try {
+    return chooseAreas(std::move(index), request);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + leftOutText(left_out), error.remedy());
+  }
+}
+
+/// Second pass over all points.
+void loadAreas(const SurveyReader& survey, const References& references, AreaSample& sample) {
+  const auto load = [&](int strip, const LidarReturn* points, std::size_t count) {
+    sample.add(strip, points, count);
+  };
+  survey.read(SurveyReader::asReturns(load));
+  references.read(load);
+  sample.distribute(survey.processes(), survey.stripShares());
+}
+
+BlockCalibration adjusted(AreaSample& sample, ProgressReport& progress) {
+  progress.begin("Adjusting");
+  int iteration = 0;
+  BlockCalibration calibration = calibrate(sample, [&](const CalibrationIteration& last) {
+    progress.remark("iteration " + std::to_string(++iteration) + ": " +
+                    grouped(last.correspondences) + " pairs, sigma0 " +
+                    std::to_string(last.sigma0) + ", largest update " +
+                    std::to_string(1000.0 * last.largest_update) + " mm");
+  });
+  calibration.result.observability = describeObservability(sample.block(), calibration);
+  progress.end(calibration.result.converged ? "converged" : "not converged");
+  return calibration;
+}
+
+BlockCalibration calibrateBlock(const SurveyReader& survey,
+                                const std::shared_ptr<const Trajectory>& flight,
+                                const CalibrationOptions& options, const BlockRequest& request,
+                                ProgressReport& progress, SurveyCalibration& made,
+                                std::vector<LeftOutPoints>& left_out) {
+  const References references(survey, options.references);
+  progress.begin("Surveying the block");
+  const SurveyBlock block =
+      indexed(survey, flight, request, references, options.observer, left_out);
+  progress.end(counted(block.pairs.size(), "overlapping pair") + ", " +
+               counted(block.areas.size(), "area"));
+  for (const std::string& text : block.flight.remarks) progress.remark(text);
+  progress.begin("Reading the areas");
+  AreaSample sample(block);
+  loadAreas(survey, references, sample);
+  progress.end(grouped(sample.pointCount()) + " points");
+  made.areas = block.areas;
+  made.flight = block.flight.trajectory;
+  return adjusted(sample, progress);
+}
+
+/// The errors of a strip's trajectory are those of the whole flight solution: what its accuracy
+/// says of single times holds for their sum of constant, smooth and random components.
+std::string setPriors(const CalibrationOptions& options, const SurveyReader& survey,
+                      SharedErrorModel& errors) {
+  if (options.accuracy.empty()) return {};
+  AccuracySummary summary = summarize(options.accuracy, survey.observedTimes());
+  if (summary.records == 0) {
+    char times[160];
+    std::snprintf(times, sizeof times,
+                  "accuracies of the trajectory: their times, %.3f to %.3f s, are not those of the "
+                  "strips; give those of this flight",
+                  options.accuracy.front().time, options.accuracy.back().time);
+    throw InputError(times);
+  }
+  const auto set = [](bool keep, double& known, double& prior) {
+    if (keep || !(known > 0.0)) known = TrajectoryAccuracy::kUnknown;
+    if (std::isfinite(known)) prior = known;
+  };
+  set(options.keep_position, summary.position, errors.position);
+  set(options.keep_roll_pitch, summary.roll_pitch, errors.roll_pitch);
+  set(options.keep_heading, summary.heading, errors.heading);
+  return "a priori standard deviations of trajectory errors, from its accuracies over the "
+         "strips: " +
+         describe(summary);
+}
+
+/// The standard deviation of the heights of a reconstructed path during the strips. The errors of
+/// the points are not those of the path: they are those of the trajectory that the points were
+/// computed with.
+double heightStd(const std::vector<TrajectoryAccuracy>& accuracy, const SurveyReader& survey) {
+  const std::vector<TimeRange> observed = survey.observedTimes();
+  double squares = 0.0, count = 0.0;
+  for (const TrajectoryAccuracy& at : accuracy) {
+    const bool used = std::any_of(observed.begin(), observed.end(), [&](const TimeRange& range) {
+      return at.time >= range.first && at.time <= range.last;
+    });
+    if (!used || !std::isfinite(at.position.z())) continue;
+    squares += at.position.z() * at.position.z();
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+}  // namespace
+
+SurveyCalibration calibrateSurvey(SurveyReader& survey,
+                                  const std::shared_ptr<const Trajectory>& flight,
+                                  const CalibrationOptions& options,
+                                  const ProgressCallback& callback) {
+  if (!flight) throw UsageError("calibration: no trajectory is given");
+  if (areShared(survey.processes()) &&
+      !(options.references.empty() && options.settings.fixed.empty()))
+    throw UsageError("fixed strips and reference surfaces need a calibration in one process");
+  const UnchangedInputs unchanged;
+  ProgressReport progress(sharedProgress(survey.processes(), callback));
+  const ReadingProgress reading(survey, progress);
+  StripChoice strips = options.strips;
+  strips.divide_lines = true;
+  for (const std::string& text : survey.choose(strips, {flight.get(), options.gps_week, true})) {
+    progress.remark(text);
+  }
+  CalibrationSettings settings = options.settings;
+  settings.resolution = survey.resolution();
+  if (options.reconstructed)
+    settings.reconstructed_height_std = heightStd(options.path_accuracy, survey);
+  progress.remark(setPriors(options, survey, settings.shared_errors));
+  Warnings warnings;
+  const BlockRequest request{settings, options.control,
+                             usablePairs(options.pairs, survey, warnings)};
+  for (const std::string& text : checkReferences(survey, options.references)) progress.remark(text);
+  SurveyCalibration made;
+  std::vector<LeftOutPoints> left_out;
+  BlockCalibration calibration =
+      calibrateBlock(survey, flight, options, request, progress, made, left_out);
+  made.result = std::move(calibration.result);
+  made.information = std::move(calibration.information);
+  made.result.left_out.insert(made.result.left_out.end(), left_out.begin(), left_out.end());
+  for (const LeftOutPoints& part : left_out) made.result.warnings.push_back(describe(part));
+  made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
+  for (const SurveyedFile& file : survey.files())
+    if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);
+  const bool corrected =
+      std::any_of(survey.files().begin(), survey.files().end(),
+                  [](const SurveyedFile& file) { return !file.sources.info.corrections.empty(); });
+  if (corrected)
+    made.result.warnings.emplace_back(
+        "points were corrected before the calibration: its biases are those that remain in the "
+        "corrected files, and do not belong to the files as delivered");
+  for (const SurveyedFile& file : survey.files()) {
+    made.result.inputs.push_back(file.sources.info.path.string());
+    if (made.result.crs.empty()) made.result.crs = file.sources.info.crs;
+  }
+  for (const ReferenceSource& reference : options.references)
+    made.result.inputs.push_back(reference.info.path.string());
+  if (!settings.systems.empty() || !settings.fixed.empty())
+    made.result.channel_field = survey.channelField();
+  return made;
+}
+
+}  // namespace pcl_als
