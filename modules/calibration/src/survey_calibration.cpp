@@ -113,10 +113,15 @@ std::vector<std::string> checkReferences(const SurveyReader& survey,
   return commonReference(alone).remarks;
 }
 
-/// First pass over all points; \a left_out becomes those that the reader left out.
-SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
-                    const BlockRequest& request, const References& references,
-                    const SurveyObserver& observer, std::vector<LeftOutPoints>& left_out) {
+struct IndexedBlock {
+  SurveyBlock block;
+  std::vector<LeftOutPoints> left_out;  ///< by the reader
+};
+
+/// First pass over all points.
+IndexedBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Trajectory>& flight,
+                     const BlockRequest& request, const References& references,
+                     const SurveyObserver& observer) {
   BlockIndex index(flight, survey.corner());
   for (const std::string& id : survey.strips()) index.addStrip(id);
   for (const ReferenceSource& reference : references.sources) index.addReference(reference.surface);
@@ -124,22 +129,20 @@ SurveyBlock indexed(const SurveyReader& survey, const std::shared_ptr<const Traj
   const auto add = [&](int strip, const LidarReturn* points, std::size_t count) {
     index.add(strip, points, count);
   };
+  // An observer receives all points in the first process, which reads its own strips only.
   const bool apart = areShared(survey.processes());
   const auto pass = [&](int strip, const LidarReturn* points, std::size_t count) {
     add(strip, points, count);
     if (observer.points && !apart) observer.points(strip, points, count);
   };
-  left_out = survey.read(SurveyReader::asReturns(pass));
+  std::vector<LeftOutPoints> left_out = survey.read(SurveyReader::asReturns(pass));
   references.read(add);
-  if (observer.points && apart) {
-    const auto observed = SurveyReader::asReturns(observer.points);
-    doTogether(survey.processes(), [&] {
-      if (isRoot(survey.processes())) survey.read(observed, SurveyReader::Reading::ofAll());
-    });
-  }
+  using Reading = SurveyReader::Reading;
+  if (observer.points && apart)
+    survey.read(SurveyReader::asReturns(observer.points), Reading::by(Reading::Share::first));
   shareIndex(survey.processes(), survey.stripShares(), index);
   try {
-    return chooseAreas(std::move(index), request);
+    return {chooseAreas(std::move(index), request), left_out};
   } catch (const InputError& error) {
     throw InputError(error.what() + leftOutText(left_out), error.remedy());
   }
@@ -169,15 +172,13 @@ BlockCalibration adjusted(AreaSample& sample, ProgressReport& progress) {
   return calibration;
 }
 
-BlockCalibration calibrateBlock(const SurveyReader& survey,
-                                const std::shared_ptr<const Trajectory>& flight,
-                                const CalibrationOptions& options, const BlockRequest& request,
-                                ProgressReport& progress, SurveyCalibration& made,
-                                std::vector<LeftOutPoints>& left_out) {
+SurveyCalibration calibrateBlock(const SurveyReader& survey,
+                                 const std::shared_ptr<const Trajectory>& flight,
+                                 const CalibrationOptions& options, const BlockRequest& request,
+                                 ProgressReport& progress) {
   const References references(survey, options.references);
   progress.begin("Surveying the block");
-  const SurveyBlock block =
-      indexed(survey, flight, request, references, options.observer, left_out);
+  const auto [block, left_out] = indexed(survey, flight, request, references, options.observer);
   progress.end(counted(block.pairs.size(), "overlapping pair") + ", " +
                counted(block.areas.size(), "area"));
   for (const std::string& text : block.flight.remarks) progress.remark(text);
@@ -185,9 +186,12 @@ BlockCalibration calibrateBlock(const SurveyReader& survey,
   AreaSample sample(block);
   loadAreas(survey, references, sample);
   progress.end(grouped(sample.pointCount()) + " points");
-  made.areas = block.areas;
-  made.flight = block.flight.trajectory;
-  return adjusted(sample, progress);
+  BlockCalibration calibration = adjusted(sample, progress);
+  CalibrationResult& result = calibration.result;
+  result.left_out.insert(result.left_out.end(), left_out.begin(), left_out.end());
+  for (const LeftOutPoints& part : left_out) result.warnings.push_back(describe(part));
+  return {std::move(result), block.areas, std::move(calibration.information),
+          block.flight.trajectory};
 }
 
 /// The errors of a strip's trajectory are those of the whole flight solution: what its accuracy
@@ -233,6 +237,27 @@ double heightStd(const std::vector<TrajectoryAccuracy>& accuracy, const SurveyRe
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+/// What the files are and state of themselves.
+void describeInputs(const SurveyReader& survey, const CalibrationOptions& options,
+                    CalibrationResult& result) {
+  bool corrected = false;
+  for (const SurveyedFile& file : survey.files()) {
+    const PointFileInfo& info = file.sources.info;
+    if (!file.sources.damage.empty()) result.warnings.push_back(file.sources.damage);
+    result.inputs.push_back(info.path.string());
+    if (result.crs.empty()) result.crs = info.crs;
+    corrected = corrected || !info.corrections.empty();
+  }
+  if (corrected)
+    result.warnings.emplace_back(
+        "points were corrected before the calibration: its biases are those that remain in the "
+        "corrected files, and do not belong to the files as delivered");
+  for (const ReferenceSource& reference : options.references)
+    result.inputs.push_back(reference.info.path.string());
+  if (!options.settings.systems.empty() || !options.settings.fixed.empty())
+    result.channel_field = survey.channelField();
+}
+
 }  // namespace
 
 SurveyCalibration calibrateSurvey(SurveyReader& survey,
@@ -260,32 +285,9 @@ SurveyCalibration calibrateSurvey(SurveyReader& survey,
   const BlockRequest request{settings, options.control,
                              usablePairs(options.pairs, survey, warnings)};
   for (const std::string& text : checkReferences(survey, options.references)) progress.remark(text);
-  SurveyCalibration made;
-  std::vector<LeftOutPoints> left_out;
-  BlockCalibration calibration =
-      calibrateBlock(survey, flight, options, request, progress, made, left_out);
-  made.result = std::move(calibration.result);
-  made.information = std::move(calibration.information);
-  made.result.left_out.insert(made.result.left_out.end(), left_out.begin(), left_out.end());
-  for (const LeftOutPoints& part : left_out) made.result.warnings.push_back(describe(part));
+  SurveyCalibration made = calibrateBlock(survey, flight, options, request, progress);
   made.result.warnings.insert(made.result.warnings.end(), warnings.begin(), warnings.end());
-  for (const SurveyedFile& file : survey.files())
-    if (!file.sources.damage.empty()) made.result.warnings.push_back(file.sources.damage);
-  const bool corrected =
-      std::any_of(survey.files().begin(), survey.files().end(),
-                  [](const SurveyedFile& file) { return !file.sources.info.corrections.empty(); });
-  if (corrected)
-    made.result.warnings.emplace_back(
-        "points were corrected before the calibration: its biases are those that remain in the "
-        "corrected files, and do not belong to the files as delivered");
-  for (const SurveyedFile& file : survey.files()) {
-    made.result.inputs.push_back(file.sources.info.path.string());
-    if (made.result.crs.empty()) made.result.crs = file.sources.info.crs;
-  }
-  for (const ReferenceSource& reference : options.references)
-    made.result.inputs.push_back(reference.info.path.string());
-  if (!settings.systems.empty() || !settings.fixed.empty())
-    made.result.channel_field = survey.channelField();
+  describeInputs(survey, options, made.result);
   return made;
 }
 

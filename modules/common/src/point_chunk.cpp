@@ -36,4 +36,19 @@ PointChunk PointChunk::select(const std::vector<std::size_t>& rows) const {
           part(extra)};
 }
 
+LidarReturn PointChunk::point(std::size_t row, double time) const {
+  LidarReturn point;
+  point.position = Eigen::Vector3d(x[row], y[row], z[row]);
+  point.time = time;
+  point.intensity = intensity[row];
+  point.scan_angle = scan_angle[row];
+  point.return_number = return_number[row];
+  point.number_of_returns = number_of_returns[row];
+  point.classification = classification[row];
+  point.flags = flags[row];
+  point.channel = channel[row];
+  point.user_data = user_data[row];
+  return point;
+}
+
 }  // namespace pcl_als

@@ -66,8 +66,7 @@ std::vector<LeftOutPoints> BlockCheck::surveyBlock() {
   std::vector<LeftOutPoints> left_out = survey_.read([&](const SurveyReader::Run& run) {
     const int strip = run.strip;
     thread_local std::vector<LidarReturn> points;
-    points.clear();
-    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
+    run.points(points);
     map_.add(strip, points.data(), points.size());
     std::size_t cursor = 0;
     for (std::size_t row = run.from; row < run.to; row += kCourseEvery) {
@@ -156,6 +155,7 @@ void BlockCheck::load(const PointSink& also) {
     }
   }
   const AreaIndex index(squares);
+  // A sink receives all points in the first process, which has read its own strips only.
   const bool apart = also && areShared(survey_.processes());
   uncovered_ = 0;
   survey_.read([&](const SurveyReader::Run& run) {
@@ -176,19 +176,18 @@ void BlockCheck::load(const PointSink& also) {
   if (uncovered_ > 0)
     warnings_.push_back("the trajectory does not cover " + std::to_string(uncovered_) +
                         " of the points used: their scan angles are the file's");
-  if (apart) readForRoot(also);
+  if (apart) readByFirst(also);
 }
 
-void BlockCheck::readForRoot(const PointSink& sink) {
+void BlockCheck::readByFirst(const PointSink& sink) {
+  using Reading = SurveyReader::Reading;
   const auto pass = [&](const SurveyReader::Run& run) {
     if (!used_[static_cast<std::size_t>(run.strip)]) return;
     std::size_t cursor = 0;
     for (std::size_t row = run.from; row < run.to; ++row)
       if (run.position(row).allFinite()) sink(run.strip, pointOf(run, row, cursor));
   };
-  doTogether(survey_.processes(), [&] {
-    if (isRoot(survey_.processes())) survey_.read(pass, SurveyReader::Reading::ofAll());
-  });
+  survey_.read(pass, Reading::by(Reading::Share::first));
 }
 
 void BlockCheck::findRoughness() {

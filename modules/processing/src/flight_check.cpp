@@ -51,19 +51,6 @@ class FlightCheck {
 
 }  // namespace
 
-LidarReturn returnOf(const PointChunk& chunk, std::size_t row, double time) {
-  LidarReturn point;
-  point.position = {chunk.x[row], chunk.y[row], chunk.z[row]};
-  point.time = time;
-  point.scan_angle = chunk.scan_angle[row];
-  point.return_number = chunk.return_number[row];
-  point.number_of_returns = chunk.number_of_returns[row];
-  point.classification = chunk.classification[row];
-  point.flags = chunk.flags[row];
-  point.channel = static_cast<std::uint8_t>(chunk.flags[row] >> 6U);
-  return point;
-}
-
 LidarReturn returnOf(const Strip<PointLidar>& strip, std::size_t row, double time) {
   const PointLidar& stored = (*strip.cloud)[row];
   LidarReturn point;
@@ -84,8 +71,7 @@ Warnings checkFlight(const LasFile& file, const TimeAlignment& alignment,
   const SampleSize size = flight->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   samplePoints(file, size, [&](const PointChunk& chunk) {
     for (std::size_t i = 0; i < chunk.size(); ++i) {
-      const LidarReturn point = returnOf(chunk, i, alignment(chunk.gps_time[i]));
-      check.add(chunk.point_source_id[i], point);
+      check.add(chunk.point_source_id[i], chunk.point(i, alignment(chunk.gps_time[i])));
     }
   });
   return check.result(file.path().string(), force);

@@ -17,7 +17,6 @@
 namespace pcl_als::detail {
 
 /// A point as a return at an aligned time.
-LidarReturn returnOf(const PointChunk& chunk, std::size_t row, double time);
 LidarReturn returnOf(const Strip<PointLidar>& strip, std::size_t row, double time);
 
 /// Whether the points of a file can have been measured from the flight: warnings; InputError naming

@@ -92,14 +92,15 @@ std::vector<IntensityRun::Sample> IntensityRun::samplesOf(std::size_t file) cons
   const SampleSize size = trajectory_->hasAttitude() ? SampleSize::forAttitude() : SampleSize();
   std::vector<Sample> samples;
   StripArrangement::Sorter sorter(arrangement(), file);
-  const auto add = [&](std::uint16_t source, double time, const auto& points, std::size_t row) {
+  const auto add = [&](std::uint16_t source, double time, const LidarReturn& point) {
     const int strip = arrangement().labels()[sorter.label(source, time)].index;
-    if (strip >= 0) samples.push_back({strip, detail::returnOf(points, row, times_[file](time))});
+    if (strip >= 0) samples.push_back({strip, point});
   };
+  const TimeAlignment& align = times_[file];
   if (const LasFile* las = inputs_[file]->las()) {
-    samplePoints(*las, size, [&add](const PointChunk& chunk) {
+    samplePoints(*las, size, [&](const PointChunk& chunk) {
       for (std::size_t i = 0; i < chunk.size(); ++i)
-        add(chunk.point_source_id[i], chunk.gps_time[i], chunk, i);
+        add(chunk.point_source_id[i], chunk.gps_time[i], chunk.point(i, align(chunk.gps_time[i])));
     });
     return samples;
   }
@@ -111,7 +112,7 @@ std::vector<IntensityRun::Sample> IntensityRun::samplesOf(std::size_t file) cons
     const std::size_t end = std::min(strip.cloud->size(), run + size.points_per_run);
     for (std::size_t i = run; i < end; ++i) {
       const PointLidar& point = (*strip.cloud)[i];
-      add(point.point_source_id, point.gps_time, strip, i);
+      add(point.point_source_id, point.gps_time, detail::returnOf(strip, i, align(point.gps_time)));
     }
   }
   return samples;

@@ -18,10 +18,8 @@ ReferenceSource referencePoints(const std::filesystem::path& path) {
     window.bounds = box;
     const auto pass = [&sink](const SurveyReader::Run& run) {
       std::vector<LidarReturn> points;
-      for (std::size_t row = run.from; row < run.to; ++row) {
-        points.push_back(run.point(row));
-        points.back().time = 0.0;  // of another survey
-      }
+      run.points(points);
+      for (LidarReturn& point : points) point.time = 0.0;  // of another survey
       sink(points.data(), points.size());
     };
     SurveyReader::ofWholeFiles({info}, 1, window).read(pass);

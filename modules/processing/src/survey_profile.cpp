@@ -21,7 +21,7 @@ std::vector<SectionSearch::Place> findPlaces(const SurveyReader& survey) {
       if (run.chunk.number_of_returns[row] <= 1)
         search.add(run.position(row), static_cast<std::size_t>(run.strip));
   };
-  survey.read(add, SurveyReader::Reading::ofAll());
+  survey.read(add, SurveyReader::Reading::by(SurveyReader::Reading::Share::all));
   return search.find(1);
 }
 
@@ -56,7 +56,7 @@ std::optional<SurveyProfile> findProfile(const SurveyReader& survey,
       part.after.push_back(corrected(position, run.time(run.chunk.gps_time[row]), correction));
     }
   };
-  survey.read(add, SurveyReader::Reading::ofAll());
+  survey.read(add, SurveyReader::Reading::by(SurveyReader::Reading::Share::all));
   SurveyProfile profile{places[0], SectionPoints(line), SectionPoints(line)};
   for (std::size_t strip = 0; strip < parts.size(); ++strip) {
     for (const Eigen::Vector3d& point : parts[strip].before)

@@ -15,26 +15,15 @@ namespace pcl_als {
 SurveyReader::Visitor SurveyReader::asReturns(Sink sink) {
   return [sink = std::move(sink)](const Run& run) {
     thread_local std::vector<LidarReturn> points;
-    points.clear();
-    points.reserve(run.to - run.from);
-    for (std::size_t row = run.from; row < run.to; ++row) points.push_back(run.point(row));
+    run.points(points);
     sink(run.strip, points.data(), points.size());
   };
 }
 
-LidarReturn SurveyReader::Run::point(std::size_t row) const {
-  LidarReturn point;
-  point.position = Eigen::Vector3d(chunk.x[row], chunk.y[row], chunk.z[row]);
-  point.time = time(chunk.gps_time[row]);
-  point.intensity = chunk.intensity[row];
-  point.scan_angle = chunk.scan_angle[row];
-  point.return_number = chunk.return_number[row];
-  point.number_of_returns = chunk.number_of_returns[row];
-  point.classification = chunk.classification[row];
-  point.flags = chunk.flags[row];
-  point.channel = chunk.channel[row];
-  point.user_data = chunk.user_data[row];
-  return point;
+void SurveyReader::Run::points(std::vector<LidarReturn>& points) const {
+  points.clear();
+  points.reserve(to - from);
+  for (std::size_t row = from; row < to; ++row) points.push_back(point(row));
 }
 
 std::set<int> SurveyReader::stripsIn(std::size_t file) const {
@@ -118,7 +107,9 @@ SharedItems SurveyReader::stripShares() const {
 }
 
 std::vector<LeftOutPoints> SurveyReader::read(const Visitor& visit, const Reading& reading) const {
-  Communicator* const together = reading.share == Reading::Share::all ? nullptr : processes_;
+  using Share = Reading::Share;
+  if (reading.share == Share::first && areShared(processes_)) return readByFirst(visit, reading);
+  Communicator* const together = reading.share == Share::all ? nullptr : processes_;
   const int threads = reading.threads.value_or(threads_);
   const Groups groups = groupsOf(reading, threads == 1 && !areShared(together));
   const std::size_t labels = arrangement_ ? arrangement_->labels().size() : 1;
@@ -132,6 +123,15 @@ std::vector<LeftOutPoints> SurveyReader::read(const Visitor& visit, const Readin
   for (const LabelCounts& count : counts)
     for (std::size_t i = 0; i < labels; ++i) all[i] += count[i];
   return arrangement_ ? arrangement_->leftOut(all) : std::vector<LeftOutPoints>();
+}
+
+std::vector<LeftOutPoints> SurveyReader::readByFirst(const Visitor& visit, Reading reading) const {
+  reading.share = Reading::Share::all;
+  std::vector<LeftOutPoints> left_out;
+  doTogether(processes_, [&] {
+    if (isRoot(processes_)) left_out = read(visit, reading);
+  });
+  return left_out;
 }
 
 void SurveyReader::readGroups(const Groups& groups, const std::vector<std::size_t>& chosen,

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <pcl_als/common/lidar_return.h>
+
 namespace pcl_als {
 
 /// Points as columns: ground frame in metres and double, one entry per point in each.
@@ -27,6 +29,8 @@ struct PointChunk {
   void resize(std::size_t count);
   /// The points of these rows, in this order.
   PointChunk select(const std::vector<std::size_t>& rows) const;
+  /// The point of a row. \a time: of the trajectory, seconds.
+  LidarReturn point(std::size_t row, double time) const;
 };
 
 }  // namespace pcl_als

@@ -136,7 +136,7 @@ class BlockCheck {
   static bool isAligned(const CheckedPair& pair) {
     return !pair.too_small && pair.assessment.status != PairAssessment::Status::copy;
   }
-  void readForRoot(const PointSink& sink);
+  void readByFirst(const PointSink& sink);
   // What processes tell each other.
   void shareStrips();
   void shareAreas();

@@ -59,7 +59,9 @@ class SurveyReader {
     Eigen::Vector3d position(std::size_t row) const {
       return {chunk.x[row], chunk.y[row], chunk.z[row]};
     }
-    LidarReturn point(std::size_t row) const;
+    LidarReturn point(std::size_t row) const { return chunk.point(row, time(chunk.gps_time[row])); }
+    /// All of them, in place of what \a points holds.
+    void points(std::vector<LidarReturn>& points) const;
   };
   using Visitor = std::function<void(const Run& run)>;
   using Sink = std::function<void(int strip, const LidarReturn* points, std::size_t count)>;
@@ -140,16 +142,18 @@ class SurveyReader {
   struct Reading {
     /// own: each process gets all points of its own strips and none of the others (collective).
     /// all: this process gets all points of all strips, whatever the others do.
-    enum class Share { own, all };
+    /// first: the first process gets all points of all strips, the others none (collective); what
+    /// was left out is known to the first one.
+    enum class Share { own, all, first };
     Share share = Share::own;
     std::vector<std::size_t> files;  ///< indices of the files that are read; empty: all
     int strip = -1;                  ///< the only strip that is read; -1: all
     std::string extra_field;         ///< values of PointChunk::extra; empty: none
     std::optional<int> threads;      ///< in place of those of the reader
 
-    static Reading ofAll() {
+    static Reading by(Share share) {
       Reading reading;
-      reading.share = Share::all;
+      reading.share = share;
       return reading;
     }
   };
@@ -202,6 +206,7 @@ class SurveyReader {
   /// Groups of these files.
   Groups groupsOf(const Reading& reading, bool one_after_the_other) const;
   SharedItems sharesOf(const Groups& groups, Communicator* processes) const;
+  std::vector<LeftOutPoints> readByFirst(const Visitor& visit, Reading reading) const;
   /// Reads some groups of files and counts points by group and label.
   void readGroups(const Groups& groups, const std::vector<std::size_t>& chosen,
                   const Visitor& visit, const Reading& reading,
