@@ -52,8 +52,8 @@ std::vector<AreaObservations> block(int strips) {
       o.time_b = timeIn(o.b, place + 0.8 * uniform(random));
       o.normal = Eigen::Vector3d(0.3 * normal(random), 0.3 * normal(random), 1.0).normalized();
       const double x = 150.0 + 50.0 * uniform(random);  // right of the first, left of the second
-      o.row_a = rowOf(o.a, o.a == first ? x : -x, o.normal);
-      o.row_b = rowOf(o.b, o.b == first ? x : -x, o.normal);
+      o.row_a = rowOf(o.a, o.a == first ? x : -x, o.normal).cast<float>();
+      o.row_b = rowOf(o.b, o.b == first ? x : -x, o.normal).cast<float>();
       o.variance = 4e-4;
       o.misclosure = 0.02 * normal(random);
       area.push_back(o);

@@ -41,11 +41,12 @@ inline std::vector<AreaObservations> simulated(const SystemVector& biases, doubl
       o.normal = Eigen::Vector3d(0.3 * normal(random), 0.3 * normal(random), 1.0).normalized();
       for (int p = 0; p < kSystemParameterCount; ++p) {
         const bool angle = p >= 3 && p <= 5;
-        o.row_a[p] = (angle || p == 7 ? 300.0 : 0.3) * normal(random);
-        o.row_b[p] = (angle || p == 7 ? 300.0 : 0.3) * normal(random);
+        o.row_a[p] = static_cast<float>((angle || p == 7 ? 300.0 : 0.3) * normal(random));
+        o.row_b[p] = static_cast<float>((angle || p == 7 ? 300.0 : 0.3) * normal(random));
       }
-      o.row_a[indexOf(P::lever_arm_z)] = o.row_b[indexOf(P::lever_arm_z)] = o.normal.z();
-      o.variance = 0.0004;
+      o.row_a[indexOf(P::lever_arm_z)] = o.row_b[indexOf(P::lever_arm_z)] =
+          static_cast<float>(o.normal.z());
+      o.variance = 0.0004F;
       o.misclosure = o.row() * biases + noise * normal(random);
       area.push_back(o);
     }

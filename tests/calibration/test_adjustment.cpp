@@ -176,14 +176,14 @@ struct DenseSystem {
           row.segment<6>(8 + 6 * where.knot) += sign * (1.0 - where.next) * effect;
           row.segment<6>(8 + 6 * where.next_knot) += sign * where.next * effect;
         };
-        place(o.a, o.time_a, o.row_a, 1.0);
-        if (!o.mixed_times) place(o.b, o.time_b, o.row_b, -1.0);
-        for (const PairObservation::Vertex& vertex : o.vertices) {
-          if (!o.mixed_times) break;
-          SystemRow turn = SystemRow::Zero();
-          turn.segment<3>(3) = vertex.turn.cast<double>();
-          place(o.b, vertex.time, turn, -double{vertex.weight});
-        }
+        place(o.a, o.time_a, o.row_a.cast<double>(), 1.0);
+        if (!o.hasMixedTimes()) place(o.b, o.time_b, o.row_b.cast<double>(), -1.0);
+        if (o.hasMixedTimes())
+          for (const PairObservation::Special::Vertex& vertex : o.special->vertices) {
+            SystemRow turn = SystemRow::Zero();
+            turn.segment<3>(3) = vertex.turn.cast<double>();
+            place(o.b, vertex.time, turn, -double{vertex.weight});
+          }
         row[instrument] = ranging ? o.sources[indexOf(ErrorSource::slope_ranging)] : 0.0;
         normal += row * row.transpose() / o.variance;
         right += row * o.misclosure / o.variance;
@@ -231,16 +231,18 @@ TEST(Adjustment, EqualsTheDenseSolutionForPatchesOfMixedTimes) {
   for (AreaObservations& area : areas) {
     for (std::size_t i = 0; i < area.size(); i += 3) {
       PairObservation& o = area[i];
-      o.mixed_times = true;
+      PairObservation::Special special;
+      special.mixed_times = true;
       const float first = static_cast<float>(uniform(random)),
                   second = static_cast<float>(uniform(random)) * (1.0F - first);
       const float weights[3] = {first, second, 1.0F - first - second};
       for (int k = 0; k < 3; ++k) {
-        o.vertices[k].time = o.time_b + 20.0 * (uniform(random) - 0.5);
-        o.vertices[k].weight = weights[k];
+        special.vertices[k].time = o.time_b + 20.0 * (uniform(random) - 0.5);
+        special.vertices[k].weight = weights[k];
         for (int axis = 0; axis < 3; ++axis)
-          o.vertices[k].turn[axis] = static_cast<float>(300.0 * (uniform(random) - 0.5));
+          special.vertices[k].turn[axis] = static_cast<float>(300.0 * (uniform(random) - 0.5));
       }
+      o.special = std::make_shared<const PairObservation::Special>(special);
     }
   }
   const DenseSystem dense(errors, areas, true);
@@ -266,8 +268,9 @@ TEST(Adjustment, BelievesInARangingErrorAsFarAsItIsSeen) {
     std::uniform_real_distribution<double> uniform;
     for (AreaObservations& area : areas) {
       for (PairObservation& o : area) {
-        double& stretch = o.sources[indexOf(ErrorSource::slope_ranging)];
-        stretch = 0.1 * uniform(random) + 1e-4 * o.row()[indexOf(P::scan_angle_scale)];
+        float& stretch = o.sources[indexOf(ErrorSource::slope_ranging)];
+        stretch = static_cast<float>(0.1 * uniform(random) +
+                                     1e-4 * o.row()[indexOf(P::scan_angle_scale)]);
         o.misclosure += share * stretch;
       }
     }
@@ -320,7 +323,7 @@ TEST(Adjustment, ScattersAsItsCovarianceSays) {
 TEST(Adjustment, SaysWhatEachAreaContributes) {
   const SharedErrors errors({{0.0, 25.0}, {100.0, 125.0}}, model());
   auto areas = simulated(someBiases(), 0.0, 6);
-  for (PairObservation& o : areas.back()) o.row_a = o.row_b = SystemRow::Zero();  // tells nothing
+  for (PairObservation& o : areas.back()) o.row_a = o.row_b = PairRow::Zero();  // tells nothing
   const auto weights = unitWeights(areas);
   Adjustment adjustment(errors);
   adjustment.accumulate(areas, weights);

@@ -57,8 +57,8 @@ TEST(Adjustment, FindsTheErrorSourceThatIsPresent) {
       for (PairObservation& o : area) {
         // Effects of 5 cm for one prior standard deviation.
         for (const ErrorSource source : all)
-          o.sources[indexOf(source)] =
-              0.05 * normal(random) / errors.model().sources[indexOf(source)].std;
+          o.sources[indexOf(source)] = static_cast<float>(
+              0.05 * normal(random) / errors.model().sources[indexOf(source)].std);
         o.misclosure += value * o.sources[indexOf(info.source)];
       }
     }
@@ -87,7 +87,8 @@ TEST(Adjustment, DerivativeBySourceIsThatOfTheSolution) {
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
   for (AreaObservations& area : areas)
-    for (PairObservation& o : area) o.sources[indexOf(source)] = 60.0 + 20.0 * normal(random);
+    for (PairObservation& o : area)
+      o.sources[indexOf(source)] = static_cast<float>(60.0 + 20.0 * normal(random));
   const auto weights = unitWeights(areas);
   const auto solvedAt = [&](double value, SystemVector* derivative = nullptr) {
     auto held = areas;

@@ -174,7 +174,7 @@ TEST(AreaMatcher, AControlPointsErrorIsOneInAllStrips) {
     EXPECT_EQ(o.a, PairObservation::kControl);
     EXPECT_NEAR(o.distance(SystemVector::Zero()), o.b == 0 ? 0.0 : 0.05 * o.normal.z(), 0.01);
     const double own = found[0].normal.z() * found[1].normal.z() * 0.03 * 0.03;
-    EXPECT_NEAR(o.sharing, 1.0 + own / o.variance, 1e-12);
+    EXPECT_NEAR(o.sharing, 1.0 + own / o.variance, 1e-6);  // single precision
     EXPECT_GT(o.variance, 0.9 * own);
   }
 }
@@ -284,8 +284,8 @@ TEST(AreaMatcher, RemovesErrorSourcesFromItsPoints) {
   EXPECT_GT(found.size(), 500U);
   for (const PairObservation& o : found) {
     // The equation remains that of the points as read; 1 cm: curvature.
-    EXPECT_NEAR(o.distance(SystemVector::Zero()), o.sources * value, 0.01);
-    EXPECT_NEAR(std::abs(o.sources * value), 0.05 * o.normal.z(), 2e-3);
+    EXPECT_NEAR(o.distance(SystemVector::Zero()), o.effectOfSources(value), 0.01);
+    EXPECT_NEAR(std::abs(o.effectOfSources(value)), 0.05 * o.normal.z(), 2e-3);
   }
 }
 

@@ -25,14 +25,14 @@ PairObservation pairAt(double x, const Eigen::Vector3d& normal, int a = 0, int b
   o.time_a = 10.0 * a;
   o.time_b = 10.0 * b;
   o.normal = normal;
-  o.variance = 4e-4;
+  o.variance = 4e-4F;
   for (const bool second : {false, true}) {
     ScanGeometry g;
     g.x = second ? -x : x;
     g.z = -1000.0;
     g.beta = -std::atan2(g.x, -g.z);
     if (second) g.rotation = Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal();
-    (second ? o.row_b : o.row_a) = normal.transpose() * designBlock(g);
+    (second ? o.row_b : o.row_a) = (normal.transpose() * designBlock(g)).cast<float>();
   }
   return o;
 }
@@ -169,7 +169,7 @@ TEST(PairSelection, ChosenResidualsSumToThoseOfAll) {
     const Eigen::Vector3d up(0.4 * normal(random), 0.4 * normal(random), 1.0);
     PairObservation o = pairAt(100.0, up.normalized());
     o.time_a = uniform(random), o.time_b = 10.0 + uniform(random);
-    o.sources[indexOf(ErrorSource::slope_ranging)] = 0.1 * normal(random);
+    o.sources[indexOf(ErrorSource::slope_ranging)] = static_cast<float>(0.1 * normal(random));
     o.misclosure = 0.02 * normal(random);
     areas[0].push_back(o);
   }

@@ -13,7 +13,7 @@ TEST(ParameterChoice, DropsWhatTheObservationsDoNotSee) {
   auto areas = simulated(someBiases(), 0.0, 5);
   for (AreaObservations& area : areas) {
     for (PairObservation& o : area)
-      o.row_a[indexOf(P::lever_arm_x)] = o.row_b[indexOf(P::lever_arm_x)] = 0.0;
+      o.row_a[indexOf(P::lever_arm_x)] = o.row_b[indexOf(P::lever_arm_x)] = 0.0F;
   }
   const auto weights = unitWeights(areas);
   Adjustment adjustment(errors);
@@ -32,8 +32,8 @@ TEST(ParameterChoice, OfTwoThatLookAlikeTheLeverArmGoes) {
   for (AreaObservations& area : areas) {
     for (PairObservation& o :
          area) {  // a single flying height: pitch moves points as a lever arm does
-      o.row_a[indexOf(P::lever_arm_y)] = o.row_a[indexOf(P::boresight_pitch)] / 1000.0;
-      o.row_b[indexOf(P::lever_arm_y)] = o.row_b[indexOf(P::boresight_pitch)] / 1000.0;
+      o.row_a[indexOf(P::lever_arm_y)] = o.row_a[indexOf(P::boresight_pitch)] / 1000.0F;
+      o.row_b[indexOf(P::lever_arm_y)] = o.row_b[indexOf(P::boresight_pitch)] / 1000.0F;
     }
   }
   const auto weights = unitWeights(areas);

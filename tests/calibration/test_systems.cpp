@@ -46,8 +46,8 @@ struct Dense {
           row.segment<8>(system) += sign * design.transpose();
           row.segment<3>(system + 8) += sign * o.normal;
         };
-        place(o.a, o.time_a, o.row_a, 1.0);
-        place(o.b, o.time_b, o.row_b, -1.0);
+        place(o.a, o.time_a, o.row_a.cast<double>(), 1.0);
+        place(o.b, o.time_b, o.row_b.cast<double>(), -1.0);
         normal += row * row.transpose() / o.variance;
         right += row * o.misclosure / o.variance;
       }

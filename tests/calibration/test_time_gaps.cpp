@@ -28,10 +28,12 @@ TEST(TimeGaps, DivideSpans) {
 TEST(TimeGaps, LieBetweenTheVerticesOfPatches) {
   PairObservation o;
   o.time_b = 0.4 * kDay;
-  o.mixed_times = true;
-  o.vertices[0].time = 1.0;
-  o.vertices[1].time = kDay + 3.0;
-  o.vertices[2].time = kDay + 2.0;
+  PairObservation::Special special;
+  special.mixed_times = true;
+  special.vertices[0].time = 1.0;
+  special.vertices[1].time = kDay + 3.0;
+  special.vertices[2].time = kDay + 2.0;
+  o.special = std::make_shared<const PairObservation::Special>(special);
   using Spans = std::vector<TimeSpan>;
   EXPECT_EQ(observedTimes({{o}}, 1), (std::vector<Spans>{{{1.0, 1.0}, {kDay + 2.0, kDay + 3.0}}}));
 }

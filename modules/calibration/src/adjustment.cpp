@@ -28,11 +28,9 @@ SystemMatrix slopeNoiseOf(const AreaObservations& area, const std::vector<double
   SystemMatrix sum = SystemMatrix::Zero();
   for (std::size_t i = 0; i < area.size(); ++i) {
     const PairObservation& o = area[i];
-    if (weights[i] == 0.0 || o.tilt_variance == 0.0) continue;
-    const Eigen::Matrix<double, 3, kGlobal> design = o.design.cast<double>();
-    const SystemRow row = o.normal.transpose() * design;
-    sum += weights[i] / o.variance * o.tilt_variance *
-           (design.transpose() * design - row.transpose() * row);
+    if (weights[i] == 0.0 || o.tilt.isZero(0.0F)) continue;
+    const Eigen::Matrix<double, 2, kGlobal> tilt = o.tilt.cast<double>();
+    sum += weights[i] / o.variance * tilt.transpose() * tilt;
   }
   return sum;
 }

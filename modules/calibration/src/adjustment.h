@@ -58,10 +58,10 @@ struct RestrictedLikelihood {
  * of the solution when one area is left out, from the normal equations of each area), and the
  * larger of the two standard deviations is used.
  *
- * Noise of the measured slopes acts like information, sum w tilt_variance (A'A - r'r) over pairs
- * with rows r = n'A. Where half of the information in a direction may stem from this noise, the
- * direction counts as not determined: its standard deviation becomes so large that the parameter is
- * left out.
+ * Noise of the measured slopes acts like information, sum w t't (t: PairObservation::tilt) over
+ * pairs with rows r = n'A. Where half of the information in a direction may stem from this noise,
+ * the direction counts as not determined: its standard deviation becomes so large that the
+ * parameter is left out.
  */
 class Adjustment {
  public:

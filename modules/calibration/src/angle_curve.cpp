@@ -32,7 +32,7 @@ FieldDivision classesOfAngle() {
 
 /// The class of the scan angle of one side of a pair: the effect of the scale is the angle times
 /// that of a roll.
-std::size_t classOf(const SystemRow& row, double largest_angle) {
+std::size_t classOf(const PairRow& row, double largest_angle) {
   const double angle = row[kRoll] != 0.0 ? row[kScale] / row[kRoll] : 0.0;
   const double place = 0.5 * kClasses * (1.0 + angle / largest_angle);
   return static_cast<std::size_t>(std::clamp(place, 0.0, kClasses - 1.0));

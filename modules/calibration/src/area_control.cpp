@@ -28,13 +28,14 @@ void shareControlError(const ControlPoint& point, std::size_t first, AreaObserva
     PairObservation& o = found[i];
     const Eigen::Vector3d own = errorEffect(o);
     if (!o.isInPlan()) {
-      o.sharing = 1.0 + own.dot(sum - own) * point.sigma * point.sigma / o.variance;
+      o.sharing =
+          static_cast<float>(1.0 + own.dot(sum - own) * point.sigma * point.sigma / o.variance);
       continue;
     }
     double others = 0.0;  // the axes of strips differ
     for (std::size_t k = first; k < found.size(); ++k)
       if (k != i && found[k].isInPlan()) others += std::abs(own.dot(errorEffect(found[k])));
-    o.sharing = 1.0 + others * std::pow(point.sigmaInPlan(), 2) / o.variance;
+    o.sharing = static_cast<float>(1.0 + others * std::pow(point.sigmaInPlan(), 2) / o.variance);
   }
 }
 
@@ -74,7 +75,6 @@ void AreaMatcher::matchHeight(const ControlPoint& point, const StripPart& part, 
       !foot.atFoot(part, *match, quality, vertex))
     return;
   found.push_back(controlObservation(point, part, measuringDirection(quality), foot));
-  keepVertices(foot, found.back());
 }
 
 void AreaMatcher::matchPatch(const ControlPoint& point, const StripPart& part, double threshold,
@@ -102,20 +102,19 @@ PairObservation AreaMatcher::controlObservation(const ControlPoint& point, const
   if (point.kind == ControlPoint::Kind::patch)
     o.control_error = PairObservation::ControlError::along_normal;
   o.time_a = o.time_b = foot.time;
-  o.lateral = foot.lateral;
-  o.height = foot.height;
+  o.lateral = static_cast<float>(foot.lateral);
+  o.height = static_cast<float>(foot.height);
   o.normal = direction.normal;
-  o.tilt_variance = direction.variance;
-  o.design = (-foot.design).cast<float>();
-  o.row_b = o.normal.transpose() * foot.design;
-  keepVertices(foot, o);
+  o.tilt = PairObservation::effectOfTilt(foot.design, o.normal, direction.variance);
+  o.row_b = (o.normal.transpose() * foot.design).cast<float>();
+  keepSpecial(nullptr, foot, o);
   o.misclosure = o.normal.dot(point.position - foot.position) -
                  o.effectAtPatch(corrected_for_[static_cast<std::size_t>(part.strip)]);
-  o.sources = -foot.sourcesAlong(o.normal);
-  o.misclosure += o.sources * corrected_sources_;
+  o.sources = -foot.sourcesAlong(o.normal).cast<float>();
+  o.misclosure += o.effectOfSources(corrected_sources_);
   const double sigma = point.sigma * o.effectOfControl();
-  o.variance = normalVariance(foot.covariance, o.normal) + sigma * sigma;
-  o.pointing = normalVariance(foot.pointing, o.normal);
+  o.variance = static_cast<float>(normalVariance(foot.covariance, o.normal) + sigma * sigma);
+  o.pointing = static_cast<float>(normalVariance(foot.pointing, o.normal));
   return o;
 }
 

@@ -176,7 +176,8 @@ void AreaMatcher::keep(const AreaObservations& observations,
     const PairObservation& o = observations[pair.index];
     if (o.a != PairObservation::kControl)
       kept_[{o.surfaceA(), o.surfaceB()}].push_back(
-          {o.point, o.sharing / pair.represented, pair.offset});
+          {o.point, static_cast<float>(o.sharing / pair.represented),
+           static_cast<float>(pair.offset)});
   }
 }
 
@@ -230,40 +231,50 @@ void AreaMatcher::correct(const std::vector<StripCorrection>& corrections,
   }
 }
 
-void AreaMatcher::keepVertices(const PointGeometry& foot, PairObservation& observation) {
-  observation.mixed_times = foot.mixed;
-  if (!observation.mixed_times) return;
-  for (std::size_t i = 0; i < foot.vertices.size(); ++i) {
-    const PointGeometry::AtVertex& vertex = foot.vertices[i];
-    observation.vertices[i] = {vertex.time, static_cast<float>(vertex.weight),
-                               (observation.normal.transpose() * vertex.turn).cast<float>()};
+void AreaMatcher::keepSpecial(const PointGeometry* point, const PointGeometry& foot,
+                              PairObservation& observation) {
+  const bool turned = point != nullptr && (point->held || foot.held);
+  observation.special.reset();
+  if (!foot.mixed && !turned) return;
+  const auto along = [&](const Eigen::Matrix3d& turn) {
+    return PairTurn((observation.normal.transpose() * turn).cast<float>());
+  };
+  PairObservation::Special special;
+  if (turned) {
+    special.turn_a = along(point->turn);
+    special.turn_b = along(foot.turn);
   }
+  special.mixed_times = foot.mixed;
+  for (std::size_t i = 0; i < foot.vertices.size() && foot.mixed; ++i) {
+    const PointGeometry::AtVertex& vertex = foot.vertices[i];
+    special.vertices[i] = {vertex.time, static_cast<float>(vertex.weight), along(vertex.turn)};
+  }
+  observation.special = std::make_shared<const PairObservation::Special>(special);
 }
 
 void AreaMatcher::measure(const PointGeometry& point, const PointGeometry& foot,
                           const PatchQuality& quality, PairObservation& observation) const {
   observation.time_a = point.time;
   observation.time_b = foot.time;
-  observation.lateral = foot.held ? point.lateral : foot.lateral;
-  observation.height = foot.held ? point.height : foot.height;
+  observation.lateral = static_cast<float>(foot.held ? point.lateral : foot.lateral);
+  observation.height = static_cast<float>(foot.held ? point.height : foot.height);
   const Direction direction = measuringDirection(quality);
   const Eigen::Vector3d& normal = direction.normal;
   observation.normal = normal;
-  observation.tilt_variance = direction.variance;
-  observation.design = (point.design - foot.design).cast<float>();
-  observation.row_a = normal.transpose() * point.design;
-  observation.row_b = normal.transpose() * foot.design;
-  observation.turn_a = (normal.transpose() * point.turn).cast<float>();
-  observation.turn_b = (normal.transpose() * foot.turn).cast<float>();
-  keepVertices(foot, observation);
+  observation.tilt =
+      PairObservation::effectOfTilt(point.design - foot.design, normal, direction.variance);
+  observation.row_a = (normal.transpose() * point.design).cast<float>();
+  observation.row_b = (normal.transpose() * foot.design).cast<float>();
+  keepSpecial(&point, foot, observation);
+  observation.variance =
+      static_cast<float>(normalVariance(point.covariance + foot.covariance, normal));
+  observation.pointing = static_cast<float>(normalVariance(point.pointing + foot.pointing, normal));
+  observation.sources = (point.sourcesAlong(normal) - foot.sourcesAlong(normal)).cast<float>();
   observation.misclosure =
       normal.dot(point.position - foot.position) +
       observation.effectAtPoint(corrected_for_[static_cast<std::size_t>(observation.a)]) -
-      observation.effectAtPatch(corrected_for_[static_cast<std::size_t>(observation.b)]);
-  observation.variance = normalVariance(point.covariance + foot.covariance, normal);
-  observation.pointing = normalVariance(point.pointing + foot.pointing, normal);
-  observation.sources = point.sourcesAlong(normal) - foot.sourcesAlong(normal);
-  observation.misclosure += observation.sources * corrected_sources_;
+      observation.effectAtPatch(corrected_for_[static_cast<std::size_t>(observation.b)]) +
+      observation.effectOfSources(corrected_sources_);
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> AreaMatcher::surfacePairs(

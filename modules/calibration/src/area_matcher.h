@@ -253,7 +253,9 @@ class AreaMatcher {
   void measure(const PointGeometry& point, const PointGeometry& foot, const PatchQuality& quality,
                PairObservation& observation) const;
   /// Keeps the vertices of the foot where their times are mixed.
-  static void keepVertices(const PointGeometry& foot, PairObservation& observation);
+  /// \param point null: control
+  static void keepSpecial(const PointGeometry* point, const PointGeometry& foot,
+                          PairObservation& observation);
   // The pairs of a control point with one strip.
   void matchHeight(const ControlPoint& point, const StripPart& part, double threshold,
                    PointGeometry& foot, PointGeometry& vertex, AreaObservations& found) const;
@@ -282,7 +284,7 @@ class AreaMatcher {
   std::vector<StripPart> surfaces_;
   struct KeptPoint {
     std::int32_t point = 0;
-    double sharing = 1.0, offset = 0.0;  ///< of its pair, see ChosenPair
+    float sharing = 1.0F, offset = 0.0F;  ///< of its pair, see ChosenPair
   };
   /// Points of the first surface that form pairs with the second, PairObservation::surfaceIndex().
   std::map<std::pair<int, int>, std::vector<KeptPoint>> kept_;

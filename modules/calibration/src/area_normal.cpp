@@ -21,15 +21,25 @@ namespace {
 struct Side {
   int index, strip, surface;
   double time, sign;
-  const SystemRow& design;
-  const PairTurn& turn;
+  SystemRow design;
+  Eigen::RowVector3d attitude;  ///< effect of errors of pitch, roll and heading
+
+  Side(int number, const PairObservation& o)
+      : index(number),
+        strip(number == 0 ? o.a : o.b),
+        surface(number == 0 ? o.surfaceA() : o.surfaceB()),
+        time(number == 0 ? o.time_a : o.time_b),
+        sign(number == 0 ? 1.0 : -1.0),
+        design((number == 0 ? o.row_a : o.row_b).cast<double>()),
+        attitude(design.segment<3>(indexOf(SystemParameter::boresight_pitch))) {
+    if (o.special) attitude += (number == 0 ? o.special->turn_a : o.special->turn_b).cast<double>();
+  }
 };
 
 template <class Use>
 void forSides(const PairObservation& o, const Use& use) {
-  if (o.a != PairObservation::kControl)
-    use(Side{0, o.a, o.surfaceA(), o.time_a, 1.0, o.row_a, o.turn_a});
-  use(Side{1, o.b, o.surfaceB(), o.time_b, -1.0, o.row_b, o.turn_b});
+  if (o.a != PairObservation::kControl) use(Side(0, o));
+  use(Side(1, o));
 }
 
 /// Effect of the six trajectory errors at a time.
@@ -50,14 +60,12 @@ void forKnots(const Side& side, const PairObservation& o, const SharedErrors& er
               const Add& add) {
   if (!errors.systems().isFlown(side.strip)) return;
   Effect effect;
-  if (side.index == 0 || !o.mixed_times) {
-    effect << o.normal.transpose(),
-        side.design.segment<3>(indexOf(SystemParameter::boresight_pitch)) +
-            side.turn.cast<double>();
+  if (side.index == 0 || !o.hasMixedTimes()) {
+    effect << o.normal.transpose(), side.attitude;
     interpolate(side, side.time, side.sign * effect, errors, add);
     return;
   }
-  for (const PairObservation::Vertex& vertex : o.vertices) {
+  for (const PairObservation::Special::Vertex& vertex : o.special->vertices) {
     effect << o.normal.transpose(), vertex.turn.cast<double>();
     interpolate(side, vertex.time, side.sign * vertex.weight * effect, errors, add);
   }
@@ -80,7 +88,7 @@ TouchedRow::TouchedRow(const PairObservation& o, const SharedErrors& errors) {
   });
   for (int i = 0; i < errors.observedInstrumentBlocks(); ++i)
     knots[kKnots + i] = errors.instrumentBlock() + i;
-  row.segment<kErrorSourceCount>(kInstrument) = o.sources;
+  row.segment<kErrorSourceCount>(kInstrument) = o.sources.cast<double>();
 }
 
 int TouchedRow::slotOf(int side, int knot) {
@@ -109,7 +117,8 @@ void TouchedRow::placeSystem(int side, int system, const SystemRow& design,
 double sharedEffect(const PairObservation& o, const SharedErrors& errors,
                     const Eigen::VectorXd& shared) {
   constexpr int kKnot = TouchedRow::kKnot;
-  double sum = o.sources * shared.segment<kErrorSourceCount>(errors.instrumentBlock() * kKnot);
+  double sum =
+      o.effectOfSources(shared.segment<kErrorSourceCount>(errors.instrumentBlock() * kKnot));
   forSides(o, [&](const Side& side) {
     forKnots(side, o, errors, [&](int knot, const Effect& effect) {
       sum += effect.dot(shared.segment<kKnot>(knot * kKnot));

@@ -90,8 +90,8 @@ void AreaMatcher::addHeight(const ControlPoint& point, const StripPart& part,
   const TargetHeight measured = heightAt(target.centre, on_target, of_one);
   foot.position.z() = measured.height;
   PairObservation o = controlObservation(point, part, {Eigen::Vector3d::UnitZ(), 0.0}, foot);
-  o.variance = measured.variance * of_one + point.sigma * point.sigma;
-  o.pointing = measured.variance * vertex.pointing(2, 2);
+  o.variance = static_cast<float>(measured.variance * of_one + point.sigma * point.sigma);
+  o.pointing = static_cast<float>(measured.variance * vertex.pointing(2, 2));
   found.push_back(o);
 }
 
@@ -106,9 +106,9 @@ void AreaMatcher::addPlan(const ControlPoint& point, const StripPart& part,
     const Eigen::Vector3d axis(axes.vectors(0, i), axes.vectors(1, i), 0.0);
     PairObservation o = controlObservation(point, part, {axis, 0.0}, foot);
     o.control_error = PairObservation::ControlError::plan;
-    o.variance = axes.values[i] + std::pow(point.sigmaInPlan(), 2);
-    o.pointing = 0.0;  // a part of the posterior of the centre, which the scatter shows
-    o.sources[slope] = -lengthened * axis.dot(foot.beam);
+    o.variance = static_cast<float>(axes.values[i] + std::pow(point.sigmaInPlan(), 2));
+    o.pointing = 0.0F;  // a part of the posterior of the centre, which the scatter shows
+    o.sources[slope] = static_cast<float>(-lengthened * axis.dot(foot.beam));
     found.push_back(o);
   }
 }

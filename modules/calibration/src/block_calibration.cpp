@@ -29,7 +29,7 @@ void measureStrips(const std::vector<AreaObservations>& observations,
       const auto strip = static_cast<std::size_t>(o.b);
       heights[strip].push_back(o.height);
       strips[strip].half_angle =
-          std::max(strips[strip].half_angle, std::atan2(o.lateral, o.height));
+          std::max<double>(strips[strip].half_angle, std::atan2(o.lateral, o.height));
     }
   }
   for (std::size_t i = 0; i < strips.size(); ++i)
@@ -139,7 +139,8 @@ void setStatedEffects(const BlockSolution& solution, const ErrorSourceVector& he
       statedDifferences(result, systems, solution.differences);
   const ErrorSourceVector sources = result.sources - held_sources;
   for (AreaObservations& area : observations) {
-    for (PairObservation& o : area) o.further = effectOfSystems(systems, stated, o);
+    for (PairObservation& o : area)
+      o.further = static_cast<float>(effectOfSystems(systems, stated, o));
     addSourceEffects(sources, area);
   }
 }

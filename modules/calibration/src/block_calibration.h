@@ -112,8 +112,7 @@ struct FlownStrip {
   double height = 0.0, half_angle = 0.0;
 };
 
-/// The last adjustment of a calibration, for further adjustments of the same block (module
-/// planning).
+/// The last adjustment of a calibration, for further adjustments of the same block.
 struct AdjustedSurvey {
   std::vector<FlownStrip> strips;  ///< by the index that observations use
   WeightedObservations sample;     ///< about kRepresentative observations that represent all
@@ -122,7 +121,7 @@ struct AdjustedSurvey {
 
 struct BlockCalibration {
   /// result.verdict states whether to apply it, with the reason. result.observability is left
-  /// empty: see describeObservability() of module planning.
+  /// empty: see describeObservability().
   CalibrationResult result;
   /// Share of each area in the information about the parameters, sum 1.
   std::vector<double> information;
@@ -148,9 +147,8 @@ struct BlockCalibration {
  * sample.add(strip, points, count);        // second pass, all points again
  * const BlockCalibration calibration = calibrate(sample);
  * \endcode
- * The scan angle is that in the plane of the pulse (ScanPlanes). Memory: 400 bytes per pair,
- * besides the index and the sample. For point files there is calibrateSurvey() in module
- * processing.
+ * The scan angle is that in the plane of the pulse (ScanPlanes). Memory: 288 bytes per pair,
+ * besides the index and the sample. For point files there is calibrateSurvey().
  *
  * \param sample is prepared and corrected. Collective where it is distributed
  * \param progress called after every iteration

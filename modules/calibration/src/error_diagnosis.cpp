@@ -120,8 +120,8 @@ ScanGeometry swathEdge(const std::vector<AreaObservations>& observations) {
   ScanGeometry edge;
   for (const AreaObservations& area : observations) {
     for (const PairObservation& o : area) {
-      edge.x = std::max(edge.x, o.lateral);
-      edge.z = std::min(edge.z, -o.height);
+      edge.x = std::max<double>(edge.x, o.lateral);
+      edge.z = std::min<double>(edge.z, -o.height);
     }
   }
   edge.beta = -std::atan2(edge.x, -edge.z);
@@ -196,12 +196,13 @@ void addHeldSources(const ErrorSourceVector& values, CalibrationResult& result) 
 
 void addSourceEffects(const ErrorSourceVector& values, AreaObservations& observations) {
   if (values.isZero(0.0)) return;
-  for (PairObservation& o : observations) o.further += o.sources * values;
+  for (PairObservation& o : observations)
+    o.further += static_cast<float>(o.effectOfSources(values));
 }
 
 void removeSources(const ErrorSourceVector& values, AreaObservations& observations) {
   if (values.isZero(0.0)) return;
-  for (PairObservation& o : observations) o.misclosure -= o.sources * values;
+  for (PairObservation& o : observations) o.misclosure -= o.effectOfSources(values);
 }
 
 }  // namespace pcl_als

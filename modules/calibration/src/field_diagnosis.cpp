@@ -35,7 +35,8 @@ void removeCorrections(const std::vector<AreaMatcher::StripCorrection>& correcti
     return all;
   };
   for (PairObservation& o : observations)
-    o.misclosure -= o.effectAtPoint(of(o.a)) - o.effectAtPatch(of(o.b)) + o.sources * sources;
+    o.misclosure -=
+        o.effectAtPoint(of(o.a)) - o.effectAtPatch(of(o.b)) + o.effectOfSources(sources);
 }
 
 FieldDivision divisionBy(PointField field, const AreaSample& sample) {

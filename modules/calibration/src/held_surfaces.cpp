@@ -133,9 +133,11 @@ void becomeControl(bool held_patch, PairObservation& o) {
     o.look_b = o.look_a;
     o.time_b = o.time_a;
     o.row_b = o.row_a;
-    o.turn_b = o.turn_a;
-    o.mixed_times = false;
-    o.design = -o.design;
+    if (o.special) {
+      PairObservation::Special special;
+      special.turn_a = special.turn_b = o.special->turn_a;
+      o.special = std::make_shared<const PairObservation::Special>(special);
+    }
     o.sources = -o.sources;
     o.misclosure = -o.misclosure;
     o.further = -o.further;

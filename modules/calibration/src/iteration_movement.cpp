@@ -25,8 +25,8 @@ void visitSome(const PairSet& pairs, const Visit& visit) {
 double largestEffect(const PairSet& pairs, const SystemVector& change) {
   double x = 0.0, z = 0.0;
   visitSome(pairs, [&](const PairObservation& o) {
-    x = std::max(x, o.lateral);
-    z = std::max(z, o.height);
+    x = std::max<double>(x, o.lateral);
+    z = std::max<double>(z, o.height);
   });
   ScanGeometry geometry;
   geometry.x = x;
@@ -41,7 +41,7 @@ double largestEffect(const PairSet& pairs, const SystemVector& change) {
 double largestMovement(const PairSet& pairs, const SystemVector& change) {
   double largest = 0.0;
   visitSome(pairs, [&](const PairObservation& o) {
-    for (const double x : {o.lateral, -o.lateral}) {
+    for (const double x : {double{o.lateral}, -double{o.lateral}}) {
       ScanGeometry geometry;
       geometry.x = x;
       geometry.z = -o.height;
@@ -57,7 +57,8 @@ double largestEffectOfSources(const PairSet& pairs, const ErrorSourceVector& cha
   double largest = 0.0;
   if (change.isZero(0.0)) return largest;
   for (const AreaObservations& area : pairs.observations)
-    for (const PairObservation& o : area) largest = std::max(largest, std::abs(o.sources * change));
+    for (const PairObservation& o : area)
+      largest = std::max(largest, std::abs(o.effectOfSources(change)));
   return largest;
 }
 

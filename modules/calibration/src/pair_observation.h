@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -15,13 +16,19 @@
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/strip_group.h>
 #include <pcl_als/common/system_parameters.h>
+#include <pcl_als/trajectory/scan_geometry.h>
 
 namespace pcl_als {
 
 using SystemRow = Eigen::Matrix<double, 1, kSystemParameterCount>;
-/// Effect of the parameters on a point, ground frame; single precision, to limit memory.
-using PairDesign = Eigen::Matrix<float, 3, kSystemParameterCount, Eigen::DontAlign>;
-/// Effect of the three boresight angles on a distance; single precision.
+// Coefficients of pairs are in single precision, to limit memory: a relative rounding of 6e-8 at
+// each pair, which misclosures take into account.
+constexpr int kPairOptions = static_cast<int>(Eigen::RowMajor) | static_cast<int>(Eigen::DontAlign);
+using PairRow = Eigen::Matrix<float, 1, kSystemParameterCount, kPairOptions>;
+/// Effect of the system parameters on the two components of a point along a patch.
+using PairTilt = Eigen::Matrix<float, 2, kSystemParameterCount, kPairOptions>;
+using PairSources = Eigen::Matrix<float, 1, kErrorSourceCount, kPairOptions>;
+/// Effect of the three boresight angles on a distance.
 using PairTurn = Eigen::RowVector3f;
 
 /// Which part of the points of a strip a surface consists of, see AreaMatcher::prepare().
@@ -47,52 +54,71 @@ struct PairObservation {
   };
 
   int a = kControl, b = 0;
+  std::int32_t point = -1;  ///< of strip a, in the area's TIN; -1 for control
   Look look_a = Look::whole, look_b = Look::whole;    ///< of the strips' surfaces
   ControlError control_error = ControlError::height;  ///< of control only
-  std::int32_t point = -1;  ///< of strip a, in the area's TIN; -1 for control
   /// Times of emission of the point and of the patch, seconds; the mean of its vertices.
   double time_a = 0.0, time_b = 0.0;
-  SystemRow row_a = SystemRow::Zero();  ///< n' A_A
-  SystemRow row_b = SystemRow::Zero();  ///< n' A_B, A interpolated in the patch at the point's foot
-  /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are held
-  /// fixed, whose rows are zero.
-  PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
-  /// A vertex of the patch.
-  struct Vertex {
-    double time = 0.0;                 ///< of emission, seconds
-    float weight = 0.0F;               ///< of the interpolation at the point's foot
-    PairTurn turn = PairTurn::Zero();  ///< n' A of the three boresight angles, or that of turn_b
-  };
-  /// Whether the vertices were measured so far apart in time (rosette scanners) that each has a
-  /// trajectory error of its own; that of the patch is their weighted mean.
-  bool mixed_times = false;
-  std::array<Vertex, 3> vertices;          ///< with mixed_times
-  Eigen::Vector3d normal;                  ///< unit, upward or horizontal, ground frame
-  PairDesign design = PairDesign::Zero();  ///< A: row() = n' A
-  /// Variance of the direction of the normal, rad^2; zero where the distance is vertical.
-  double tilt_variance = 0.0;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, upward or horizontal, ground frame
+  PairRow row_a = PairRow::Zero();                    ///< n' A_A
+  PairRow row_b = PairRow::Zero();   ///< n' A_B, A interpolated in the patch at the point's foot
+  PairTilt tilt = PairTilt::Zero();  ///< effectOfTilt()
+  /// Effects of the error sources on the distance, in the order of ErrorSource. Those that are not
+  /// considered are zero, except for that of the range scale.
+  PairSources sources = PairSources::Zero();
   /// n'(X_A - X_B) of the corrected coordinates plus the effect of the biases they were corrected
   /// for, metres. The rows are those of the corrected geometry, so that the solution is that of the
   /// model itself and not of its linearisation at the biased points.
   double misclosure = 0.0;
   /// part of the misclosure that represents other pairs, see ChosenPair, metres
-  double offset = 0.0;
-  double variance = 0.0;  ///< n' Sigma n of the discrepancy, m^2
-  double pointing = 0.0;  ///< part of it due to pointing and footprint, m^2
+  float offset = 0.0F;
+  float variance = 0.0F;  ///< n' Sigma n of the discrepancy, m^2
+  float pointing = 0.0F;  ///< part of it due to pointing and footprint, m^2
   /// Sum of the absolute covariances with all pairs of the area (itself included) over the
   /// variance: a point may form pairs in several strips and be a vertex of several patches, see
   /// NoiseShares.
-  double sharing = 1.0;
-  /// Effects of the error sources on the distance, in the order of ErrorSource. Those that are not
-  /// considered are zero, except for that of the range scale.
-  ErrorSourceRow sources = ErrorSourceRow::Zero();
+  float sharing = 1.0F;
   /// Of the distance, metres: effect of what is corrected besides the biases of the first system
   /// (error sources, differences between systems). Ignored by the adjustment.
-  double further = 0.0;
-  double lateral = 0.0,
-         height = 0.0;  ///< |x| and |z| of the patch in the laser unit's frame, metres
+  float further = 0.0F;
+  /// |x| and |z| of the patch in the laser unit's frame, metres.
+  float lateral = 0.0F, height = 0.0F;
 
-  SystemRow row() const { return row_a - row_b; }
+  /// What few pairs have.
+  struct Special {
+    /// A vertex of the patch.
+    struct Vertex {
+      double time = 0.0;                 ///< of emission, seconds
+      float weight = 0.0F;               ///< of the interpolation at the point's foot
+      PairTurn turn = PairTurn::Zero();  ///< n' A of the boresight angles, or that of turn_b
+    };
+    /// n' A_A and n' A_B of the three boresight angles, for trajectory errors of strips that are
+    /// held fixed, whose rows are zero.
+    PairTurn turn_a = PairTurn::Zero(), turn_b = PairTurn::Zero();
+    /// Whether the vertices were measured so far apart in time (rosette scanners) that each has a
+    /// trajectory error of its own; that of the patch is their weighted mean.
+    bool mixed_times = false;
+    std::array<Vertex, 3> vertices;  ///< with mixed_times
+  };
+  std::shared_ptr<const Special> special;  ///< null: no turns, one time of the patch
+
+  bool hasMixedTimes() const { return special != nullptr && special->mixed_times; }
+  /// n' A, with A = A_A - A_B.
+  SystemRow row() const { return row_a.cast<double>() - row_b.cast<double>(); }
+  /// The effect of errors of the direction of the normal, of variance \a variance (rad^2, on each
+  /// of two axes), on the distance: their standard deviation times A along the patch.
+  static PairTilt effectOfTilt(const DesignBlock& design, const Eigen::Vector3d& normal,
+                               double variance) {
+    if (variance == 0.0) return PairTilt::Zero();
+    Eigen::Matrix<double, 2, 3> along;
+    along.row(0) = normal.unitOrthogonal();
+    along.row(1) = normal.cross(along.row(0).transpose());
+    return (std::sqrt(variance) * along * design).cast<float>();
+  }
+  /// The effect of values of the error sources on the distance, metres.
+  double effectOfSources(const ErrorSourceVector& values) const {
+    return sources.cast<double>() * values;
+  }
   /// The surfaces of the point and of the patch, counted over all strips of the block.
   int surfaceA() const { return surfaceIndex(a, look_a); }
   int surfaceB() const { return surfaceIndex(b, look_b); }
@@ -115,12 +141,15 @@ struct PairObservation {
   }
   /// Effect on the distance of the unknowns of a system that measured the point, or the patch.
   double effectAtPoint(const SystemUnknowns& u) const {
-    return row_a * u.head<kSystemParameterCount>() + normal.dot(u.tail<3>());
+    return row_a.cast<double>() * u.head<kSystemParameterCount>() + normal.dot(u.tail<3>());
   }
   double effectAtPatch(const SystemUnknowns& u) const {
-    return row_b * u.head<kSystemParameterCount>() + normal.dot(u.tail<3>());
+    return row_b.cast<double>() * u.head<kSystemParameterCount>() + normal.dot(u.tail<3>());
   }
 };
+
+static_assert(sizeof(PairObservation) <= 300,
+              "memory of a calibration is mostly that of its pairs");
 
 /// The pairs of one area. Areas are the units of computation, and the clusters of the jackknife.
 using AreaObservations = std::vector<PairObservation>;
@@ -149,8 +178,8 @@ std::vector<TimeSpan> continuousSpans(const std::vector<double>& times);
 std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservations>& areas,
                                                  std::size_t strips);
 
-// Rules that measured pairs (AreaMatcher) and synthetic pairs of planned lines (SyntheticPairs of
-// module planning) have in common.
+// Rules that measured pairs (AreaMatcher) and synthetic pairs of planned lines (SyntheticPairs)
+// have in common.
 
 /// Tilt over its standard deviation above which it is significant; below, distances are vertical.
 constexpr double kSignificantTilt = 5.0;

@@ -129,9 +129,11 @@ std::vector<std::vector<TimeSpan>> observedTimes(const std::vector<AreaObservati
     std::map<int, std::vector<double>> here;
     for (const PairObservation& o : area) {
       if (o.a != PairObservation::kControl) here[o.a].push_back(o.time_a);
-      if (!o.mixed_times) here[o.b].push_back(o.time_b);
-      for (const PairObservation::Vertex& vertex : o.vertices)
-        if (o.mixed_times) here[o.b].push_back(vertex.time);
+      if (!o.hasMixedTimes()) {
+        here[o.b].push_back(o.time_b);
+        continue;
+      }
+      for (const auto& vertex : o.special->vertices) here[o.b].push_back(vertex.time);
     }
     for (const auto& [strip, of_strip] : here) {
       const std::vector<TimeSpan> spans = continuousSpans(of_strip);

@@ -153,8 +153,8 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
                             std::sqrt(b.density) / kSpread;
   const double tilt = std::hypot(sample.normal.x(), sample.normal.y());
   o.normal = tilt < tilt_noise ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : sample.normal;
-  o.variance = 0.0;
-  o.sources.setZero();
+  double variance = 0.0;
+  ErrorSourceRow sources = ErrorSourceRow::Zero();
   for (const StripGeometry* strip : {a, &b}) {
     if (strip == nullptr) continue;
     const double along = strip->along(place);
@@ -163,17 +163,19 @@ bool SyntheticPairs::observe(const Sample& sample, const StripGeometry* a, const
       return false;
     }
     const bool patch = strip == &b;
-    (patch ? o.row_b : o.row_a) = o.normal.transpose() * designBlock(g);
+    (patch ? o.row_b : o.row_a) = (o.normal.transpose() * designBlock(g)).cast<float>();
     (patch ? o.time_b : o.time_a) = strip->timeAbeam(place);
-    o.variance +=
+    variance +=
         (patch ? kFootShare : 1.0) * normalVariance(settings_.noise.pointCovariance(g), o.normal);
     const double sign = patch ? -1.0 : 1.0;
-    o.sources[indexOf(ErrorSource::slope_ranging)] +=
+    sources[indexOf(ErrorSource::slope_ranging)] +=
         sign * stretchEffect(g.range(), g.beam(), o.normal, settings_.noise.beam_divergence);
-    o.sources[indexOf(ErrorSource::range_scale)] += sign * g.range() * o.normal.dot(g.beam());
-    o.lateral = std::abs(g.x);
-    o.height = std::abs(g.z);
+    sources[indexOf(ErrorSource::range_scale)] += sign * g.range() * o.normal.dot(g.beam());
+    o.lateral = static_cast<float>(std::abs(g.x));
+    o.height = static_cast<float>(std::abs(g.z));
   }
+  o.variance = static_cast<float>(variance);
+  o.sources = sources.cast<float>();
   return true;
 }
 
@@ -228,7 +230,7 @@ bool SyntheticPairs::addControl(const Eigen::Vector2d& place, ObservedBlock& blo
     PairObservation o;
     o.b = static_cast<int>(b);
     if (!observe(sample, nullptr, block.strips[b], o)) continue;
-    o.variance += settings_.control_sigma * settings_.control_sigma;
+    o.variance += static_cast<float>(settings_.control_sigma * settings_.control_sigma);
     observations.push_back(o);
   }
   if (observations.empty()) return false;
