@@ -367,7 +367,8 @@ std::string CommandLine::help() const {
 std::vector<std::pair<std::string, std::string>> CommandLine::settings() const {
   std::vector<std::pair<std::string, std::string>> settings;
   for (const Option& option : options_)
-    if (has(option.name)) settings.emplace_back(option.name, text(option.name));
+    if (option.is_setting && has(option.name))
+      settings.emplace_back(option.name, text(option.name));
   std::sort(settings.begin(), settings.end());
   return settings;
 }

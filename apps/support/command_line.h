@@ -112,7 +112,7 @@ class CommandLine {
   /// "pcl_als_info 0.1.0"
   std::string toolAndVersion() const;
   std::string help() const;
-  /// All options that have a value, as given or by default, for a report: name, text.
+  /// All settings that have a value, as given or by default, for a report: name, text.
   std::vector<std::pair<std::string, std::string>> settings() const;
 
  private:

@@ -43,6 +43,7 @@ struct Option {
   std::string name, help;
   Role role = Role::text;
   bool is_needed = false;
+  bool is_setting = true;             ///< listed by CommandLine::settings()
   bool is_list = false;               ///< takes the values that follow it, and may be repeated
   std::optional<std::string> preset;  ///< the value where none is given
   Range range{0.0, 0.0, {}};          ///< of numbers
@@ -50,6 +51,11 @@ struct Option {
   InputFiles inputs;                  ///< of role input
   FolderFiles files;                  ///< of an output that is or may be a folder
 
+  /// Results do not depend on it: reports and records of the command leave it out.
+  Option& noSetting() {
+    is_setting = false;
+    return *this;
+  }
   /// The command is refused without it.
   Option& needed() {
     is_needed = true;

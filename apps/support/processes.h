@@ -9,8 +9,8 @@
 
 namespace pcl_als::app {
 
-/// As run(), of a tool that shares its job among the processes that mpirun started: the first one
-/// prints and reports failures.
+/// As run(), of a tool that shares its job among the processes that mpirun started, or that were
+/// started with -process and -exchange, which it declares: the first one prints.
 int runShared(int argc, const char* const* argv, CommandLine (*options)(),
               int (*job)(const CommandLine& line));
 /// The processes of the job; null where there is one.

@@ -60,8 +60,8 @@ TEST(CalibrationResult, TheInstrumentPartHoldsNothingOfTheFlight) {
 
 TEST(CalibrationResult, ReportsBrieflyAndInFull) {
   CalibrationResult result;
-  result[SystemParameter::boresight_roll] = {
-      -90.0 * kRadiansPerArcsec, 0.5 * kRadiansPerArcsec, 0.1, ParameterStatus::estimated, ""};
+  result[SystemParameter::boresight_roll] = {-90.0 * kRadiansPerArcsec, 0.5 * kRadiansPerArcsec,
+                                             0.1, ParameterStatus::estimated, ""};
   result[SystemParameter::range_bias] = {0.12, 0.004, 0.001, ParameterStatus::estimated, ""};
   result.sigma0 = 1.05;
   result.iterations.resize(7);

@@ -1,96 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <algorithm>
-#include <condition_variable>
+#include <atomic>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/folder_communicator.h>
 #include <pcl_als/common/shared_work.h>
+
+#include "test_files.h"
 
 namespace pcl_als {
 namespace {
 
-/// Processes that are threads of this program.
-class Ranks {
- public:
-  explicit Ranks(int size) : size_(size), slots_(static_cast<std::size_t>(size)) {}
-
-  /// Runs a job in each process; the messages of its exceptions by rank.
-  std::vector<std::string> run(const std::function<void(Communicator&)>& job);
-
- private:
-  friend class Rank;
-  std::vector<std::string> gather(int rank, const std::string& bytes) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    slots_[static_cast<std::size_t>(rank)] = bytes;
-    wait(lock);
-    std::vector<std::string> all = slots_;
-    wait(lock);
-    return all;
-  }
-  void wait(std::unique_lock<std::mutex>& lock) {
-    const int round = round_;
-    if (++waiting_ == size_) {
-      waiting_ = 0;
-      ++round_;
-      all_here_.notify_all();
-    }
-    all_here_.wait(lock, [&] { return round_ != round; });
-  }
-
-  int size_, waiting_ = 0, round_ = 0;
-  std::vector<std::string> slots_;
-  std::atomic<int> failures_{0};
-  std::mutex mutex_;
-  std::condition_variable all_here_;
-};
-
-class Rank : public Communicator {
- public:
-  Rank(Ranks& all, int rank) : all_(all), rank_(rank) {}
-  int rank() const override { return rank_; }
-  int size() const override { return all_.size_; }
-  std::vector<std::string> gatherAll(const std::string& bytes) override {
-    return all_.gather(rank_, bytes);
-  }
-  std::vector<std::string> exchange(const std::vector<std::string>& bytes) override {
-    const std::vector<std::string> all = gatherAll(ByteWriter().put(bytes).take());
-    std::vector<std::string> received;
-    for (const std::string& one : all)
-      received.push_back(
-          ByteReader(one).take<std::vector<std::string>>()[static_cast<std::size_t>(rank_)]);
-    return received;
-  }
-  void beginPart() override {}
-  void endPart() override { gatherAll({}); }
-  bool advance(double) override { return failed_ || all_.failures_ == 0; }
-  double progress() const override { return 0.5; }
-  void announceFailure() override {
-    failed_ = true;
-    ++all_.failures_;
-  }
-
- private:
-  Ranks& all_;
-  int rank_;
-  bool failed_ = false;
-};
-
-std::vector<std::string> Ranks::run(const std::function<void(Communicator&)>& job) {
-  std::vector<std::string> messages(static_cast<std::size_t>(size_));
+/// Runs a job in processes that are threads of this program; the messages of its exceptions by
+/// rank.
+std::vector<std::string> runAmong(int size, const std::function<void(Communicator&)>& job) {
+  const std::filesystem::path folder = test::scratch("processes");
+  std::vector<std::string> messages(static_cast<std::size_t>(size));
   std::vector<std::thread> threads;
-  for (int rank = 0; rank < size_; ++rank) {
+  for (int rank = 0; rank < size; ++rank) {
     threads.emplace_back([&, rank] {
-      Rank process(*this, rank);
+      FolderCommunicator process(folder, rank, size);
+      std::exception_ptr failure;
       try {
         job(process);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      try {
+        process.conclude(failure);
       } catch (const std::exception& error) {
         messages[static_cast<std::size_t>(rank)] = error.what();
       }
     });
   }
   for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
   return messages;
 }
 
@@ -109,7 +57,7 @@ TEST(ByteStream, GivesBackWhatWasWritten) {
 }
 
 TEST(SharedItems, GiveTheMostExpensiveItemsFirst) {
-  Ranks(2).run([](Communicator& process) {
+  runAmong(2, [](Communicator& process) {
     const SharedItems items(&process, std::vector<double>{1.0, 5.0, 2.0, 2.0});
     EXPECT_EQ(items.owner(1), 0);  // 5 against 2 + 2 + 1
     for (const std::size_t item : {0, 2, 3}) EXPECT_EQ(items.owner(item), 1);
@@ -118,7 +66,7 @@ TEST(SharedItems, GiveTheMostExpensiveItemsFirst) {
 }
 
 TEST(SharedWork, GivesAllResultsToAllProcesses) {
-  const auto messages = Ranks(3).run([](Communicator& process) {
+  const auto messages = runAmong(3, [](Communicator& process) {
     const SharedItems items(&process, std::vector<double>(10, 1.0));
     std::vector<int> squares(10, -1);
     for (const std::size_t item : items.ownItems()) squares[item] = static_cast<int>(item * item);
@@ -131,7 +79,7 @@ TEST(SharedWork, GivesAllResultsToAllProcesses) {
 }
 
 TEST(SharedWork, FailureOfOneIsThatOfAll) {
-  const auto messages = Ranks(3).run([](Communicator& process) {
+  const auto messages = runAmong(3, [](Communicator& process) {
     const ProgressCallback callback = sharedProgress(&process, {});
     try {
       doTogether(&process, [&] {
@@ -149,15 +97,76 @@ TEST(SharedWork, FailureOfOneIsThatOfAll) {
 
 TEST(SharedWork, OnlyTheRootReportsProgress) {
   std::atomic<int> calls{0};
-  Ranks(4).run([&calls](Communicator& process) {
+  runAmong(4, [&calls](Communicator& process) {
     ProgressReport progress(sharedProgress(&process, [&calls](const JobProgress& now) {
       ++calls;
-      return now.event != JobProgress::Event::advance || now.fraction == 0.5;
+      return now.event != JobProgress::Event::advance || now.fraction <= 0.25;
     }));
     progress.begin("Writing");
     progress.advance(0.25);  // the root reports the mean of all
   });
   EXPECT_EQ(calls, 2);
+}
+
+TEST(FolderCommunicator, GivesEachProcessTheBytesForIt) {
+  const auto messages = runAmong(3, [](Communicator& process) {
+    for (int round = 0; round < 4; ++round) {
+      std::vector<std::string> sent;
+      for (int to = 0; to < 3; ++to)
+        sent.push_back(
+            std::string(1 << (4 * round), static_cast<char>('a' + 3 * process.rank() + to)));
+      const std::vector<std::string> received = process.exchange(sent);
+      for (int from = 0; from < 3; ++from)
+        EXPECT_EQ(
+            received[static_cast<std::size_t>(from)],
+            std::string(1 << (4 * round), static_cast<char>('a' + 3 * from + process.rank())));
+    }
+  });
+  EXPECT_EQ(messages, std::vector<std::string>(3));
+}
+
+/// One that fails between two messages, of which the others wait for the second.
+TEST(FolderCommunicator, TellsOthersOfAFailureWhereverTheyWait) {
+  const auto messages = runAmong(3, [](Communicator& process) {
+    process.gatherAll("first");
+    if (process.rank() == 2) throw UsageError("no pair is left");
+    process.gatherAll("second");
+  });
+  EXPECT_EQ(messages, std::vector<std::string>(3, "no pair is left"));
+}
+
+/// A process that ends without conclude(), as one that is killed.
+TEST(FolderCommunicator, DoesNotWaitForALostProcess) {
+  const std::filesystem::path folder = test::scratch("processes");
+  constexpr std::chrono::seconds kPatience(4);
+  FolderCommunicator first(folder, 0, 2, kPatience);
+  { const FolderCommunicator second(folder, 1, 2, kPatience); }
+  try {
+    first.gatherAll("anything");
+    FAIL() << "no exception";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("process 2 of 2 has not answered for 4 s"),
+              std::string::npos);
+  }
+}
+
+TEST(FolderCommunicator, RefusesAnotherNumberOfProcesses) {
+  const std::filesystem::path folder = test::scratch("number_of_processes");
+  FolderCommunicator first(folder, 0, 3), second(folder, 1, 2);
+  EXPECT_NE(test::messageOf<UsageError>([&] {
+              first.gatherAll("anything");
+            }).find("process 2 of 3 was started as one of 2"),
+            std::string::npos);
+}
+
+TEST(FolderCommunicator, RefusesTheFolderOfAnotherRun) {
+  const std::filesystem::path folder = test::scratch("processes");
+  { const FolderCommunicator process(folder, 0, 2); }
+  EXPECT_THROW(FolderCommunicator(folder, 0, 2), InputError);
+  const std::filesystem::path file = folder / "file";
+  std::ofstream(file) << "no folder";
+  EXPECT_THROW(FolderCommunicator(file, 0, 2), InputError);
+  EXPECT_THROW(FolderCommunicator(folder, 2, 2), UsageError);
 }
 
 }  // namespace

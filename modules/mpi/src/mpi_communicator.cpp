@@ -26,6 +26,7 @@ constexpr int kData = 1, kProgress = 2, kFailure = 3;     // tags
 constexpr std::size_t kPiece = std::size_t{1} << 28;      // bytes in one message; MPI counts in int
 constexpr auto kPause = std::chrono::milliseconds(1);     // between looks at what is awaited
 constexpr auto kLook = std::chrono::milliseconds(100);    // between looks for failures
+constexpr double kPatience = 10.0;                        // seconds, of a process that failed
 constexpr auto kReport = std::chrono::milliseconds(500);  // between reports of progress
 
 /// Calls \a use(offset, size) for the pieces of a message.
@@ -209,8 +210,8 @@ void MpiCommunicator::announceFailure() {
     if (other != rank()) state_->control.send(other, kFailure, 1);
 }
 
-bool MpiCommunicator::conclude(const std::exception_ptr& failure, double patience) {
-  if (!State::waitForAll(state_->ending, failure ? patience : -1.0)) return false;
+bool MpiCommunicator::conclude(const std::exception_ptr& failure) {
+  if (!State::waitForAll(state_->ending, failure ? kPatience : -1.0)) return false;
   for (const std::string& one : gatherAll(failure ? encodeFailure(failure) : std::string()))
     if (!one.empty()) throwFailure(one);
   return true;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace pcl_als {
  * A distributed job runs the same program in every process (rank). Each process does a part of the
  * items of a loop (files, areas, tiles), the results of all items are gathered at every process,
  * and what follows is computed by all of them alike. Jobs take a pointer; null stands for a single
- * process. The implementation by MPI is MpiCommunicator in module mpi.
+ * process. FolderCommunicator exchanges messages as files; the implementation by MPI is
+ * MpiCommunicator in module mpi.
  *
  * The functions that are marked collective are called by all processes in the same order.
  */
@@ -40,6 +42,12 @@ class Communicator {
   virtual double progress() const = 0;
   /// During a part: makes advance() return false in the other processes.
   virtual void announceFailure() = 0;
+
+  /** \brief Collective: the end of the job, with the exception that ended it in this process, or
+   * null. Throws the exception of the first process by rank that has one. Returns false where this
+   * process failed and the others cannot be told.
+   */
+  virtual bool conclude(const std::exception_ptr& failure) = 0;
 
  protected:
   Communicator() = default;

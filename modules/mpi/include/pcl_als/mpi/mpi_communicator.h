@@ -41,13 +41,9 @@ class MpiCommunicator : public Communicator {
   double progress() const override;
   void announceFailure() override;
 
-  /** \brief Collective: the end of the job, with the exception that ended it in this process, or
-   * null. Throws the exception of the first process by rank that has one.
-   *
-   * A process that failed waits \a patience seconds for the others. Where they do not arrive, they
-   * expect its results: returns false, and the process reports its exception and calls abort().
-   */
-  bool conclude(const std::exception_ptr& failure, double patience = 10.0);
+  /// A process that failed waits ten seconds for the others. Where they do not arrive, they expect
+  /// its results: returns false, and the process reports its exception and calls abort().
+  bool conclude(const std::exception_ptr& failure) override;
   /// Ends all processes; their unfinished files are removed by their signal handlers.
   [[noreturn]] void abort(int status);
 
