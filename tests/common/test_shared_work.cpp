@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -95,17 +96,28 @@ TEST(SharedWork, FailureOfOneIsThatOfAll) {
   EXPECT_EQ(messages, std::vector<std::string>(3, "file 7 is damaged"));
 }
 
+/// Four shares of different size: the root reports their mean, 0.5.
 TEST(SharedWork, OnlyTheRootReportsProgress) {
-  std::atomic<int> calls{0};
-  runAmong(4, [&calls](Communicator& process) {
-    ProgressReport progress(sharedProgress(&process, [&calls](const JobProgress& now) {
-      ++calls;
-      return now.event != JobProgress::Event::advance || now.fraction <= 0.25;
+  std::atomic<bool> seen{false};
+  std::atomic<int> calls_of_others{0};
+  const auto messages = runAmong(4, [&](Communicator& process) {
+    ProgressReport progress(sharedProgress(&process, [&](const JobProgress& now) {
+      if (!process.isRoot()) ++calls_of_others;
+      if (now.event == JobProgress::Event::advance && now.fraction == 0.5) seen = true;
+      return true;
     }));
     progress.begin("Writing");
-    progress.advance(0.25);  // the root reports the mean of all
+    doTogether(&process, [&] {
+      const auto start = std::chrono::steady_clock::now();
+      while (!seen && std::chrono::steady_clock::now() - start < std::chrono::seconds(30)) {
+        progress.advance(0.125 + 0.25 * process.rank());
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    });
   });
-  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(messages, std::vector<std::string>(4));
+  EXPECT_TRUE(seen);
+  EXPECT_EQ(calls_of_others, 0);
 }
 
 TEST(FolderCommunicator, GivesEachProcessTheBytesForIt) {

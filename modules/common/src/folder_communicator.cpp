@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/folder_communicator.h>
 #include <pcl_als/common/shared_work.h>
@@ -25,12 +26,13 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kShortestPause = std::chrono::milliseconds(2);   // between looks for a message
 constexpr auto kLongestPause = std::chrono::milliseconds(200);  // after a long wait
 constexpr auto kLook = std::chrono::milliseconds(500);          // between looks for failures
-constexpr auto kRenewal = std::chrono::seconds(2);              // of the sign of life
-constexpr auto kFarewell = std::chrono::seconds(10);  // that the first process waits to tidy up
+constexpr auto kHeartbeat = std::chrono::seconds(2);            // between two heartbeats
+constexpr auto kDeparture =
+    std::chrono::seconds(10);  // of the other processes, for which the first one waits
 
 /// Beginnings of the names of the files of a job.
-constexpr std::array<const char*, 6> kKinds{"process-", "alive-", "message",
-                                            "failure",  "end-",   "left-"};
+constexpr std::array<const char*, 6> kKinds{"process-", "heartbeat-", "message",
+                                            "failure",  "end-",       "left-"};
 
 bool readWhole(const fs::path& path, std::string& bytes) {
   std::ifstream file(path, std::ios::binary);
@@ -54,8 +56,8 @@ void removeFile(const fs::path& path) {
 }  // namespace
 
 struct FolderCommunicator::State {
-  /// What another process last showed of itself.
-  struct Sign {
+  /// What another process last told of itself.
+  struct Heartbeat {
     std::string text;
     Clock::time_point since = Clock::now();  ///< that it has been this text
     bool begun = false;
@@ -68,7 +70,7 @@ struct FolderCommunicator::State {
         rank(number),
         size(count),
         patience(wait),
-        signs(static_cast<std::size_t>(count)) {}
+        heartbeats(static_cast<std::size_t>(count)) {}
 
   fs::path file(const std::string& kind, int of) const {
     return folder / (kind + "-" + std::to_string(of + 1));
@@ -81,18 +83,18 @@ struct FolderCommunicator::State {
   }
 
   void begin();
-  void write(const fs::path& path, const std::string& bytes) const;
-  void show();
+  void beat();
   /// Waits for a message of another process and reads it.
   std::string await(const fs::path& path, int from);
-  /// Throws where a process failed, has ended or no longer shows a sign of life.
-  void checkOthers(int awaited);
-  void look(int other);
+  /// Throws where a process failed, or where the one that is awaited has ended or lost its
+  /// heartbeat.
+  void checkOthers(int awaited, bool ended);
+  void readHeartbeat(int other);
   /// Waits for what ended another process; not for one that has not begun or has been lost.
   void awaitEnd(int other, std::string& end);
-  void stopRenewal();
+  void stopHeartbeat();
   /// Removes all files of the job, once all other processes have left it.
-  void tidy() const;
+  void removeFiles() const;
   /// All messages of one number have arrived: so have all of those before at all processes.
   void finishMessage(const fs::path& own);
 
@@ -103,28 +105,14 @@ struct FolderCommunicator::State {
   fs::path kept;  ///< message of this process that others may still read
   bool in_part = false, others_failed = false;
   double share = 0.0;
-  std::vector<Sign> signs;
+  std::vector<Heartbeat> heartbeats;
   Clock::time_point last_look;
-  std::uint64_t renewals = 0;
+  std::uint64_t beats = 0;
   mutable std::mutex mutex;
   std::condition_variable wake;
   bool ends = false;
-  std::thread renewal;
+  std::thread beating;
 };
-
-void FolderCommunicator::State::write(const fs::path& path, const std::string& bytes) const {
-  const fs::path partial = path.string() + ".partial";
-  std::ofstream file(partial, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(partial, path, error);
-  if (file && !error) return;
-  removeFile(partial);
-  throw InputError(path.string() +
-                   ": cannot be written: the processes of a job need a folder with "
-                   "enough space that all of them can write");
-}
 
 void FolderCommunicator::State::begin() {
   std::error_code error;
@@ -138,12 +126,12 @@ void FolderCommunicator::State::begin() {
                      " of another run: give each job a new folder, or empty this one");
   if (made == nullptr) throw InputError(mark.string() + ": cannot be written");
   std::fclose(made);
-  show();
-  renewal = std::thread([this] {
+  beat();
+  beating = std::thread([this] {
     std::unique_lock<std::mutex> lock(mutex);
-    while (!wake.wait_for(lock, kRenewal, [this] { return ends; })) {
+    while (!wake.wait_for(lock, kHeartbeat, [this] { return ends; })) {
       try {
-        show();
+        beat();
       } catch (const InputError&) {
         // The next message of this process meets the same error, and reports it.
         continue;
@@ -152,40 +140,40 @@ void FolderCommunicator::State::begin() {
   });
 }
 
-void FolderCommunicator::State::show() {
+void FolderCommunicator::State::beat() {
   std::ostringstream text;
-  text << ++renewals << ' ' << size << ' ' << parts << ' ' << share;
-  write(file("alive", rank), text.str());
+  text << ++beats << ' ' << size << ' ' << parts << ' ' << share;
+  writeFile(file("heartbeat", rank), text.str());
 }
 
-void FolderCommunicator::State::look(int other) {
-  Sign& sign = signs[static_cast<std::size_t>(other)];
+void FolderCommunicator::State::readHeartbeat(int other) {
+  Heartbeat& heartbeat = heartbeats[static_cast<std::size_t>(other)];
   std::string text;
-  if (!readWhole(file("alive", other), text) || text == sign.text) return;
-  sign.begun = true;
-  sign.text = text;
-  sign.since = Clock::now();
+  if (!readWhole(file("heartbeat", other), text) || text == heartbeat.text) return;
+  heartbeat.begun = true;
+  heartbeat.text = text;
+  heartbeat.since = Clock::now();
   std::istringstream values(text);
   std::uint64_t count = 0, part = 0;
-  values >> count >> sign.size >> part >> sign.share;
-  if (part != parts) sign.share = part > parts ? 1.0 : 0.0;
+  values >> count >> heartbeat.size >> part >> heartbeat.share;
+  if (part != parts) heartbeat.share = part > parts ? 1.0 : 0.0;
 }
 
-void FolderCommunicator::State::checkOthers(int awaited) {
+void FolderCommunicator::State::checkOthers(int awaited, bool ended) {
   std::string failure;
   for (int other = 0; other < size; ++other)
     if (other != rank && readWhole(file("end", other), failure) && !failure.empty())
       throwFailure(failure);
-  if (isThere(file("end", awaited)))
+  if (ended)
     throw InputError(folder.string() + ": " + name(awaited) +
                      " has ended, with another job than this process");
   const std::lock_guard<std::mutex> lock(mutex);
-  look(awaited);
-  const Sign& sign = signs[static_cast<std::size_t>(awaited)];
-  if (sign.begun && sign.size != size)
+  readHeartbeat(awaited);
+  const Heartbeat& heartbeat = heartbeats[static_cast<std::size_t>(awaited)];
+  if (heartbeat.begun && heartbeat.size != size)
     throw UsageError(folder.string() + ": " + name(awaited) + " was started as one of " +
-                     std::to_string(sign.size));
-  if (!sign.begun || Clock::now() - sign.since < patience) return;
+                     std::to_string(heartbeat.size));
+  if (!heartbeat.begun || Clock::now() - heartbeat.since < patience) return;
   throw InputError(folder.string() + ": " + name(awaited) + " has not answered for " +
                    std::to_string(patience.count()) +
                    " s: start all processes again, with a new folder");
@@ -198,9 +186,9 @@ std::string FolderCommunicator::State::await(const fs::path& path, int from) {
     if (readWhole(path, bytes)) return bytes;
     if (Clock::now() - checked > kLook) {
       checked = Clock::now();
-      // A message may have arrived between the look at it and the end of its process.
+      const bool ended = isThere(file("end", from));  // what it sent was there before
       if (readWhole(path, bytes)) return bytes;
-      checkOthers(from);
+      checkOthers(from, ended);
     }
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, kLongestPause);
@@ -214,28 +202,28 @@ void FolderCommunicator::State::finishMessage(const fs::path& own) {
 
 void FolderCommunicator::State::awaitEnd(int other, std::string& end) {
   while (!readWhole(file("end", other), end)) {
-    look(other);
-    const Sign& sign = signs[static_cast<std::size_t>(other)];
+    readHeartbeat(other);
+    const Heartbeat& heartbeat = heartbeats[static_cast<std::size_t>(other)];
     // One that begins later finds the failure.
-    if (!sign.begun || Clock::now() - sign.since > patience) return;
+    if (!heartbeat.begun || Clock::now() - heartbeat.since > patience) return;
     std::this_thread::sleep_for(kLongestPause);
   }
 }
 
-void FolderCommunicator::State::stopRenewal() {
+void FolderCommunicator::State::stopHeartbeat() {
   {
     const std::lock_guard<std::mutex> lock(mutex);
     ends = true;
   }
   wake.notify_all();
-  if (renewal.joinable()) renewal.join();
+  if (beating.joinable()) beating.join();
 }
 
-void FolderCommunicator::State::tidy() const {
+void FolderCommunicator::State::removeFiles() const {
   const Clock::time_point start = Clock::now();
   for (int other = 0; other < size; ++other) {
     while (!isThere(file("left", other))) {
-      if (Clock::now() - start > kFarewell) return;
+      if (Clock::now() - start > kDeparture) return;
       std::this_thread::sleep_for(kShortestPause);
     }
   }
@@ -259,7 +247,7 @@ FolderCommunicator::FolderCommunicator(fs::path folder, int rank, int size,
 }
 
 FolderCommunicator::~FolderCommunicator() {
-  state_->stopRenewal();
+  state_->stopHeartbeat();
 }
 
 int FolderCommunicator::rank() const {
@@ -274,7 +262,7 @@ std::vector<std::string> FolderCommunicator::gatherAll(const std::string& bytes)
   State& s = *state_;
   const std::uint64_t number = ++s.messages;
   const fs::path own = s.message(number, s.rank);
-  s.write(own, bytes);
+  writeFile(own, bytes);
   std::vector<std::string> all(static_cast<std::size_t>(s.size));
   for (int from = 0; from < s.size; ++from)
     all[static_cast<std::size_t>(from)] =
@@ -290,7 +278,7 @@ std::vector<std::string> FolderCommunicator::exchange(const std::vector<std::str
     return fs::path(s.message(number, from).string() + ".to." + std::to_string(to + 1));
   };
   for (int to = 0; to < s.size; ++to)
-    if (to != s.rank) s.write(between(s.rank, to), bytes[static_cast<std::size_t>(to)]);
+    if (to != s.rank) writeFile(between(s.rank, to), bytes[static_cast<std::size_t>(to)]);
   std::vector<std::string> received(static_cast<std::size_t>(s.size));
   for (int from = 0; from < s.size; ++from) {
     if (from == s.rank) {
@@ -327,7 +315,7 @@ bool FolderCommunicator::advance(double fraction) {
   s.last_look = now;
   for (int other = 0; other < s.size; ++other) {
     if (other == s.rank) continue;
-    if (s.rank == 0) s.look(other);
+    if (s.rank == 0) s.readHeartbeat(other);
     s.others_failed = s.others_failed ||
                       isThere(s.file("failure" + std::to_string(s.parts), other)) ||
                       isThere(s.file("end", other));
@@ -339,24 +327,24 @@ double FolderCommunicator::progress() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   double sum = state_->share;
   for (int other = 0; other < state_->size; ++other)
-    if (other != state_->rank) sum += state_->signs[static_cast<std::size_t>(other)].share;
+    if (other != state_->rank) sum += state_->heartbeats[static_cast<std::size_t>(other)].share;
   return sum / state_->size;
 }
 
 void FolderCommunicator::announceFailure() {
-  state_->write(state_->file("failure" + std::to_string(state_->parts), state_->rank), {});
+  writeFile(state_->file("failure" + std::to_string(state_->parts), state_->rank), {});
 }
 
 bool FolderCommunicator::conclude(const std::exception_ptr& failure) {
   State& s = *state_;
   std::vector<std::string> ends(static_cast<std::size_t>(s.size));
   ends[static_cast<std::size_t>(s.rank)] = failure ? encodeFailure(failure) : std::string();
-  s.write(s.file("end", s.rank), ends[static_cast<std::size_t>(s.rank)]);
+  writeFile(s.file("end", s.rank), ends[static_cast<std::size_t>(s.rank)]);
   for (int other = 0; other < s.size; ++other)
     if (other != s.rank) s.awaitEnd(other, ends[static_cast<std::size_t>(other)]);
-  s.stopRenewal();
-  s.write(s.file("left", s.rank), {});
-  if (s.rank == 0) s.tidy();
+  s.stopHeartbeat();
+  writeFile(s.file("left", s.rank), {});
+  if (s.rank == 0) s.removeFiles();
   for (const std::string& end : ends)
     if (!end.empty()) throwFailure(end);
   return true;

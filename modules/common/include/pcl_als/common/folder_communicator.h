@@ -18,9 +18,9 @@ namespace pcl_als {
  *
  * All processes of a job have to run at the same time. A message is written under another name and
  * renamed, so that no process reads a part of it; a message that all have read is removed. Each
- * process renews a file of its own every two seconds: one that has begun and does not do so for
- * \a patience counts as ended. Messages have the size of the partial results, such as the points of
- * the areas of a calibration.
+ * process writes a heartbeat to a file of its own every two seconds: one that has begun and does
+ * not do so for \a patience counts as ended. Messages have the size of the partial results, such as
+ * the points of the areas of a calibration.
  *
  * \code
  * FolderCommunicator processes("/scratch/job17", 0, 4);  // the other three: 1, 2, 3
