@@ -52,7 +52,7 @@ listed() {  # FOLDER: the names in the lists of files that were written there
 }
 
 # compare WHAT VERB STATUS ARG…: the job in 1, 2 and 4 processes gives the files of one without
-# -process and mpirun, each in a folder of its own. What depends on time and memory is left out.
+# -process and mpirun, each in a folder of its own. What depends on time and memory is not compared.
 compare() {
   local what=$1 verb=$2 wanted=$3 n
   shift 3

@@ -59,9 +59,9 @@ struct RestrictedLikelihood {
  * larger of the two standard deviations is used.
  *
  * Noise of the measured slopes acts like information, sum w t't (t: PairObservation::tilt) over
- * pairs with rows r = n'A. Where half of the information in a direction may stem from this noise,
- * the direction counts as not determined: its standard deviation becomes so large that the
- * parameter is left out.
+ * pairs. Where half of the information in a direction may stem from this noise, the direction
+ * counts as not determined: its standard deviation becomes so large that the parameter is not
+ * estimated.
  */
 class Adjustment {
  public:

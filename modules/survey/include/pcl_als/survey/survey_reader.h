@@ -142,8 +142,8 @@ class SurveyReader {
   struct Reading {
     /// own: each process gets all points of its own strips and none of the others (collective).
     /// all: this process gets all points of all strips, whatever the others do.
-    /// first: the first process gets all points of all strips, the others none (collective); what
-    /// was left out is known to the first one.
+    /// first: the first process gets all points of all strips, the others none (collective);
+    /// only the first one learns which points were left out.
     enum class Share { own, all, first };
     Share share = Share::own;
     std::vector<std::size_t> files;  ///< indices of the files that are read; empty: all
