@@ -5,8 +5,8 @@
 
 #include <pcl_als/calibration/survey_calibration.h>
 #include <pcl_als/common/bias_list.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/reference_source.h>
@@ -179,8 +179,7 @@ void writeReport(const CommandLine& line, const SurveyCalibration& calibration,
   Step step("Writing the report into " + folder.string(), line.quiet());
   writeCalibrationCsv(folder, calibration.result, calibration.areas, calibration.information);
   page.write(originOf(line), calibration.result, calibration.areas, calibration.flight);
-  step.done(CalibrationPage::draws() ? "report.html with pictures, report.md"
-                                     : "report.md; no report.html: built without VTK");
+  step.done("report.html with pictures, report.md");
 }
 
 /// The verdict's exit status; corrected files only of a calibration that may be applied.

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/memory.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/processing/survey_check.h>
@@ -143,9 +143,8 @@ void writeReport(const CommandLine& line, const QualityReport& report,
   const fs::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
   writeQualityTables(folder, report);
-  if (QualityPage::draws()) page.write(app::reportOrigin(line), report, areas);
-  step.done(QualityPage::draws() ? "report.html with pictures, report.md, quality.md, CSV"
-                                 : "quality.md, CSV; no report.html: built without VTK");
+  page.write(app::reportOrigin(line), report, areas);
+  step.done("report.html with pictures, report.md, quality.md, CSV");
 }
 
 int check(const CommandLine& line) {

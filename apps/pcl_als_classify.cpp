@@ -4,8 +4,8 @@
 #include <optional>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/class_io.h>
 #include <pcl_als/processing/class_maps.h>

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/point_conversion.h>
 
 #include "command_line.h"

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <optional>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/file_motion.h>
 #include <pcl_als/processing/pair_alignment.h>
 #include <pcl_als/report/alignment_report.h>

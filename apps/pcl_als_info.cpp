@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/survey_census.h>
 #include <pcl_als/processing/flight_assessment.h>
 #include <pcl_als/processing/flight_file.h>

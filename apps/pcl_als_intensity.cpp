@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/file_batch.h>
 #include <pcl_als/processing/intensity_job.h>

@@ -16,6 +16,15 @@ using app::CommandLine;
 using app::Step;
 namespace fs = std::filesystem;
 
+const std::vector<std::string>& formats() {
+  static const std::vector<std::string> names{"png", "svg", "pdf"};
+  return names;
+}
+
+std::string endingOf(const CommandLine& line) {
+  return "." + formats()[line.choice("format")];
+}
+
 /// The pictures that are asked for. Of a plot that several files hold, all but the first have the
 /// name of their file before it: they are checked when the files are read.
 std::optional<std::vector<std::string>> pictures(const CommandLine& line) {
@@ -34,7 +43,7 @@ std::optional<std::vector<std::string>> pictures(const CommandLine& line) {
                                  "strip_gains",
                                  "confusion"};
   if (line.has("plots")) names = splitList(line.text("plots"));
-  for (std::string& name : names) name += ".png";
+  for (std::string& name : names) name += endingOf(line);
   return names;
 }
 
@@ -42,13 +51,14 @@ CommandLine commandLine() {
   CommandLine line("pcl_als_plot",
                    "draws result files (JSON) as plots: parameters, correlations, residuals, "
                    "convergence, offsets, variance-to-mean, confusion matrices",
-                   "RESULT.json... -output FOLDER [-plots NAME,...]",
+                   "RESULT.json... -output FOLDER [-plots NAME,...] [-format svg]",
                    "pcl_als_plot calibration.json -output plots -plots parameters,correlation");
   line.setArguments({{"", 1, 1000}});
-  line.addOutputFolder("output", "folder for NAME.png of every plot", pictures).needed();
+  line.addOutputFolder("output", "folder for a file NAME.png of every plot", pictures).needed();
   line.addText("plots",
                "only these, e.g. parameters,residuals (default: all that the files "
                "hold)");
+  line.addChoice("format", "of the files: png, svg or pdf", formats(), "png");
   app::addSizeOption(line);
   return line;
 }
@@ -78,13 +88,13 @@ int plot(const CommandLine& line) {
   }
   std::vector<fs::path> outputs;
   for (const NamedPlot& each : plots)
-    outputs.push_back(fs::path(line.text("output")) / (each.name + ".png"));
+    outputs.push_back(fs::path(line.text("output")) / (each.name + endingOf(line)));
   refuseForeign(outputs);
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const NamedPlot& each = plots[i];
     const fs::path& output = outputs[i];
     Step step("Drawing " + output.string(), line.quiet());
-    writePng(output, drawn(each, size).image());
+    drawn(each, size).write(output);
     step.done(std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels");
   }
   return app::kDone;

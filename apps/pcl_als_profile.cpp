@@ -5,15 +5,14 @@
 #include <filesystem>
 #include <optional>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/section.h>
+#include <pcl_als/drawing/section_search.h>
 #include <pcl_als/processing/picture/picture_source.h>
 #include <pcl_als/processing/picture/section_files.h>
 #include <pcl_als/processing/picture/section_places.h>
 #include <pcl_als/processing/picture/survey_picture.h>
-#include <pcl_als/visualization/section.h>
-#include <pcl_als/visualization/section_search.h>
-#include <pcl_als/visualization/ticks.h>
 
 #include "command_line.h"
 #include "picture_options.h"
@@ -129,7 +128,7 @@ int profile(const CommandLine& line) {
         automatic ? fs::path(line.text("output")) / ("profile" + std::to_string(i + 1) + ".png")
                   : fs::path(line.text("output"));
     Step drawing("Drawing " + output.string(), line.quiet());
-    writePng(output, picture.draw(size).image());
+    picture.draw(size).write(output);
     drawing.done(automatic ? describe(places[i]) : grouped(before[i].seen()) + " points");
   }
   return app::kDone;

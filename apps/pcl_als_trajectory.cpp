@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <iostream>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>

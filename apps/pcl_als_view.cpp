@@ -4,7 +4,9 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/processing/picture/survey_picture.h>
-#include <pcl_als/visualization/private_display.h>
+#if PCL_ALS_WITH_VTK
+#include <pcl_als/visualization/point_scene.h>
+#endif
 
 #include "command_line.h"
 #include "picture_options.h"
@@ -18,12 +20,13 @@ using app::CommandLine;
 using app::Step;
 
 CommandLine commandLine() {
-  CommandLine line("pcl_als_view",
-                   "draws point files to a PNG, from above or obliquely, or shows them in a window",
-                   "FILE... -output PICTURE.png [options]",
-                   "pcl_als_view strip*.las -output strips.png -color strip -shade edl");
+  CommandLine line(
+      "pcl_als_view",
+      "draws point files as a picture, from above or obliquely, or shows them in a window",
+      "FILE... -output PICTURE.png [options]",
+      "pcl_als_view strip*.las -output strips.png -color strip -shade edl");
   line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
-  line.addOutputFile("output", "picture to write", {".png"});
+  line.addOutputFile("output", "picture to write", {".png", ".svg", ".pdf"});
   line.addFlag("window", "show the points in a window; needs a display");
   line.exclude({"output", "window"}, true);
   line.addText("color",
@@ -88,27 +91,51 @@ SurveyPictureOptions optionsOf(const CommandLine& line, const std::vector<std::s
   return options;
 }
 
-std::shared_ptr<void> requiredDisplay() {
-  if (auto connection = PrivateDisplay::connectToCurrent()) return connection;
-  throw InputError(
-      "option -window: there is no display (DISPLAY is not set to one that answers); "
-      "use -output");
-}
+#if PCL_ALS_WITH_VTK
+/// A window with the points, until it is closed.
+class Window {
+ public:
+  Window() : display_(PointScene::connectToDisplay()) {
+    if (display_ == nullptr) {
+      throw InputError(
+          "option -window: there is no display (DISPLAY is not set to one that answers); "
+          "use -output");
+    }
+  }
+  void show(const SurveyPicture& picture, double point_size) {
+    const ColoredPoints points = picture.thinned();
+    PointScene scene;
+    scene.setBackground(ink::white);
+    scene.setPointSize(std::max(1.0, point_size));
+    scene.setPoints(points.positions, points.colors);
+    scene.setCamera(picture.camera());
+    scene.show("pcl_als_view");
+  }
+
+ private:
+  std::shared_ptr<void> display_;  // a server may start anew after its last connection
+};
+#else
+class Window {
+ public:
+  Window() { throw UsageError("option -window: built without VTK; use -output"); }
+  void show(const SurveyPicture&, double) {}
+};
+#endif
 
 int view(const CommandLine& line) {
   const auto& inputs = line.inputs();
   const SurveyPictureOptions options = optionsOf(line, inputs);
+  std::unique_ptr<Window> window;
+  if (line.has("window")) window = std::make_unique<Window>();
   const SurveyPicture picture(inputs, options, app::progressOf(line));
-  if (line.has("window")) {
-    const auto connection = requiredDisplay();
-    picture.show("pcl_als_view");
+  if (window != nullptr) {
+    window->show(picture, options.point_size);
     return app::kDone;
   }
   Step drawing("Drawing " + line.text("output"), line.quiet());
-  const PrivateDisplay display;
-  writePng(line.text("output"), picture.draw().image());
-  drawing.done(std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels" +
-               (display.isPrivate() ? ", private display" : ""));
+  picture.draw().write(line.text("output"));
+  drawing.done(std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels");
   return app::kDone;
 }
 

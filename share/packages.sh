@@ -17,7 +17,8 @@ pcl_als_packages_build=(
   libpcl-dev libeigen3-dev libproj-dev libgdal-dev
   python3-dev pybind11-dev:/usr/include/pybind11/pybind11.h
   libceres-dev nlohmann-json3-dev:/usr/include/nlohmann/json.hpp
-  fonts-dejavu-core:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf xvfb:Xvfb
+  libcairo2-dev:/usr/include/cairo/cairo.h libfmt-dev:/usr/include/fmt/format.h
+  fonts-dejavu-core:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf fontconfig:fc-cache
 )
 pcl_als_packages_test=(
   libgtest-dev:/usr/include/gtest/gtest.h
@@ -25,6 +26,7 @@ pcl_als_packages_test=(
   mount:mount           # full and read-only disks
   procps:pgrep          # processes that are left behind
   chromium:chromium     # reports in a browser
+  xvfb:Xvfb             # windows
   file:file dpkg-dev:dpkg-shlibdeps lintian:lintian  # CPack's Debian packages, and what is wrong with them
   python3-numpy python3-matplotlib python3-venv      # the Python package, its examples, its installation
 )

@@ -8,11 +8,11 @@
 #include <set>
 #include <stdexcept>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/common/nearest_name.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/text_values.h>
 #include <pcl_als/common/thread_limit.h>
 

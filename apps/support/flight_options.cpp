@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include <pcl_als/common/calibration_result.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/trajectory_writer.h>
 #include <pcl_als/processing/flight_reconstruction.h>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/text_values.h>
 
 namespace pcl_als::app {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/visualization/result_plots.h>
+#include <pcl_als/drawing/result_plots.h>
 
 #include "command_line.h"
 

@@ -59,11 +59,11 @@ file(WRITE ${CMAKE_BINARY_DIR}/debian/shlibs "${shlibs}")
 file(WRITE ${CMAKE_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/debian/shlibs ${CMAKE_BINARY_DIR}/debian/triggers)
-# Pictures need a font, and an X server where there is no display.
+# Pictures need a font and the index of fonts.
 als_debian_package(tools pcl-als-tools science
   "airborne LiDAR calibration and quality control (tools)"
   "This package contains the command line tools, each with a manual page."
-  "${debian_libraries} ${debian_same}" fonts-dejavu-core xvfb)
+  "${debian_libraries} ${debian_same}" fonts-dejavu-core fontconfig)
 als_debian_package(headers libpcl-als-dev libdevel
   "airborne LiDAR calibration for the Point Cloud Library (headers)"
   "This package contains the headers and the CMake package for programs

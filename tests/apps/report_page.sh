@@ -62,17 +62,18 @@ cat >"$scratch/probe.html" <<'END'
 var errors = 0;
 window.addEventListener('error', function () { ++errors; }, true);
 window.addEventListener('load', function () {
-  // Decoded to the last row: the corner of a picture is paper.
-  function decoded(i) {
-    var canvas = document.createElement('canvas');
-    canvas.width = i.naturalWidth; canvas.height = i.naturalHeight;
-    var context = canvas.getContext('2d');
-    context.drawImage(i, 0, 0);
-    return context.getImageData(canvas.width - 1, canvas.height - 1, 1, 1).data[3] == 255;
+  // A picture is complete where all its texts lie inside it.
+  function complete(picture) {
+    var frame = picture.getBoundingClientRect();
+    return frame.width > 0 && Array.prototype.every.call(picture.querySelectorAll('text'), function (text) {
+      var box = text.getBoundingClientRect();
+      return box.width > 0 && box.left >= frame.left - 1 && box.right <= frame.right + 1 &&
+        box.top >= frame.top - 1 && box.bottom <= frame.bottom + 1;
+    });
   }
-  var images = Array.prototype.slice.call(document.images);
-  var seen = images.filter(function (i) { return i.complete && i.naturalWidth == i.getAttribute('width') && decoded(i); });
-  document.body.setAttribute('data-probe', 'errors=' + errors + ' images=' + seen.length + '/' + images.length +
+  var pictures = Array.prototype.slice.call(document.querySelectorAll('figure > svg'));
+  document.body.setAttribute('data-probe', 'errors=' + errors + ' pictures=' +
+    pictures.filter(complete).length + '/' + pictures.length +
     ' fetched=' + performance.getEntriesByType('resource').filter(function (r) { return !/^data:/.test(r.name); }).length +
     ' wide=' + (document.documentElement.scrollWidth > window.innerWidth));
   document.body.setAttribute('data-verdict', document.getElementById('verdict').innerText);
@@ -85,12 +86,12 @@ browse() {
 }
 shown() {  # PAGE CHECK_OF_NUMBERS
   local page=$1 pictures probe
-  pictures=$(grep -o '<img ' "$page/report.html" | wc -l)
+  pictures=$(grep -o '<svg width' "$page/report.html" | wc -l)
   awk -v probe="$scratch/probe.html" '/<\/head>/ { while ((getline line < probe) > 0) print line } { print }' \
     "$page/report.html" >"$scratch/probed.html"
   browse --virtual-time-budget=10000 --dump-dom "file://$scratch/probed.html" >dom.html
   probe=$(grep -oE 'data-probe="[^"]*"' dom.html)
-  check "$page in the browser: $probe" test "$probe" = "data-probe=\"errors=0 images=$pictures/$pictures fetched=0 wide=false\""
+  check "$page in the browser: $probe" test "$probe" = "data-probe=\"errors=0 pictures=$pictures/$pictures fetched=0 wide=false\""
   check "$page leaves the console empty" eval '! grep CONSOLE browser.txt'
   awk '/data-verdict="/ { on = 1 } on { print } on && /">/ { exit }' dom.html >shown.txt
   check "$page shows the JSON's numbers" "$2" shown.txt

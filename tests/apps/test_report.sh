@@ -106,7 +106,7 @@ done
 expect 1 "too small" plot quality.json -output plots -plots offset_against_distance -size 200x150
 
 for page in report check intensity_report trajectory_report; do
-  pictures=$(grep -o '<img ' $page/report.html | wc -l)
+  pictures=$(grep -o '<svg width' $page/report.html | wc -l)
   check "$page has pictures" test "$pictures" -ge "$([[ $page == trajectory_report ]] && echo 3 || echo 4)"
   check "$page fetches nothing" eval '! grep -oE "(src|href)=\"[^\"]{0,40}" $page/report.html | grep -vE "\"data:(image/png;base64)?,"'
 done

@@ -13,7 +13,7 @@ breaches=0
 breach() { echo "$1: $2"; breaches=$((breaches + 1)); }
 
 # What a module may declare: modules of the same or a lower level; only processing and report may
-# use visualization. The Python package is above all of them. An estimator that used simulation would share its errors: only the writer of
+# use drawing, and none visualization (VTK). The Python package is above all of them. An estimator that used simulation would share its errors: only the writer of
 # simulated surveys does.
 declare -A may=(
   [common]="" [adjustment]="common" [crs]="common" [las]="common crs" [io]="common crs las" [trajectory]="common adjustment"
@@ -22,9 +22,9 @@ declare -A may=(
   [photogrammetry]="common adjustment tin"
   [filters]="common las trajectory tin radiometry"
   [classification]="common tin" [quality]="common adjustment tin registration trajectory"
-  [processing]="common io trajectory survey registration calibration radiometry filters quality classification photogrammetry visualization simulation"
-  [report]="common io survey registration calibration radiometry quality photogrammetry classification processing visualization"
-  [simulation]="common" [mpi]="common" [visualization]="common io trajectory tin quality"
+  [processing]="common io trajectory survey registration calibration radiometry filters quality classification photogrammetry drawing simulation"
+  [report]="common io survey registration calibration radiometry quality photogrammetry classification processing drawing"
+  [simulation]="common" [mpi]="common" [drawing]="common io" [visualization]="common drawing"
   [python]="common io survey trajectory registration calibration radiometry filters quality classification photogrammetry simulation processing report"
 )
 
@@ -79,7 +79,7 @@ for folder in modules/*/; do
           [[ -e $(dirname -- "$file")/${target//\"/} ]] ||
             breach "$file" "includes $target, which is not beside it" ;;
         "<vtk"* | "<pcl/visualization/"*)
-          [[ $module == visualization ]] || breach "$file" "includes $target: only visualization draws" ;;
+          [[ $module == visualization ]] || breach "$file" "includes $target: only visualization uses VTK" ;;
         "<boost/mpi"* | "<mpi.h>")
           [[ $module == mpi ]] || breach "$file" "includes $target: only module mpi uses MPI" ;;
         "<gtest/"*) breach "$file" "includes $target in a library" ;;
@@ -95,11 +95,10 @@ for folder in modules/*/; do
 done
 
 # Messages of a library do not name options of the tools: a tool adds the name of its own (Remedy).
-# The options in private_display.cpp are those of the X server.
 while IFS= read -r place; do
   breach "$place" "names an option of a tool in a library"
 done < <(find modules \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) \
-  ! -name private_display.cpp -exec awk '
+  -exec awk '
     /^[[:space:]]*(\/\/|\*|\/\*)/ { next }
     { gsub(/\047\\?"\047/, "")  # the character, which begins no text
       for (rest = $0; match(rest, /"([^"\\]|\\.)*"/); rest = substr(rest, RSTART + RLENGTH)) {

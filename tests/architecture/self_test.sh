@@ -40,7 +40,7 @@ make_tree; sed -i 's/)/ MODULES simulation)/' modules/common/CMakeLists.txt; exp
 make_tree; sed -i 's/)/ PRIVATE pcl_als::io)/' modules/tin/CMakeLists.txt; expect 1 "without MODULES"
 make_tree; echo '#include "../../apps/x.h"' >>modules/tin/src/a.cpp; expect 1 "across folders"
 make_tree; echo '#include "command_line.h"' >>modules/tin/src/a.cpp; expect 1 "not beside it"
-make_tree; echo '# include <vtkActor.h>' >>modules/tin/src/a.cpp; expect 1 "only visualization draws"
+make_tree; echo '# include <vtkActor.h>' >>modules/tin/src/a.cpp; expect 1 "only visualization uses VTK"
 make_tree; echo 'void f() { std::cout << 1; }' >>modules/tin/src/a.cpp; expect 1 "prints"
 make_tree; echo 'void f() { char b[9]; std::snprintf(b, 9, ""); }' >>modules/tin/src/a.cpp; expect 0 "keep to"
 make_tree; echo 'const char* s = "too far apart; see -max_distance";' >>modules/tin/src/a.cpp; expect 1 "names an option"

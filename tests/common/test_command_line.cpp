@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 
 #include "command_line.h"
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/text_values.h>

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 
 #include "strip_geometry.h"
 

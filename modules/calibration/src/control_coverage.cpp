@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/survey/place_in_block.h>
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/listed_names.h>
+#include <pcl_als/common/number_text.h>
 
 namespace pcl_als {
 namespace {

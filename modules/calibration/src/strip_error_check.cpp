@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <utility>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 
 #include "angle_curve.h"
 #include "error_diagnosis.h"

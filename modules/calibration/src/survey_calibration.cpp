@@ -5,10 +5,10 @@
 #include <cstdio>
 
 #include <pcl_als/calibration/survey_calibration.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/measured_box.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/survey/place_in_block.h>

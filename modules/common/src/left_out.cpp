@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/left_out.h>
+#include <pcl_als/common/number_text.h>
 
 namespace pcl_als {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/common/time_resolution.h>
 

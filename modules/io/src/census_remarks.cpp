@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include <pcl_als/common/coordinate_steps.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/time_scale.h>
 #include <pcl_als/las/external_waveforms.h>

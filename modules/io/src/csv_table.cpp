@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/printable.h>
 #include <pcl_als/common/text_values.h>
 

@@ -28,7 +28,7 @@ std::string repeated(const char* value, std::size_t times) {
 }
 
 /// A count, followed by blanks where another one may have to take its place.
-std::string countText(std::uint64_t count, bool later) {
+std::string grouped(std::uint64_t count, bool later) {
   std::string text = std::to_string(count);
   if (later) text.resize(kLongestCount, ' ');
   return text;
@@ -59,9 +59,9 @@ std::string pcdHeaderText(const PcdDescription& d) {
   text << "\nSIZE 4 4 4 8 4 4 2 1 1 1 1 1" << repeated("4", more)
        << "\nTYPE F F F F F F U U U U U U" << repeated("F", more)
        << "\nCOUNT 1 1 1 1 1 1 1 1 1 1 1 1" << repeated("1", more) << "\nWIDTH "
-       << countText(d.width, d.counts_later) << "\nHEIGHT " << d.height << "\nVIEWPOINT "
+       << grouped(d.width, d.counts_later) << "\nHEIGHT " << d.height << "\nVIEWPOINT "
        << origin.x() << ' ' << origin.y() << ' ' << origin.z() << " 1 0 0 0\nPOINTS "
-       << countText(d.width * d.height, d.counts_later) << "\nDATA binary\n";
+       << grouped(d.width * d.height, d.counts_later) << "\nDATA binary\n";
   return text.str();
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_window.h>
 

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/las/external_waveforms.h>
 
 namespace pcl_als {

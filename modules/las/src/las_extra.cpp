@@ -6,8 +6,8 @@
 #include <map>
 #include <sstream>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/las/las_extra.h>
 #include <pcl_als/las/las_record.h>
 

@@ -4,9 +4,9 @@
 #include <mutex>
 #include <set>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/damaged_file.h>
 #include <pcl_als/las/las_file.h>

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/las/damaged_file.h>
 
 #include "las_bytes.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/las/unclaimed_bytes.h>
 
 namespace pcl_als {

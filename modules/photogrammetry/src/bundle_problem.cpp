@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 #include <ceres/autodiff_cost_function.h>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/number_text.h>
 
 #include "block_check.h"
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <set>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_protection.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/point_conversion.h>
 
 namespace pcl_als::detail {

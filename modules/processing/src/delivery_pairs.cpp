@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/listed_names.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/delivery_check.h>
 
 #include "delivery_messages.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/delivery_requirement.h>
 #include <pcl_als/quality/accuracy_standards.h>
 

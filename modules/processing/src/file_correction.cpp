@@ -6,10 +6,10 @@
 #include <mutex>
 #include <set>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/filters/integer_bias_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/pcd_io.h>

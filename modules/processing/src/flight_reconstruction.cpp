@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 #include <pcl_als/processing/trajectory_conversion.h>

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/survey_io.h>

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/processing/intensity_job.h>
 

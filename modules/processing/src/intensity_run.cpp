@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/parallel.h>
 #include <pcl_als/common/shared_vectors.h>
 #include <pcl_als/common/system_parameters.h>

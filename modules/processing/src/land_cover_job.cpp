@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/processing/land_cover_job.h>
 

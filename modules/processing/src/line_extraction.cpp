@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <map>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/processing/line_extraction.h>

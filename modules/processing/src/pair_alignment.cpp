@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/measured_box.h>
 #include <pcl_als/processing/pair_alignment.h>
 

@@ -5,11 +5,11 @@
 #include <mutex>
 #include <optional>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/header_box.h>
 #include <pcl_als/common/listed_names.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/pcd_writer.h>
 #include <pcl_als/io/point_reader.h>
 #include <pcl_als/io/point_reference.h>

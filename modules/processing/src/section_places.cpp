@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/picture/section_places.h>
-#include <pcl_als/visualization/ticks.h>
 
 namespace pcl_als {
 

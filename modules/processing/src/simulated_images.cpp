@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/image_block_io.h>
 #include <pcl_als/processing/simulated_images.h>
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_protection.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/las/las_writer.h>
 #include <pcl_als/processing/simulated_images.h>

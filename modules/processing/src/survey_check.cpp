@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/processing/separation_image.h>
 #include <pcl_als/processing/survey_check.h>
 #include <pcl_als/quality/accuracy_standards.h>

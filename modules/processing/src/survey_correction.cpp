@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <filesystem>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/shared_work.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/processing/survey_correction.h>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/voxel_thinning.h>
 #include <pcl_als/processing/picture/survey_picture.h>
-#include <pcl_als/visualization/point_scene.h>
-#include <pcl_als/visualization/ticks.h>
-#include <pcl_als/visualization/voxel_thinning.h>
 
 namespace pcl_als {
 namespace {
@@ -52,7 +50,7 @@ SurveyPicture::SurveyPicture(const std::vector<std::string>& files,
       attribute_.extraField());
   if (points_->seen() == 0) throw InputError("no point lies in the picture");
   fitColours();
-  picture_.setSubtitle(countText(points_->seen()) + " points");
+  picture_.setSubtitle(grouped(points_->seen()) + " points");
   progress.end(found(source_, *points_));
   for (const std::string& remark : source_.remarks()) progress.remark(remark);
 }
@@ -103,21 +101,16 @@ Canvas SurveyPicture::draw() const {
   return picture_.draw(*points_, coloring_);
 }
 
-void SurveyPicture::show(const std::string& title) const {
+ColoredPoints SurveyPicture::thinned() const {
   VoxelThinning voxels(camera_.center(), source_.maximum() - source_.minimum());
   source_.read(
       [&](const PictureSource::Point& point) {
         if (shows(point)) voxels.add(point.position, attribute_.valueOf(point));
       },
       attribute_.extraField());
-  std::vector<Color> colors;
-  for (const float value : voxels.values()) colors.push_back(coloring_(value));
-  PointScene scene;
-  scene.setBackground(ink::white);
-  scene.setPointSize(std::max(1.0, options_.point_size));
-  scene.setPoints(voxels.positions(), colors);
-  scene.setCamera(camera_);
-  scene.show(title);
+  ColoredPoints points{voxels.positions(), {}};
+  for (const float value : voxels.values()) points.colors.push_back(coloring_(value));
+  return points;
 }
 
 }  // namespace pcl_als

@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/file_extension.h>
 #include <pcl_als/common/file_protection.h>
 #include <pcl_als/common/file_version.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/trajectory_io.h>
 #include <pcl_als/io/trajectory_writer.h>
 #include <pcl_als/processing/trajectory_conversion.h>

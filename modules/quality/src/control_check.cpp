@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/listed_names.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/quality/control_check.h>
 
 namespace pcl_als {

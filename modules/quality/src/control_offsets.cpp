@@ -6,9 +6,9 @@
 #include <map>
 
 #include <pcl_als/adjustment/clustered_regression.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/distributions.h>
 #include <pcl_als/common/linear_solvers.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/quality/control_offsets.h>
 

@@ -2,12 +2,12 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/calibration_plots.h>
+#include <pcl_als/drawing/row_plots.h>
 #include <pcl_als/processing/picture/section_places.h>
 #include <pcl_als/processing/picture/survey_profile.h>
 #include <pcl_als/report/calibration_page.h>
-#include <pcl_als/visualization/calibration_plots.h>
-#include <pcl_als/visualization/row_plots.h>
-#include <pcl_als/visualization/ticks.h>
 
 #include "calibration_verdict.h"
 #include "report_parts.h"
@@ -44,7 +44,7 @@ ReportTable pairTable(const CalibrationResult& result) {
       {"strips", "pairs", "RMS before", "RMS after", "mean before", "mean after"},
       {}};
   for (const PairFit& pair : result.pairs) {
-    table.rows.push_back({pair.a + " : " + pair.b, countText(pair.correspondences),
+    table.rows.push_back({pair.a + " : " + pair.b, grouped(pair.correspondences),
                           numberText(pair.rms_before, 4), numberText(pair.rms_after, 4),
                           numberText(pair.mean_before, 4), numberText(pair.mean_after, 4)});
   }
@@ -57,7 +57,7 @@ ReportTable controlTable(const CalibrationResult& result) {
                     {"strip", "points", "RMS before", "RMS after", "mean before", "mean after"},
                     {}};
   for (const ControlFit& fit : result.control) {
-    table.rows.push_back({fit.strip, countText(fit.points), numberText(fit.rms_before, 4),
+    table.rows.push_back({fit.strip, grouped(fit.points), numberText(fit.rms_before, 4),
                           numberText(fit.rms_after, 4), numberText(fit.mean_before, 4),
                           numberText(fit.mean_after, 4)});
   }
@@ -71,7 +71,7 @@ ReportTable controlPointTable(const CalibrationResult& result) {
                     {"point", "component", "strips", "before", "after", "expected std", "used"},
                     {}};
   for (const ControlPointFit& fit : result.control_points) {
-    table.rows.push_back({fit.id, fit.component, countText(fit.strips), numberText(fit.before, 4),
+    table.rows.push_back({fit.id, fit.component, grouped(fit.strips), numberText(fit.before, 4),
                           numberText(fit.after, 4), numberText(fit.expected_std, 4),
                           fit.used ? "yes" : "no: outlier"});
   }
@@ -89,7 +89,7 @@ ReportTable heldTable(const CalibrationResult& result) {
   for (const HeldSurface& s : result.held) {
     std::string strips;
     for (const std::string& strip : s.strips) strips += (strips.empty() ? "" : ", ") + strip;
-    table.rows.push_back({s.name, strips, countText(s.correspondences), numberText(s.rms_before, 4),
+    table.rows.push_back({s.name, strips, grouped(s.correspondences), numberText(s.rms_before, 4),
                           numberText(s.rms_after, 4), numberText(s.mean_before, 4),
                           numberText(s.mean_after, 4),
                           s.offset_determined ? numberText(s.offset, 4) : "not determined",
@@ -115,7 +115,7 @@ ReportTable systemTable(const CalibrationResult& result) {
   for (const SystemEstimate& system : result.systems) {
     const auto add = [&](std::string_view name, std::string_view unit, double value, double std,
                          double difference_std) {
-      table.rows.push_back({system.group.name, countText(system.group.strips.size()),
+      table.rows.push_back({system.group.name, grouped(system.group.strips.size()),
                             std::string(name), std::string(unit), significant(value),
                             significant(std),
                             difference_std > 0.0 ? significant(difference_std) : ""});
@@ -144,11 +144,11 @@ void addParameters(HtmlReport& report, const CalibrationResult& result) {
   report.addSection("Parameters");
   report.addTable(parameterTable(result));
   if (!result.systems.empty()) report.addTable(systemTable(result));
-  report.addPicture(drawParameters(result, {1400, 900}).image(),
+  report.addPicture(drawParameters(result, {1400, 900}),
                     "Estimated biases with 95 % intervals; an interval shorter than its dot is not "
                     "visible; the figures on the right state it.");
   if (result.correlation_order.size() > 1) {
-    report.addPicture(drawCorrelation(result, kSquare).image(),
+    report.addPicture(drawCorrelation(result, kSquare),
                       "Correlation of the estimates: near ±1, the block can hardly separate two "
                       "parameters.");
   }
@@ -183,7 +183,7 @@ void addDiagnosis(HtmlReport& report, const CalibrationResult& result) {
   report.addTable(table);
   if (!remedies.empty()) report.addList(remedies);
   if (!result.scan_angle_curve.empty())
-    report.addPicture(drawScanAngleCurve(result, kWide).image(),
+    report.addPicture(drawScanAngleCurve(result, kWide),
                       "Errors of the scan angle that depend on the scan angle.");
 }
 
@@ -191,21 +191,21 @@ void addFits(HtmlReport& report, const CalibrationResult& result) {
   report.addSection("Fit");
   report.addTable(pairTable(result));
   if (!result.pairs.empty()) {
-    report.addPicture(drawPairs(result, {1400, heightForRows(result.pairs.size())}).image(),
+    report.addPicture(drawPairs(result, {1400, heightForRows(result.pairs.size())}),
                       "Fit of every pair of overlapping strips before and after.");
   }
   if (!result.residuals.edges.empty()) {
-    report.addPicture(drawResiduals(result, kWide).image(),
+    report.addPicture(drawResiduals(result, kWide),
                       "Normal distances of all pairs before and after.");
   }
   if (!result.control.empty()) report.addTable(controlTable(result));
   if (!result.control_points.empty()) report.addTable(controlPointTable(result));
   if (!result.held.empty()) report.addTable(heldTable(result));
   if (!result.iterations.empty()) {
-    report.addPicture(drawConvergence(result, kWide).image(), "Update and fit by iteration.");
+    report.addPicture(drawConvergence(result, kWide), "Update and fit by iteration.");
   }
   if (!result.strip_errors.empty()) {
-    report.addPicture(drawStripErrors(result, {1400, 760}).image(),
+    report.addPicture(drawStripErrors(result, {1400, 760}),
                       "What each strip's trajectory was found to be wrong by, over time.");
   }
 }
@@ -228,14 +228,14 @@ void addProfile(HtmlReport& report, const SurveyReader& survey, const Calibratio
   // High enough that heights are not drawn smaller than lengths, if the page permits.
   PictureSize size{1400, 800};
   while (size.height < 1600 && picture.exaggeration(size) < 1.0) size.height += 100;
-  report.addPicture(picture.draw(size).image(),
+  report.addPicture(picture.draw(size),
                     "Section through a " + describe(profile->place) +
                         " before; points by strip, as delivered and calibrated on the same axes.");
 }
 
 void addSummary(HtmlReport& report, const CalibrationResult& result) {
   report.addText("sigma0 " + numberText(result.sigma0, 3) + ", redundancy " +
-                 countText(static_cast<std::size_t>(std::max(0L, result.redundancy))) + ", " +
+                 grouped(static_cast<std::size_t>(std::max(0L, result.redundancy))) + ", " +
                  std::to_string(result.iterations.size()) + " iterations, model " +
                  std::string(modelName(result.attitude)) + ", " +
                  (result.converged ? "converged." : "not converged."));
@@ -255,10 +255,6 @@ CalibrationPage::CalibrationPage(bool wanted) {
 }
 
 CalibrationPage::~CalibrationPage() = default;
-
-bool CalibrationPage::draws() {
-  return true;
-}
 
 SurveyObserver CalibrationPage::observer() {
   if (!state_) return {};

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/calibration_plots.h>
 #include <pcl_als/quality/accuracy_standards.h>
-#include <pcl_als/visualization/calibration_plots.h>
-#include <pcl_als/visualization/ticks.h>
 
 namespace pcl_als {
 namespace {
@@ -83,7 +83,7 @@ void addControl(const CalibrationResult& result, std::vector<std::string>& sente
   sentences.push_back("Heights fit control with an RMS of " +
                       centimetres(std::sqrt(squares_after / count)) + " (" +
                       centimetres(std::sqrt(squares_before / count)) + " as delivered; " +
-                      countText(static_cast<std::size_t>(count)) + " differences in " +
+                      grouped(static_cast<std::size_t>(count)) + " differences in " +
                       std::to_string(result.control.size()) + " strips).");
 }
 
@@ -99,7 +99,7 @@ void addTargets(const CalibrationResult& result, std::vector<std::string>& sente
   sentences.push_back("Targets fit in plan with an RMS of " +
                       centimetres(std::sqrt(squares_after / count)) + " (" +
                       centimetres(std::sqrt(squares_before / count)) + " as delivered; " +
-                      countText(static_cast<std::size_t>(count)) +
+                      grouped(static_cast<std::size_t>(count)) +
                       " targets, distances of their mean places in the strips).");
 }
 

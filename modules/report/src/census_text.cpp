@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include <pcl_als/common/class_name.h>
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/printable.h>
 #include <pcl_als/crs/crs.h>
 #include <pcl_als/io/applied_correction.h>

@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include <pcl_als/common/class_name.h>
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/curve_panels.h>
+#include <pcl_als/drawing/row_plots.h>
 #include <pcl_als/report/intensity_page.h>
-#include <pcl_als/visualization/curve_panels.h>
-#include <pcl_als/visualization/row_plots.h>
-#include <pcl_als/visualization/ticks.h>
 
 #include "intensity_verdict.h"
 #include "report_parts.h"
@@ -32,7 +32,7 @@ class PairTable {
     if (pair.before.count() == 0) return;
     const double before = varianceToMean(pair.before), after = scale * varianceToMean(pair.after);
     table_.rows.push_back(
-        {name, countText(pair.before.count()), numberText(pair.before.mean(), 1),
+        {name, grouped(pair.before.count()), numberText(pair.before.mean(), 1),
          numberText(pair.before.standardDeviation(), 1), numberText(pair.after.mean(), 1),
          numberText(pair.after.standardDeviation(), 1), numberText(before, 2), numberText(after, 2),
          before > 0.0 ? numberText(100.0 * (after / before - 1.0), 1) : ""});
@@ -63,7 +63,7 @@ void addSlopes(const IntensityReport& intensity, HtmlReport& report) {
   report.addSection("By slope");
   if (!plot.series[0].x.empty())
     report.addPicture(
-        drawCurves(plot, kWide).image(),
+        drawCurves(plot, kWide),
         "Variance-to-mean ratio before and after, at the same mean of all points; slopes with " +
             std::to_string(kFewest) + " points or more.");
   report.addTable(table.table());
@@ -128,7 +128,7 @@ void addHistograms(const IntensityReport& intensity, HtmlReport& report) {
                   std::to_string(plot.panels.size()) + ")";
   plot.keepLargest();
   report.addPicture(
-      drawCurvePanels(plot, plot.panels.size() > 4 ? kTall : kWide).image(),
+      drawCurvePanels(plot, plot.panels.size() > 4 ? kTall : kWide),
       "Histograms of the strips in bins of " + std::to_string(width) + ", before and after.");
 }
 
@@ -149,7 +149,7 @@ void addGains(const IntensityReport& intensity, HtmlReport& report) {
                : std::string(nameOf(gain.status))});
   }
   if (!any) return;
-  report.addPicture(drawIntervals(plot, {1400, heightForRows(plot.rows.size())}).image(),
+  report.addPicture(drawIntervals(plot, {1400, heightForRows(plot.rows.size())}),
                     "Gains that the overlaps show; their geometric mean is 1.");
 }
 

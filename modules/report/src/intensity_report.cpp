@@ -6,8 +6,8 @@
 
 #include <pcl_als/common/atomic_file.h>
 #include <pcl_als/common/class_name.h>
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/report/intensity_report.h>
 
 namespace pcl_als {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pcl_als/visualization/ticks.h>
+#include <pcl_als/common/number_text.h>
 
 namespace pcl_als {
 namespace {
@@ -88,7 +88,7 @@ class VerdictOnIntensity {
     if (overlapping()) {
       say(ratioText() + ", at the same mean.");
       say("Differences are standard deviation over mean in " +
-          countText(report_.result->overlaps->cells) +
+          grouped(report_.result->overlaps->cells) +
           " smooth cells that several strips cover, median of the cells; the given model alone "
           "leaves " +
           percent(report_.result->overlaps->physics.median) + ".");
@@ -159,14 +159,14 @@ class VerdictOnIntensity {
     const std::uint64_t left = of(RadiometryStatus::uncovered) +
                                of(RadiometryStatus::above_sensor) +
                                of(RadiometryStatus::not_finite);
-    say("Of " + countText(counts.points) + " points " + countText(full) +
+    say("Of " + grouped(counts.points) + " points " + grouped(full) +
         " are corrected for range, atmosphere and incidence, " +
-        countText(counts.points - full - left) + " for range and atmosphere only, " +
-        countText(left) + " are left as they are.");
+        grouped(counts.points - full - left) + " for range and atmosphere only, " + grouped(left) +
+        " are left as they are.");
     if (counts.saturated > 0)
-      say(countText(counts.saturated) + " points were saturated: their values are lower bounds.");
+      say(grouped(counts.saturated) + " points were saturated: their values are lower bounds.");
     if (counts.clipped > 0)
-      say(countText(counts.clipped) +
+      say(grouped(counts.clipped) +
           " points are beyond 65535 after the correction; a smaller scale keeps them.");
   }
 

@@ -4,8 +4,8 @@
 // Pictures of maps with legend, scale and coordinates.
 #include <algorithm>
 
+#include <pcl_als/drawing/class_map.h>
 #include <pcl_als/report/land_cover_picture.h>
-#include <pcl_als/visualization/class_map.h>
 
 namespace pcl_als {
 namespace {
@@ -33,7 +33,7 @@ void drawMaps(const std::filesystem::path& path, const std::vector<TitledMap>& m
                                      {grid.west, grid.north},
                                      std::move(rasters.maps[i].values)});
   }
-  writePng(path, picture.draw(std::max(kLeastWidth, static_cast<int>(width)), kHeight).image());
+  picture.draw(std::max(kLeastWidth, static_cast<int>(width)), kHeight).write(path);
 }
 
 }  // namespace pcl_als

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <algorithm>
 
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/report/html_report.h>
 #include <pcl_als/report/orientation_page.h>
-#include <pcl_als/visualization/html_report.h>
-#include <pcl_als/visualization/ticks.h>
 
 #include "orientation_pictures.h"
 #include "report_parts.h"
@@ -134,14 +134,14 @@ void writeOrientationPage(const ReportOrigin& origin, const ImageOrientationResu
                     origin.program);
   addVerdict(verdictOf(result), report);
   report.addSection("Block");
-  report.addPicture(blockPicture(result).image(),
+  report.addPicture(blockPicture(result),
                     "Images, points, control lines, and differences at check points (arrows: in "
                     "plan; numbers: in height).");
   if (!result.bundle.residuals.empty()) {
-    report.addPicture(residualPicture(result).image(),
+    report.addPicture(residualPicture(result),
                       "Residuals over the format of the image, of places on lines across them: a "
                       "pattern shows a camera that does not fit.");
-    report.addPicture(standardisedPicture(result).image(),
+    report.addPicture(standardisedPicture(result),
                       "Residuals of points and of places on lines over their standard deviations.");
   }
   addCheckPoints(result, report);

@@ -11,10 +11,10 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/common/statistics.h>
-#include <pcl_als/visualization/axes.h>
-#include <pcl_als/visualization/map_furniture.h>
-#include <pcl_als/visualization/result_plots.h>
-#include <pcl_als/visualization/ticks.h>
+#include <pcl_als/drawing/axes.h>
+#include <pcl_als/drawing/map_furniture.h>
+#include <pcl_als/drawing/result_plots.h>
+#include <pcl_als/drawing/ticks.h>
 
 namespace pcl_als {
 namespace {

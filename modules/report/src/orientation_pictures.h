@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <pcl_als/drawing/canvas.h>
 #include <pcl_als/processing/image_orientation.h>
-#include <pcl_als/visualization/canvas.h>
 
 namespace pcl_als {
 

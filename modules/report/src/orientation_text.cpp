@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/report/orientation_report.h>
 

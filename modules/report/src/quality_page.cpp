@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/report/quality_page.h>
-#include <pcl_als/visualization/ticks.h>
 
 #include "quality_pictures.h"
 #include "quality_verdict.h"
@@ -29,12 +29,12 @@ void addQualityTable(const QualityTable& table, HtmlReport& report) {
 void addPictures(const QualityReport& quality, HtmlReport& report) {
   const BeforeAfterPlot heights = heightPlot(quality);
   if (!heights.rows.empty())
-    report.addPicture(drawBeforeAfter(heights, {1400, heightForRows(heights.rows.size())}).image(),
+    report.addPicture(drawBeforeAfter(heights, {1400, heightForRows(heights.rows.size())}),
                       "RMSDz of every pair against the limits of the quality levels.");
   if (const auto histogram = offsetHistogram(quality))
-    report.addPicture(drawHistogram(*histogram, kWide).image(),
+    report.addPicture(drawHistogram(*histogram, kWide),
                       "Height differences on level ground, at most " +
-                          countText(CheckedPair::kScatter) + " places of a pair.");
+                          grouped(CheckedPair::kScatter) + " places of a pair.");
   static constexpr std::pair<OffsetAgainst, const char*> kOffsets[] = {
       {OffsetAgainst::distance,
        "Offsets across the overlap: a line that slopes shows an error of roll or scan angle "
@@ -46,8 +46,7 @@ void addPictures(const QualityReport& quality, HtmlReport& report) {
   for (const auto& [against, caption] : kOffsets) {
     const CurvePanels panels = offsetPanels(quality, against);
     if (panels.panels.empty()) continue;
-    report.addPicture(drawCurvePanels(panels, panels.panels.size() > 4 ? kTall : kWide).image(),
-                      caption);
+    report.addPicture(drawCurvePanels(panels, panels.panels.size() > 4 ? kTall : kWide), caption);
   }
 }
 
@@ -55,7 +54,7 @@ void addSeparation(const QualityReport& quality, HtmlReport& report) {
   const auto map = separationMap(quality, 1400);
   if (!map) return;
   report.addSection("Swath separation");
-  report.addPicture(map->image(),
+  report.addPicture(*map,
                     "Highest minus lowest strip, cell by cell; each dot shows what most of its "
                     "cells are. Trees, eaves and walls separate strips, too. In full: " +
                         quality.block.separation->files.back() + " and GeoTIFFs beside this page.");
@@ -80,10 +79,6 @@ QualityPage::QualityPage(bool wanted) {
 }
 
 QualityPage::~QualityPage() = default;
-
-bool QualityPage::draws() {
-  return true;
-}
 
 SurveyObserver QualityPage::observer() {
   if (!state_) return {};

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include <pcl_als/visualization/class_map.h>
-#include <pcl_als/visualization/ticks.h>
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/class_map.h>
 
 namespace pcl_als {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include <pcl_als/drawing/curve_panels.h>
+#include <pcl_als/drawing/row_plots.h>
 #include <pcl_als/report/quality_report.h>
-#include <pcl_als/visualization/curve_panels.h>
-#include <pcl_als/visualization/row_plots.h>
 
 namespace pcl_als {
 

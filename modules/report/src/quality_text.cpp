@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/report/quality_report.h>
 

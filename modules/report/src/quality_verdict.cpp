@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/system_parameters.h>
-#include <pcl_als/visualization/ticks.h>
 
 namespace pcl_als {
 namespace {
@@ -212,7 +212,7 @@ class VerdictOnStrips {
     const double mean = control->all.mean;
     std::string text = "Control: the strips lie " + centimetres(std::abs(mean)) +
                        (mean < 0.0 ? " below" : " above") + " it on average, RMSE " +
-                       centimetres(control->all.rms) + " at " + countText(control->points) +
+                       centimetres(control->all.rms) + " at " + grouped(control->points) +
                        " points";
     if (report_.before && report_.before->control && report_.before->control->points > 0)
       text += " (before: " + centimetres(report_.before->control->all.rms) + ")";

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "report_parts.h"
 
-#include <pcl_als/visualization/ticks.h>
+#include <pcl_als/common/number_text.h>
 
 namespace pcl_als {
 
@@ -38,7 +38,7 @@ void addMap(const std::vector<ControlPoint>& control, const StripCoverage& cover
   }
   report.addSection("Map");
   const PictureSize size{1400, BlockMap::heightFor(coverage, 1400)};
-  report.addPicture(map.draw(coverage, strips, size).image(), caption + ".");
+  report.addPicture(map.draw(coverage, strips, size), caption + ".");
 }
 
 void addWarnings(const Warnings& warnings, HtmlReport& report) {

@@ -7,9 +7,9 @@
 
 #include <pcl_als/common/survey_types.h>
 #include <pcl_als/common/warning.h>
+#include <pcl_als/drawing/block_map.h>
+#include <pcl_als/report/html_report.h>
 #include <pcl_als/report/report_origin.h>
-#include <pcl_als/visualization/block_map.h>
-#include <pcl_als/visualization/html_report.h>
 
 namespace pcl_als {
 

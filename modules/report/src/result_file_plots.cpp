@@ -9,13 +9,13 @@
 
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/text_values.h>
+#include <pcl_als/drawing/calibration_plots.h>
+#include <pcl_als/drawing/curve_panels.h>
+#include <pcl_als/drawing/row_plots.h>
 #include <pcl_als/io/survey_io.h>
 #include <pcl_als/report/picture/result_file_plots.h>
-#include <pcl_als/visualization/calibration_plots.h>
-#include <pcl_als/visualization/curve_panels.h>
-#include <pcl_als/visualization/row_plots.h>
-#include <pcl_als/visualization/ticks.h>
 
 namespace pcl_als {
 namespace {

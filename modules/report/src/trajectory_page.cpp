@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/drawing/block_map.h>
+#include <pcl_als/drawing/curve_panels.h>
 #include <pcl_als/report/trajectory_page.h>
-#include <pcl_als/visualization/block_map.h>
-#include <pcl_als/visualization/curve_panels.h>
-#include <pcl_als/visualization/ticks.h>
 
 #include "report_parts.h"
 
@@ -49,7 +49,7 @@ ReportTable rayTable(const ReconstructedFlight& flight) {
                     {}};
   for (const ReconstructedPath& path : flight.paths) {
     if (!path.found || path.rays == 0) continue;
-    table.rows.push_back({path.name, countText(path.rays), countText(path.rejected),
+    table.rows.push_back({path.name, grouped(path.rays), grouped(path.rejected),
                           numberText(path.separation, 1), numberText(path.across, 4),
                           numberText(path.apart, 3)});
   }
@@ -143,7 +143,7 @@ void addPathMap(const ReconstructedFlight& flight, const StripCoverage& coverage
   map.setTitle("Reconstructed path and strips");
   map.setPaths(std::move(paths), enlargement);
   report.addPicture(
-      map.draw(coverage, strips, {1400, BlockMap::heightFor(coverage, 1400)}).image(),
+      map.draw(coverage, strips, {1400, BlockMap::heightFor(coverage, 1400)}),
       "The path of the sensor (black) over the ground that its strips cover. Crosses: standard "
       "deviations east and north, enlarged " +
           numberText(enlargement, 0) + " times.");
@@ -161,8 +161,8 @@ Verdict verdictOf(const ReconstructedFlight& flight) {
   verdict.grade = !flight.incomplete.empty()    ? VerdictGrade::bad
                   : found < flight.paths.size() ? VerdictGrade::attention
                                                 : VerdictGrade::good;
-  verdict.headline = "The trajectory of " + countText(found) + " of " +
-                     countText(flight.paths.size()) + " passes was found from their points.";
+  verdict.headline = "The trajectory of " + grouped(found) + " of " + grouped(flight.paths.size()) +
+                     " passes was found from their points.";
   verdict.sentences.push_back("Standard deviations are at most " + numberText(largest.x(), 3) +
                               " m east, " + numberText(largest.y(), 3) + " m north and " +
                               numberText(largest.z(), 3) + " m up (RMS of a pass over time).");
@@ -183,10 +183,6 @@ TrajectoryPage::TrajectoryPage(bool wanted) {
 }
 
 TrajectoryPage::~TrajectoryPage() = default;
-
-bool TrajectoryPage::draws() {
-  return true;
-}
 
 SurveyObserver TrajectoryPage::observer() {
   if (!state_) return {};
@@ -211,7 +207,7 @@ void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedFlight
   report.addTable(pathTable(flight));
   addPathMap(flight, *state_->coverage, state_->strips, report);
   const CurvePanels stds = stdPanels(flight);
-  report.addPicture(drawCurvePanels(stds, stds.panels.size() > 4 ? kTall : kWide).image(),
+  report.addPicture(drawCurvePanels(stds, stds.panels.size() > 4 ? kTall : kWide),
                     "Standard deviations of the position over time: large where the ground shows "
                     "few second returns.");
   report.addSection("Evidence");
@@ -219,10 +215,9 @@ void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedFlight
   if (!rays.rows.empty()) {
     report.addTable(rays);
     const CurvePanels residuals = residualPanels(flight);
-    report.addPicture(
-        drawCurvePanels(residuals, residuals.panels.size() > 4 ? kTall : kWide).image(),
-        "Distances of the rays from the path over their standard deviations: about "
-        "one everywhere where the path is flexible enough.");
+    report.addPicture(drawCurvePanels(residuals, residuals.panels.size() > 4 ? kTall : kWide),
+                      "Distances of the rays from the path over their standard deviations: about "
+                      "one everywhere where the path is flexible enough.");
   }
   if (!angles.rows.empty()) report.addTable(angles);
   addOrigin(origin, files, report);

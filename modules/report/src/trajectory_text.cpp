@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_als authors
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/file_extension.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/report/census_report.h>
 #include <pcl_als/trajectory/heading_check.h>

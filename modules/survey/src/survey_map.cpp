@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/point_flag.h>
 #include <pcl_als/common/statistics.h>
 #include <pcl_als/survey/survey_map.h>

@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include <pcl_als/common/count_text.h>
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_reconstruction.h>
 

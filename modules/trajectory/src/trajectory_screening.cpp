@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <pcl_als/common/count_text.h>
+#include <pcl_als/common/number_text.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/trajectory/trajectory_screening.h>
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include <dlfcn.h>
 #include <vtkActor.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
@@ -51,7 +52,6 @@ struct PointScene::Scene {
 PointScene::PointScene() {
   vtkObject::GlobalWarningDisplayOff();  // a library does not print
   scene_ = std::make_unique<Scene>();
-  scene_->window->SetMultiSamples(0);
   scene_->window->AddRenderer(scene_->renderer);
   scene_->mapper->SetInputData(scene_->points);
   scene_->mapper->SetColorModeToDirectScalars();
@@ -122,29 +122,23 @@ void PointScene::setCamera(const OrthographicCamera& camera) {
   vtk_camera->SetParallelScale(0.5 * camera.height() * camera.metresPerPixel());
 }
 
-Image PointScene::render() {
-  scene_->window->SetOffScreenRendering(1);
-  scene_->window->SetSize(scene_->width, scene_->height);
-  scene_->standBack();
-  scene_->window->Render();
-  vtkNew<vtkUnsignedCharArray> rgb;
-  const int last_x = scene_->width - 1, last_y = scene_->height - 1;
-  if (scene_->window->GetPixelData(0, 0, last_x, last_y, 0, rgb, 0) == 0) {
-    throw InputError("the display cannot draw a picture of " + std::to_string(scene_->width) +
-                     " x " + std::to_string(scene_->height) + " pixels");
-  }
-  Image image(scene_->width, scene_->height, ink::white);
-  const std::uint8_t* in = rgb->GetPointer(0);
-  for (int y = last_y; y >= 0; --y) {  // rows run up
-    for (int x = 0; x <= last_x; ++x, in += 3) image.at(x, y) = {in[0], in[1], in[2], 255};
-  }
-  return image;
+std::shared_ptr<void> PointScene::connectToDisplay() {
+  // VTK brings libX11 but ends the process where a display does not answer: ask before it does.
+  void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr) return nullptr;
+  using Open = void* (*)(const char*);
+  using Close = int (*)(void*);
+  const auto open_display = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
+  const auto close_display = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
+  if (open_display == nullptr || close_display == nullptr) return nullptr;
+  void* display = open_display(nullptr);  // that which DISPLAY names
+  if (display == nullptr) return nullptr;
+  return {display, [close_display](void* connection) { close_display(connection); }};
 }
 
 void PointScene::show(const std::string& title) {
   vtkNew<vtkRenderWindowInteractor> interactor;
   vtkNew<vtkInteractorStyleTrackballCamera> style;
-  scene_->window->SetOffScreenRendering(0);
   scene_->window->SetSize(scene_->width, scene_->height);
   scene_->window->SetWindowName(title.c_str());
   scene_->standBack();

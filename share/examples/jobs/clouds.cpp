@@ -12,6 +12,7 @@
 #include <pcl_als/calibration/system_calibration.h>
 #include <pcl_als/classification/land_cover_filter.h>
 #include <pcl_als/classification/surface_rasters.h>
+#include <pcl_als/drawing/point_picture.h>
 #include <pcl_als/filters/intensity_correction.h>
 #include <pcl_als/filters/system_bias_correction.h>
 #include <pcl_als/io/strip_loader.h>
@@ -20,8 +21,6 @@
 #include <pcl_als/processing/flight_file.h>
 #include <pcl_als/processing/strip_check.h>
 #include <pcl_als/registration/iterative_closest_patch.h>
-#include <pcl_als/visualization/point_picture.h>
-#include <pcl_als/visualization/private_display.h>
 
 namespace {
 
@@ -117,8 +116,7 @@ void draw(const Strip& strip, const char* file) {
   pcl_als::PointColoring coloring;
   coloring.heading = "Corrected intensity";
   coloring.fitScale(points, 0.02, false);
-  const pcl_als::PrivateDisplay display;
-  writePng(file, picture.draw(points, coloring).image());
+  picture.draw(points, coloring).write(file);
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
 //
-// draw PICTURE.png FILE…: points from above, coloured by strip; needs no display.
+// draw PICTURE.png FILE…: points from above, coloured by strip.
 #include <exception>
 #include <iostream>
 
 #include <pcl_als/processing/picture/survey_picture.h>
-#include <pcl_als/visualization/private_display.h>
 
 int main(int argc, char** argv) try {
   pcl_als::SurveyPictureOptions options;
@@ -14,8 +13,7 @@ int main(int argc, char** argv) try {
   options.shade = pcl_als::PointShade::eye_dome;
   options.title = "Strips";
   const pcl_als::SurveyPicture picture({argv + 2, argv + argc}, options);
-  const pcl_als::PrivateDisplay display;
-  writePng(argv[1], picture.draw().image());
+  picture.draw().write(argv[1]);
   std::cout << picture.points().shown() << " points shown\n";
   return 0;
 } catch (const std::exception& error) {

@@ -13,10 +13,7 @@
 
 namespace pcl_als {
 
-/** \brief The report of a calibration: report.html with pictures, and report.md.
- *
- * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is report.md alone.
- */
+/// The report of a calibration: report.html with pictures, and report.md.
 class CalibrationPage {
  public:
   /// \param wanted false: no page is made, and observing costs nothing
@@ -24,8 +21,6 @@ class CalibrationPage {
   ~CalibrationPage();
   CalibrationPage(const CalibrationPage&) = delete;
   CalibrationPage& operator=(const CalibrationPage&) = delete;
-
-  static bool draws();
 
   /// Observer for the calibration, for the map; the page must exist as long as it is called.
   SurveyObserver observer();

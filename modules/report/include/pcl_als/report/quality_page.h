@@ -14,11 +14,7 @@
 
 namespace pcl_als {
 
-/** \brief The report of a check: report.html with pictures, and report.md.
- *
- * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is neither; writeQualityTables() writes
- * the tables.
- */
+/// The report of a check: report.html with pictures, and report.md.
 class QualityPage {
  public:
   explicit QualityPage(bool wanted);
@@ -26,7 +22,6 @@ class QualityPage {
   QualityPage(const QualityPage&) = delete;
   QualityPage& operator=(const QualityPage&) = delete;
 
-  static bool draws();
   /// Observer for the check, for the map; the page must exist as long as it is called.
   SurveyObserver observer();
   /// Writes the page into the folder of \a origin.

@@ -13,8 +13,6 @@ namespace pcl_als {
 
 /** \brief The report of a reconstructed trajectory: report.html with the path on a map, its
  * standard deviations and the residuals of rays over time, and what determined it; report.md.
- *
- * Without module visualization (PCL_ALS_WITH_VTK=OFF) nothing is written.
  */
 class TrajectoryPage {
  public:
@@ -23,7 +21,6 @@ class TrajectoryPage {
   TrajectoryPage(const TrajectoryPage&) = delete;
   TrajectoryPage& operator=(const TrajectoryPage&) = delete;
 
-  static bool draws();
   /// ReconstructionOptions::observer, for the map; the page must exist as long as it is called.
   SurveyObserver observer();
   /// Writes the page into the folder of \a origin. \a files: of the points.

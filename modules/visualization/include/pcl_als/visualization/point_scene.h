@@ -8,17 +8,16 @@
 
 #include <Eigen/Core>
 
-#include <pcl_als/visualization/image.h>
-#include <pcl_als/visualization/orthographic_camera.h>
+#include <pcl_als/drawing/color.h>
+#include <pcl_als/drawing/orthographic_camera.h>
 
 class vtkRenderer;
 
 namespace pcl_als {
 
-/** \brief Coloured points in a VTK scene, to an image or in a window.
+/** \brief Coloured points in a window with VTK.
  *
- * Needs a display during its lifetime: make a PrivateDisplay first. Pictures are drawn without
- * antialiasing, so that a point has exactly its colour.
+ * Needs an X display: without one, Debian's VTK ends the process. Ask connectToDisplay() first.
  */
 class PointScene {
  public:
@@ -33,10 +32,13 @@ class PointScene {
   void setBackground(const Color& color);
   void setCamera(const OrthographicCamera& camera);
 
-  /// The scene at the camera's size.
-  Image render();
   /// Opens a window and returns when it is closed (or q is pressed). Mouse: turn, shift, zoom.
   void show(const std::string& title);
+
+  /** A connection to the display that DISPLAY names, or null where none answers. It is to be kept
+   * while a window is open: an X server without `-noreset` starts anew when its last connection is
+   * closed, and refuses others meanwhile. */
+  static std::shared_ptr<void> connectToDisplay();
 
   vtkRenderer* renderer();  ///< for further actors
 

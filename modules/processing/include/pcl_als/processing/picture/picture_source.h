@@ -11,9 +11,9 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/drawing/plane_grid.h>
+#include <pcl_als/drawing/point_picture.h>
 #include <pcl_als/survey/survey_reader.h>
-#include <pcl_als/visualization/plane_grid.h>
-#include <pcl_als/visualization/point_picture.h>
 
 namespace pcl_als {
 

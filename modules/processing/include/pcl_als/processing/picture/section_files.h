@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/drawing/section.h>
+#include <pcl_als/drawing/section_search.h>
 #include <pcl_als/processing/picture/picture_source.h>
-#include <pcl_als/visualization/section.h>
-#include <pcl_als/visualization/section_search.h>
 
 namespace pcl_als {
 

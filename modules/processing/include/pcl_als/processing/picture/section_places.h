@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/drawing/section_search.h>
 #include <pcl_als/survey/strip_arrangement.h>
-#include <pcl_als/visualization/section_search.h>
 
 namespace pcl_als {
 

@@ -12,10 +12,10 @@
 #include <Eigen/Geometry>
 
 #include <pcl_als/common/progress.h>
+#include <pcl_als/drawing/canvas.h>
+#include <pcl_als/drawing/pixel_thinning.h>
+#include <pcl_als/drawing/point_picture.h>
 #include <pcl_als/processing/picture/picture_source.h>
-#include <pcl_als/visualization/canvas.h>
-#include <pcl_als/visualization/pixel_thinning.h>
-#include <pcl_als/visualization/point_picture.h>
 
 namespace pcl_als {
 
@@ -39,13 +39,18 @@ struct SurveyPictureOptions {
   bool bare = false;  ///< points only, without title, legend and scale
 };
 
+/// Points with a colour each, relative to the centre of a camera, metres.
+struct ColoredPoints {
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Color> colors;
+};
+
 /** \brief A picture of the points of files, from above or obliquely.
  *
  * Reads the files two or three times; memory depends on the pixels and not on the points.
  * \code
  * const pcl_als::SurveyPicture picture({"strip1.las", "strip2.las"}, {});
- * const pcl_als::PrivateDisplay display;
- * pcl_als::writePng("strips.png", picture.draw().image());
+ * picture.draw().write("strips.png");
  * \endcode
  */
 class SurveyPicture {
@@ -58,10 +63,10 @@ class SurveyPicture {
   const PictureSource& source() const { return source_; }
   const PixelThinning& points() const { return *points_; }
   const PointColoring& coloring() const { return coloring_; }
-  /// Needs a display (PrivateDisplay).
+  const OrthographicCamera& camera() const { return camera_; }
   Canvas draw() const;
-  /// Opens a window with a thinned cloud and returns when it is closed; needs a display.
-  void show(const std::string& title) const;
+  /// The points of the picture, evenly thinned to at most six million, for a view from all sides.
+  ColoredPoints thinned() const;
 
  private:
   bool shows(const PictureSource::Point& point) const;

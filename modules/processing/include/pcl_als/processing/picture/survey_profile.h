@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include <pcl_als/drawing/section_search.h>
 #include <pcl_als/survey/survey_reader.h>
 #include <pcl_als/trajectory/bias_evaluator.h>
-#include <pcl_als/visualization/section_search.h>
 
 namespace pcl_als {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <pcl_als/visualization/result_plots.h>
+#include <pcl_als/drawing/result_plots.h>
 
 namespace pcl_als {
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <memory>
+
+#include <cairo.h>
+
+#include <pcl_als/drawing/image.h>
+
+namespace pcl_als::detail {
+
+struct CairoRelease {
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
+  void operator()(cairo_font_face_t* face) const { cairo_font_face_destroy(face); }
+  void operator()(cairo_scaled_font_t* font) const { cairo_scaled_font_destroy(font); }
+};
+using CairoContext = std::unique_ptr<cairo_t, CairoRelease>;
+using CairoSurface = std::unique_ptr<cairo_surface_t, CairoRelease>;
+
+/// Throws std::bad_alloc or Error where Cairo reports a failure.
+void requireSuccess(cairo_status_t status);
+
+/// A surface with the pixels of an image, and back.
+CairoSurface surfaceOf(const Image& image);
+Image imageOf(cairo_surface_t* surface);
+
+}  // namespace pcl_als::detail
