@@ -9,6 +9,8 @@ namespace pcl_als::app {
 void addReportOption(CommandLine& line, const std::string& help, std::vector<std::string> files) {
   files.insert(files.begin(), {"report.html", "report.md"});
   line.addOutputFolder("report", help, always(std::move(files)));
+  line.addText("title", "title of the report, e.g. the name of the mission (default: by content)");
+  line.makeDependent("title", "report");
 }
 
 ReportOrigin reportOrigin(const CommandLine& line) {
@@ -18,6 +20,7 @@ ReportOrigin reportOrigin(const CommandLine& line) {
   for (const auto& [name, value] : line.settings()) origin.settings.emplace_back(name, value);
   for (const auto& file : line.optionInputs()) origin.inputs.push_back(file.string());
   origin.control = controlOf(line);
+  if (line.has("title")) origin.title = line.text("title");
   return origin;
 }
 

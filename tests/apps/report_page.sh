@@ -82,14 +82,14 @@ window.addEventListener('load', function () {
 END
 browse() {
   timeout 120 "$browser" --headless=new --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run \
-    --hide-scrollbars --window-size=1200,900 --enable-logging=stderr --user-data-dir="$scratch/browser" "$@" 2>browser.txt
+    --hide-scrollbars --enable-logging=stderr --user-data-dir="$scratch/browser" "$@" 2>browser.txt
 }
 shown() {  # PAGE CHECK_OF_NUMBERS
   local page=$1 pictures probe
   pictures=$(grep -o '<svg width' "$page/report.html" | wc -l)
   awk -v probe="$scratch/probe.html" '/<\/head>/ { while ((getline line < probe) > 0) print line } { print }' \
     "$page/report.html" >"$scratch/probed.html"
-  browse --virtual-time-budget=10000 --dump-dom "file://$scratch/probed.html" >dom.html
+  browse --window-size=1200,900 --virtual-time-budget=10000 --dump-dom "file://$scratch/probed.html" >dom.html
   probe=$(grep -oE 'data-probe="[^"]*"' dom.html)
   check "$page in the browser: $probe" test "$probe" = "data-probe=\"errors=0 pictures=$pictures/$pictures fetched=0 wide=false\""
   check "$page leaves the console empty" eval '! grep CONSOLE browser.txt'

@@ -22,7 +22,9 @@ check "the verdict's numbers are the JSON's" verdict_agrees report/report.md
 
 # The check before and after that calibration, and intensity as it was delivered.
 expect 0 "report.html" check corrected/strip{1,2,3}.las -before "$block/strip1.las,$block/strip2.las,$block/strip3.las" \
-  -control "$block/control.csv" -output quality.json -report check
+  -control "$block/control.csv" -output quality.json -report check -title "Mission <7>"
+check "the page has its title" grep -q "<h1>Mission &lt;7&gt;</h1>" check/report.html
+expect 1 "title" check "${strips[@]}" -output none.json -title "no report"
 expect 0 "report.html" intensity "${strips[@]}" -corrected intensity -trajectory "$block/trajectory.csv" \
   -estimate strip_gains -json intensity.json -report intensity_report
 expect 2 "report" intensity "${strips[0]}" none.las -trajectory "$block/trajectory.csv" -report /proc/nowhere
@@ -108,7 +110,7 @@ expect 1 "too small" plot quality.json -output plots -plots offset_against_dista
 for page in report check intensity_report trajectory_report; do
   pictures=$(grep -o '<svg width' $page/report.html | wc -l)
   check "$page has pictures" test "$pictures" -ge "$([[ $page == trajectory_report ]] && echo 3 || echo 4)"
-  check "$page fetches nothing" eval '! grep -oE "(src|href)=\"[^\"]{0,40}" $page/report.html | grep -vE "\"data:(image/png;base64)?,"'
+  check "$page fetches nothing" eval '! grep -oE "(src|href)=\"[^\"]{0,40}" $page/report.html | grep -vE "\"data:(image/png;base64)?,|\"#section"'
 done
 
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
@@ -116,8 +118,18 @@ if [[ -z $browser ]]; then
   echo "SKIPPED: the pages in a browser: chromium is not installed"
   finish
 fi
+# On narrow, usual and wide screens nothing but tables scrolls to the side.
+narrow() {  # PAGE
+  local width
+  for width in 400 800 1920; do
+    browse --window-size=$width,900 --virtual-time-budget=10000 --dump-dom "file://$scratch/probed.html" >dom.html
+    check "$1 at $width pixels" grep -q ' wide=false"' dom.html
+  done
+}
 shown report verdict_agrees
+narrow report
 shown check quality_agrees
+narrow check
 shown intensity_report intensity_agrees
 browse --no-pdf-header-footer --print-to-pdf=page.pdf "file://$scratch/report/report.html" >/dev/null
 check "the page prints" eval '[[ $(head -c 5 page.pdf) == %PDF- && $(wc -c <page.pdf) -gt 20000 ]]'

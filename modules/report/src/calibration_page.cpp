@@ -15,6 +15,27 @@
 namespace pcl_als {
 namespace {
 
+std::string unitText(const SystemParameterInfo& info) {
+  return info.unit == "1" ? std::string() : std::string(info.unit);
+}
+
+/// "Lever arm x, lever arm y: apply this calibration": each remedy once, with the errors it is for.
+std::vector<std::string> remediesOf(const CalibrationResult& result) {
+  std::vector<std::pair<std::string, std::string>> remedies;
+  for (const ErrorFinding& f : result.diagnosis) {
+    if (!(f.determined && f.probability > 0.5)) continue;
+    const auto same = std::find_if(remedies.begin(), remedies.end(),
+                                   [&](const auto& each) { return each.first == f.remedy; });
+    if (same == remedies.end())
+      remedies.emplace_back(f.remedy, f.title);
+    else
+      same->second += ", " + f.title;
+  }
+  std::vector<std::string> texts;
+  for (const auto& [remedy, errors] : remedies) texts.push_back(errors + ": " + remedy + ".");
+  return texts;
+}
+
 ReportTable parameterTable(const CalibrationResult& result) {
   ReportTable table{"parameters",
                     "Biases, assumed − true. std: what the pairs share is accounted for; formal "
@@ -23,14 +44,14 @@ ReportTable parameterTable(const CalibrationResult& result) {
                     {}};
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
-    const int digits = info.unit == "m" ? 4 : info.unit == "arcsec" ? 2 : 7;
     const bool known = estimate.status == ParameterStatus::estimated;
+    const int digits = decimalsOf(estimate.std / info.internal_per_unit) + 1;
     const auto cell = [&](double value) {
       return known ? numberText(value / info.internal_per_unit, digits) : std::string();
     };
     std::string status(toString(estimate.status));
     if (!estimate.reason.empty()) status += ": " + estimate.reason;
-    table.rows.push_back({std::string(info.name), std::string(info.unit), cell(estimate.bias),
+    table.rows.push_back({plainName(info.parameter), unitText(info), cell(estimate.bias),
                           cell(estimate.std), cell(estimate.std_formal), status});
   }
   return table;
@@ -127,7 +148,7 @@ ReportTable systemTable(const CalibrationResult& result) {
           result.systems.begin(), result.systems.end(),
           [&](const SystemEstimate& other) { return other.parameters[i].bias != first; });
       if (differs)
-        add(info.name, info.unit, here / info.internal_per_unit,
+        add(plainName(info.parameter), unitText(info), here / info.internal_per_unit,
             system.parameters[i].std / info.internal_per_unit,
             system.difference_std[indexOf(info.parameter)] / info.internal_per_unit);
     }
@@ -169,7 +190,6 @@ void addDiagnosis(HtmlReport& report, const CalibrationResult& result) {
       "Possible causes of the misfit",
       {"error", "probability", "value", "std", "unit", "effect, mm", "corrected", "evidence"},
       {}};
-  std::vector<std::string> remedies;
   for (const ErrorFinding& f : result.diagnosis) {
     if (f.determined) {
       table.rows.push_back({f.title, numberText(f.probability, 3), significant(f.value),
@@ -178,9 +198,9 @@ void addDiagnosis(HtmlReport& report, const CalibrationResult& result) {
     } else {
       table.rows.push_back({f.title, "not determined", "", "", f.unit, "", "no", f.evidence});
     }
-    if (f.probability > 0.5 && f.determined) remedies.push_back(f.title + ": " + f.remedy);
   }
   report.addTable(table);
+  const std::vector<std::string> remedies = remediesOf(result);
   if (!remedies.empty()) report.addList(remedies);
   if (!result.scan_angle_curve.empty())
     report.addPicture(drawScanAngleCurve(result, kWide),
@@ -239,7 +259,6 @@ void addSummary(HtmlReport& report, const CalibrationResult& result) {
                  std::to_string(result.iterations.size()) + " iterations, model " +
                  std::string(modelName(result.attitude)) + ", " +
                  (result.converged ? "converged." : "not converged."));
-  report.addText("Verdict: " + result.verdict.text() + ".");
   addWarnings(result.warnings, report);
 }
 
@@ -273,7 +292,8 @@ SurveyObserver CalibrationPage::observer() {
 void CalibrationPage::write(const ReportOrigin& origin, const CalibrationResult& result,
                             const std::vector<SurveyArea>& areas,
                             const std::shared_ptr<const Trajectory>& trajectory) const {
-  HtmlReport report("Calibration of " + std::to_string(state_->survey->strips().size()) + " strips",
+  HtmlReport report(origin.titleOr("Calibration of " +
+                                   std::to_string(state_->survey->strips().size()) + " strips"),
                     origin.program);
   addVerdict(verdictOf(result), report);
   addSummary(report, result);

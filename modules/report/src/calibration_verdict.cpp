@@ -49,13 +49,6 @@ std::string againstSpecification(double rms) {
          caution;
 }
 
-std::string plainName(SystemParameter parameter) {
-  std::string name(infoOf(parameter).name);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  return name;
-}
-
 void addParameters(const CalibrationResult& result, std::vector<std::string>& sentences) {
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
@@ -105,6 +98,13 @@ void addTargets(const CalibrationResult& result, std::vector<std::string>& sente
 
 }  // namespace
 
+std::string plainName(SystemParameter parameter) {
+  std::string name(infoOf(parameter).name);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
 Verdict verdictOf(const CalibrationResult& result) {
   Verdict verdict;
   const bool compared = result.misfit.points > 0;
@@ -126,6 +126,8 @@ Verdict verdictOf(const CalibrationResult& result) {
                        centimetres(before) + " as delivered).";
     if (!complete) verdict.headline += " Not every parameter is determined.";
   }
+  if (result.verdict.usable())
+    verdict.sentences.push_back("Verdict: " + result.verdict.text() + ".");
   addParameters(result, verdict.sentences);
   if (result.verdict.usable() && !result.pairs.empty()) {
     verdict.sentences.push_back(againstSpecification(after));

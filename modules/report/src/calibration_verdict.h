@@ -8,6 +8,9 @@
 
 namespace pcl_als {
 
+/// "Lever arm x"
+std::string plainName(SystemParameter parameter);
+
 Verdict verdictOf(const CalibrationResult& result);
 
 }  // namespace pcl_als

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -38,10 +40,14 @@ std::string gradeClass(VerdictGrade grade) {
   return grade == VerdictGrade::good ? "good" : grade == VerdictGrade::bad ? "bad" : "attention";
 }
 
-/// All that begins like a number.
+/// A number, also one with its standard deviation in brackets, an interval or a percentage.
 bool numeric(const std::string& cell) {
-  if (cell.rfind("−", 0) == 0 || cell.rfind("–", 0) == 0) return true;
-  return !cell.empty() && std::string("+-.0123456789").find(cell[0]) != std::string::npos;
+  const bool begins =
+      cell.rfind("−", 0) == 0 || cell.rfind("–", 0) == 0 ||
+      (!cell.empty() && std::string("+-.0123456789").find(cell[0]) != std::string::npos);
+  return begins && std::none_of(cell.begin(), cell.end(), [](unsigned char c) {
+           return (std::isalpha(c) != 0 && c != 'e') || c == ':' || c == '&';
+         });
 }
 
 /// Columns that hold numbers only, or nothing.
@@ -86,7 +92,10 @@ std::string tableHtml(const ReportTable& table) {
   }
   out << "</tr></thead>\n<tbody>";
   for (const auto& row : table.rows) {
-    out << "<tr>";
+    const auto index = static_cast<std::size_t>(&row - table.rows.data());
+    const bool failed =
+        std::find(table.failed.begin(), table.failed.end(), index) != table.failed.end();
+    out << (failed ? "<tr class=\"failed\">" : "<tr>");
     for (std::size_t i = 0; i < row.size(); ++i) {
       // A row that ends early has its remark across the remaining columns.
       const std::size_t across = i + 1 == row.size() ? table.columns.size() - i : 1;
@@ -99,6 +108,13 @@ std::string tableHtml(const ReportTable& table) {
   }
   out << "</tbody></table></div>\n";
   return out.str();
+}
+
+/// A name of a section within the page.
+std::string anchorOf(const std::string& heading) {
+  std::string anchor = "section";
+  for (const char c : heading) anchor += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return anchor;
 }
 
 std::string tableMarkdown(const ReportTable& table) {
@@ -181,7 +197,7 @@ std::string HtmlReport::htmlOf(const Block& block) const {
   std::ostringstream out;
   switch (block.kind) {
     case Kind::heading:
-      out << "<h2>" << escapeHtml(block.text) << "</h2>\n";
+      out << "<h2 id=\"" << anchorOf(block.text) << "\">" << escapeHtml(block.text) << "</h2>\n";
       break;
     case Kind::text:
       out << "<p>" << escapeHtml(block.text) << "</p>\n";
@@ -200,6 +216,17 @@ std::string HtmlReport::htmlOf(const Block& block) const {
       break;
   }
   return out.str();
+}
+
+std::string HtmlReport::contents() const {
+  std::vector<std::string> headings;
+  for (const Block& block : blocks_)
+    if (block.kind == Kind::heading) headings.push_back(block.text);
+  if (headings.size() < 3) return {};
+  std::string text = "<nav aria-label=\"Contents\">";
+  for (const std::string& heading : headings)
+    text += "<a href=\"#" + anchorOf(heading) + "\">" + escapeHtml(heading) + "</a> ";
+  return text + "</nav>\n";
 }
 
 std::string HtmlReport::appendix() const {
@@ -223,10 +250,10 @@ std::string HtmlReport::html() const {
     for (const std::string& sentence : verdict_) out << "<li>" << escapeHtml(sentence) << "</li>\n";
     out << "</ul>\n";
   }
-  out << "</section>\n";
+  out << "</section>\n" << contents();
   for (const Block& block : blocks_) out << htmlOf(block);
   out << appendix() << "<footer>Made by " << escapeHtml(tool_) << ", " << made_
-      << "</footer>\n</main>\n</body>\n</html>\n";
+      << "</footer>\n</main>\n<script>" << detail::kReportScript << "</script>\n</body>\n</html>\n";
   return out.str();
 }
 

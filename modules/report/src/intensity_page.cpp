@@ -222,8 +222,9 @@ class DrawnIntensityPage : public IntensityPage {
 
 void DrawnIntensityPage::write(const ReportOrigin& origin, const IntensityReport& intensity) const {
   const IntensityRun& run = *intensity.result->run;
-  HtmlReport report("Intensity of " + std::to_string(run.strips().size()) + " strips",
-                    origin.program);
+  HtmlReport report(
+      origin.titleOr("Intensity of " + std::to_string(run.strips().size()) + " strips"),
+      origin.program);
   addVerdict(verdictOf(intensity), report);
   addWarnings(intensity.result->warnings, report);
   addSlopes(intensity, report);

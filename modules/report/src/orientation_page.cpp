@@ -130,8 +130,9 @@ void addLines(const BundleResult& bundle, HtmlReport& report) {
 }  // namespace
 
 void writeOrientationPage(const ReportOrigin& origin, const ImageOrientationResult& result) {
-  HtmlReport report("Orientation of " + std::to_string(result.block.images.size()) + " images",
-                    origin.program);
+  HtmlReport report(
+      origin.titleOr("Orientation of " + std::to_string(result.block.images.size()) + " images"),
+      origin.program);
   addVerdict(verdictOf(result), report);
   report.addSection("Block");
   report.addPicture(blockPicture(result),

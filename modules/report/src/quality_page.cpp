@@ -18,7 +18,7 @@ std::string shown(std::string cell) {
 
 void addQualityTable(const QualityTable& table, HtmlReport& report) {
   if (table.rows.empty()) return;
-  ReportTable shown_table{"", table.caption, table.columns, {}};
+  ReportTable shown_table{"", table.caption, table.columns, {}, table.failed};
   for (const auto& row : table.rows) {
     auto& cells = shown_table.rows.emplace_back();
     for (const std::string& cell : row) cells.push_back(cell == "-" ? "" : shown(cell));
@@ -96,7 +96,7 @@ SurveyObserver QualityPage::observer() {
 
 void QualityPage::write(const ReportOrigin& origin, const QualityReport& quality,
                         const std::vector<SurveyArea>& areas) const {
-  HtmlReport report("Check of " + std::to_string(state_->strips.size()) + " strips",
+  HtmlReport report(origin.titleOr("Check of " + std::to_string(state_->strips.size()) + " strips"),
                     origin.program);
   addVerdict(verdictOf(quality), report);
   addWarnings(quality.block.warnings, report);

@@ -105,7 +105,9 @@ CurvePanels offsetPanels(const QualityReport& report, OffsetAgainst against) {
                                          "time of the first strip, s from the overlap's start"};
   CurvePanels plot;
   plot.x_label = kAgainst[static_cast<int>(against)];
-  plot.title = "Height of the first strip above the second";
+  static const char* const kTitles[] = {"across the overlap", "over the scan angle", "over time"};
+  plot.title = std::string("Height of the first strip above the second, ") +
+               kTitles[static_cast<int>(against)];
   plot.y_label = "offset, m";
   plot.common_x = against != OffsetAgainst::time;
   for (const CheckedPair& pair : report.block.pairs) {

@@ -14,9 +14,11 @@
 namespace pcl_als {
 namespace {
 
-/// "+0.0123", or a dash for an unknown number.
+/// "+0.0123", or a dash for an unknown number; a zero has no sign.
 std::string metres(double value, int digits = 4) {
-  return std::isfinite(value) ? formatted("%+.*f", digits, value) : "-";
+  if (!std::isfinite(value)) return "-";
+  const std::string text = formatted("%+.*f", digits, value);
+  return text.find_first_of("123456789") == std::string::npos ? text.substr(1) : text;
 }
 std::string size(double value, int digits = 4) {
   return std::isfinite(value) ? formatted("%.*f", digits, value) : "-";
@@ -68,6 +70,7 @@ QualityTable verticalTable(const QualityReport& report) {
   QualityTable table{"Height differences a - b on smooth level single-return ground, m",
                      {"pair", "overlap m2", "places", "mean (std)", "median", "RMSDz",
                       "RMS of cells", "95 %", "level"},
+                     {},
                      {}};
   forEachPair(report, [&](const char* set, const CheckedPair& pair) {
     const OffsetSummary& v = pair.assessment.vertical;
@@ -82,6 +85,10 @@ QualityTable verticalTable(const QualityReport& report) {
             levelName(pair.assessment.quality_level)})
         row.push_back(cell);
     }
+    const auto& level = pair.assessment.quality_level;
+    const bool given = std::string(set) != "before";
+    if (given && judged(pair) && !(level && *level <= report.quality_level))
+      table.failed.push_back(table.rows.size());
     table.rows.push_back(row);
   });
   return table;

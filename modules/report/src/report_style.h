@@ -26,7 +26,13 @@ table{border-collapse:collapse;font-size:14px}
 caption{text-align:left;color:var(--note);padding:4px 0}
 th,td{padding:4px 12px;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}
 th{border-bottom:2px solid var(--rule)}
-th{white-space:nowrap}th.n{text-align:right}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+th,td:first-child{white-space:nowrap}
+tr.failed td{color:var(--bad);font-weight:bold}
+nav{margin:16px 0 0;font-size:14px}nav a{margin-right:14px}a{color:var(--good)}
+th button{all:unset;cursor:pointer}th button:focus-visible{outline:2px solid var(--good)}
+th[aria-sort=ascending] button::after{content:" ▲"}th[aria-sort=descending] button::after{content:" ▼"}
+input[type=search]{font:inherit;font-size:14px;padding:4px 8px;margin:12px 0 0}
+th.n{text-align:right}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 figure{margin:18px 0}
 figure>svg{display:block;max-width:100%;height:auto;border:1px solid var(--line)}
 figcaption{color:var(--note);font-size:14px}
@@ -34,8 +40,52 @@ footer{margin-top:40px;color:var(--note);font-size:13px}
 @page{margin:15mm}
 @media (max-width:700px){main{padding:16px 12px 32px}}
 @media print{body,#verdict{background:#fff}main{max-width:none;padding:0}
-figure,tr,#verdict{break-inside:avoid}h2{break-after:avoid}.wide{overflow:visible}
-table{font-size:11px}th,td{padding:2px 8px}a{color:inherit}}
+figure,tr,#verdict{break-inside:avoid}h2{break-after:avoid}.wide{overflow:visible}nav,input{display:none}
+thead{display:table-header-group}table{font-size:11px}th,td{padding:2px 8px}a{color:inherit}}
+)";
+
+/// Headings of tables with several rows become buttons that sort by their column; tables of more
+/// than 30 rows get a field that shows the rows with a text.
+inline constexpr const char* kReportScript = R"(
+document.querySelectorAll('.wide table').forEach(function (table) {
+  var body = table.tBodies[0], rows = Array.prototype.slice.call(body.rows);
+  if (rows.length < 3) return;
+  function value(row, column) {
+    var cell = row.cells[column], text = cell ? cell.textContent.replace(/\u2212/g, '-') : '';
+    var number = parseFloat(text.replace(/(\d) (?=\d)/g, '$1'));
+    return isNaN(number) || !/^[-+]?[\d.]/.test(text) ? text : number;
+  }
+  Array.prototype.forEach.call(table.tHead.rows[0].cells, function (head, column) {
+    var button = document.createElement('button');
+    button.textContent = head.textContent;
+    head.textContent = '';
+    head.appendChild(button);
+    button.addEventListener('click', function () {
+      var down = head.getAttribute('aria-sort') === 'ascending' ? -1 : 1;
+      Array.prototype.forEach.call(table.tHead.rows[0].cells, function (other) {
+        other.removeAttribute('aria-sort');
+      });
+      head.setAttribute('aria-sort', down === 1 ? 'ascending' : 'descending');
+      rows.slice().sort(function (a, b) {
+        var x = value(a, column), y = value(b, column);
+        if (typeof x !== typeof y) return typeof x === 'number' ? -1 : 1;
+        return down * (typeof x === 'number' ? x - y : x.localeCompare(y, 'en', {numeric: true}));
+      }).forEach(function (row) { body.appendChild(row); });
+    });
+  });
+  if (rows.length <= 30) return;
+  var filter = document.createElement('input');
+  filter.type = 'search';
+  filter.placeholder = 'rows with …';
+  filter.setAttribute('aria-label', 'Show the rows that contain a text');
+  filter.addEventListener('input', function () {
+    var text = filter.value.toLowerCase();
+    rows.forEach(function (row) {
+      row.hidden = row.textContent.toLowerCase().indexOf(text) < 0;
+    });
+  });
+  table.parentNode.parentNode.insertBefore(filter, table.parentNode);
+});
 )";
 
 }  // namespace pcl_als::detail

@@ -200,7 +200,7 @@ SurveyObserver TrajectoryPage::observer() {
 
 void TrajectoryPage::write(const ReportOrigin& origin, const ReconstructedFlight& flight,
                            const std::vector<std::string>& files) const {
-  HtmlReport report("Trajectory from points", origin.program);
+  HtmlReport report(origin.titleOr("Trajectory from points"), origin.program);
   addVerdict(verdictOf(flight), report);
   addWarnings(flight.warnings, report);
   report.addSection("Paths");

@@ -18,6 +18,7 @@ struct ReportTable {
   std::string caption;               ///< what the table shows, with units
   std::vector<std::string> columns;  ///< headings
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::size_t> failed;  ///< rows that are marked: a limit is exceeded
 };
 
 enum class VerdictGrade { good, attention, bad };
@@ -25,7 +26,8 @@ enum class VerdictGrade { good, attention, bad };
 /** \brief A report for decisions: one self-contained HTML page with the pictures inside, and the
  * same without pictures as Markdown and CSV.
  *
- * The page needs no network and no script, and has a style for printing. Everything given is
+ * The page needs no network, has a table of contents and a style for printing, and is complete
+ * without its script, by which tables are sorted and long ones filtered. Everything given is
  * escaped. \code HtmlReport report("Calibration of block 7", "pcl_als_calibrate 0.1.0");
  * report.setVerdict(VerdictGrade::good, "The strips agree to 2.1 cm.");
  * report.addVerdict("Boresight roll is −90.1 ± 0.8 arcsec.");
@@ -73,6 +75,7 @@ class HtmlReport {
     std::string path, size, time;
   };
   std::string htmlOf(const Block& block) const;
+  std::string contents() const;
   std::string appendix() const;
   ReportTable settingsTable() const;
   ReportTable inputsTable() const;

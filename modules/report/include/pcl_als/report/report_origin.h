@@ -18,6 +18,9 @@ struct ReportOrigin {
   std::vector<std::string> inputs;  ///< files besides the points: trajectory, control, …
   std::vector<std::pair<std::string, std::string>> settings;  ///< names and values
   std::vector<ControlPoint> control;                          ///< for the map; may be empty
+  std::string title;                                          ///< empty: by the content
+
+  std::string titleOr(const std::string& usual) const { return title.empty() ? usual : title; }
 };
 
 }  // namespace pcl_als
