@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026, the pcl_als authors
 #
-# pictures_speed.sh BIN_DIR FILE.las… [ROUNDS=3 in the environment]: pcl_als_view and pcl_als_profile of all files together, without
-# a display. Best of the rounds: seconds on the clock and of processors, memory of the tool and of the private X server, MB.
+# pictures_speed.sh BIN_DIR FILE.las… [ROUNDS=3 in the environment]: pcl_als_view and pcl_als_profile of all files together.
+# Best of the rounds: seconds on the clock and of processors, memory, MB.
 set -euo pipefail
 export LC_ALL=C
 unset DISPLAY
@@ -11,37 +11,20 @@ bin=$1
 shift
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
-# Largest memory of the children of a process while it runs, kB.
-watch_server() {  # PID
-  local most=0 child kilobytes
-  while kill -0 "$1" 2>/dev/null; do
-    for child in $(ps -o pid= --ppid "$1" 2>/dev/null); do
-      for child in $child $(ps -o pid= --ppid "$child" 2>/dev/null); do
-        [[ $(cat "/proc/$child/comm" 2>/dev/null) == Xvfb ]] || continue
-        kilobytes=$(awk '/^VmHWM/ { print $2 }' "/proc/$child/status" 2>/dev/null || true)
-        [[ ${kilobytes:-0} -le $most ]] || most=$kilobytes
-      done
-    done
-    sleep 0.1
-  done
-  echo "$most"
-}
 measure() {  # NAME COMMAND…
-  local name=$1 round seconds cpu memory server best=999999 line=
+  local name=$1 round seconds cpu memory best=999999 line=
   shift
   for ((round = 0; round < ${ROUNDS:-3}; ++round)); do
-    command time -f '%e %U %S %M' -o "$work/used" "$@" >/dev/null &
-    server=$(watch_server $!)
-    wait $!
+    command time -f '%e %U %S %M' -o "$work/used" "$@" >/dev/null
     read -r seconds user system memory <"$work/used"
     cpu=$(bc -l <<<"$user + $system")
     [[ $(bc -l <<<"$seconds < $best") == 1 ]] || continue
     best=$seconds
-    line=$(printf '%-28s %7.1f %7.1f %7d %7d' "$name" "$seconds" "$cpu" $((memory / 1024)) $((server / 1024)))
+    line=$(printf '%-28s %7.1f %7.1f %7d' "$name" "$seconds" "$cpu" $((memory / 1024)))
   done
   echo "$line"
 }
-printf '%-28s %7s %7s %7s %7s\n' what seconds cpu "MB" "X MB"
+printf '%-28s %7s %7s %7s\n' what seconds cpu "MB"
 measure "top view, hillshade" "$bin/pcl_als_view" "$@" -output "$work/a.png" -shade hill -quiet
 measure "oblique, eye-dome" "$bin/pcl_als_view" "$@" -output "$work/b.png" -azimuth 30 -elevation 35 -shade edl -quiet
 measure "by strip" "$bin/pcl_als_view" "$@" -output "$work/c.png" -color strip -quiet
