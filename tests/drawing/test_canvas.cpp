@@ -166,10 +166,11 @@ TEST(Canvas, SvgHasTextThatCanBeSelectedAndColoursOfTheTheme) {
   };
   has("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"50\"");
   has("<svg x=\"10\" y=\"10\" width=\"50\" height=\"30\" viewBox=\"10 10 50 30\">");
-  has("d=\"M0 0L20.2 20M30 30L40 40\" fill=\"none\" stroke-width=\"2.0\" stroke=\"#1a1a1a\"");
+  has("d=\"M0 0L20.2 20M30 30L40 40\" fill=\"none\" stroke-width=\"2.0\" class=\"stroke-black\"");
   has(">σ &lt; 2° &amp; more</text>");
   has("class=\"fill-black\"");
   has("rotate(-90 ");
+  has(".stroke-black{stroke:#1a1a1a}");
   has("prefers-color-scheme:dark");
   EXPECT_EQ(canvas.svg("a < b").find("<title>a &lt; b</title>"),
             canvas.svg("a < b").find("<title>"));

@@ -113,15 +113,17 @@ void Axes::points(const std::vector<double>& x, const std::vector<double>& y, do
 
 void Axes::errorBars(const std::vector<double>& x, const std::vector<double>& y,
                      const std::vector<double>& half, const Color& color) {
-  canvas_.setClip(box_);
+  const Eigen::Vector2d cap(4.0, 0.0), gap = Eigen::Vector2d::Constant(NAN);
+  std::vector<Eigen::Vector2d> bars;  // one stroke, which is smaller in a file than many
   for (std::size_t i = 0; i < x.size() && i < y.size() && i < half.size(); ++i) {
+    if (!(half[i] > 0.0)) continue;
     const Eigen::Vector2d low = pixel(x[i], y[i] - half[i]), high = pixel(x[i], y[i] + half[i]);
-    if (!low.allFinite() || !high.allFinite()) continue;
-    const Eigen::Vector2d cap(4.0, 0.0);
-    canvas_.line(low, high, 1.5, color);
-    canvas_.line(low - cap, low + cap, 1.5, color);
-    canvas_.line(high - cap, high + cap, 1.5, color);
+    bars.insert(bars.end(),
+                {low - cap, low + cap, gap, low, high, gap, high - cap, high + cap, gap});
   }
+  if (bars.empty()) return;
+  canvas_.setClip(box_);
+  canvas_.polyline(bars, 1.5, color);
   canvas_.clearClip();
 }
 

@@ -38,14 +38,19 @@ std::string coordinate(double value) {
   return text == "-0" ? "0" : text;
 }
 
+std::string hexadecimal(const Color& color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
+}
+
 /// The attributes of a fill or stroke.
 std::string paint(const char* kind, const Color& color) {
-  std::string text = fmt::format(" {}=\"#{:02x}{:02x}{:02x}\"", kind, color.r, color.g, color.b);
-  if (color.a != 255) text += fmt::format(" {}-opacity=\"{:.2f}\"", kind, color.a / 255.0);
+  std::string text;
   for (const ThemeColor& theme : themeColors()) {
     if (theme.light == color.withAlpha(255))
-      text += fmt::format(" class=\"{}-{}\"", kind, theme.name);
+      text = fmt::format(" class=\"{}-{}\"", kind, theme.name);
   }
+  if (text.empty()) text = fmt::format(" {}=\"{}\"", kind, hexadecimal(color));
+  if (color.a != 255) text += fmt::format(" {}-opacity=\"{:.2f}\"", kind, color.a / 255.0);
   return text;
 }
 
@@ -112,11 +117,13 @@ std::string svgOf(const Element& element) {
 }  // namespace
 
 std::string Canvas::themeStyle() {
-  std::string style = "@media screen and (prefers-color-scheme:dark){";
+  constexpr const char* kRules = ".fill-{0}{{fill:{1}}}.stroke-{0}{{stroke:{1}}}";
+  std::string light, dark;
   for (const ThemeColor& color : themeColors()) {
-    style += fmt::format(".fill-{0}{{fill:{1}}}.stroke-{0}{{stroke:{1}}}", color.name, color.dark);
+    light += fmt::format(kRules, color.name, hexadecimal(color.light));
+    dark += fmt::format(kRules, color.name, color.dark);
   }
-  return style + "}\n";
+  return light + "\n@media screen and (prefers-color-scheme:dark){" + dark + "}\n";
 }
 
 std::string Canvas::svg(const std::string& description) const {

@@ -175,7 +175,7 @@ Canvas drawConfusion(const ConfusionPlot& plot, PictureSize size) {
 
 PictureSize pictureSizeIn(const std::string& text) {
   const std::vector<double> size = numbersIn(text, 'x');
-  // Drawing takes some 110 bytes a pixel: larger pictures would end in a lack of memory.
+  // Drawing takes some 35 bytes a pixel: larger pictures would end in a lack of memory.
   constexpr double kMostPixels = 40e6;
   if (size.size() == 2 && size[0] >= 200 && size[1] >= 150 && size[0] <= 16384 &&
       size[1] <= 16384 && size[0] * size[1] <= kMostPixels && size[0] == std::floor(size[0]) &&

@@ -92,7 +92,7 @@ class Canvas {
    * hear who do not see the picture.
    */
   std::string svg(const std::string& description = {}) const;
-  /// The style sheet by which the colours of namespace ink follow the reader's light or dark theme
+  /// The style sheet of the colours of namespace ink, which follow the reader's light or dark theme
   /// on a screen.
   static std::string themeStyle();
   /// The bytes of a PDF document of one page, a pixel of 0.75 points (1/96 inch).
