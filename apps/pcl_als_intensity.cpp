@@ -53,13 +53,12 @@ std::vector<std::string> outputsOf(const CommandLine& line) {
 }
 
 void writeReport(const CommandLine& line, const IntensityReport& report,
-                 const IntensityPage* page) {
+                 const IntensityPage& page) {
   const std::filesystem::path folder = line.text("report");
   Step step("Writing the report into " + folder.string(), line.quiet());
-  writeIntensityReport(folder, report, page == nullptr);
-  if (page != nullptr) page->write(app::reportOrigin(line), report);
-  step.done(page != nullptr ? "report.html with pictures, report.md, CSV"
-                            : "report.md, CSV; no report.html: built without VTK");
+  writeIntensityTables(folder, report);
+  page.write(app::reportOrigin(line), report);
+  step.done("report.html with pictures, report.md, CSV");
 }
 
 void print(const IntensityResult& result) {
@@ -91,7 +90,7 @@ int intensity(const CommandLine& line) {
   if (!line.quiet()) print(result);
   const IntensityReport report{&result, extinction, options.output, outputs};
   if (line.has("json")) writeIntensityJson(line.text("json"), report);
-  if (line.has("report")) writeReport(line, report, page.get());
+  if (page) writeReport(line, report, *page);
   return app::conclude(line, result.unreliable);
 }
 

@@ -16,13 +16,15 @@ using app::CommandLine;
 using app::Step;
 namespace fs = std::filesystem;
 
-const std::vector<std::string>& formats() {
-  static const std::vector<std::string> names{"png", "svg", "pdf"};
+/// "png" of ".png"
+std::vector<std::string> formats() {
+  std::vector<std::string> names;
+  for (const std::string& ending : app::pictureEndings()) names.push_back(ending.substr(1));
   return names;
 }
 
-std::string endingOf(const CommandLine& line) {
-  return "." + formats()[line.choice("format")];
+const std::string& endingOf(const CommandLine& line) {
+  return app::pictureEndings()[line.choice("format")];
 }
 
 /// The pictures that are asked for. Of a plot that several files hold, all but the first have the

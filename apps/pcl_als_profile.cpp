@@ -59,7 +59,7 @@ CommandLine commandLine() {
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::Option& output = line.addOutputFile(
-      "output", "picture to write, with -auto a folder for profile1.png, …", {".png"});
+      "output", "picture to write, with -auto a folder for profile1.png, …", app::pictureEndings());
   output.needed().files = filesInFolder;
   app::addSizeOption(line);
   line.addText("title", "text above (default: names of the files)");

@@ -26,7 +26,7 @@ CommandLine commandLine() {
       "FILE... -output PICTURE.png [options]",
       "pcl_als_view strip*.las -output strips.png -color strip -shade edl");
   line.setArguments({{"", 1, app::Arguments::kAnyNumber}});
-  line.addOutputFile("output", "picture to write", {".png", ".svg", ".pdf"});
+  line.addOutputFile("output", "picture to write", app::pictureEndings());
   line.addFlag("window", "show the points in a window; needs a display");
   line.exclude({"output", "window"}, true);
   line.addText("color",

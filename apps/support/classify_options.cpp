@@ -7,6 +7,7 @@
 
 #include <pcl_als/common/errors.h>
 
+#include "picture_options.h"
 #include "processes.h"
 #include "strip_options.h"
 #include "window_options.h"
@@ -23,7 +24,7 @@ void addOutputs(CommandLine& line) {
   line.addOutputFile("checked", "the check points with their classes, for pcl_als_accuracy",
                      {".csv"});
   line.addOutputFile("save_model", "statistics of the classes for -model", {".json"});
-  line.addOutputFile("map", "picture of the map with its legend", {".png"});
+  line.addOutputFile("map", "picture of the map with its legend", pictureEndings());
   line.addInputFile("beside",
                     "another map of classes (GeoTIFF) that is drawn to the left of the map");
   line.addText("captions",

@@ -3,6 +3,12 @@
 #include "picture_options.h"
 
 namespace pcl_als::app {
+
+const std::vector<std::string>& pictureEndings() {
+  static const std::vector<std::string> endings{".png", ".svg", ".pdf"};
+  return endings;
+}
+
 void addSizeOption(CommandLine& line) {
   line.addText("size", "size of the picture, pixels", "1600x1000");
 }

@@ -13,6 +13,9 @@
 
 namespace pcl_als::app {
 
+/// The endings of the pictures that Canvas::write() writes.
+const std::vector<std::string>& pictureEndings();
+
 void addSizeOption(CommandLine& line);
 /// -size WIDTHxHEIGHT; UsageError unless 200x150 to 16384x16384, 40 million pixels at most.
 PictureSize sizeOf(const CommandLine& line);

@@ -125,6 +125,9 @@ read -r x y < <(run profile "${strips[@]}" -auto 1 -output profiles
 expect 0 "points" profile "${strips[@]}" -from "$(awk "BEGIN { print $x - 15 }"),$y" \
   -to "$(awk "BEGIN { print $x + 15 }"),$y" -width 3 -output section.png -size 1200x700
 check "section.png is a picture" is_png section.png 1200x700
+expect 0 "points" profile "${strips[@]}" -from "$(awk "BEGIN { print $x - 15 }"),$y" \
+  -to "$(awk "BEGIN { print $x + 15 }"),$y" -output section.svg
+check "section.svg has text and points" grep -q "textLength.*height, m\|data:image/png" section.svg
 expect 1 "are needed" profile "${strips[0]}" -output none.png
 expect 1 "same point" profile "${strips[0]}" -from 1,1 -to 1,1 -output none.png
 expect 1 "from" profile "${strips[0]}" -from here -to 1,1 -output none.png

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -23,6 +24,12 @@ inline void expectTidy(const Canvas& canvas) {
           << "'" << texts[i].text << "' covers '" << texts[j].text << "'";
     }
   }
+}
+
+/// Pixels of a colour.
+inline int countOf(const Canvas& canvas, const Color& color) {
+  const Image image = canvas.image();
+  return static_cast<int>(std::count(image.pixels.begin(), image.pixels.end(), color));
 }
 
 /// The box of a text that is in a picture once.

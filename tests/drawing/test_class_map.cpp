@@ -29,13 +29,6 @@ ClassRaster quarters(int columns, int rows, double cell) {
   return raster;
 }
 
-int countOf(const Canvas& canvas, const Color& color) {
-  int count = 0;
-  const Image image = canvas.image();
-  for (const Color& pixel : image.pixels) count += pixel == color ? 1 : 0;
-  return count;
-}
-
 TEST(ClassMap, OneMapIsTidyAndTrue) {
   ClassMapPicture picture;
   picture.setTitle("Land cover of a made-up block");

@@ -40,13 +40,6 @@ CalibrationResult sample() {
   return result;
 }
 
-int countOf(const Canvas& canvas, const Color& color) {
-  int count = 0;
-  const Image image = canvas.image();
-  for (const Color& pixel : image.pixels) count += pixel == color ? 1 : 0;
-  return count;
-}
-
 TEST(CalibrationPlots, AreTidyInThreeSizes) {
   const CalibrationResult result = sample();
   for (const PictureSize size : {PictureSize{1600, 1000}, {1000, 700}, {2400, 1400}}) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include <Eigen/Core>
 #include <cairo.h>
 
 #include <pcl_als/drawing/image.h>
@@ -22,6 +23,20 @@ using CairoSurface = std::unique_ptr<cairo_surface_t, CairoRelease>;
 
 /// Throws std::bad_alloc or Error where Cairo reports a failure.
 void requireSuccess(cairo_status_t status);
+
+/// For streams of Cairo: appends to a std::string or a vector of bytes.
+template <typename Bytes>
+cairo_status_t appendTo(void* bytes, const unsigned char* data, unsigned int length) {
+  auto& all = *static_cast<Bytes*>(bytes);
+  all.insert(all.end(), data, data + length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+void setColor(cairo_t* context, const Color& color);
+void fillDisk(cairo_t* context, const Eigen::Vector2d& center, double diameter);
+
+/// The bytes of a PNG file: RGB, or RGBA of a surface with alpha.
+std::vector<std::uint8_t> encodePng(cairo_surface_t* surface);
 
 /// A surface with the pixels of an image, and back.
 CairoSurface surfaceOf(const Image& image);

@@ -18,12 +18,6 @@ namespace {
 using detail::kNormal95;
 using detail::kPlotMargin;
 
-std::string plainName(const SystemParameterInfo& info) {
-  std::string name(info.name);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 /// Rows of one unit, which share an axis.
 struct UnitGroup {
   std::string unit, label;
@@ -68,7 +62,7 @@ void drawParameterGroup(Canvas& canvas, const CalibrationResult& result, const U
     const double at = y.high - static_cast<double>(i) - 0.5;
     const double pixel_y = axes.pixel(0.0, at).y();
     name.color = value.color = known ? ink::black : ink::gray;
-    canvas.text(plainName(info), {box.x - 14.0, pixel_y}, name);
+    canvas.text(plainName(info.parameter), {box.x - 14.0, pixel_y}, name);
     const double available = canvas.width() - kPlotMargin - right;
     value.size = known ? 15.0 : 13.0;
     const auto lines = detail::wrapped(estimateText(info.parameter, estimate), available, value, 3);
@@ -97,13 +91,22 @@ std::vector<double> numbersTo(std::size_t count) {
 
 }  // namespace
 
+std::string plainName(SystemParameter parameter) {
+  std::string name(infoOf(parameter).name);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+int decimalsOfStd(double std) {
+  const int leading = std > 0.0 ? static_cast<int>(std::floor(std::log10(std))) : -6;
+  return std::clamp(1 - leading, 0, 9);
+}
+
 std::string estimateText(SystemParameter parameter, const ParameterEstimate& estimate) {
   const SystemParameterInfo& info = infoOf(parameter);
   if (estimate.status == ParameterStatus::estimated) {
     const double std = estimate.std / info.internal_per_unit;
-    // Two digits of the standard deviation are significant.
-    const int leading = std > 0.0 ? static_cast<int>(std::floor(std::log10(std))) : -6;
-    const int decimals = std::clamp(1 - leading, 0, 9);
+    const int decimals = decimalsOfStd(std);
     return numberText(estimate.bias / info.internal_per_unit, decimals) + " ± " +
            numberText(std, decimals) + (info.unit == "1" ? "" : " " + std::string(info.unit));
   }
@@ -136,7 +139,7 @@ Canvas drawCorrelation(const CalibrationResult& result, PictureSize size) {
   if (count == 0) throw UsageError("plot of correlations: no parameter was estimated");
   detail::HeatMap heat;
   for (const SystemParameter parameter : result.correlation_order) {
-    heat.rows.push_back(plainName(infoOf(parameter)));
+    heat.rows.push_back(plainName(parameter));
   }
   heat.columns = heat.rows;
   for (std::size_t r = 0; r < count; ++r) {

@@ -12,7 +12,6 @@
 namespace pcl_als {
 namespace {
 
-constexpr const char* kSvgNamespace = "http://www.w3.org/2000/svg";
 constexpr int kLargestSide = 20000;  // pixels
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -146,13 +145,13 @@ PixelBox Canvas::text(const std::string& utf8, const Eigen::Vector2d& at, const 
 
 void Canvas::write(const std::filesystem::path& path) const {
   const std::string ending = path.extension().string();
-  if (ending == ".png") return writePng(path, image());
   if (ending == ".pdf") return writeFile(path, pdf());
-  if (ending == ".svg") {
-    const std::string element = svg(), start = element.substr(0, element.find('>') + 1);
-    return writeFile(path, "<svg xmlns=\"" + std::string(kSvgNamespace) + "\"" + start.substr(4) +
-                               "\n<style>" + themeStyle() + "</style>" +
-                               element.substr(start.size()));
+  if (ending == ".svg")
+    return writeFile(path, svgElement(" xmlns=\"http://www.w3.org/2000/svg\"",
+                                      "<style>" + themeStyle() + "</style>\n"));
+  if (ending == ".png") {
+    const std::vector<std::uint8_t> bytes = png();
+    return writeFile(path, std::string(bytes.begin(), bytes.end()));
   }
   throw UsageError(path.string() + ": pictures are written as .png, .svg or .pdf");
 }

@@ -19,7 +19,6 @@ using detail::CairoSurface;
 using Element = Canvas::Element;
 
 constexpr double kPointsPerPixel = 0.75;
-constexpr double kRingWidth = 1.5;  // pixels
 
 cairo_font_face_t* faceOf(bool bold) {
   using Face = std::unique_ptr<cairo_font_face_t, detail::CairoRelease>;
@@ -40,11 +39,6 @@ cairo_font_options_t* fontOptions() {
     return made;
   }();
   return options.get();
-}
-
-void setColor(cairo_t* context, const Color& color) {
-  cairo_set_source_rgba(context, color.r / 255.0, color.g / 255.0, color.b / 255.0,
-                        color.a / 255.0);
 }
 
 /// Connected points; one that is not finite begins a new part.
@@ -86,7 +80,7 @@ void render(cairo_t* context, const Element& element) {
   cairo_save(context);
   cairo_rectangle(context, element.clip.x, element.clip.y, element.clip.width, element.clip.height);
   cairo_clip(context);
-  setColor(context, element.color);
+  detail::setColor(context, element.color);
   switch (element.kind) {
     case Element::Kind::area:
       tracePath(context, element.points);
@@ -100,14 +94,12 @@ void render(cairo_t* context, const Element& element) {
       cairo_stroke(context);
       break;
     case Element::Kind::disk:
-      cairo_arc(context, element.points[0].x(), element.points[0].y(), 0.5 * element.size, 0.0,
-                2.0 * M_PI);
-      cairo_fill(context);
+      detail::fillDisk(context, element.points[0], element.size);
       break;
     case Element::Kind::ring:
-      cairo_set_line_width(context, kRingWidth);
+      cairo_set_line_width(context, Element::kRingWidth);
       cairo_arc(context, element.points[0].x(), element.points[0].y(),
-                0.5 * (element.size - kRingWidth), 0.0, 2.0 * M_PI);
+                0.5 * (element.size - Element::kRingWidth), 0.0, 2.0 * M_PI);
       cairo_stroke(context);
       break;
     case Element::Kind::image:
@@ -126,12 +118,27 @@ void renderAll(cairo_t* context, const Canvas& canvas) {
   detail::requireSuccess(cairo_status(context));
 }
 
-cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
+/// The drawing in pixels, without alpha where its background has none.
+CairoSurface rendered(const Canvas& canvas) {
+  const bool opaque = !canvas.elements().empty() && canvas.elements().front().color.a == 255;
+  CairoSurface surface(cairo_image_surface_create(opaque ? CAIRO_FORMAT_RGB24 : CAIRO_FORMAT_ARGB32,
+                                                  canvas.width(), canvas.height()));
+  detail::requireSuccess(cairo_surface_status(surface.get()));
+  renderAll(CairoContext(cairo_create(surface.get())).get(), canvas);
+  return surface;
 }
 
 }  // namespace
+
+void detail::setColor(cairo_t* context, const Color& color) {
+  cairo_set_source_rgba(context, color.r / 255.0, color.g / 255.0, color.b / 255.0,
+                        color.a / 255.0);
+}
+
+void detail::fillDisk(cairo_t* context, const Eigen::Vector2d& center, double diameter) {
+  cairo_arc(context, center.x(), center.y(), 0.5 * diameter, 0.0, 2.0 * M_PI);
+  cairo_fill(context);
+}
 
 double detail::textLength(const std::string& utf8, double size, bool bold) {
   using Font = std::unique_ptr<cairo_scaled_font_t, detail::CairoRelease>;
@@ -151,17 +158,17 @@ double detail::textLength(const std::string& utf8, double size, bool bold) {
 }
 
 Image Canvas::image() const {
-  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width_, height_));
-  detail::requireSuccess(cairo_surface_status(surface.get()));
-  const CairoContext context(cairo_create(surface.get()));
-  renderAll(context.get(), *this);
-  return detail::imageOf(surface.get());
+  return detail::imageOf(rendered(*this).get());
+}
+
+std::vector<std::uint8_t> Canvas::png() const {
+  return detail::encodePng(rendered(*this).get());
 }
 
 std::string Canvas::pdf() const {
   std::string bytes;
   const CairoSurface surface(cairo_pdf_surface_create_for_stream(
-      append, &bytes, width_ * kPointsPerPixel, height_ * kPointsPerPixel));
+      detail::appendTo<std::string>, &bytes, width_ * kPointsPerPixel, height_ * kPointsPerPixel));
   const CairoContext context(cairo_create(surface.get()));
   cairo_scale(context.get(), kPointsPerPixel, kPointsPerPixel);
   renderAll(context.get(), *this);

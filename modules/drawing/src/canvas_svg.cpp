@@ -104,8 +104,9 @@ std::string svgOf(const Element& element) {
     case Element::Kind::disk:
       return circle(element, element.size, paint("fill", element.color));
     case Element::Kind::ring:
-      return circle(element, element.size - 1.5,
-                    " fill=\"none\" stroke-width=\"1.5\"" + paint("stroke", element.color));
+      return circle(element, element.size - Element::kRingWidth,
+                    fmt::format(" fill=\"none\" stroke-width=\"{}\"", Element::kRingWidth) +
+                        paint("stroke", element.color));
     case Element::Kind::image:
       return imageElement(element);
     case Element::Kind::text:
@@ -117,22 +118,32 @@ std::string svgOf(const Element& element) {
 }  // namespace
 
 std::string Canvas::themeStyle() {
-  constexpr const char* kRules = ".fill-{0}{{fill:{1}}}.stroke-{0}{{stroke:{1}}}";
-  std::string light, dark;
+  std::string light, dark, variables, dark_variables;
+  const auto append = [](const std::string& name, const std::string& color, std::string& classes,
+                         std::string& values) {
+    classes += fmt::format(".fill-{0}{{fill:{1}}}.stroke-{0}{{stroke:{1}}}", name, color);
+    values += fmt::format("--{}:{};", name, color);
+  };
   for (const ThemeColor& color : themeColors()) {
-    light += fmt::format(kRules, color.name, hexadecimal(color.light));
-    dark += fmt::format(kRules, color.name, color.dark);
+    append(color.name, hexadecimal(color.light), light, variables);
+    append(color.name, color.dark, dark, dark_variables);
   }
-  return light + "\n@media screen and (prefers-color-scheme:dark){" + dark + "}\n";
+  return ":root{" + variables + "}" + light +
+         "\n@media screen and (prefers-color-scheme:dark){:root{" + dark_variables + "}" + dark +
+         "}\n";
 }
 
 std::string Canvas::svg(const std::string& description) const {
+  return svgElement("",
+                    description.empty() ? "" : "<title>" + escapeHtml(description) + "</title>\n");
+}
+
+std::string Canvas::svgElement(const std::string& attributes, const std::string& head) const {
   std::string out = fmt::format(
-      "<svg width=\"{0}\" height=\"{1}\" "
+      "<svg{2} width=\"{0}\" height=\"{1}\" "
       "viewBox=\"0 0 {0} {1}\" role=\"img\" font-family=\"DejaVu Sans,Verdana,sans-serif\" "
-      "stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
-      width_, height_);
-  if (!description.empty()) out += "<title>" + escapeHtml(description) + "</title>\n";
+      "stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{3}",
+      width_, height_, attributes, head);
   const PixelBox whole{0.0, 0.0, static_cast<double>(width_), static_cast<double>(height_)};
   // Elements that are cut off at one box are in an inner picture of that box.
   PixelBox clip = whole;

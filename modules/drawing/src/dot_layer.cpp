@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "dot_layer.h"
 
-#include <cmath>
-
 namespace pcl_als::detail {
 
 DotLayer::DotLayer(int width, int height)
@@ -13,10 +11,8 @@ DotLayer::DotLayer(int width, int height)
 }
 
 void DotLayer::add(const Eigen::Vector2d& at, double diameter, const Color& color) {
-  cairo_set_source_rgba(context_.get(), color.r / 255.0, color.g / 255.0, color.b / 255.0,
-                        color.a / 255.0);
-  cairo_arc(context_.get(), at.x(), at.y(), 0.5 * diameter, 0.0, 2.0 * M_PI);
-  cairo_fill(context_.get());
+  setColor(context_.get(), color);
+  fillDisk(context_.get(), at, diameter);
 }
 
 }  // namespace pcl_als::detail

@@ -32,12 +32,6 @@ Color unpacked(std::uint32_t pixel) {
   return {channel(16), channel(8), channel(0), static_cast<std::uint8_t>(alpha)};
 }
 
-cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
-  auto& all = *static_cast<std::vector<std::uint8_t>*>(bytes);
-  all.insert(all.end(), data, data + length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 }  // namespace
 
 namespace detail {
@@ -46,6 +40,13 @@ void requireSuccess(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   throw Error(std::string("a picture cannot be drawn: ") + cairo_status_to_string(status));
+}
+
+std::vector<std::uint8_t> encodePng(cairo_surface_t* surface) {
+  using Bytes = std::vector<std::uint8_t>;
+  Bytes bytes;
+  requireSuccess(cairo_surface_write_to_png_stream(surface, appendTo<Bytes>, &bytes));
+  return bytes;
 }
 
 CairoSurface surfaceOf(const Image& image) {
@@ -82,10 +83,7 @@ Image imageOf(cairo_surface_t* surface) {
 
 std::vector<std::uint8_t> encodePng(const Image& image) {
   if (image.width < 1 || image.height < 1) throw UsageError("an image without pixels");
-  std::vector<std::uint8_t> bytes;
-  const detail::CairoSurface surface = detail::surfaceOf(image);
-  detail::requireSuccess(cairo_surface_write_to_png_stream(surface.get(), append, &bytes));
-  return bytes;
+  return detail::encodePng(detail::surfaceOf(image).get());
 }
 
 void writePng(const std::filesystem::path& path, const Image& image) {

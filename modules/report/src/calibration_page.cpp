@@ -45,13 +45,13 @@ ReportTable parameterTable(const CalibrationResult& result) {
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
     const bool known = estimate.status == ParameterStatus::estimated;
-    const int digits = decimalsOf(estimate.std / info.internal_per_unit) + 1;
+    const int digits = decimalsOfStd(estimate.std / info.internal_per_unit);
     const auto cell = [&](double value) {
       return known ? numberText(value / info.internal_per_unit, digits) : std::string();
     };
     std::string status(toString(estimate.status));
     if (!estimate.reason.empty()) status += ": " + estimate.reason;
-    table.rows.push_back({plainName(info.parameter), unitText(info), cell(estimate.bias),
+    table.rows.push_back({headingOf(info.parameter), unitText(info), cell(estimate.bias),
                           cell(estimate.std), cell(estimate.std_formal), status});
   }
   return table;
@@ -148,7 +148,7 @@ ReportTable systemTable(const CalibrationResult& result) {
           result.systems.begin(), result.systems.end(),
           [&](const SystemEstimate& other) { return other.parameters[i].bias != first; });
       if (differs)
-        add(plainName(info.parameter), unitText(info), here / info.internal_per_unit,
+        add(headingOf(info.parameter), unitText(info), here / info.internal_per_unit,
             system.parameters[i].std / info.internal_per_unit,
             system.difference_std[indexOf(info.parameter)] / info.internal_per_unit);
     }

@@ -53,11 +53,11 @@ void addParameters(const CalibrationResult& result, std::vector<std::string>& se
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
     if (estimate.status == ParameterStatus::estimated) {
-      sentences.push_back(plainName(info.parameter) + ": " +
+      sentences.push_back(headingOf(info.parameter) + ": " +
                           estimateText(info.parameter, estimate) +
                           (estimate.reason.empty() ? "." : ", " + estimate.reason + "."));
     } else if (estimate.status == ParameterStatus::not_estimable) {
-      sentences.push_back(plainName(info.parameter) + ": not determined (" +
+      sentences.push_back(headingOf(info.parameter) + ": not determined (" +
                           (estimate.reason.empty() ? "the data do not show it" : estimate.reason) +
                           ").");
     }
@@ -98,9 +98,8 @@ void addTargets(const CalibrationResult& result, std::vector<std::string>& sente
 
 }  // namespace
 
-std::string plainName(SystemParameter parameter) {
-  std::string name(infoOf(parameter).name);
-  std::replace(name.begin(), name.end(), '_', ' ');
+std::string headingOf(SystemParameter parameter) {
+  std::string name = plainName(parameter);
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   return name;
 }

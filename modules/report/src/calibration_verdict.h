@@ -9,7 +9,7 @@
 namespace pcl_als {
 
 /// "Lever arm x"
-std::string plainName(SystemParameter parameter);
+std::string headingOf(SystemParameter parameter);
 
 Verdict verdictOf(const CalibrationResult& result);
 

@@ -13,39 +13,27 @@
 namespace pcl_als {
 namespace {
 
-/// One line of a table: points, means, standard deviations, variance-to-mean ratios, change.
-void pairColumns(const BeforeAfter& pair, double scale, const char* separator, std::ostream& out) {
-  const double before = varianceToMean(pair.before), after = scale * varianceToMean(pair.after);
-  out << pair.before.count() << separator << pair.before.mean() << separator
-      << pair.before.standardDeviation() << separator << pair.after.mean() << separator
-      << pair.after.standardDeviation() << separator << before << separator << after << separator
-      << (before > 0.0 ? 100.0 * (after / before - 1.0) : 0.0);
-}
-
+/// Points, means, standard deviations, variance-to-mean ratios, change.
 constexpr const char* kPairHeader =
     "points,mean_before,std_before,mean_after,std_after,variance_to_mean_before,"
     "variance_to_mean_after,change_percent\n";
-constexpr const char* kPairHead =
-    "points | mean before | sd before | mean after | sd after | variance/mean before | after | "
-    "change % |\n";
-constexpr const char* kPairRule = "---|---|---|---|---|---|---|---|\n";
 
-struct Table {
-  std::ostringstream csv, markdown;
-  explicit Table(const char* first) {
-    csv << first << ',' << kPairHeader << std::setprecision(6);
-    markdown << "| " << first << " | " << kPairHead << "|---|" << kPairRule << std::fixed
-             << std::setprecision(1);
-  }
+/// A table in CSV: a name, then figures before and after.
+class Table {
+ public:
+  explicit Table(const char* first) { csv_ << first << ',' << kPairHeader << std::setprecision(6); }
   void add(const std::string& name, const BeforeAfter& pair, double scale) {
     if (pair.before.count() == 0) return;
-    csv << name << ',';
-    pairColumns(pair, scale, ",", csv);
-    csv << '\n';
-    markdown << "| " << name << " | ";
-    pairColumns(pair, scale, " | ", markdown);
-    markdown << " |\n";
+    const double before = varianceToMean(pair.before), after = scale * varianceToMean(pair.after);
+    csv_ << name << ',' << pair.before.count() << ',' << pair.before.mean() << ','
+         << pair.before.standardDeviation() << ',' << pair.after.mean() << ','
+         << pair.after.standardDeviation() << ',' << before << ',' << after << ','
+         << (before > 0.0 ? 100.0 * (after / before - 1.0) : 0.0) << '\n';
   }
+  std::string text() const { return csv_.str(); }
+
+ private:
+  std::ostringstream csv_;
 };
 
 std::string histogramsCsv(const IntensityReport& report) {
@@ -166,41 +154,7 @@ std::string countsText(const IntensityCounts& counts, const IntensityRun& run) {
   return out.str();
 }
 
-namespace {
-
-std::string markdownOf(const IntensityReport& report, const Table& slopes, const Table& classes,
-                       const Table& strips) {
-  std::ostringstream page;
-  const RadiometricModel& model = report.result->run->model();
-  page << "# Radiometric correction\n\nReference range " << model.reference_range
-       << " m, range exponent " << model.range_exponent << ", incidence exponent "
-       << model.incidence_exponent << ", extinction " << model.extinction_per_km << " per km; "
-       << report.extinction.remark
-       << ".\n\nVariance-to-mean ratios after correction are brought to "
-       << "the mean of the given intensities (of all points; by strip: of the strip). Zero and "
-          "saturated intensities are left out.\n\n"
-       << "## By slope\n\n"
-       << slopes.markdown.str() << "\n## By class\n\n"
-       << classes.markdown.str() << "\n## By strip\n\n"
-       << strips.markdown.str();
-  if (report.result->overlaps)
-    page << "\n## Overlaps\n\n```\n"
-         << overlapText(*report.result->overlaps, report.result->run->strips()) << "```\n";
-  if (report.result->reference)
-    page << "\n## Targets\n\n```\n" << referenceText(*report.result->reference) << "```\n";
-  page << "\n## Points\n";
-  for (std::size_t i = 0; i < report.result->run->files(); ++i)
-    page << "\n"
-         << report.result->run->input(i).path() << "\n```\n"
-         << countsText(report.result->outcome.counts[i], *report.result->run) << "```\n";
-  for (const Warning& warning : report.result->warnings) page << "\n- " << warning.text;
-  return page.str() + "\n";
-}
-
-}  // namespace
-
-void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
-                          bool markdown) {
+void writeIntensityTables(const std::filesystem::path& folder, const IntensityReport& report) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder))
@@ -215,11 +169,10 @@ void writeIntensityReport(const std::filesystem::path& folder, const IntensityRe
   for (std::size_t i = 0; i < statistics.strips(); ++i)
     strips.add(report.result->run->strips()[i], statistics.strip(i),
                meanScale(statistics.strip(i)));
-  writeFile(folder / "slopes.csv", slopes.csv.str());
-  writeFile(folder / "classes.csv", classes.csv.str());
-  writeFile(folder / "strips.csv", strips.csv.str());
+  writeFile(folder / "slopes.csv", slopes.text());
+  writeFile(folder / "classes.csv", classes.text());
+  writeFile(folder / "strips.csv", strips.text());
   writeFile(folder / "histograms.csv", histogramsCsv(report));
-  if (markdown) writeFile(folder / "report.md", markdownOf(report, slopes, classes, strips));
 }
 
 }  // namespace pcl_als

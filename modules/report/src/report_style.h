@@ -5,36 +5,34 @@
 namespace pcl_als::detail {
 
 /// Style of the page: a column for reading, tables that scroll in themselves on narrow screens, the
-/// reader's light or dark theme, and for paper no colours that ink is wasted on and no picture cut
-/// by a page's end.
+/// reader's light or dark theme (its colours are those of Canvas::themeStyle()), and for paper no
+/// colours that ink is wasted on and no picture cut by a page's end.
 inline constexpr const char* kReportStyle = R"(
-:root{color-scheme:light dark;--paper:#fff;--ground:#f4f4f2;--text:#1a1a1a;--note:#555;--line:#ddd;
---rule:#888;--good:#0072b2;--attention:#e69f00;--bad:#b2182b}
-@media screen and (prefers-color-scheme:dark){:root{--paper:#1b1d1f;--ground:#25282b;--text:#e8e8e6;
---note:#b4b4b2;--line:#3a3d40;--rule:#77797b;--good:#56b4e9;--bad:#f0686f}}
-body{margin:0;background:var(--ground);color:var(--text);font:16px/1.5 "DejaVu Sans",Verdana,Helvetica,sans-serif}
-main{max-width:1080px;margin:0 auto;padding:24px 32px 48px;background:var(--paper)}
+:root{color-scheme:light dark;--note:#555;--rule:#888;--attention:#e69f00;--bad:#b2182b}
+@media screen and (prefers-color-scheme:dark){:root{--note:#b4b4b2;--rule:#77797b;--bad:#f0686f}}
+body{margin:0;background:var(--ground);color:var(--black);font:16px/1.5 "DejaVu Sans",Verdana,Helvetica,sans-serif}
+main{max-width:1080px;margin:0 auto;padding:24px 32px 48px;background:var(--white)}
 h1{font-size:26px;line-height:1.25;margin:8px 0 20px}
-h2{font-size:19px;margin:36px 0 10px;padding-bottom:4px;border-bottom:1px solid var(--line)}
+h2{font-size:19px;margin:36px 0 10px;padding-bottom:4px;border-bottom:1px solid var(--faint)}
 #verdict{border-left:10px solid;padding:12px 20px;background:var(--ground)}
-#verdict.good{border-color:var(--good)}#verdict.attention{border-color:var(--attention)}
+#verdict.good{border-color:var(--after)}#verdict.attention{border-color:var(--attention)}
 #verdict.bad{border-color:var(--bad)}
 .headline{font-size:19px;font-weight:bold;margin:4px 0 8px}
 #verdict ul{margin:4px 0;padding-left:22px}
 .wide{overflow-x:auto;margin:12px 0}
 table{border-collapse:collapse;font-size:14px}
 caption{text-align:left;color:var(--note);padding:4px 0}
-th,td{padding:4px 12px;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}
+th,td{padding:4px 12px;border-bottom:1px solid var(--faint);text-align:left;vertical-align:top}
 th{border-bottom:2px solid var(--rule)}
 th,td:first-child{white-space:nowrap}
 tr.failed td{color:var(--bad);font-weight:bold}
-nav{margin:16px 0 0;font-size:14px}nav a{margin-right:14px}a{color:var(--good)}
-th button{all:unset;cursor:pointer}th button:focus-visible{outline:2px solid var(--good)}
+nav{margin:16px 0 0;font-size:14px}nav a{margin-right:14px}a{color:var(--after)}
+th button{all:unset;cursor:pointer}th button:focus-visible{outline:2px solid var(--after)}
 th[aria-sort=ascending] button::after{content:" ▲"}th[aria-sort=descending] button::after{content:" ▼"}
 input[type=search]{font:inherit;font-size:14px;padding:4px 8px;margin:12px 0 0}
 th.n{text-align:right}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 figure{margin:18px 0}
-figure>svg{display:block;max-width:100%;height:auto;border:1px solid var(--line)}
+figure>svg{display:block;max-width:100%;height:auto;border:1px solid var(--faint)}
 figcaption{color:var(--note);font-size:14px}
 footer{margin-top:40px;color:var(--note);font-size:13px}
 @page{margin:15mm}
@@ -76,7 +74,7 @@ document.querySelectorAll('.wide table').forEach(function (table) {
   if (rows.length <= 30) return;
   var filter = document.createElement('input');
   filter.type = 'search';
-  filter.placeholder = 'rows with …';
+  filter.placeholder = 'filter rows';
   filter.setAttribute('aria-label', 'Show the rows that contain a text');
   filter.addEventListener('input', function () {
     var text = filter.value.toLowerCase();

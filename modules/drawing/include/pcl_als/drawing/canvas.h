@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -86,6 +87,8 @@ class Canvas {
 
   /// The drawing in pixels.
   Image image() const;
+  /// The bytes of a PNG file of these pixels.
+  std::vector<std::uint8_t> png() const;
   /** \brief The drawing as an SVG element of an HTML page, whose style sheet is themeStyle().
    *
    * Text remains text, as wide as it was laid out in whatever font. \param description what readers
@@ -93,7 +96,7 @@ class Canvas {
    */
   std::string svg(const std::string& description = {}) const;
   /// The style sheet of the colours of namespace ink, which follow the reader's light or dark theme
-  /// on a screen.
+  /// on a screen: classes fill-NAME and stroke-NAME, and custom properties --NAME for a page.
   static std::string themeStyle();
   /// The bytes of a PDF document of one page, a pixel of 0.75 points (1/96 inch).
   std::string pdf() const;
@@ -103,6 +106,7 @@ class Canvas {
 
   /// What was drawn, in order.
   struct Element {
+    static constexpr double kRingWidth = 1.5;  ///< pixels, within the diameter of a ring
     enum class Kind { area, stroke, disk, ring, image, text };
     Kind kind;
     Color color;
@@ -119,6 +123,7 @@ class Canvas {
   const std::vector<Element>& elements() const { return elements_; }
 
  private:
+  std::string svgElement(const std::string& attributes, const std::string& head) const;
   Element& add(Element::Kind kind, const Color& color, std::vector<Eigen::Vector2d> points = {},
                double size = 0.0);
 

@@ -9,11 +9,7 @@
 
 namespace pcl_als {
 
-/** \brief The report of a radiometric correction: report.html with pictures, and report.md.
- *
- * Without module visualization (PCL_ALS_WITH_VTK=OFF) there is no page; writeIntensityReport()
- * writes report.md and the tables.
- */
+/// The report of a radiometric correction: report.html with pictures, and report.md.
 class IntensityPage {
  public:
   virtual ~IntensityPage() = default;
@@ -23,7 +19,6 @@ class IntensityPage {
   virtual void write(const ReportOrigin& origin, const IntensityReport& report) const = 0;
 };
 
-/// Null without VTK.
 std::unique_ptr<IntensityPage> makeIntensityPage();
 
 }  // namespace pcl_als

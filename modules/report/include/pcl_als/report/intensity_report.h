@@ -46,10 +46,9 @@ double meanScale(const BeforeAfter& all);
 std::string intensityJson(const IntensityReport& report);
 void writeIntensityJson(const std::filesystem::path& path, const IntensityReport& report);
 
-/// report.md, slopes.csv, classes.csv, strips.csv, histograms.csv, written into a folder that is
-/// made if missing. Without \a markdown report.md is left to the page.
-void writeIntensityReport(const std::filesystem::path& folder, const IntensityReport& report,
-                          bool markdown);
+/// slopes.csv, classes.csv, strips.csv, histograms.csv, written into a folder that is made if
+/// missing.
+void writeIntensityTables(const std::filesystem::path& folder, const IntensityReport& report);
 
 /// Model, gains and constant from the JSON of an earlier run.
 StoredRadiometry readIntensityJson(const std::filesystem::path& path);
