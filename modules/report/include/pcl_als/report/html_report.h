@@ -18,7 +18,7 @@ struct ReportTable {
   std::string caption;               ///< what the table shows, with units
   std::vector<std::string> columns;  ///< headings
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> failed;  ///< rows that are marked: a limit is exceeded
+  std::vector<std::size_t> failed = {};  ///< rows that are marked: a limit is exceeded
 };
 
 enum class VerdictGrade { good, attention, bad };

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <iostream>
+
+#include <pcl_als/common/bias_list.h>
+#include <pcl_als/common/number_text.h>
+#include <pcl_als/history/history_files.h>
+#include <pcl_als/report/history_report.h>
+
+#include "command_line.h"
+#include "flight_options.h"
+#include "report_options.h"
+
+namespace pcl_als::app {
+namespace {
+
+CommandLine commandLine() {
+  const HistoryOptions defaults;
+  CommandLine line("pcl_als_history",
+                   "combines calibrations of one system over missions: constancy, steps and drifts "
+                   "of each parameter, the value to use from now on, control charts",
+                   "CALIBRATION.json... -output history.json [-missions missions.csv] [options]",
+                   "pcl_als_history 2026/*/calibration.json -missions missions.csv -output "
+                   "history.json -report history");
+  line.setArguments({{"", 1, Arguments::kAnyNumber}});
+  line.addOutputFile("output", "history.json to write; pcl_als_calibrate -prior reads it",
+                     {".json"})
+      .needed();
+  line.addInputFile("missions",
+                    "table of the missions, CSV with a header: calibration (name of the file), "
+                    "date (2026-05-04), and columns of numbers that biases may depend on, such as "
+                    "temperature (default: missions are in the order of the files)");
+  line.addText("system",
+               "name of the system, of calibrations with several (default: the first one)");
+  line.addText("change",
+               "standard deviations of changes between missions that are known, e.g. "
+               "boresight_roll=2,lever_arm_x=0.005 (m, arcsec; default: estimated)");
+  line.addNumber("level", "level of each test, over the whole history", defaults.level,
+                 {1e-6, 0.49, ""});
+  addForceOption(line, "a calibration should not be applied by its own verdict");
+  addReportOption(line, "folder for report.html with control charts, report.md, tables as CSV",
+                  {"parameters.csv", "segments.csv", "missions.csv"});
+  return line;
+}
+
+int history(const CommandLine& line) {
+  HistoryInput input;
+  for (const std::string& file : line.inputs()) input.calibrations.emplace_back(file);
+  if (line.has("missions")) input.missions = line.text("missions");
+  if (line.has("system")) input.system = line.text("system");
+  input.with_unusable = line.has("force");
+  HistoryOptions options;
+  options.level = line.number("level");
+  if (line.has("change")) setBiases(line.text("change"), options.change_std);
+  HistoryMissions missions = readHistoryMissions(input);
+  HistoryReport report;
+  report.history = calibrationHistory(std::move(missions.missions), options);
+  report.instrument = pooledInstrument(report.history, missions.newest);
+  report.excluded = std::move(missions.excluded);
+  if (!line.quiet()) std::cout << historyText(report);
+  writeHistory(line.text("output"), report);
+  if (line.has("report")) {
+    ReportOrigin origin = reportOrigin(line);
+    for (const std::string& file : line.inputs()) origin.inputs.push_back(file);
+    writeHistoryPage(origin, report);
+  }
+  return kDone;
+}
+
+}  // namespace
+}  // namespace pcl_als::app
+
+int main(int argc, char** argv) {
+  return pcl_als::app::run(argc, argv, pcl_als::app::commandLine, pcl_als::app::history);
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pcl_als/history/calibration_history.h>
+#include <pcl_als/report/report_origin.h>
+
+namespace pcl_als {
+
+/// The content of history.json.
+struct HistoryReport {
+  CalibrationHistory history;
+  CalibrationResult instrument;       ///< pooledInstrument()
+  std::vector<std::string> excluded;  ///< calibrations that are not used, and why
+};
+
+/// What the history says, in sentences: constancy, changes with what may have caused them, missions
+/// that do not fit.
+std::vector<std::string> historyFindings(const CalibrationHistory& history);
+
+/// The tables that the tool prints.
+std::string historyText(const HistoryReport& report);
+/// The text of history.json; its part "instrument" has the form of that of calibration.json.
+std::string historyJson(const HistoryReport& report);
+void writeHistory(const std::filesystem::path& path, const HistoryReport& report);
+
+/// report.html with a control chart of each parameter, report.md and tables as CSV.
+void writeHistoryPage(const ReportOrigin& origin, const HistoryReport& report);
+
+}  // namespace pcl_als
