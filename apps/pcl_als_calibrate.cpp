@@ -77,6 +77,9 @@ CommandLine commandLine() {
   app::addWindowOptions(line);
   app::addStripOptions(line);
   app::addChannelOption(line);
+  line.addText("system_name",
+               "name and serial number of the instrument, for pcl_als_history (default: as the "
+               "point files state it)");
   line.addText("prior", "known biases with standard deviations: boresight_roll=0:5,… (m, arcsec)");
   app::addSystemOptions(line);
   line.addText("pairs",
@@ -200,6 +203,7 @@ int calibrate(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs();
   CalibrationOptions options;
   options.settings = settingsOf(line);
+  if (line.has("system_name")) options.system_name = line.text("system_name");
   if (line.has("pairs")) options.pairs = line.parsed("pairs", pairsIn);
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);

@@ -23,13 +23,15 @@ CommandLine commandLine() {
                    "pcl_als_history 2026/*/calibration.json -missions missions.csv -output "
                    "history.json -report history");
   line.setArguments({{"", 1, Arguments::kAnyNumber}});
-  line.addOutputFile("output", "history.json to write; pcl_als_calibrate -prior reads it",
-                     {".json"})
+  line.addOutputFile("output", "history.json to write, a prior for pcl_als_calibrate", {".json"})
       .needed();
   line.addInputFile("missions",
                     "table of the missions, CSV with a header: calibration (name of the file), "
                     "date (2026-05-04), and columns of numbers that biases may depend on, such as "
                     "temperature (default: missions are in the order of the files)");
+  line.addText("system_name",
+               "name of the instrument whose calibrations are used (default: all have the same "
+               "name, or none)");
   line.addText("system",
                "name of the system, of calibrations with several (default: the first one)");
   line.addText("change",
@@ -43,15 +45,23 @@ CommandLine commandLine() {
   return line;
 }
 
+/// Standard deviations of changes; NaN for parameters that the text does not name.
+SystemVector changesIn(const std::string& text) {
+  SystemVector std = HistoryOptions().change_std;
+  setBiases(text, std);
+  return std;
+}
+
 int history(const CommandLine& line) {
   HistoryInput input;
   for (const std::string& file : line.inputs()) input.calibrations.emplace_back(file);
   if (line.has("missions")) input.missions = line.text("missions");
+  if (line.has("system_name")) input.system_name = line.text("system_name");
   if (line.has("system")) input.system = line.text("system");
   input.with_unusable = line.has("force");
   HistoryOptions options;
   options.level = line.number("level");
-  if (line.has("change")) setBiases(line.text("change"), options.change_std);
+  if (line.has("change")) options.change_std = line.parsed("change", changesIn);
   HistoryMissions missions = readHistoryMissions(input);
   HistoryReport report;
   report.history = calibrationHistory(std::move(missions.missions), options);

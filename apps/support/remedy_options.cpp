@@ -40,6 +40,7 @@ constexpr RemedyOption kRemedyOptions[] = {
     {Remedy::channels, "channels", "-channels scanner_channel divides them", "pcl_als_calibrate"},
     {Remedy::user_data, "channels", "-channels user_data divides them", "pcl_als_calibrate"},
     {Remedy::split, "split", "-split divides the points into flight lines"},
+    {Remedy::system_name, "system_name", "-system_name chooses one"},
 };
 
 /// "; use -force to continue": what serves a remedy; empty where nothing does, and of a flag that

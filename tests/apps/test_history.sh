@@ -24,12 +24,13 @@ printf 'calibration,date,temperature\n' >missions.csv
 for i in 1 2 3 4 5 6 7 8; do printf 'c%d.json,2026-0%d-04,%d\n' "$i" "$i" $((10 + i % 3)); done \
   >>missions.csv
 
-expect 1 'lines' history
-expect 1 'needs option -output' history c1.json
+printf 'calibration\nother.json\n' >short.csv
+expect 1 'usage' history
+expect 1 'option -output is needed' history c1.json
 expect 1 'level' history c1.json -output h.json -level 2
 expect 1 'change' history c1.json -output h.json -change wobble=1
 expect 2 'none.json: *there is no such file' history none.json -output h.json
-expect 2 'no row for the calibration c1.json' history c1.json -missions <(echo) -output h.json
+expect 2 'no row for the calibration c1.json' history c1.json -missions short.csv -output h.json
 : >empty.json
 expect 2 'empty.json: ' history empty.json -output h.json
 head -c 2000 c1.json >cut.json

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/distributions.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/history/calibration_history.h>
@@ -105,6 +106,71 @@ TEST(CalibrationHistory, OneMissionIsItsOwnHistory) {
   EXPECT_LT((pooled.correlation - only.correlation).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_EQ(pooled[P::lever_arm_z].status, ParameterStatus::not_estimable);
   EXPECT_TRUE(pooled.verdict.usable());
+}
+
+TEST(CalibrationHistory, APriorIsNotCountedAgain) {
+  // A calibration of lever arm and pitch with a prior: its information is taken out exactly.
+  const std::vector<P> order = {P::lever_arm_y, P::boresight_pitch};
+  Eigen::Matrix2d flight, prior;
+  flight << 4e-4, 3e-8, 3e-8, 1e-11;  // m^2, m rad, rad^2
+  prior << 1e-4, -2e-8, -2e-8, 9e-12;
+  const Eigen::Vector2d by_flight(0.02, 3e-5), by_prior(0.05, 2e-5);
+  const Eigen::Matrix2d both = flight.inverse() + prior.inverse();
+  const Eigen::Vector2d posterior =
+      both.inverse() * (flight.inverse() * by_flight + prior.inverse() * by_prior);
+  const Eigen::Matrix2d covariance = both.inverse();
+  const Eigen::Vector2d std = covariance.diagonal().cwiseSqrt();
+  CalibrationResult result = calibrationWith(
+      order, posterior, std,
+      std.cwiseInverse().asDiagonal() * covariance * std.cwiseInverse().asDiagonal());
+  SystemVector mean = SystemVector::Zero();
+  mean[1] = by_prior[0];
+  mean[3] = by_prior[1];
+  result.prior = biasPrior(order, mean, prior);
+  const CalibrationMission mission = missionOf(result, "c.json");
+  const Eigen::Matrix2d expected = flight.inverse();
+  const std::vector<int> rows = {1, 3};
+  EXPECT_LT((mission.information(rows, rows) - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_NEAR(mission.bias[1], by_flight[0], 1e-6);
+  EXPECT_NEAR(mission.std[1], std::sqrt(flight(0, 0)), 1e-6);
+  EXPECT_NEAR(mission.bias[3], by_flight[1], 1e-9);
+  // A flight that adds nothing to its prior determines nothing.
+  result.prior = biasPrior(order, mean, covariance);
+  const CalibrationMission empty = missionOf(result, "c.json");
+  EXPECT_FALSE(empty.determines(P::lever_arm_y));
+  EXPECT_LT(empty.information.norm(), 1e-3 * expected.norm());
+}
+
+/// A calibration of the pitch with the lever arm held: effect -2e-3 rad/m, size 0.05 m.
+CalibrationMission pitchWithHeldLeverArm(double bias, double conditional_std) {
+  constexpr double kEffect = -2e-3, kSize = 0.05;
+  CalibrationResult result =
+      calibrationWith({P::boresight_pitch}, Eigen::VectorXd::Constant(1, bias),
+                      Eigen::VectorXd::Constant(1, std::hypot(conditional_std, kEffect * kSize)),
+                      Eigen::MatrixXd::Identity(1, 1));
+  result.held_parameters = {{P::lever_arm_y}, {kSize}, Eigen::MatrixXd::Constant(1, 1, kEffect)};
+  return missionOf(result, "c.json");
+}
+
+TEST(CalibrationHistory, AHeldParameterDoesNotAverageOut) {
+  // Two flights over the same kind of block: the lever arm that neither determines is the same.
+  const CalibrationHistory history = calibrationHistory(
+      {pitchWithHeldLeverArm(1e-5, 4e-6), pitchWithHeldLeverArm(1.2e-5, 4e-6)}, noChange());
+  EXPECT_NEAR(history.value[3], 1.1e-5, 1e-9);
+  EXPECT_NEAR(std::sqrt(history.covariance(3, 3)), std::hypot(4e-6 / std::sqrt(2.0), 1e-4), 1e-8);
+  EXPECT_FALSE(history.knows(P::lever_arm_y));
+  EXPECT_EQ(history.covariance(1, 1), 0.0);
+}
+
+TEST(CalibrationHistory, KnowledgeOfAHeldParameterCorrectsTheEstimates) {
+  // Another flight finds a lever arm of 30 mm: held at zero, it changed the pitch by
+  // -2e-3 rad/m * 0.03 m = -6e-5 rad, which the combination puts right.
+  const CalibrationHistory history = calibrationHistory(
+      {pitchWithHeldLeverArm(1e-5, 4e-6), missionWith({P::lever_arm_y}, {0.03}, {0.001})},
+      noChange());
+  // b = beta - F h with h = 0.03: beta = 1e-5 + (-2e-3) 0.03.
+  EXPECT_NEAR(history.value[3], 1e-5 - 6e-5, 1e-8);
+  EXPECT_NEAR(std::sqrt(history.covariance(3, 3)), std::hypot(4e-6, 2e-6), 1e-8);
 }
 
 TEST(CalibrationHistory, PooledValuesAreWithinTheirIntervals) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/history/calibration_history.h>
 
 #include "simulated_missions.h"

@@ -99,6 +99,28 @@ TEST_F(HistoryFiles, RepeatedAndUnusableCalibrationsAreExcluded) {
   EXPECT_NE(refusal().find("no calibration can be used"), std::string::npos) << refusal();
 }
 
+TEST_F(HistoryFiles, InstrumentAndDateAreThoseOfTheCalibration) {
+  for (int m = 0; m < 3; ++m) {
+    CalibrationResult result = readCalibration(input_.calibrations[static_cast<std::size_t>(m)]);
+    EXPECT_TRUE(result.system_name.empty());
+    EXPECT_FALSE(result.day);
+    result.system_name = m == 1 ? "scanner B" : "scanner A";
+    result.day = 16920 - m;
+    writeCalibration(input_.calibrations[static_cast<std::size_t>(m)], result);
+  }
+  EXPECT_NE(refusal().find("of the instrument scanner B, others are of scanner A"),
+            std::string::npos)
+      << refusal();
+  input_.system_name = "scanner A";
+  const HistoryMissions read = readHistoryMissions(input_);
+  ASSERT_EQ(read.missions.size(), 2U);
+  EXPECT_EQ(read.missions[1].day, 16918);
+  EXPECT_EQ(read.newest.day, 16920);
+  EXPECT_EQ(read.newest.system_name, "scanner A");
+  ASSERT_EQ(read.excluded.size(), 1U);
+  EXPECT_NE(read.excluded[0].find("scanner B"), std::string::npos);
+}
+
 TEST_F(HistoryFiles, OtherModelsAndSystemsAreRefused) {
   CalibrationResult other = readCalibration(input_.calibrations[1]);
   other.attitude = AttitudeSource::points;

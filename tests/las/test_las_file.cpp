@@ -36,6 +36,16 @@ PointChunk readAll(const LasFile& file) {
   return chunk;
 }
 
+TEST(LasHeader, SensorIsASystemIdentifierThatNamesNoProcess) {
+  LasHeader header;
+  for (const char* process : {"", "OTHER", "MERGE", "EXTRACTION", "PDAL", "LAStools (c) by X"}) {
+    header.system_id = process;
+    EXPECT_EQ(header.sensor(), "") << process;
+  }
+  header.system_id = "VQ-780 II S/N 2223355";
+  EXPECT_EQ(header.sensor(), "VQ-780 II S/N 2223355");
+}
+
 /// Every version with every point format, also those that a version's specification does not list.
 class LasFileMatrix : public testing::TestWithParam<std::tuple<int, int>> {
  protected:

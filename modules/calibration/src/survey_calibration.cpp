@@ -10,6 +10,7 @@
 #include <pcl_als/common/file_version.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/measured_box.h>
+#include <pcl_als/io/time_reference.h>
 #include <pcl_als/io/trajectory_accuracy.h>
 #include <pcl_als/survey/place_in_block.h>
 
@@ -237,17 +238,42 @@ double heightStd(const std::vector<TrajectoryAccuracy>& accuracy, const SurveyRe
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
+/// Day of the first point, days since 1980-01-06, where the times or \a week tell it.
+std::optional<long> dayOf(const PointFileSources& file, std::optional<int> week) {
+  constexpr double kSecondsPerDay = 86400.0;
+  TimeRange times;
+  for (const PointSource& source : file.sources)
+    if (source.hasTimes()) times.add(source.first_time);
+  if (times.empty()) return {};
+  const bool is_absolute = file.info.time_kind == TimeKind::adjusted_standard;
+  if (!is_absolute && !week) return {};
+  const double origin = is_absolute ? kAdjustedOffset : kSecondsPerWeek * *week;
+  const double day = std::floor((times.first + origin) / kSecondsPerDay);
+  constexpr double kLastDay = 80000.0;  // in the year 2199: later times are errors
+  if (!(day >= 0.0 && day < kLastDay)) return {};
+  return static_cast<long>(day);
+}
+
 /// What the files are and state of themselves.
 void describeInputs(const SurveyReader& survey, const CalibrationOptions& options,
                     CalibrationResult& result) {
-  bool corrected = false;
+  bool corrected = false, one_system = true;
+  std::string system;
   for (const SurveyedFile& file : survey.files()) {
     const PointFileInfo& info = file.sources.info;
     if (!file.sources.damage.empty()) result.warnings.push_back(file.sources.damage);
     result.inputs.push_back(info.path.string());
     if (result.crs.empty()) result.crs = info.crs;
+    if (system.empty()) system = info.system;
+    one_system = one_system && (info.system.empty() || info.system == system);
+    const std::optional<long> day = dayOf(file.sources, options.gps_week);
+    if (day && (!result.day || *day < *result.day)) result.day = day;
     corrected = corrected || !info.corrections.empty();
   }
+  if (!options.system_name.empty())
+    result.system_name = options.system_name;
+  else if (one_system)
+    result.system_name = system;
   if (corrected)
     result.warnings.emplace_back(
         "points were corrected before the calibration: its biases are those that remain in the "

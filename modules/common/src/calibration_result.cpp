@@ -6,6 +6,7 @@ namespace pcl_als {
 
 CalibrationResult instrumentOf(const CalibrationResult& calibration) {
   CalibrationResult instrument;
+  instrument.system_name = calibration.system_name;
   instrument.verdict = calibration.verdict;
   instrument.attitude = calibration.attitude;
   instrument.scan_planes = calibration.scan_planes;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/distributions.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
@@ -107,7 +108,8 @@ void describe(const HistoryModel& model, std::vector<DetectedChange> changes,
 }
 
 /// The prediction error of a mission by all others, for parameters that these determine.
-MissionAgreement agreementOf(std::size_t m, const MissionInformation& data,
+MissionAgreement agreementOf(std::size_t m, const CalibrationMission& mission,
+                             const MissionInformation& data,
                              const std::vector<HistoryTerm>& terms) {
   MissionInformation others = data;
   others.matrix[m].setZero();
@@ -121,12 +123,19 @@ MissionAgreement agreementOf(std::size_t m, const MissionInformation& data,
   for (int p = 0; p < kSystemParameterCount; ++p)
     if (data.matrix[m](p, p) > 0.0) own.push_back(p);
   for (const int p : own) {
-    const double limit = 0.01 * largestBias(static_cast<SystemParameter>(p));
-    if (prediction(p, p) < limit * limit) compared.push_back(p);
+    const auto parameter = static_cast<SystemParameter>(p);
+    const double limit = 0.01 * largestBias(parameter);
+    if (mission.determines(parameter) && prediction(p, p) < limit * limit) compared.push_back(p);
   }
   MissionAgreement agreement;
   if (compared.empty()) return agreement;
-  const Eigen::MatrixXd information = data.matrix[m](own, own);
+  Eigen::MatrixXd information = data.matrix[m](own, own);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const int p = own[i];
+    const double std = mission.held_std[p] > 0.0 ? mission.held_std[p]
+                                                 : largestBias(static_cast<SystemParameter>(p));
+    information(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += 1.0 / (std * std);
+  }
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
   SystemMatrix covariance = SystemMatrix::Zero();
@@ -208,8 +217,15 @@ CalibrationHistory calibrationHistory(std::vector<CalibrationMission> missions,
   const std::size_t last = history.missions.size() - 1;
   history.value = model.at(last);
   history.covariance = model.covarianceAt(last);
+  for (const SystemParameterInfo& info : systemParameters()) {
+    if (history.knows(info.parameter)) continue;
+    const int p = indexOf(info.parameter);
+    history.value[p] = 0.0;
+    history.covariance.row(p).setZero();
+    history.covariance.col(p).setZero();
+  }
   for (std::size_t m = 0; m <= last; ++m) {
-    MissionAgreement agreement = agreementOf(m, data, terms);
+    MissionAgreement agreement = agreementOf(m, history.missions[m], data, terms);
     agreement.agrees =
         !(agreement.p_value < options.level / static_cast<double>(history.missions.size()));
     history.agreement.push_back(agreement);

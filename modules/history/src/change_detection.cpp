@@ -34,7 +34,7 @@ struct Candidate {
 std::vector<std::size_t> missionsWith(const std::vector<CalibrationMission>& missions, int p) {
   std::vector<std::size_t> found;
   for (std::size_t m = 0; m < missions.size(); ++m)
-    if (missions[m].information(p, p) > 0.0) found.push_back(m);
+    if (missions[m].determines(static_cast<SystemParameter>(p))) found.push_back(m);
   return found;
 }
 
@@ -45,7 +45,7 @@ Candidate candidateOf(ChangeKind kind, int p, std::size_t before, std::size_t af
   candidate.change.parameter = static_cast<SystemParameter>(p);
   candidate.change.last_before = before;
   candidate.change.first_after = after;
-  candidate.term = {p, std::move(design), kind != ChangeKind::outlier};
+  candidate.term = {p, std::move(design), 0.0, kind != ChangeKind::outlier};
   return candidate;
 }
 

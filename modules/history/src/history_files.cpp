@@ -16,6 +16,17 @@ bool sameFlight(const CalibrationResult& a, const CalibrationResult& b) {
   return a.inputs == b.inputs && a.biases() == b.biases() && a.redundancy == b.redundancy;
 }
 
+/// Refuses calibrations of different instruments; those without a name belong to any.
+void requireSameSystem(const std::vector<CalibrationResult>& used,
+                       const CalibrationResult& calibration, const std::string& name) {
+  for (const CalibrationResult& other : used)
+    if (!calibration.system_name.empty() && !other.system_name.empty() &&
+        calibration.system_name != other.system_name)
+      throw InputError(name + ": is of the instrument " + calibration.system_name +
+                           ", others are of " + other.system_name + "; a history is of one",
+                       Remedy::system_name);
+}
+
 /// Sets date and covariates from the row of a calibration file.
 void describe(const std::vector<MissionRow>& table, const fs::path& table_file,
               const fs::path& file, CalibrationMission& mission) {
@@ -26,7 +37,7 @@ void describe(const std::vector<MissionRow>& table, const fs::path& table_file,
   if (found == table.end())
     throw InputError(table_file.string() + ": has no row for the calibration " +
                      file.filename().string());
-  mission.day = found->day;
+  if (found->day) mission.day = found->day;
   mission.covariates = found->values;
 }
 
@@ -43,6 +54,13 @@ HistoryMissions readHistoryMissions(const HistoryInput& input) {
       result.excluded.push_back(file.string() + ": not used, " + calibration.verdict.text());
       continue;
     }
+    if (!input.system_name.empty() && calibration.system_name != input.system_name) {
+      result.excluded.push_back(file.string() + ": not used, it is of " +
+                                (calibration.system_name.empty()
+                                     ? std::string("an instrument without a name")
+                                     : "the instrument " + calibration.system_name));
+      continue;
+    }
     const auto is_same = [&](const CalibrationResult& other) {
       return sameFlight(calibration, other);
     };
@@ -50,6 +68,7 @@ HistoryMissions readHistoryMissions(const HistoryInput& input) {
       result.excluded.push_back(file.string() + ": not used, it repeats another calibration");
       continue;
     }
+    requireSameSystem(used, calibration, file.string());
     if (!used.empty() && modelName(used.front().attitude) != modelName(calibration.attitude))
       throw InputError(file.string() + ": is of the " +
                        std::string(modelName(calibration.attitude)) + " model, others of the " +

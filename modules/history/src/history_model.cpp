@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #include "history_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -27,12 +28,17 @@ MissionInformation informationOf(const std::vector<CalibrationMission>& missions
 std::vector<HistoryTerm> constantTerms(const std::vector<CalibrationMission>& missions) {
   std::vector<HistoryTerm> terms;
   for (const SystemParameterInfo& info : systemParameters()) {
-    bool determined = false;
-    for (const CalibrationMission& mission : missions)
+    const int p = indexOf(info.parameter);
+    HistoryTerm term{p, Eigen::VectorXd::Ones(static_cast<Eigen::Index>(missions.size()))};
+    bool matters = false, determined = false;
+    for (const CalibrationMission& mission : missions) {
+      matters = matters || mission.information(p, p) > 0.0;
       determined = determined || mission.determines(info.parameter);
-    if (!determined) continue;
-    const auto count = static_cast<Eigen::Index>(missions.size());
-    terms.push_back({indexOf(info.parameter), Eigen::VectorXd::Ones(count)});
+      term.prior_std = std::max(term.prior_std, mission.held_std[p]);
+    }
+    if (!matters) continue;
+    if (determined) term.prior_std = 0.0;
+    terms.push_back(std::move(term));
   }
   return terms;
 }
@@ -51,11 +57,11 @@ HistoryModel::HistoryModel(const MissionInformation& data, std::vector<HistoryTe
       }
       normal(k, i) = normal(i, k);
     }
-    // Information of a bias that is known to be less than the largest that is accepted: keeps the
-    // system regular where flights determine a combination of parameters only.
-    const auto p = static_cast<SystemParameter>(a.parameter);
-    normal(i, i) += a.design.squaredNorm() / static_cast<double>(a.design.size()) /
-                    (largestBias(p) * largestBias(p));
+    // The prior of a held parameter; else the bias is less than the largest that is accepted, which
+    // keeps the system regular where flights determine a combination of parameters only.
+    const double std =
+        a.prior_std > 0.0 ? a.prior_std : largestBias(static_cast<SystemParameter>(a.parameter));
+    normal(i, i) += a.design.squaredNorm() / static_cast<double>(a.design.size()) / (std * std);
   }
   // Scaled to unit diagonal: units of the parameters differ by many orders of magnitude.
   const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();

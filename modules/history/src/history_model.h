@@ -16,6 +16,7 @@ namespace pcl_als::detail {
 struct HistoryTerm {
   int parameter = 0;
   Eigen::VectorXd design;  ///< one value for each mission
+  double prior_std = 0.0;  ///< of the unknown, mean zero; 0: the largest bias that is accepted
   bool lasting = true;     ///< false: of one mission only, not part of the value of the system
 };
 

@@ -19,7 +19,7 @@ double typicalStd(const std::vector<CalibrationMission>& missions, int parameter
   double sum = 0.0;
   std::size_t count = 0;
   for (const CalibrationMission& mission : missions) {
-    if (!(mission.information(parameter, parameter) > 0.0)) continue;
+    if (!mission.determines(static_cast<SystemParameter>(parameter))) continue;
     sum += mission.information(parameter, parameter);
     ++count;
   }
@@ -29,7 +29,7 @@ double typicalStd(const std::vector<CalibrationMission>& missions, int parameter
 std::size_t countOf(const std::vector<CalibrationMission>& missions, int parameter) {
   return static_cast<std::size_t>(
       std::count_if(missions.begin(), missions.end(), [&](const CalibrationMission& mission) {
-        return mission.information(parameter, parameter) > 0.0;
+        return mission.determines(static_cast<SystemParameter>(parameter));
       }));
 }
 

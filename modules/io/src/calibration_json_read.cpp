@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/input_file.h>
 #include <pcl_als/io/result_json.h>
@@ -307,6 +308,7 @@ double lineFitOf(const Node& node) {
 
 /// Applying a calibration takes the parameters only: a part made by hand may have no more.
 void readInstrument(const Node& part, CalibrationResult& result) {
+  if (part.has("system_name")) result.system_name = part["system_name"].text();
   readParameters(part["parameters"], result.parameters);
   if (part.has("systems")) readSystems(part["systems"], result);
   if (part.has("channel_field")) result.channel_field = part["channel_field"].text();
@@ -320,6 +322,10 @@ void readInstrument(const Node& part, CalibrationResult& result) {
 }
 
 void readFlight(const Node& part, CalibrationResult& result) {
+  if (part.has("date")) {
+    result.day = daysOfGps(part["date"].text(), "ymd");
+    if (!result.day) part["date"].refuse("is no date such as 2026-05-04");
+  }
   readStripErrors(part, result);
   if (part.has("recovered_attitude")) readRecoveredAttitude(part["recovered_attitude"], result);
   if (part.has("held")) readHeld(part["held"], result);

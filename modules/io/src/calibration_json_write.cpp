@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/applied_correction.h>
 #include <pcl_als/io/result_json.h>
@@ -224,6 +225,7 @@ Json leftOutOf(const CalibrationResult& result) {
 /// What applies to every flight with the instrument.
 Json instrumentJson(const CalibrationResult& result) {
   Json part;
+  if (!result.system_name.empty()) part["system_name"] = result.system_name;
   part["verdict"] = verdictOf(result.verdict);
   part["model"] = modelName(result.attitude);
   part["attitude"] = toString(result.attitude);
@@ -241,6 +243,7 @@ Json instrumentJson(const CalibrationResult& result) {
 /// What applies to the flight alone that was calibrated with.
 Json flightJson(const CalibrationResult& result) {
   Json part;
+  if (result.day) part["date"] = dateText(*result.day);
   part["strip_corrections"] = stripErrorsOf(result);
   if (!result.recovered_attitude.empty()) part["recovered_attitude"] = recoveredAttitudeOf(result);
   if (!result.held.empty()) part["held"] = heldOf(result);

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <set>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/io/mission_table.h>
 
-#include "calendar_date.h"
 #include "csv_table.h"
 
 namespace pcl_als {
@@ -21,7 +21,7 @@ std::vector<MissionRow> readMissionTable(const std::filesystem::path& path) {
     row.calibration = table.text(calibration);
     if (!names.insert(row.calibration).second) table.refuse(calibration, "has a row already");
     if (date != detail::CsvTable::npos && !table.text(date).empty()) {
-      row.day = detail::daysOfGps(table.text(date), {});
+      row.day = daysOfGps(table.text(date), {});
       if (!row.day) table.refuse(date, "is no date such as 2026-05-04");
     }
     for (std::size_t column = 0; column < table.header().size(); ++column) {

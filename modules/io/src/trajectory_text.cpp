@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <optional>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/common/time_unit.h>
 #include <pcl_als/io/time_scale.h>
 
-#include "calendar_date.h"
 #include "csv_table.h"
 #include "leap_seconds.h"
 #include "quaternion_attitude.h"

@@ -235,6 +235,7 @@ PointFileInfo LasFile::info() const {
                          ? TimeKind::adjusted_standard
                          : TimeKind::week_seconds;
   info.time_shift = h.timeShift();
+  info.system = h.sensor();
   info.format = h.describe() + (isCopc() ? ", COPC" : "");
   info.corrections = correctionsOf(*this);
   return info;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <pcl_als/common/errors.h>
+#include <pcl_als/common/printable.h>
 #include <pcl_als/las/damaged_file.h>
 #include <pcl_als/las/las_header.h>
 #include <pcl_als/las/las_record.h>
@@ -152,6 +155,16 @@ double LasHeader::timeShift() const {
   constexpr double kAdjusted = 1000.0, kUnit = 1e6;  // seconds
   if (version_minor < 5 || (global_encoding & kOffsetTime) != kOffsetTime) return 0.0;
   return (static_cast<double>(time_offset) - kAdjusted) * kUnit;
+}
+
+std::string LasHeader::sensor() const {
+  // What the specification lists for files that a process made, and names of common writers.
+  constexpr std::array<std::string_view, 10> kProcesses{
+      "MERGE",      "MODIFICATION", "EXTRACTION", "TRANSFORMATION", "OTHER",
+      "SIMULATION", "PDAL",         "LAStools",   "libLAS",         "laspy"};
+  for (const std::string_view process : kProcesses)
+    if (std::string_view(system_id).substr(0, process.size()) == process) return {};
+  return printable(system_id, 32);
 }
 
 std::string LasHeader::describe() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/drawing/calibration_plots.h>
 #include <pcl_als/drawing/control_chart.h>

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl_als/common/atomic_file.h>
+#include <pcl_als/common/calendar_date.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/io/result_json.h>
 #include <pcl_als/report/history_report.h>

@@ -40,7 +40,8 @@ struct ReferenceSource {
  */
 struct CalibrationOptions {
   CalibrationSettings settings;
-  StripChoice strips;                                      ///< strips that are used; default all
+  std::string system_name;  ///< of the instrument; empty: as the point files state it
+  StripChoice strips;       ///< strips that are used; default all
   std::vector<std::pair<std::string, std::string>> pairs;  ///< of strips; empty: all that overlap
   std::vector<ControlPoint> control;
   std::vector<ReferenceSource> references;  ///< surfaces that strips are compared with

@@ -182,12 +182,15 @@ struct SystemEstimate {
 
 /** \brief The content of calibration.json.
  *
- * Part of it belongs to the instrument and applies to all of its flights: verdict, attitude (its
- * source), scan_planes, parameters, systems, channel_field, sources, source_scale, correlation,
- * line_fit_half_width and error_levels. Part of it belongs to the flight that was calibrated with:
- * recovered_attitude, strip_errors and held. The rest reports on the calibration.
+ * Part of it belongs to the instrument and applies to all of its flights: system_name, verdict,
+ * attitude (its source), scan_planes, parameters, systems, channel_field, sources, source_scale,
+ * correlation, line_fit_half_width and error_levels. Part of it belongs to the flight that was
+ * calibrated with: day, recovered_attitude, strip_errors and held. The rest reports on the
+ * calibration.
  */
 struct CalibrationResult {
+  std::string system_name;     ///< of the instrument, with its serial number; empty: not known
+  std::optional<long> day;     ///< of the flight, days since 1980-01-06; none: not known
   CalibrationVerdict verdict;  ///< whether to apply it
   AttitudeSource attitude = AttitudeSource::none;
   RecoveredAttitude recovered_attitude;  ///< of the strips; where attitude is that of points

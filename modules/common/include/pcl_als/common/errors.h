@@ -35,6 +35,7 @@ enum class Remedy {
   channels,          ///< to divide strips by the channel of the scanner
   user_data,         ///< to divide strips by the user data
   split,             ///< to divide the points into flight lines
+  system_name,       ///< to name the instrument
 };
 
 /// Base of every exception of this library. what() is one line that names the file, record or

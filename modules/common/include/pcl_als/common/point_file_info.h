@@ -47,7 +47,9 @@ struct PointFileInfo {
   /// they are used, or it has none.
   std::string time_fault;
   FileVersion version;  ///< of the file when it was opened
-  std::string format;   ///< "LAS 1.4, point format 6", "PCD binary"
+  /// Sensor by the header of a LAS file; empty: not stated, or the name of a process there.
+  std::string system;
+  std::string format;  ///< "LAS 1.4, point format 6", "PCD binary"
   /// Record of the corrections that were applied to the points (io/applied_correction.h), as the
   /// file stores it; empty: none is recorded.
   std::string corrections;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_als authors
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,9 +14,12 @@ namespace pcl_als {
 
 /** \brief What one flight tells about the parameters of a system, in information form.
  *
- * With the estimate b and its covariance C (rows and columns of the estimated parameters), the
- * information matrix is C^-1 and the information vector C^-1 b; rows of parameters that the flight
- * does not determine are zero. Internal units (m, rad, 1); b = assumed - true.
+ * With the estimate b of the estimated parameters and its covariance C, the information matrix is
+ * C^-1 and the information vector C^-1 b; rows of parameters that do not matter are zero. Held
+ * parameters h, whose possible size s the covariance includes by F diag(s^2) F' (HeldParameters),
+ * are unknowns beside the others: b observes beta - F h with the covariance C - F diag(s^2) F'. The
+ * information of a prior that the calibration used is taken out, so that combining missions does
+ * not count it again. Internal units (m, rad, 1); b = assumed - true.
  */
 struct CalibrationMission {
   std::string name;                          ///< the calibration file, for messages and tables
@@ -23,11 +27,13 @@ struct CalibrationMission {
   std::map<std::string, double> covariates;  ///< values such as the temperature, by name
   SystemMatrix information = SystemMatrix::Zero();
   SystemVector information_vector = SystemVector::Zero();
-  /// Estimates and their standard deviations; NaN for parameters that the flight does not
-  /// determine.
+  /// A priori standard deviations of held parameters; zero for the others.
+  SystemVector held_std = SystemVector::Zero();
+  /// Estimates by this flight alone and their standard deviations; NaN for parameters that the
+  /// flight does not determine.
   SystemVector bias, std;
 
-  bool determines(SystemParameter p) const { return information(indexOf(p), indexOf(p)) > 0.0; }
+  bool determines(SystemParameter p) const { return std::isfinite(std[indexOf(p)]); }
 };
 
 /** \brief The mission of a calibration.
@@ -41,8 +47,5 @@ struct CalibrationMission {
  */
 CalibrationMission missionOf(const CalibrationResult& calibration, const std::string& name,
                              const std::string& system = {});
-
-/// A date such as "2026-05-04" of a day since 1980-01-06.
-std::string dateText(long day);
 
 }  // namespace pcl_als

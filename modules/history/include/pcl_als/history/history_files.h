@@ -16,6 +16,9 @@ struct HistoryInput {
   /// Table of the missions, CSV: calibration (name of the file), date, further columns of numbers
   /// such as temperature; empty: none.
   std::filesystem::path missions;
+  /// Name of the instrument: calibrations of others are excluded. Empty: all must have the same
+  /// name, or none.
+  std::string system_name;
   std::string system;  ///< of calibrations with several systems; empty: the first one
   /// Calibrations that their verdict says not to apply are used as well.
   bool with_unusable = false;
@@ -31,8 +34,9 @@ struct HistoryMissions {
 /** \brief Reads calibration.json files and the table of their missions.
  *
  * Calibrations whose verdict says not to apply them, and those that are given twice, are excluded.
- * InputError for files that cannot be read, calibrations of different models (rigorous,
- * quasi-rigorous), a table without a row for a calibration, and where no calibration is left.
+ * InputError for files that cannot be read, calibrations of different instruments or models
+ * (rigorous, quasi-rigorous), a table without a row for a calibration, and where no calibration is
+ * left.
  */
 HistoryMissions readHistoryMissions(const HistoryInput& input);
 

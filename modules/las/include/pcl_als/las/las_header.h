@@ -61,6 +61,8 @@ struct LasHeader {
   double timeShift() const;
   /// Bytes of the version's header: 227, 235 (1.3), 375 (1.4) or 393 (1.5).
   static std::uint16_t sizeOf(int version_minor);
+  /// The sensor by system_id; empty where that is empty or names a process such as MERGE.
+  std::string sensor() const;
   /// "LAS 1.4, point format 6"
   std::string describe() const;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace pcl_als::detail {
+namespace pcl_als {
 
 /// Days from 1980-01-06, the start of GPS time, to a date such as 2013/09/21, 21.09.2013 or
 /// 20130921. \a order of its parts: "ymd", "dmy", "mdy"; otherwise a year of four digits in front,
@@ -14,4 +14,7 @@ namespace pcl_als::detail {
 /// it is no date.
 std::optional<long> daysOfGps(std::string_view text, const std::string& order);
 
-}  // namespace pcl_als::detail
+/// A date such as "2026-05-04" of a day since 1980-01-06.
+std::string dateText(long day);
+
+}  // namespace pcl_als

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_als authors
-#include "calendar_date.h"
-
 #include <array>
+#include <ctime>
 #include <vector>
 
-namespace pcl_als::detail {
+#include <pcl_als/common/calendar_date.h>
+
+namespace pcl_als {
 namespace {
 
 bool isLeap(int year) {
@@ -61,4 +62,14 @@ std::optional<long> daysOfGps(std::string_view text, const std::string& order) {
   return days;
 }
 
-}  // namespace pcl_als::detail
+std::string dateText(long day) {
+  constexpr std::time_t kGpsEpoch = 315964800, kDay = 86400;  // seconds since 1970-01-01
+  const std::time_t time = kGpsEpoch + kDay * day;
+  std::tm date{};
+  gmtime_r(&time, &date);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &date);
+  return text;
+}
+
+}  // namespace pcl_als
