@@ -68,23 +68,9 @@ CommandLine commandLine() {
   return line;
 }
 
-/// The calibration of -calibration; one that should not be applied only with -force.
-CalibrationResult usableCalibration(const CommandLine& line) {
-  const std::string file = line.text("calibration");
-  CalibrationResult calibration = readCalibration(file);
-  const CalibrationVerdict& verdict = calibration.verdict;
-  if (verdict.usable()) return calibration;
-  if (!line.has("force")) {
-    throw InputError(file + ": this calibration should not be applied, " + verdict.text() +
-                     "; -force applies it all the same");
-  }
-  std::cerr << "pcl_als_apply: warning: " << file << ": " << verdict.text() << std::endl;
-  return calibration;
-}
-
 /// Biases and the trajectory window they belong to; 0 where the file does not say.
 CalibrationResult biasesOf(const CommandLine& line) {
-  if (line.has("calibration")) return usableCalibration(line);
+  if (line.has("calibration")) return app::usableCalibration(line);
   CalibrationResult result;
   const SystemVector biases = line.parsed("biases", biasesIn);
   for (int i = 0; i < kSystemParameterCount; ++i) result.parameters[i].bias = biases[i];

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/crs/crs.h>
+#include <pcl_als/io/survey_io.h>
 #include <pcl_als/io/trajectory_writer.h>
 #include <pcl_als/processing/flight_reconstruction.h>
 
@@ -102,6 +104,19 @@ std::optional<int> gpsWeek(const CommandLine& line) {
 
 void addForceOption(CommandLine& line, const std::string& reason) {
   line.addFlag("force", "continue with a warning where " + reason + "; results may be wrong");
+}
+
+CalibrationResult usableCalibration(const CommandLine& line) {
+  const std::string file = line.text("calibration");
+  CalibrationResult calibration = readCalibration(file);
+  const CalibrationVerdict& verdict = calibration.verdict;
+  if (verdict.usable()) return calibration;
+  if (!line.has("force")) {
+    throw InputError(file + ": this calibration should not be applied, " + verdict.text() +
+                     "; -force applies it all the same");
+  }
+  std::cerr << line.tool() << ": warning: " << file << ": " << verdict.text() << std::endl;
+  return calibration;
 }
 
 void addModelOption(CommandLine& line) {

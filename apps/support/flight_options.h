@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl_als/common/calibration_result.h>
 #include <pcl_als/common/system_parameters.h>
 #include <pcl_als/processing/flight_file.h>
 
@@ -28,6 +29,10 @@ std::optional<int> gpsWeek(const CommandLine& line);
 
 /// -force: continue with a warning where the tool refuses because of \a reason.
 void addForceOption(CommandLine& line, const std::string& reason = "inputs do not belong together");
+
+/// The calibration of -calibration. InputError for one whose verdict is not usable; with -force a
+/// warning on stderr.
+CalibrationResult usableCalibration(const CommandLine& line);
 
 /// -model auto, quasi_rigorous, rigorous or nominal.
 void addModelOption(CommandLine& line);

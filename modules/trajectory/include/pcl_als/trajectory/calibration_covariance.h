@@ -42,6 +42,8 @@ class CalibrationCovariance {
   /// Whether the calibration has a posteriori covariances of the trajectory errors at a time.
   bool isKnown(double time) const;
   const ErrorLevels& levels() const { return levels_; }
+  /// Of the system parameters alone (m, rad, 1); zero for those that were not estimated.
+  const SystemMatrix& parameters() const { return parameters_; }
 
  private:
   /// A priori standard deviations of the trajectory errors.
