@@ -7,6 +7,7 @@
 #include <pcl_als/io/point_reference.h>
 #include <pcl_als/io/raster_io.h>
 #include <pcl_als/io/survey_io.h>
+#include <pcl_als/processing/calibration_check.h>
 #include <pcl_als/processing/survey_correction.h>
 
 #include "command_line.h"
@@ -41,6 +42,12 @@ CommandLine commandLine() {
   line.addFlag("invert", "apply the biases instead of removing them");
   line.addFlag("strip_corrections",
                "with -calibration: also correct the estimated trajectory errors of each strip");
+  line.addFlag("check",
+               "with -calibration: compare the strips, of which two at least must overlap, with "
+               "each other before they are corrected, and state whether the calibration holds for "
+               "them (reads them twice more)");
+  line.makeDependent("check", "calibration");
+  line.exclude({"check", "invert"});
   line.addFlag(
       "uncertainty",
       "add extra bytes sigma_horizontal (in the plane, compare RMSE_H) and sigma_vertical: "
@@ -120,6 +127,23 @@ void applyToMany(const CommandLine& line, const std::vector<std::string>& files,
       if (!text.empty()) app::remark(line, files[i] + ": " + text);
 }
 
+/// States whether the calibration holds for the strips (-check).
+void check(const CommandLine& line, const CalibrationResult& calibration,
+           const std::shared_ptr<const Trajectory>& flight) {
+  CalibrationCheckOptions options;
+  options.gps_week = app::gpsWeek(line);
+  options.threads = line.threads();
+  options.force = line.has("force");
+  options.processes = app::processes();
+  const CalibrationCheck found =
+      checkCalibration(line.inputs(), calibration, flight, options, app::progressOf(line));
+  const std::string text = found.text(line.text("calibration"));
+  if (found.holds())
+    app::remark(line, text);
+  else if (isRoot(app::processes()))
+    std::cerr << "pcl_als_apply: warning: " << text << std::endl;
+}
+
 int apply(const CommandLine& line) {
   const std::vector<std::string>& files = line.inputs();
   CalibrationResult calibration = biasesOf(line);
@@ -135,6 +159,7 @@ int apply(const CommandLine& line) {
   app::remark(line,
               (options.invert ? "putting in: " : "taking out: ") + describeBiases(calibration));
 
+  if (line.has("check")) check(line, calibration, flight);
   if (line.has("corrected")) {
     applyToMany(line, files, calibration, flight, options);
     return app::kDone;

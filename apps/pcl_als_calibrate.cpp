@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include <pcl_als/calibration/survey_calibration.h>
-#include <pcl_als/common/bias_list.h>
 #include <pcl_als/common/errors.h>
 #include <pcl_als/common/number_text.h>
 #include <pcl_als/common/text_values.h>
@@ -17,6 +16,7 @@
 #include "adjustment_options.h"
 #include "command_line.h"
 #include "flight_options.h"
+#include "prior_options.h"
 #include "processes.h"
 #include "remedy_options.h"
 #include "report_options.h"
@@ -80,7 +80,7 @@ CommandLine commandLine() {
   line.addText("system_name",
                "name and serial number of the instrument, for pcl_als_history (default: as the "
                "point files state it)");
-  line.addText("prior", "known biases with standard deviations: boresight_roll=0:5,… (m, arcsec)");
+  app::addPriorOptions(line);
   app::addSystemOptions(line);
   line.addText("pairs",
                "pairs of strips that are used, e.g. 1:2,3:4 (default: all that overlap); other "
@@ -133,7 +133,6 @@ CalibrationSettings settingsOf(const CommandLine& line) {
   settings.estimate = app::parametersToEstimate(line);
   settings.noise = app::noiseOf(line);
   settings.shared_errors = app::sharedErrorsOf(line);
-  if (line.has("prior")) settings.shared_errors.biases = biasPrior(line.text("prior"));
   app::readSystems(line, settings);
   settings.control_sigma = line.number("control_sigma");
   settings.max_normal_distance = line.number("max_distance");
@@ -204,6 +203,7 @@ int calibrate(const CommandLine& line) {
   CalibrationOptions options;
   options.settings = settingsOf(line);
   if (line.has("system_name")) options.system_name = line.text("system_name");
+  const app::GivenPrior prior(line, options.settings);
   if (line.has("pairs")) options.pairs = line.parsed("pairs", pairsIn);
   options.strips = app::stripChoice(line);
   app::checkFlightOptions(line);
@@ -232,6 +232,7 @@ int calibrate(const CommandLine& line) {
   options.observer = page.observer();
   SurveyCalibration calibration = calibrateSurvey(survey, flight, options, app::progressOf(line));
   CalibrationResult& result = calibration.result;
+  prior.warnOfSameStrips(result);
   app::nameOptions(line, result.warnings);
   for (const fs::path& file : line.optionInputs()) result.inputs.push_back(file.string());
   if (isRoot(app::processes())) {

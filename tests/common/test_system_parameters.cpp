@@ -63,11 +63,35 @@ TEST(ParameterStatus, NamesAreThoseOfTheFile) {
   EXPECT_EQ(toString(ParameterStatus::not_estimable), "not_estimable");
 }
 
+/// Covariance [4 2; 2 9]: information 1/32 [9 -2; -2 4]; of one parameter alone 1/4 and 1/9.
+TEST(BiasPrior, SaysLessOfSomeParametersAlone) {
+  const SystemParameter x = SystemParameter::lever_arm_x, y = SystemParameter::lever_arm_y;
+  SystemVector mean = SystemVector::Zero();
+  mean[0] = 0.5, mean[1] = -0.25;
+  Eigen::Matrix2d covariance;
+  covariance << 4.0, 2.0, 2.0, 9.0;
+  const BiasPrior both = biasPrior({x, y}, mean, covariance);
+  EXPECT_NEAR(both.information(0, 0), 9.0 / 32.0, 1e-12);
+  EXPECT_NEAR(both.information(0, 1), -2.0 / 32.0, 1e-12);
+  EXPECT_NEAR(both.covariance()(1, 1), 9.0, 1e-12);
+  const BiasPrior one = both.without(x);
+  EXPECT_EQ(one.known(), std::vector<SystemParameter>{y});
+  EXPECT_NEAR(one.information(1, 1), 1.0 / 9.0, 1e-12);
+  EXPECT_EQ(one.mean[1], -0.25);
+  EXPECT_EQ(one.information(0, 0), 0.0);
+  SystemVector biases = SystemVector::Constant(1.0);
+  biases = one.replacing(biases);
+  EXPECT_EQ(biases[0], 1.0);
+  EXPECT_EQ(biases[1], -0.25);
+  covariance(0, 1) = covariance(1, 0) = 7.0;
+  EXPECT_THROW(biasPrior({x, y}, mean, covariance), InputError);
+}
+
 TEST(BiasPrior, ReadsValuesAndStandardDeviations) {
   const BiasPrior prior = biasPrior("boresight_roll=-90:5, lever_arm_x=0.12:0.01");
   const int roll = indexOf(SystemParameter::boresight_roll);
   EXPECT_DOUBLE_EQ(prior.mean[roll], -90.0 * kRadiansPerArcsec);
-  EXPECT_DOUBLE_EQ(prior.information[roll], 1.0 / std::pow(5.0 * kRadiansPerArcsec, 2));
+  EXPECT_DOUBLE_EQ(prior.information(roll, roll), 1.0 / std::pow(5.0 * kRadiansPerArcsec, 2));
   EXPECT_TRUE(prior.of(SystemParameter::lever_arm_x));
   EXPECT_FALSE(prior.of(SystemParameter::range_bias));
   EXPECT_FALSE(BiasPrior().any());

@@ -72,8 +72,8 @@ void Adjustment::accumulate(const std::vector<AreaObservations>& areas,
 std::unique_ptr<const ErrorNormal> Adjustment::assemble(double shift_variance) const {
   auto normal = std::make_unique<ErrorNormal>(errors_.unknowns());
   const BiasPrior& prior = errors_.model().biases;
-  normal->gg.diagonal() += prior.information;
-  normal->right_g += prior.information.cwiseProduct(prior.mean);
+  normal->gg += prior.information;
+  normal->right_g += prior.information * prior.mean;
   computeInOrder(
       areas_->normals.size(), threads_,
       [&](std::size_t area) { return areas_->normals[area].reduced(shift_variance); },
@@ -110,10 +110,6 @@ Adjustment::Reduced Adjustment::reduce(const ErrorNormal& normal,
   reduced.right = normal.right_g - normal.tg.transpose() * reduced.eliminated_right;
   reduced.prior_share = reduced.elimination.transpose() * (prior * reduced.elimination);
   return reduced;
-}
-
-const SystemMatrix& Adjustment::reducedNormal() const {
-  return reduced_->normal;
 }
 
 SystemRow Adjustment::reducedRow(const PairObservation& observation) const {
@@ -164,7 +160,8 @@ std::vector<double> Adjustment::informationShares(
   std::vector<double> shares(areas_->normals.size(), 0.0);
   Eigen::MatrixXd inverse;
   double ignored = 0.0;
-  if (estimate.empty() || !invert(sub(reduced_->normal, estimate), inverse, ignored)) return shares;
+  if (estimate.empty() || !invert(sub(normalOf(estimate), estimate), inverse, ignored))
+    return shares;
   const AdjustmentSolution zero = unsolved(SystemVector::Zero());
   parallelFor(shares.size(), threads_, [&](std::size_t area) {
     shares[area] = (inverse * sub(shareOf(area, zero).normal, estimate)).trace();
@@ -230,8 +227,9 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
                                      const SystemVector& prior_information) const {
   AdjustmentSolution solution = unsolved(held);
   for (const SystemParameter p : estimate) solution.biases[indexOf(p)] = 0.0;
-  const SystemVector known = prior_information + errors_.model().biases.information;
-  SystemMatrix independent = known.asDiagonal(), normal = reduced_->normal;
+  SystemMatrix known = errors_.model().biases.marginal(estimate).information;
+  known.diagonal() += prior_information;
+  SystemMatrix independent = known, normal = normalOf(estimate);
   normal.diagonal() += prior_information;
   for (std::size_t area = 0; area < areas_->normals.size(); ++area)
     independent += areas_->normals[area].parameters();
@@ -242,20 +240,29 @@ AdjustmentSolution Adjustment::solve(const std::vector<SystemParameter>& estimat
     return solution;
   }
   const SystemMatrix model = expanded(inverse, estimate);
-  solution.biases += model * (reduced_->right - normal * solution.biases);
+  solution.biases += model * (rightOf(estimate) - normal * solution.biases);
   solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
   solution.formal = expanded(formal, estimate);
-  const SystemMatrix of_priors = reduced_->prior_share + SystemMatrix(known.asDiagonal());
-  const SystemMatrix robust = jackknife(solution, estimate, normal) + model * of_priors * model;
+  const SystemMatrix of_prior = model * known * model;
+  const SystemMatrix robust =
+      jackknife(solution, estimate, normal) + model * (reduced_->prior_share + known) * model;
   const Eigen::VectorXd slopes = slopeNoise(sub(independent, estimate), estimate);
-  SystemVector inflation = SystemVector::Ones();
+  SystemVector inflation = SystemVector::Ones(), inflation_flight = SystemVector::Ones();
   for (std::size_t k = 0; k < estimate.size(); ++k) {
     const int i = indexOf(estimate[k]);
-    inflation[i] =
-        slopes[static_cast<Eigen::Index>(k)] * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
+    const double slope = slopes[static_cast<Eigen::Index>(k)];
+    const double of_flight = robust(i, i) - of_prior(i, i);
+    const double by_model = model(i, i) - of_prior(i, i);
+    inflation[i] = slope * std::max(1.0, std::sqrt(robust(i, i) / model(i, i)));
+    inflation_flight[i] =
+        slope * (by_model > 0.0 ? std::max(1.0, std::sqrt(of_flight / by_model)) : 1.0);
   }
-  const SystemMatrix averaged = model + averageSources(model, solution);
-  solution.covariance = inflation.asDiagonal() * averaged * inflation.asDiagonal();
+  const SystemMatrix change = averageSources(model, solution);
+  solution.model = model;
+  solution.covariance = inflation.asDiagonal() * (model + change) * inflation.asDiagonal();
+  // C N C, with N without the prior.
+  solution.of_flight = inflation_flight.asDiagonal() * (model * (normal - known) * model + change) *
+                       inflation_flight.asDiagonal();
   solution.solved = true;
   return solution;
 }
@@ -367,21 +374,6 @@ SystemMatrix Adjustment::averageSources(const SystemMatrix& model,
     solution.source_std[indexOf(sources[i])] = mixture.stdIfPresent()[row];
   }
   return mixture.change(influence.biases);
-}
-
-AdjustmentSolution Adjustment::solveNearZero(const std::vector<SystemParameter>& estimate,
-                                             const SystemVector& prior) const {
-  AdjustmentSolution solution = unsolved(SystemVector::Zero());
-  SystemMatrix normal = reduced_->normal;
-  normal.diagonal() += prior.cwiseAbs2().cwiseInverse();
-  Eigen::MatrixXd inverse;
-  double ignored = 0.0;
-  if (!invert(sub(normal, estimate), inverse, ignored)) return solution;
-  solution.covariance = solution.formal = expanded(inverse, estimate);
-  solution.biases = solution.covariance * reduced_->right;
-  solution.shared = reduced_->eliminated_right - reduced_->elimination * solution.biases;
-  solution.solved = true;
-  return solution;
 }
 
 }  // namespace pcl_als

@@ -19,7 +19,13 @@ struct AdjustmentSolution {
   SystemVector biases = SystemVector::Zero();
   SystemMatrix formal = SystemMatrix::Zero();      ///< Eq. (26): noise of points only
   SystemMatrix covariance = SystemMatrix::Zero();  ///< includes shared errors, see Adjustment
-  Eigen::VectorXd shared;                          ///< shared errors, in the order of SharedErrors
+  /// C, the inverse of the normal matrix with the prior: the part of covariance that the noise of
+  /// points and the shared errors explain.
+  SystemMatrix model = SystemMatrix::Zero();
+  /// The part of covariance that stems from the observations, not from the prior L of the
+  /// parameters: C (N - L) C, enlarged as covariance is.
+  SystemMatrix of_flight = SystemMatrix::Zero();
+  Eigen::VectorXd shared;  ///< shared errors, in the order of SharedErrors
   /// By error source: probability that it is present; value and standard deviation where it is.
   ErrorSourceVector source_probability = ErrorSourceVector::Zero();
   ErrorSourceVector source_value = ErrorSourceVector::Zero();
@@ -128,8 +134,11 @@ class Adjustment {
   /// A solution without estimates: all parameters are held, and there are no shared errors.
   AdjustmentSolution unsolved(const SystemVector& held) const;
 
-  /// Normal matrix N of all eight parameters with the shared errors eliminated (internal units).
-  const SystemMatrix& reducedNormal() const;
+  /// Normal matrix N of all eight parameters with the shared errors eliminated (internal units),
+  /// and its right side. The prior in it is what SharedErrorModel::biases says of \a estimate
+  /// alone.
+  SystemMatrix normalOf(const std::vector<SystemParameter>& estimate) const;
+  SystemVector rightOf(const std::vector<SystemParameter>& estimate) const;
 
   /// Row of an observation in the reduced equations: its sensitivity to the parameters after
   /// elimination of the shared errors (shifts of areas excepted).
@@ -179,6 +188,7 @@ class Adjustment {
                                           const AdjustmentSolution& solution) const;
   /// Variances of the values, of which the observations' contribution is the scatter of the areas.
   Eigen::VectorXd scatterVariance(const Influence& influence,
+                                  const std::vector<SystemParameter>& estimate,
                                   const AdjustmentSolution& solution) const;
   /// Factor by which the scatter between areas makes the variances of the error sources larger than
   /// those of the model, with the degrees of freedom of this scatter.

@@ -118,14 +118,15 @@ BlockAdjustment::BlockAdjustment(const ObservedBlock& block, const Observability
   adjustment_.setLevels(settings.levels);
   adjustment_.accumulate(block.observations, block.weights);
   const bool automatic = settings.estimate.empty();
-  wanted_ = automatic ? automaticParameters(true) : settings.estimate;
+  wanted_ = automatic ? automaticParameters(true, settings.shared_errors) : settings.estimate;
   // Parameters requested by name are left out at three times their limit only, as in the
   // calibration.
   const double factor = automatic ? 1.0 : 10.0;
-  choice_ = chooseParameters(adjustment_,
-                             automatic ? automaticParameters(block.control_points > 0) : wanted_,
-                             SystemVector::Zero(), settings.limits, factor);
-  const Observability observability(adjustment_.reducedNormal(), wanted_,
+  choice_ = chooseParameters(
+      adjustment_,
+      automatic ? automaticParameters(block.control_points > 0, settings.shared_errors) : wanted_,
+      SystemVector::Zero(), settings.limits, factor);
+  const Observability observability(adjustment_.normalOf(wanted_), wanted_,
                                     groundEffect(block, BlockFacts(block)));
   SystemVector prior;
   for (const SystemParameterInfo& info : systemParameters()) {
@@ -135,7 +136,7 @@ BlockAdjustment::BlockAdjustment(const ObservedBlock& block, const Observability
   alone_ =
       observability.deviations(SystemVector::Constant(std::numeric_limits<double>::infinity()));
   // hardly observable from strips alone: no line helps
-  if (automatic && block.control_points == 0) {
+  if (automatic && block.control_points == 0 && !settings.shared_errors.biases.of(P::range_bias)) {
     deviations_[indexOf(P::range_bias)] = prior[indexOf(P::range_bias)];
     alone_[indexOf(P::range_bias)] = std::numeric_limits<double>::infinity();
   }
@@ -216,7 +217,7 @@ ObservabilityReport describeObservability(const ObservedBlock& block,
     const double own = now.deviations()[i];
     if (own > 0.0 && settings.reported[i] > own) factor[i] = settings.reported[i] / own;
   }
-  Observability observability(now.adjustment().reducedNormal(), now.wanted(),
+  Observability observability(now.adjustment().normalOf(now.wanted()), now.wanted(),
                               groundEffect(block, facts));
   observability.weaken(factor);
   ObservabilityReport report;
@@ -312,6 +313,7 @@ std::vector<std::string> describeObservability(const SurveyBlock& calibrated,
   settings.estimate = given.estimate;
   settings.limits = given.limits;
   settings.shared_errors = given.shared_errors;
+  settings.shared_errors.biases = result.prior;  // without what was not used
   settings.levels = calibration.adjusted.levels;
   settings.threads = given.threads;
   settings.pairs.noise = given.noise;

@@ -14,6 +14,7 @@
 #include "error_diagnosis.h"
 #include "misfit_comparison.h"
 #include "pair_coverage.h"
+#include "prior_comparison.h"
 #include "strip_error_check.h"
 #include "system_groups.h"
 
@@ -117,6 +118,7 @@ void describeSolution(const SurveyBlock& block, const BlockEstimate& estimate,
   result.scan_planes = block.trajectory().scanPlanes();
   result.line_fit_half_width = block.trajectory().lineFitHalfWidth();
   report.addParameters(solution.choice, settings.estimate, result);
+  reportPrior(adjustment.errors().model().biases, solution.choice, estimate.released, result);
   addSystems(adjustment, adjustment.errors(), solution.choice, settings.systems, block.strips.ids,
              result);
   report.addStrips(adjustment.errors(), block.strips.corrected(), adjustment, solution.choice,
@@ -214,6 +216,10 @@ BlockCalibration calibrate(AreaSample& sample,
   made.adjusted = adjustedSurvey(block, solution, estimate.pairs);
   addFits(sample, report, estimate, result);
   result.misfit = misfit.change(estimate.pairs.observations, result.biases());
+  const BiasPrior& prior = settings.shared_errors.biases;
+  if (prior.any())
+    result.rms_with_prior =
+        misfit.change(estimate.pairs.observations, prior.replacing(result.biases())).rms_after;
   judge(block, estimate, effects, result);
   return made;
 }

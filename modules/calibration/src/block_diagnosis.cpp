@@ -57,7 +57,7 @@ void diagnoseAngles(const SurveyBlock& block, const BlockEstimate& estimate,
       !(estimate.scale.largest_angle > 0.0))
     return;
   const BlockSolution& solution = estimate.solution;
-  const AdjustedBlock adjusted{block.flownTimes(), settings.shared_errors,
+  const AdjustedBlock adjusted{block.flownTimes(), errorModelOf(block, solution),
                                solution.adjustment.levels(), solution.choice.estimate,
                                settings.threads};
   judgeAngleCurve(angleCurve(adjusted, {estimate.pairs.observations, solution.weights.weights()},
@@ -67,6 +67,12 @@ void diagnoseAngles(const SurveyBlock& block, const BlockEstimate& estimate,
 }
 
 }  // namespace
+
+SharedErrorModel errorModelOf(const SurveyBlock& block, const BlockSolution& solution) {
+  SharedErrorModel model = block.settings().shared_errors;
+  model.biases = solution.adjustment.errors().model().biases;
+  return model;
+}
 
 void diagnoseParts(const AreaSample& sample, const BlockEstimate& estimate,
                    CalibrationResult& result) {

@@ -30,6 +30,8 @@ void replaceHeld(const BlockStrips& strips, std::vector<AreaObservations>& obser
 
 /// The parameters that cannot be told from a height offset of the block.
 void judgeBlockOffset(const BlockEstimate& estimate, CalibrationResult& result);
+/// The model of the shared errors with the prior of the parameters that the solution has used.
+SharedErrorModel errorModelOf(const SurveyBlock& block, const BlockSolution& solution);
 /// The causes that concern parts of the block: jumps of the trajectory, differences between
 /// sessions or channels, between points of one strip that differ in a field, and an error of the
 /// scan angle as a function of it. Collective.

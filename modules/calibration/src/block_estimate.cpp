@@ -118,8 +118,10 @@ void allowForUndecidedSources(const SharedErrorModel& model, BlockEstimate& esti
                           diagnosed.source_std[i] * diagnosed.source_std[i];
     const SystemVector derivative =
         solution.adjustment.derivativeBySource(source, solution.choice.estimate);
-    solution.choice.solution.covariance +=
+    const SystemMatrix effect =
         diagnosed.source_probability[i] * square * derivative * derivative.transpose();
+    solution.choice.solution.covariance += effect;
+    solution.choice.solution.of_flight += effect;
   }
 }
 
@@ -201,8 +203,10 @@ BlockEstimate startOf(AreaSample& sample) {
   return estimate;
 }
 
-void iterateToConvergence(AreaSample& sample, ChoiceRules& rules, const IterationCallback& progress,
-                          BlockEstimate& estimate) {
+namespace {
+
+void iterateWithPrior(AreaSample& sample, ChoiceRules& rules, const IterationCallback& progress,
+                      BlockEstimate& estimate) {
   constexpr int kMostSelections = 3;
   constexpr std::size_t kEnough = 20'000;  // pairs; determine the biases to some millimetres
   const CalibrationSettings& settings = sample.block().settings();
@@ -228,6 +232,35 @@ void iterateToConvergence(AreaSample& sample, ChoiceRules& rules, const Iteratio
     control.continueWithSources();
   }
   allowForUndecidedSources(settings.shared_errors, estimate);
+}
+
+/// Does not use what the prior says of a parameter any more.
+void releasePrior(SystemParameter parameter, const ChoiceRules& rules, BlockEstimate& estimate) {
+  BlockSolution& solution = estimate.solution;
+  SharedErrors errors = solution.adjustment.errors();
+  errors.setPrior(errors.model().biases.without(parameter));
+  solution.adjustment.setErrors(errors);
+  solution.adjustment.setLevels(solution.adjustment.levels());
+  choose(rules, solution);
+  estimate.pairs.moved = HUGE_VAL;
+  estimate.control.continueWithSources();
+}
+
+}  // namespace
+
+void iterateToConvergence(AreaSample& sample, ChoiceRules& rules, const IterationCallback& progress,
+                          BlockEstimate& estimate) {
+  const BlockSolution& solution = estimate.solution;
+  for (;;) {
+    iterateWithPrior(sample, rules, progress, estimate);
+    const BiasPrior& prior = solution.adjustment.errors().model().biases;
+    if (!prior.of_other_missions) return;
+    std::vector<PriorDifference> found = priorDifferences(prior, solution.choice);
+    if (found.empty() || !found.front().significant) return;
+    found.front().released = true;
+    estimate.released.push_back(found.front());
+    releasePrior(found.front().parameter, rules, estimate);
+  }
 }
 
 }  // namespace pcl_als

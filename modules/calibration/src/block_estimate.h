@@ -9,6 +9,7 @@
 #include "block_solution.h"
 #include "iteration_control.h"
 #include "pair_set.h"
+#include "prior_comparison.h"
 
 namespace pcl_als {
 
@@ -20,6 +21,8 @@ struct BlockEstimate {
   AdjustmentSolution diagnosed;
   ErrorSourceScale scale;
   IterationControl control;
+  /// The parameters of which the prior was not used because of the observations, in this order.
+  std::vector<PriorDifference> released{};
 
   Corrections corrections() const { return solution.corrections(pairs.rules.held_sources); }
 };
@@ -35,6 +38,10 @@ BlockEstimate startOf(AreaSample& sample);
 
 /** \brief Estimates the parameters of a block: pairs are formed, adjusted (Eqs. (25), (26)) and
  * formed anew with the corrected points, until convergence. Collective.
+ *
+ * What a prior from other missions says of a parameter that the observations contradict
+ * (priorDifferences()) is not used any more, the most significant one first, and the iteration
+ * continues: a mean of both would be right for neither mission.
  *
  * \param progress called after every iteration
  */

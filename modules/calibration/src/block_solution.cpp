@@ -15,22 +15,22 @@ namespace pcl_als {
 namespace {
 
 /// The parameters that are to be estimated where the data determine them.
-std::vector<SystemParameter> wantedParameters(const ChoiceRules& rules) {
-  const CalibrationSettings& settings = rules.settings;
-  std::vector<SystemParameter> wanted =
-      settings.estimate.empty() ? automaticParameters(rules.control_covered, settings.shared_errors)
-                                : settings.estimate;
+std::vector<SystemParameter> wantedParameters(const ChoiceRules& rules,
+                                              const SharedErrorModel& model) {
+  std::vector<SystemParameter> wanted = rules.settings.estimate.empty()
+                                            ? automaticParameters(rules.control_covered, model)
+                                            : rules.settings.estimate;
   const auto left_out = [&](SystemParameter p) { return rules.excluded.count(p) > 0; };
   wanted.erase(std::remove_if(wanted.begin(), wanted.end(), left_out), wanted.end());
   return wanted;
 }
 
 /// The parameters that are neither estimated nor known.
-std::vector<SystemParameter> unknownParameters(const ChoiceRules& rules) {
-  const CalibrationSettings& settings = rules.settings;
+std::vector<SystemParameter> unknownParameters(const ChoiceRules& rules,
+                                               const SharedErrorModel& model) {
   std::vector<SystemParameter> unknown;
-  if (settings.estimate.empty() && !rules.control_covered &&
-      !settings.shared_errors.biases.of(SystemParameter::range_bias) &&
+  if (rules.settings.estimate.empty() && !rules.control_covered &&
+      !model.biases.of(SystemParameter::range_bias) &&
       rules.excluded.count(SystemParameter::range_bias) == 0)
     unknown.push_back(SystemParameter::range_bias);
   for (const auto& [p, reason] : rules.excluded) unknown.push_back(p);
@@ -40,7 +40,8 @@ std::vector<SystemParameter> unknownParameters(const ChoiceRules& rules) {
 /// Chooses the parameters that all systems share, or those of the first one.
 void chooseParametersOf(const ChoiceRules& rules, BlockSolution& solution) {
   const CalibrationSettings& settings = rules.settings;
-  const std::vector<SystemParameter> wanted = wantedParameters(rules);
+  const SharedErrorModel& model = solution.adjustment.errors().model();
+  const std::vector<SystemParameter> wanted = wantedParameters(rules, model);
   if (rules.coarse) {
     solution.choice.estimate = wanted;
     solution.choice.solution = solution.adjustment.solveNearZero(wanted, widePriorStd());
@@ -49,7 +50,7 @@ void chooseParametersOf(const ChoiceRules& rules, BlockSolution& solution) {
   // Parameters requested by name are left out at three times their limit only.
   const double factor = settings.estimate.empty() ? 1.0 : 3.0;
   solution.choice = chooseParameters(solution.adjustment, wanted, SystemVector::Zero(),
-                                     settings.limits, factor, unknownParameters(rules));
+                                     settings.limits, factor, unknownParameters(rules, model));
   for (const auto& [p, reason] : rules.excluded) {
     solution.choice.status[indexOf(p)] = ParameterStatus::not_estimable;
     solution.choice.reason[indexOf(p)] = reason;

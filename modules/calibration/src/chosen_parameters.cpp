@@ -24,6 +24,12 @@ SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParam
   return matrix;
 }
 
+PriorChange::PriorChange(const BiasPrior& prior, const std::vector<SystemParameter>& chosen) {
+  const BiasPrior of_chosen = prior.marginal(chosen);
+  normal = of_chosen.information - prior.information;
+  right = of_chosen.information * of_chosen.mean - prior.information * prior.mean;
+}
+
 SystemVector widePriorStd() {
   constexpr double kAngle = 0.5 * kRadiansPerDegree;
   SystemVector sigma;

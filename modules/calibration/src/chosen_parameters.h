@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
@@ -15,6 +16,16 @@ Eigen::MatrixXd sub(const SystemMatrix& matrix, const std::vector<SystemParamete
 
 /// The inverse of sub(): zero for the other parameters.
 SystemMatrix expanded(const Eigen::MatrixXd& part, const std::vector<SystemParameter>& chosen);
+
+/// What is to be added to normal equations that contain a prior of all parameters, so that they
+/// contain what it says of the chosen ones alone: others are held, at values that it does not
+/// expect. Exactly zero for the chosen ones where the prior of these does not depend on others.
+struct PriorChange {
+  SystemMatrix normal;
+  SystemVector right;
+
+  PriorChange(const BiasPrior& prior, const std::vector<SystemParameter>& chosen);
+};
 
 /// Standard deviations of the biases of an uncalibrated system, of which nothing is known: half a
 /// degree, metres.

@@ -103,8 +103,9 @@ void diagnoseFields(const AreaSample& sample, const BlockEstimate& estimate,
     if (field == PointField::scan_direction && !block.scanner.isLinear()) continue;
     const FieldDivision division = divisionBy(field, sample);
     if (division.values.empty()) continue;
-    AdjustedBlock adjusted{block.flownTimes(), settings.shared_errors, solution.adjustment.levels(),
-                           solution.choice.estimate, settings.threads};
+    AdjustedBlock adjusted{block.flownTimes(), errorModelOf(block, solution),
+                           solution.adjustment.levels(), solution.choice.estimate,
+                           settings.threads};
     adjusted.model.biases.mean -= solution.solution().biases;  // a prior of their changes
     const std::size_t before = result.diagnosis.size();
     for (ErrorFinding& finding : fieldDifferences(

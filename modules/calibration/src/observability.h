@@ -19,7 +19,7 @@ namespace pcl_als {
 class Observability {
  public:
   /// \param normal N of all eight, shared errors eliminated, internal units
-  /// (Adjustment::reducedNormal())
+  /// (Adjustment::normalOf())
   /// \param wanted the parameters considered; the others are assumed to be known
   /// \param effect metres on the ground per internal unit of each parameter
   Observability(const SystemMatrix& normal, const std::vector<SystemParameter>& wanted,

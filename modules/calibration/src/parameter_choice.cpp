@@ -127,9 +127,9 @@ std::string uncertainReason(const AdjustmentSolution& solution, const std::vecto
 
 /// Adds to the covariance of the others the effect of a parameter that is held and known with the
 /// standard deviation sigma only.
-void consider(const Adjustment& adjustment, const std::vector<P>& estimate, P held, double sigma,
-              AdjustmentSolution& solution) {
-  const SystemMatrix& normal = adjustment.reducedNormal();
+void consider(const Adjustment& adjustment, P held, double sigma, ParameterChoice& choice) {
+  const std::vector<P>& estimate = choice.estimate;
+  const SystemMatrix normal = adjustment.normalOf(estimate);
   const auto size = static_cast<Eigen::Index>(estimate.size());
   Eigen::MatrixXd own(size, size);
   Eigen::VectorXd coupling(size), scale(size);
@@ -146,7 +146,24 @@ void consider(const Adjustment& adjustment, const std::vector<P>& estimate, P he
   SystemVector shift = SystemVector::Zero();
   for (Eigen::Index i = 0; i < size; ++i)
     shift[indexOf(estimate[static_cast<std::size_t>(i)])] = effect[i] * sigma;
-  solution.covariance += shift * shift.transpose();
+  choice.solution.covariance += shift * shift.transpose();
+  choice.solution.of_flight += shift * shift.transpose();
+  HeldParameters& record = choice.held;
+  record.parameters.push_back(held);
+  record.std.push_back(sigma);
+  record.effect.conservativeResize(size, static_cast<Eigen::Index>(record.std.size()));
+  record.effect.rightCols<1>() = -effect;  // N x = h - (coupling) v
+}
+
+/// Parameters of \a wanted that are not estimated, and those that are \a unknown.
+void considerOthers(const Adjustment& adjustment, const std::vector<P>& wanted,
+                    const std::vector<P>& unknown, const DeterminationLimits& limits,
+                    ParameterChoice& choice) {
+  for (const P p : wanted) {
+    if (choice.status[indexOf(p)] == ParameterStatus::estimated) continue;
+    consider(adjustment, p, limits.whenHeld(p), choice);
+  }
+  for (const P p : unknown) consider(adjustment, p, limits.whenHeld(p), choice);
 }
 
 }  // namespace
@@ -207,15 +224,9 @@ ParameterChoice chooseParameters(const Adjustment& adjustment,
     const std::vector<P> candidates =
         choice.solution.solved
             ? tooUncertain(choice.solution, choice.estimate, limits, limit_factor)
-            : weakestDirection(adjustment.reducedNormal(), choice.estimate);
+            : weakestDirection(adjustment.normalOf(choice.estimate), choice.estimate);
     if (candidates.empty()) {
-      for (const P p : wanted) {
-        if (choice.status[indexOf(p)] == ParameterStatus::estimated) continue;
-        consider(adjustment, choice.estimate, p, limits.whenHeld(p), choice.solution);
-      }
-      for (const P p : unknown) {
-        consider(adjustment, choice.estimate, p, limits.whenHeld(p), choice.solution);
-      }
+      considerOthers(adjustment, wanted, unknown, limits, choice);
       return choice;
     }
     const P dropped = firstToDrop(candidates);
@@ -272,6 +283,7 @@ void reportParameters(const ParameterChoice& choice, const std::vector<SystemPar
     }
   }
   result.correlation_order = choice.estimate;
+  result.held_parameters = choice.held;
   const auto size = static_cast<Eigen::Index>(choice.estimate.size());
   result.correlation.resize(size, size);
   for (Eigen::Index r = 0; r < size; ++r) {

@@ -19,6 +19,7 @@ struct ParameterChoice {
   std::array<ParameterStatus, kSystemParameterCount> status{};
   std::array<std::string, kSystemParameterCount> reason;  ///< empty for an estimated parameter
   AdjustmentSolution solution;                            ///< with exactly these
+  HeldParameters held;  ///< others, whose possible size the covariance of the solution includes
 };
 
 /** \brief Leaves out of \a wanted the parameters that the observations cannot determine, one at a

@@ -84,11 +84,14 @@ LikelihoodEquations::LikelihoodEquations(const SharedErrors& errors,
   right << coupling_, normal.right_t;
   const Eigen::MatrixXd solution = factor_.solve(right);
   elimination_ = solution.leftCols(coupling_.cols());
-  const Eigen::MatrixXd reduced = sub(normal.gg, estimate) - coupling_.transpose() * elimination_;
+  const PriorChange prior(errors.model().biases, estimate);
+  const Eigen::MatrixXd reduced =
+      sub(normal.gg + prior.normal, estimate) - coupling_.transpose() * elimination_;
   if (!invert(0.5 * (reduced + reduced.transpose()), inverse_gg_, log_parameters_)) return;
   const Eigen::VectorXd eliminated_right = solution.rightCols<1>();
-  const Eigen::VectorXd right_g = columnsOf(normal.right_g.transpose(), estimate).transpose() -
-                                  coupling_.transpose() * eliminated_right;
+  const Eigen::VectorXd right_g =
+      columnsOf((normal.right_g + prior.right).transpose(), estimate).transpose() -
+      coupling_.transpose() * eliminated_right;
   const Eigen::VectorXd parameters = inverse_gg_ * right_g;
   for (std::size_t i = 0; i < estimate.size(); ++i)
     parameters_[indexOf(estimate[i])] = parameters[static_cast<Eigen::Index>(i)];

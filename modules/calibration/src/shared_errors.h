@@ -134,6 +134,7 @@ class SharedErrors {
   const std::vector<ErrorSource>& consideredSources() const { return considered_; }
   bool isConsidered(ErrorSource source) const;
   const SharedErrorModel& model() const { return model_; }
+  void setPrior(BiasPrior prior) { model_.biases = std::move(prior); }
   /// Unknowns of knots, instrument and systems, on which observations depend.
   int observedUnknowns() const { return systemBlock(systems_.count) * kPerKnot; }
   int unknowns() const { return observedUnknowns() + coefficient_count_ * kPerKnot; }

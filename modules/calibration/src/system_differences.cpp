@@ -9,18 +9,17 @@
 #include "chosen_parameters.h"
 
 namespace pcl_als {
-namespace {}  // namespace
-
 Eigen::VectorXd Adjustment::scatterVariance(const Influence& influence,
+                                            const std::vector<SystemParameter>& estimate,
                                             const AdjustmentSolution& solution) const {
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(influence.biases.cols());
   for (const Eigen::VectorXd& score : areaScores(influence, solution))
     variance += score.cwiseAbs2();
   const Eigen::SparseMatrix<double> prior = errors_.priorInformation(levels_);
-  const SystemVector& known = errors_.model().biases.information;
+  const SystemMatrix known = errors_.model().biases.marginal(estimate).information;
   for (Eigen::Index i = 0; i < variance.size(); ++i) {
     variance[i] += influence.shared.col(i).dot(prior * influence.shared.col(i)) +
-                   influence.biases.col(i).cwiseAbs2().dot(known);
+                   influence.biases.col(i).dot(known * influence.biases.col(i));
   }
   return variance;
 }
@@ -28,7 +27,7 @@ Eigen::VectorXd Adjustment::scatterVariance(const Influence& influence,
 SystemMatrix Adjustment::modelCovariance(const std::vector<SystemParameter>& estimate) const {
   Eigen::MatrixXd inverse;
   double ignored = 0.0;
-  if (!invert(sub(reduced_->normal, estimate), inverse, ignored)) return SystemMatrix::Zero();
+  if (!invert(sub(normalOf(estimate), estimate), inverse, ignored)) return SystemMatrix::Zero();
   return expanded(inverse, estimate);
 }
 
@@ -51,7 +50,7 @@ Adjustment::SystemPosterior Adjustment::systemPosterior(
   posterior.mean = solution.shared.segment<kSystemUnknownCount>(at);
   const auto covariance = influence.shared.middleRows<kSystemUnknownCount>(at);
   posterior.covariance = 0.5 * (covariance + covariance.transpose());
-  posterior.scatter = scatterVariance(influence, solution);
+  posterior.scatter = scatterVariance(influence, estimate, solution);
   return posterior;
 }
 
@@ -67,8 +66,8 @@ Adjustment::SystemSolution Adjustment::systemSolution(int system,
   Influence on_own = on_difference;
   on_own.biases.leftCols<kSystemParameterCount>() += model;
   on_own.shared.leftCols<kSystemParameterCount>() -= reduced_->elimination * model;
-  const Eigen::VectorXd scatter = scatterVariance(on_difference, solution);
-  const Eigen::VectorXd own_scatter = scatterVariance(on_own, solution);
+  const Eigen::VectorXd scatter = scatterVariance(on_difference, estimate, solution);
+  const Eigen::VectorXd own_scatter = scatterVariance(on_own, estimate, solution);
   for (int i = 0; i < kUnknowns; ++i) {
     const double variance = on_difference.shared(at + i, i);
     result.difference_std[i] = std::sqrt(std::max(variance, scatter[i]));

@@ -65,8 +65,7 @@ BiasPrior biasPrior(std::string_view text) {
                        "': the standard deviation must be positive");
     const std::string refused = refusedBias(p, mean);
     if (!refused.empty()) throw UsageError("prior '" + std::string(entry) + "': " + refused);
-    prior.mean[indexOf(p)] = mean;
-    prior.information[indexOf(p)] = 1.0 / (std * std);
+    prior.add(p, mean, std);
   }
   return prior;
 }

@@ -17,6 +17,10 @@ CalibrationResult instrumentOf(const CalibrationResult& calibration) {
   instrument.source_scale = calibration.source_scale;
   instrument.correlation_order = calibration.correlation_order;
   instrument.correlation = calibration.correlation;
+  instrument.prior = calibration.prior;
+  instrument.prior_differences = calibration.prior_differences;
+  instrument.rms_with_prior = calibration.rms_with_prior;
+  instrument.held_parameters = calibration.held_parameters;
   instrument.line_fit_half_width = calibration.line_fit_half_width;
   instrument.error_levels = calibration.error_levels;
   instrument.inputs = calibration.inputs;

@@ -21,9 +21,22 @@ int digitsOf(const SystemParameterInfo& info) {
 
 using Parameters = std::array<ParameterEstimate, kSystemParameterCount>;
 
+void shareOfPrior(const ParameterEstimate& estimate, std::ostream& out) {
+  if (estimate.status == ParameterStatus::estimated)
+    out << std::fixed << std::setprecision(0) << std::setw(9) << 100.0 * estimate.prior_share
+        << " % |";
+  else
+    out << "          - |";
+}
+
 void parameterTable(const Parameters& parameters, std::ostream& out) {
-  out << "| parameter          |         bias |          std | formal std   | unit   |\n"
-      << "|--------------------|--------------|--------------|--------------|--------|\n";
+  const bool with_prior =
+      std::any_of(parameters.begin(), parameters.end(),
+                  [](const ParameterEstimate& p) { return p.prior_share > 0.0; });
+  out << "| parameter          |         bias |          std | formal std   | unit   |"
+      << (with_prior ? " from prior |" : "") << '\n'
+      << "|--------------------|--------------|--------------|--------------|--------|"
+      << (with_prior ? "------------|" : "") << '\n';
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate =
         parameters[static_cast<std::size_t>(indexOf(info.parameter))];
@@ -36,7 +49,9 @@ void parameterTable(const Parameters& parameters, std::ostream& out) {
     } else {
       out << std::setw(12) << toString(estimate.status) << " |            - |            - | ";
     }
-    out << std::left << std::setw(6) << info.unit << std::right << " |\n";
+    out << std::left << std::setw(6) << info.unit << std::right << " |";
+    if (with_prior) shareOfPrior(estimate, out);
+    out << '\n';
   }
 }
 
@@ -95,6 +110,14 @@ void systemTables(const CalibrationResult& result, std::ostream& out) {
       differenceTable(system, result, out);
     offsetLine(system, out);
   }
+}
+
+/// What the shares of the prior are.
+void priorLine(const CalibrationResult& result, std::ostream& out) {
+  if (!result.prior.any()) return;
+  out << "\nFrom prior: the part of the variance of an estimate that stems from the prior"
+      << (result.prior.source.empty() ? "" : " of " + result.prior.source)
+      << "; the rest stems from this flight.\n";
 }
 
 void pairTable(const CalibrationResult& result, std::ostream& out) {
@@ -272,6 +295,7 @@ std::string CalibrationResult::fullReport() const {
     parameterTable(result.parameters, out);
   }
   systemTables(result, out);
+  priorLine(result, out);
   pairTable(result, out);
   controlTable(result, out);
   targetTable(result, out);

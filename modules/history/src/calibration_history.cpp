@@ -259,6 +259,8 @@ CalibrationResult pooledInstrument(const CalibrationHistory& history,
   CalibrationResult result = instrumentOf(newest);
   result.systems.clear();
   result.sources.setZero();
+  result.prior = BiasPrior();
+  result.held_parameters = HeldParameters();
   result.error_levels.reset();
   result.inputs.clear();
   for (const CalibrationMission& mission : history.missions) result.inputs.push_back(mission.name);

@@ -9,6 +9,8 @@
 
 namespace pcl_als::detail {
 
+class JsonNode;
+
 inline constexpr std::string_view kCalibrationFormat = "pcl_als calibration";
 /// Version 1 had no parts: all keys were those of one object.
 inline constexpr int kCalibrationVersion = 2;
@@ -19,5 +21,8 @@ std::string calibrationToJson(const CalibrationResult& result);
 
 /// Reads it back; \a name is the file, for messages.
 CalibrationResult calibrationFromJson(const std::string& text, const std::string& name);
+
+/// Reads the instrument part of a calibration.json or of another file that has one.
+CalibrationResult instrumentIn(const JsonNode& part);
 
 }  // namespace pcl_als::detail

@@ -14,6 +14,7 @@
 #include "diagnosis_json.h"
 #include "json_node.h"
 #include "json_parse.h"
+#include "prior_json.h"
 #include "strip_errors_json.h"
 
 namespace pcl_als {
@@ -79,17 +80,14 @@ void readParameters(const Node& parameters,
       estimate.std_formal = node["std_formal"].numberOrNan() * info.internal_per_unit;
     }
     if (node.has("status")) estimate.status = statusOf(node["status"]);
+    if (node.has("prior_share")) estimate.prior_share = node["prior_share"].numberOrNan();
     if (node.has("determined")) estimate.determined = node["determined"].truth();
     if (node.has("reason")) estimate.reason = node["reason"].text();
   }
 }
 
 void readCorrelation(const Node& correlation, CalibrationResult& result) {
-  for (const Node& name : correlation["order"].items()) {
-    const auto parameter = systemParameterNamed(name.text());
-    if (!parameter) name.refuse("names no system parameter: '" + name.text() + "'");
-    result.correlation_order.push_back(*parameter);
-  }
+  result.correlation_order = parametersNamed(correlation["order"]);
   const std::vector<Node> rows = correlation["matrix"].items();
   const auto size = static_cast<Eigen::Index>(rows.size());
   if (rows.size() != result.correlation_order.size()) {
@@ -315,6 +313,7 @@ void readInstrument(const Node& part, CalibrationResult& result) {
   result.attitude = attitudeOf(part);
   readErrorSources(part, result);
   if (part.has("correlation")) readCorrelation(part["correlation"], result);
+  readPrior(part, result);
   if (part.has("line_fit_half_width_s"))
     result.line_fit_half_width = lineFitOf(part["line_fit_half_width_s"]);
   if (part.has("scan_planes")) readScanPlanes(part["scan_planes"], result);
@@ -349,6 +348,13 @@ void readReport(const Node& part, CalibrationResult& result) {
 }
 
 }  // namespace
+
+CalibrationResult instrumentIn(const JsonNode& part) {
+  CalibrationResult result;
+  readInstrument(part, result);
+  result.verdict = verdictOf(part, part);
+  return result;
+}
 
 CalibrationResult calibrationFromJson(const std::string& text, const std::string& name) {
   const nlohmann::json json = parseJson(text, name);

@@ -14,6 +14,7 @@
 #include "calibration_json.h"
 #include "diagnosis_json.h"
 #include "json_number.h"
+#include "prior_json.h"
 #include "strip_errors_json.h"
 
 namespace pcl_als {
@@ -41,6 +42,7 @@ Json parametersOf(const Parameters& estimates) {
     entry["std_formal"] = number(estimate.std_formal / info.internal_per_unit);
     entry["unit"] = info.unit;
     entry["status"] = toString(estimate.status);
+    if (estimate.prior_share > 0.0) entry["prior_share"] = number(estimate.prior_share);
     if (!estimate.determined) entry["determined"] = false;
     if (!estimate.reason.empty()) entry["reason"] = estimate.reason;
     parameters[std::string(info.name)] = std::move(entry);
@@ -234,6 +236,7 @@ Json instrumentJson(const CalibrationResult& result) {
   if (!result.channel_field.empty()) part["channel_field"] = result.channel_field;
   writeErrorSources(result, part);
   part["correlation"] = correlationOf(result);
+  writePrior(result, part);
   part["line_fit_half_width_s"] = number(result.line_fit_half_width);
   if (!result.scan_planes.empty()) part["scan_planes"] = scanPlanesOf(result.scan_planes);
   writeErrorLevels(result, part);

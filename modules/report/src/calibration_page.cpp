@@ -42,6 +42,13 @@ ReportTable parameterTable(const CalibrationResult& result) {
                     "std: only the noise of points counted (Habib et al. 2011, Eq. 26)",
                     {"parameter", "unit", "bias", "std", "formal std", "status"},
                     {}};
+  const bool with_prior = result.prior.any();
+  if (with_prior) {
+    table.caption += ". From prior: the part of the variance that stems from the prior" +
+                     (result.prior.source.empty() ? "" : " of " + result.prior.source) +
+                     "; the rest stems from this flight";
+    table.columns.emplace_back("from prior, %");
+  }
   for (const SystemParameterInfo& info : systemParameters()) {
     const ParameterEstimate& estimate = result[info.parameter];
     const bool known = estimate.status == ParameterStatus::estimated;
@@ -53,6 +60,8 @@ ReportTable parameterTable(const CalibrationResult& result) {
     if (!estimate.reason.empty()) status += ": " + estimate.reason;
     table.rows.push_back({headingOf(info.parameter), unitText(info), cell(estimate.bias),
                           cell(estimate.std), cell(estimate.std_formal), status});
+    if (with_prior)
+      table.rows.back().push_back(known ? numberText(100.0 * estimate.prior_share, 0) : "");
   }
   return table;
 }

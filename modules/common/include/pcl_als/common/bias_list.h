@@ -6,19 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/system_parameters.h>
 
 namespace pcl_als {
-
-/// What is known of the biases before a calibration: independent and normally distributed; internal
-/// units.
-struct BiasPrior {
-  SystemVector mean = SystemVector::Zero();
-  SystemVector information = SystemVector::Zero();  ///< inverse variances; 0: nothing is known
-
-  bool any() const { return information.maxCoeff() > 0.0; }
-  bool of(SystemParameter p) const { return information[indexOf(p)] > 0.0; }
-};
 
 /// A prior from "boresight_roll=0:5,lever_arm_x=0.12:0.01": value and standard deviation in
 /// interface units (m, arcsec, 1). UsageError for an unknown name, values that are no numbers, or a

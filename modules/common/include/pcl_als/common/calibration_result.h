@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -11,6 +12,8 @@
 
 #include <Eigen/Core>
 
+#include <pcl_als/common/attitude_source.h>
+#include <pcl_als/common/bias_prior.h>
 #include <pcl_als/common/calibration_verdict.h>
 #include <pcl_als/common/error_source.h>
 #include <pcl_als/common/left_out.h>
@@ -24,15 +27,6 @@ namespace pcl_als {
 
 enum class ParameterStatus { estimated, fixed, not_estimable };
 
-/// Source of the sensor's attitude in the model of a calibration; also needed to apply its
-/// biases.
-enum class AttitudeSource {
-  none,        ///< none: vertical, aligned with the flight line (quasi-rigorous)
-  points,      ///< pitch and crab from the points (quasi-rigorous, AttitudeRecovery)
-  trajectory,  ///< roll, pitch and heading of the trajectory (rigorous)
-  nominal,     ///< level, heading along the course (rigorous, for scanners that are not linear)
-};
-
 /// One system parameter of a calibration, in internal units (m, rad, 1). bias = assumed - true.
 struct ParameterEstimate {
   double bias = 0.0;
@@ -44,6 +38,36 @@ struct ParameterEstimate {
   /// deviations, one of which moves points noticeably (DeterminationLimits::on_points). It is
   /// applied nevertheless, because the others are right only together with it.
   bool determined = true;
+  /// Part of its variance that stems from the prior, 0 to 1: (C L C)_ii / C_ii, with the covariance
+  /// C of the model and the information L of the prior; the rest is from this flight.
+  double prior_share = 0.0;
+};
+
+/// What a prior and the observations say of a parameter, internal units.
+struct PriorDifference {
+  SystemParameter parameter = SystemParameter::boresight_roll;
+  double prior = 0.0, prior_std = 0.0;
+  double flight = 0.0, flight_std = 0.0;  ///< without what the prior says of this parameter
+  double change = 0.0, change_std = 0.0;  ///< flight - prior, given the other parameters
+  bool significant = false;               ///< they contradict each other
+  bool released = false;                  ///< the prior of it was not used, therefore
+
+  /// The change over its standard deviation, a positive number.
+  double size() const { return std::abs(change) / change_std; }
+};
+
+/** \brief Parameters that were neither estimated nor known, and whose possible size the covariance
+ * of the estimates includes.
+ *
+ * With the effect F and the standard deviations s, it contains F diag(s^2) F'. A later value v of
+ * such a parameter (held at zero) changes the estimates by F v.
+ */
+struct HeldParameters {
+  std::vector<SystemParameter> parameters;
+  std::vector<double> std;  ///< internal units
+  /// Derivatives of the estimates (rows, CalibrationResult::correlation_order) with respect to the
+  /// held values (columns), internal units.
+  Eigen::MatrixXd effect;
 };
 
 /// One iteration of the adjustment.
@@ -184,8 +208,9 @@ struct SystemEstimate {
  *
  * Part of it belongs to the instrument and applies to all of its flights: system_name, verdict,
  * attitude (its source), scan_planes, parameters, systems, channel_field, sources, source_scale,
- * correlation, line_fit_half_width and error_levels. Part of it belongs to the flight that was
- * calibrated with: day, recovered_attitude, strip_errors and held. The rest reports on the
+ * correlation, prior, held_parameters, line_fit_half_width and error_levels. Part of it belongs to
+ * the flight that was calibrated with: day, recovered_attitude, strip_errors and held. The rest
+ * reports on the
  * calibration.
  */
 struct CalibrationResult {
@@ -209,6 +234,13 @@ struct CalibrationResult {
   std::vector<AngleError> scan_angle_curve;
   std::vector<SystemParameter> correlation_order;  ///< the estimated ones
   Eigen::MatrixXd correlation;                     ///< in that order
+  BiasPrior prior;                                 ///< that was used; not any(): none
+  /// Between the prior and this flight, of the parameters of which both say something.
+  std::vector<PriorDifference> prior_differences;
+  /// RMS normal distance of all pairs corrected with the values of the prior and, of the other
+  /// parameters, with the estimates, metres; NaN without a prior.
+  double rms_with_prior = std::numeric_limits<double>::quiet_NaN();
+  HeldParameters held_parameters;
   double sigma0 = 0.0;
   long redundancy = 0;
   bool converged = false;
@@ -249,8 +281,5 @@ CalibrationResult instrumentOf(const CalibrationResult& calibration);
 bool isOfAnotherFlight(const CalibrationResult& calibration, double from, double to);
 
 std::string_view toString(ParameterStatus status);
-std::string_view toString(AttitudeSource attitude);
-/// "rigorous" where the attitude is the trajectory's or nominal, else "quasi_rigorous".
-std::string_view modelName(AttitudeSource attitude);
 
 }  // namespace pcl_als

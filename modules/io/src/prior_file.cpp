@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_als authors
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <pcl_als/common/errors.h>
+#include <pcl_als/common/input_file.h>
+#include <pcl_als/io/prior_file.h>
+
+#include "calibration_json.h"
+#include "json_node.h"
+#include "json_parse.h"
+
+namespace pcl_als {
+namespace {
+
+using detail::JsonNode;
+
+constexpr const char* kHistoryFormat = "pcl_als history";
+constexpr long kHistoryVersion = 1;
+
+void readHistory(const JsonNode& root, PriorFile& file) {
+  const long version = root["version"].whole();
+  if (version != kHistoryVersion)
+    root["version"].refuse("is " + std::to_string(version) + "; this version of pcl_als reads " +
+                           std::to_string(kHistoryVersion));
+  file.is_history = true;
+  file.earlier = detail::instrumentIn(root["instrument"]);
+  if (!root.has("change_std")) return;
+  const JsonNode changes = root["change_std"];
+  for (const SystemParameterInfo& info : systemParameters()) {
+    const std::string name(info.name);
+    if (!changes.has(name.c_str())) continue;
+    const double std = changes[name].number();
+    if (std < 0.0) changes[name].refuse("must not be negative");
+    file.change_std[indexOf(info.parameter)] = std * info.internal_per_unit;
+  }
+}
+
+/// Covariance of the parameters in the order of the correlations, with the change between missions.
+Eigen::MatrixXd covarianceOf(const PriorFile& file) {
+  const std::vector<SystemParameter>& order = file.earlier.correlation_order;
+  Eigen::VectorXd std(order.size()), change(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    std[row] = file.earlier[order[i]].std;
+    change[row] = file.change_std[indexOf(order[i])];
+    if (file.earlier[order[i]].status != ParameterStatus::estimated)
+      throw InputError(file.name + ": 'correlation.order' names " +
+                       std::string(infoOf(order[i]).name) + ", which is not estimated");
+    if (!(std[row] > 0.0) || !std::isfinite(std[row]))
+      throw InputError(file.name + ": the standard deviation of " +
+                       std::string(infoOf(order[i]).name) + " is not known");
+  }
+  Eigen::MatrixXd covariance = std.asDiagonal() * file.earlier.correlation * std.asDiagonal();
+  covariance.diagonal() += change.cwiseAbs2();
+  return covariance;
+}
+
+}  // namespace
+
+BiasPrior PriorFile::prior() const {
+  const std::vector<SystemParameter>& order = earlier.correlation_order;
+  if (order.empty())
+    throw InputError(name + ": no parameter was estimated, with correlations; it is no prior");
+  BiasPrior made;
+  try {
+    made = biasPrior(order, earlier.biases(), covarianceOf(*this));
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    throw InputError(text.compare(0, name.size(), name) == 0 ? text : name + ": " + text);
+  }
+  made.source = name;
+  made.attitude = earlier.attitude;
+  made.of_other_missions = true;
+  return made;
+}
+
+PriorFile readPriorFile(const std::filesystem::path& path) {
+  PriorFile file;
+  file.name = path.string();
+  file.change_std = missionChangeStd();
+  const std::string text = readWholeFile(path, kJsonLimits);
+  const nlohmann::json json = detail::parseJson(text, file.name);
+  const JsonNode root(json, file.name);
+  const std::string format = root.has("format") ? root["format"].text() : std::string();
+  if (format == kHistoryFormat) {
+    readHistory(root, file);
+  } else if (format == detail::kCalibrationFormat) {
+    file.earlier = detail::calibrationFromJson(text, file.name);
+  } else {
+    throw InputError(file.name + ": 'format' is neither '" +
+                     std::string(detail::kCalibrationFormat) + "' nor '" + kHistoryFormat +
+                     "'; give a calibration.json or a history.json");
+  }
+  return file;
+}
+
+}  // namespace pcl_als
